@@ -1,0 +1,1 @@
+"""One Lark grammar per language: syntax, nothing else."""

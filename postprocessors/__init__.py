@@ -1,0 +1,1 @@
+"""One folder per target: how it is written and what its controller can say."""

@@ -1,0 +1,205 @@
+"""The neutral built-in functions, procedures and system variables that dialects lower to and writers print from.
+
+One table for each: a name, its parameter kinds, what it gives, one sentence of meaning. The interpreter implements
+exactly these names; a dialect maps its own spellings to them; a target lists those it can say. Angles are degrees.
+Kinds: n number, i whole number, b BOOL, t text, c text or char, p pose or target, v vector, r rotation, j joints,
+x anything, l an lvalue that is written, ? the parameter may be left out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """`parameters`: one kind letter each, `?` behind optional ones. `result`: kind letter, or a parameter's number to
+    give the same type as that argument."""
+
+    name: str
+    parameters: str
+    result: str
+    meaning: str
+
+
+def _table(rows: str) -> dict[str, Function]:
+    table = {}
+    for row in rows.strip().splitlines():
+        name, parameters, result, meaning = (part.strip() for part in row.split("|"))
+        table[name] = Function(name, parameters.replace(" ", ""), result, meaning)
+    return table
+
+
+FUNCTIONS: dict[str, Function] = _table(
+    """
+    abs            | n        | 0 | absolute value; whole for whole numbers
+    sqrt           | n        | n | square root; negative: error
+    sin            | n        | n | sine of degrees
+    cos            | n        | n | cosine of degrees
+    tan            | n        | n | tangent of degrees
+    asin           | n        | n | arc sine in degrees
+    acos           | n        | n | arc cosine in degrees, 0..180
+    atan           | n        | n | arc tangent in degrees, -90..90
+    atan2          | nn       | n | angle of the vector (second, first) in degrees, (-180, 180]
+    exp            | n        | n | e to the power
+    power          | nn       | n | first to the power of second
+    log            | n        | n | natural logarithm
+    round          | ni?      | n | round half away from zero to the given decimals (0)
+    trunc          | ni?      | n | cut toward zero to the given decimals (0)
+    floor          | n        | i | largest whole number not above
+    ceil           | n        | i | smallest whole number not below
+    min            | nn       | n | the smaller
+    max            | nn       | n | the larger
+    bit_shift_left | ii       | i | shift left
+    bit_shift_right| ii       | i | shift right
+    length         | x        | i | number of elements of an array's first dimension, or characters of a text
+    dimension      | xi       | i | number of elements of the given dimension
+    inverse        | p        | p | inverse of a pose
+    compose        | pp       | p | product of poses (the function form of `:`)
+    transform      | pv       | v | a vector given in the pose, expressed in the pose's reference
+    offset         | pnnn     | 0 | target moved by x, y, z in the axes of its frame; rotation unchanged
+    tool_offset    | pnnnn?n?n? | 0 | target moved by x, y, z in its own axes, then turned about x, y, z (moving axes)
+    distance       | vv       | n | distance of two positions in mm
+    magnitude      | v        | n | length of a vector
+    dot            | vv       | n | scalar product
+    normalise      | r        | r | rotation with unit quaternion
+    euler_x        | r        | n | rotation about x of the ZYX Euler angles
+    euler_y        | r        | n | rotation about y of the ZYX Euler angles
+    euler_z        | r        | n | rotation about z of the ZYX Euler angles
+    rotation_zyx   | nnn      | r | rotation from ZYX Euler angles (about z, new y, new x)
+    frame_from_points | vvvi? | p | frame through three points: origin on the line first-second nearest third (0) etc.
+    current_target | x?x?     | p | where the tool centre point is (tool, frame; else the modal ones)
+    current_joints |          | j | the joints now
+    current_position | x?x?   | v | position of the tool centre point now
+    target_to_joints | px?x?  | j | inverse kinematics of a target (tool, frame)
+    joints_to_target | jx?x?  | p | forward kinematics (tool, frame)
+    current_tool   |          | x | the tool in use as a value of tool type
+    current_frame  |          | x | the work object in use as a value of work object type
+    text_length    | t        | i | number of characters
+    text_capacity  | t        | i | declared capacity
+    text_part      | tii      | t | `third` characters from position `second` (1-based)
+    text_find      | tit      | i | position of `third`'s first occurrence in first from position second; not found: 0
+    text_find_any  | tit      | i | position of the first character that is in the set; not found: length + 1
+    text_match     | tit      | i | position where the pattern begins from position second; not found: length + 1
+    text_member    | tit      | b | is the character at the position in the set
+    text_order     | ttx      | b | is the first not after the second in the given order
+    text_equal     | ttb?     | b | equal; third: ignore case
+    text_upper     | t        | t | in upper case
+    text_lower     | t        | t | in lower case
+    text_map       | ttt      | t | characters of second replaced by those of third at the same place
+    number_text    | ni       | t | the number with a fixed count of decimals
+    value_text     | x        | t | any value as its language writes it
+    format         | tx*      | t | C-like format: %d %i %f %s %g %x %c with widths
+    message_text   | tx*      | t | text with %1 %2 ... replaced by the further arguments
+    text_value     | t        | n | number written in the text; error when none
+    character_code | c        | i | code of the first character
+    from_code      | i        | t | character of a code
+    clock_seconds  | x        | n | time shown by a stop watch in s
+    time_text      |          | t | time of day as text
+    date_text      |          | t | date as text
+    random         |          | n | number in [0, 1) from the run's seed
+    is_uninitialised | x      | b | has the variable no value yet
+    pose_of        | p        | p | the pose of a target without configuration
+    error_text     | n        | t | text of an error number
+    """
+)
+
+PROCEDURES: dict[str, Function] = _table(
+    """
+    text_append    | lt       | b | append; gives FALSE where the capacity does not suffice
+    text_copy      | lt       | b | copy
+    text_clear     | l        | b | make empty
+    parse_number   | tl       | b | text to number; FALSE when it is none
+    parse_value    | tl       | b | text to a value of the variable's type; FALSE when it is none
+    format_into    | lll tx*  | b | append formatted values to a text at an offset; state, offset are written
+    scan_from      | tll tl*  | b | read formatted values from a text from an offset
+    increment      | ln?      | n | add (1)
+    decrement      | ln?      | n | subtract (1)
+    clear          | l        | n | set to zero
+    """
+)
+
+
+@dataclass(frozen=True, slots=True)
+class SystemVariable:
+    """`type`: kind letter as above (or `P` pose, `J` joints, `T` tool, `W` work object, `L` load). `access`: r, rw."""
+
+    name: str
+    type: str
+    access: str
+    indexed: bool
+    unit: str
+    stops_advance: bool
+    meaning: str
+
+
+def _system(rows: str) -> dict[str, SystemVariable]:
+    table = {}
+    for row in rows.strip().splitlines():
+        name, kind, access, indexed, unit, stops, meaning = (part.strip() for part in row.split("|"))
+        table[name] = SystemVariable(name, kind, access, indexed == "i", unit, stops == "s", meaning)
+    return table
+
+
+SYSTEM_VARIABLES: dict[str, SystemVariable] = _system(
+    """
+    tool            | P | rw | - |       | - | tool centre point in the flange (or the work piece, see interpolation)
+    base            | P | rw | - |       | - | base or work object frame in the world
+    load            | L | rw | - |       | - | payload
+    robot_root      | P | rw | - |       | - | robot base in the world
+    world           | P | r  | - |       | - | the world frame
+    null_frame      | P | r  | - |       | - | identity pose
+    held_work       | b | rw | - |       | - | TRUE: the robot holds the part, the tool is fixed in the room
+    path_speed      | n | rw | - | mm/s  | - | speed of the tool centre point
+    path_acceleration | n | rw | - | mm/s2 | - | acceleration of the tool centre point
+    swivel_speed    | n | rw | - | deg/s | - | reorientation speed, swivel
+    twist_speed     | n | rw | - | deg/s | - | reorientation speed, rotation about the tool
+    swivel_acceleration | n | rw | - | deg/s2 | - | reorientation acceleration, swivel
+    twist_acceleration | n | rw | - | deg/s2 | - | reorientation acceleration, rotation about the tool
+    joint_speed     | n | rw | i | percent | - | speed of an axis
+    joint_acceleration | n | rw | i | percent | - | acceleration of an axis
+    external_speed  | n | rw | i | percent | - | speed of an external axis
+    external_acceleration | n | rw | i | percent | - | acceleration of an external axis
+    path_jerk       | n | rw | - |       | - | jerk on the path
+    blend_distance  | n | rw | - | mm    | - | distance at which a blend begins
+    blend_rotation  | n | rw | - | deg   | - | rotation at which a blend begins
+    blend_speed     | n | rw | - | percent | - | speed at which a blend begins
+    blend_joint     | n | rw | - | percent | - | joint blend
+    orientation_mode | x | rw | - |      | - | how the orientation goes on a path: variable, constant, wrist
+    circle_orientation | x | rw | - |    | - | reference of the orientation on a circle: base, path
+    interpolation   | x | rw | - |       | - | base: the robot holds the tool; tool: it holds the part
+    singular_rule   | i | rw | i |       | - | rule at each singularity: 0 axis to zero, 1 keep the axis
+    path_limit_rule | x | rw | - |       | - | what happens when an axis would be too fast: constant, reduce
+    advance         | i | rw | - |       | - | number of moves the program pointer may be ahead
+    override        | n | rw | - | percent | - | programmed speed override
+    speed_percent   | n | rw | - | percent | - | RAPID VelSet override
+    speed_limit     | n | rw | - | mm/s  | - | RAPID VelSet maximum
+    acceleration_percent | n | rw | - | percent | - | RAPID AccSet acceleration
+    acceleration_ramp | n | rw | - | percent | - | RAPID AccSet ramp
+    deceleration_percent | n | rw | - | percent | - | AccSet FinePointRamp and the like
+    joint_configuration_check | b | rw | - | | - | joint moves go to exactly the programmed configuration
+    path_configuration_check | b | rw | - | | - | path moves check the programmed configuration at their end
+    singularity_mode | x | rw | - |      | - | wrist: wrist axes interpolated in joints; off; lock_axis_4
+    actual_pose     | P | r  | - |       | s | tool centre point now
+    actual_joints   | J | r  | - |       | s | joints now
+    actual_joint    | n | r  | i | deg   | s | one joint now
+    start_pose      | P | r  | - |       | s | start of the current move
+    end_pose        | P | r  | - |       | s | end of the current move
+    interrupt_pose  | P | r  | - |       | s | where the robot was when the interrupt came
+    interrupt_joints | J | r | - |       | s | joints when the interrupt came
+    remaining_distance | n | r | - | mm  | s | distance to the end of the current move
+    path_speed_actual | n | r | - | mm/s | s | speed now
+    timer           | n | rw | i | s     | - | a timer that runs unless stopped
+    timer_stopped   | b | rw | i |       | - | stops and starts a timer
+    timer_positive  | b | r  | i |       | - | timer above zero
+    flag            | b | rw | i |       | - | global flag
+    cyclic_flag     | b | rw | i |       | - | flag evaluated cyclically
+    error_number    | n | r  | - |       | - | number of the error being handled
+    interrupt_number | n | r | - |       | - | identity of the interrupt being handled
+    mode            | x | r  | - |       | - | operating mode
+    simulated       | b | r  | - |       | - | TRUE: no real robot
+    time            | n | r  | - | s     | - | time since the start of the run
+    date            | x | r  | - |       | - | date and time record
+    moving          | b | r  | - |       | s | is the robot moving
+    """
+)

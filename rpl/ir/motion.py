@@ -1,0 +1,162 @@
+"""Motion statements: moves with everything a controller attaches to them.
+
+A setting that is None is taken from the modal system variable of the same meaning (`tool`, `base`, `path_speed`, ...).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from rpl.ir.actions import Assign, CallRoutine, Nothing, Opaque
+from rpl.ir.expressions import Expression
+from rpl.source import NOWHERE, Origin
+
+
+@dataclass(frozen=True, slots=True)
+class Speed:
+    """Speed of one move. `profile` is an expression of SpeedType (RAPID speeddata); the others override parts of it:
+    `path` mm/s, `rotation` deg/s, `joint` percent of the axes' maximum, `duration` s for the whole move."""
+
+    profile: Expression | None = None
+    path: Expression | None = None
+    rotation: Expression | None = None
+    joint: Expression | None = None
+    duration: Expression | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class BlendStop:
+    """Exact stop at the target."""
+
+
+@dataclass(frozen=True, slots=True)
+class BlendDistance:
+    """Leave the path at most `distance` mm before the target (KRL C_DIS, UR r, FANUC CR). `rotation` deg: KRL C_ORI."""
+
+    distance: Expression | None = None
+    rotation: Expression | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class BlendPercent:
+    """Blend by a percentage of the controller's own measure (KRL C_PTP, FANUC CNT)."""
+
+    percent: Expression
+    path: BlendDistance | BlendSpeed | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class BlendSpeed:
+    """Blend when the speed has fallen to `percent` of the programmed one (KRL C_VEL)."""
+
+    percent: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class BlendZone:
+    """Blend by a zone value (ZoneType); `distance` mm overrides its path radius (RAPID \\Z)."""
+
+    zone: Expression
+    distance: Expression | None = None
+    in_position: Expression | None = None
+
+
+Blend = BlendStop | BlendDistance | BlendPercent | BlendSpeed | BlendZone
+
+
+@dataclass(frozen=True, slots=True)
+class Trigger:
+    """An action on the path of the next move (as a statement) or of its move (in Move.triggers).
+
+    reference: `start`, `end`, `middle` (of the corner path or end). `distance` mm along the path from the reference
+    (negative: before), `delay` s after that point (negative: before it). `action` is an Assign or CallRoutine.
+    """
+
+    reference: str
+    action: Assign | CallRoutine
+    distance: Expression | None = None
+    delay: Expression | None = None
+    priority: Expression | None = None
+    origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
+@dataclass(frozen=True, slots=True)
+class DefineTrigger:
+    """Store a trigger in a variable of TriggerType (RAPID TriggIO, TriggEquip, TriggInt)."""
+
+    target: Expression
+    trigger: Trigger
+    interrupt: Expression | None = None
+    origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Search:
+    """Watch a condition while moving. `stop`: none, stop (quick), path (on the path), soft (ramp down). `found`: lvalue
+    that receives the target where it became true. `edge`: rising, falling, either."""
+
+    condition: Expression
+    found: Expression
+    stop: str = "none"
+    edge: str = "rising"
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """One move.
+
+    kind: joint, linear, circular, spline (a point of a spline block).
+    motion_class: `classic` or `spline` (KRL SLIN and PTP blend by different rules).
+    target: expression of target, pose or joints type (a joints value makes any move go there).
+    via: auxiliary point of a circle; swept: total angle in deg.
+    relative: None, `base` (target is an offset in base axes), `tool`, or `joints` (offset per axis).
+    tool / frame: expression of tool or pose type / work object or pose type.
+    orientation: variable, constant, wrist; circle_orientation: base, path.
+    configuration: `exact`, `nearest`, or None for the modal rule.
+    concurrent: the program goes on at once (RAPID \\Conc).
+    """
+
+    kind: str
+    target: Expression
+    via: Expression | None = None
+    swept: Expression | None = None
+    relative: str | None = None
+    tool: Expression | None = None
+    frame: Expression | None = None
+    load: Expression | None = None
+    speed: Speed | None = None
+    acceleration: Expression | None = None
+    blend: Blend | None = None
+    orientation: str | None = None
+    circle_orientation: str | None = None
+    configuration: str | None = None
+    triggers: tuple[Expression | Trigger, ...] = ()
+    search: Search | None = None
+    settings: tuple[tuple[Expression, Expression], ...] = ()  # KRL WITH: system variable := value, for this move
+    concurrent: bool = False
+    without_offsets: bool = False
+    group: int = 1
+    identity: Expression | None = None
+    motion_class: str = "classic"
+    origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
+@dataclass(frozen=True, slots=True)
+class MoveExternal:
+    """Move external axes only (RAPID MoveExtJ)."""
+
+    target: Expression
+    speed: Speed | None = None
+    blend: Blend | None = None
+    origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Spline:
+    """A spline block: its moves and triggers form one path. kind: path (SPLINE) or joint (PTP_SPLINE)."""
+
+    kind: str
+    body: tuple[Move | Trigger | Assign | CallRoutine | Nothing | Opaque, ...]
+    blend: Blend | None = None
+    settings: tuple[tuple[Expression, Expression], ...] = ()
+    origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)

@@ -1,0 +1,53 @@
+"""The meaning of a dialect as data: conversions, defaults, look-ahead. The core asks this record, never the name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from rpl.ir.types import Type
+
+
+@dataclass(frozen=True, slots=True)
+class AdvanceRules:
+    """How the program pointer runs ahead of the motion.
+
+    moves: how many moves ahead at most (`advance` system variable overrides it where the language has it).
+    runs_ahead_of: `all` moves (KRL) or `fly_by` only (RAPID: a stop point halts the program until the robot is there).
+    lead_s: with `fly_by`, logic behind a fly-by move runs this long before the corner path begins.
+    stop_statements: names of IR statement classes before which the controller waits for the motion to end.
+    signals_stop: reading or writing a signal or an actual position waits for the motion to end.
+    """
+
+    moves: int
+    runs_ahead_of: str = "all"
+    lead_s: float = 0.0
+    stop_statements: frozenset[str] = frozenset()
+    signals_stop: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """What differs between languages that share the IR.
+
+    case_sensitive: of names. real_to_int: conversion put in where a real meets a whole number: a name of CONVERSIONS,
+    or empty when the language refuses it. char_numbers: CHAR compares with numbers by code. text_plus: `+` joins texts.
+    components: per built-in type class name, the language's component names (lower case) -> neutral names; a nested
+    RAPID `robax.rax_1` maps step by step. undefined: reading a variable without a value is a fault (else zero values).
+    implicit_pose: an undeclared name is a pose. call_depth: nested calls the controller allows.
+    system_defaults: modal system variables at the start of a run, in base units. errors: names of error numbers.
+    """
+
+    name: str
+    advance: AdvanceRules
+    case_sensitive: bool = False
+    real_to_int: str = ""
+    char_numbers: bool = False
+    text_plus: bool = False
+    components: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    undefined: bool = False
+    wait_poll_s: float = 0.0
+    call_depth: int = 100
+    system_defaults: Mapping[str, float | bool | str] = field(default_factory=dict)
+    errors: Mapping[str, int] = field(default_factory=dict)
+    type_names: Mapping[str, Type] = field(default_factory=dict)

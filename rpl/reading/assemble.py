@@ -1,0 +1,228 @@
+"""From pieces to blocks: parse and lower each statement, attach comments, nest blocks, recover locally.
+
+A damaged statement costs itself alone: it becomes an Opaque item with one report. A missing or stray block end is
+reported and mended at the nearest sensible place.
+"""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.reading.ledger import LOWERED, REPORTED, TRIVIA, FileReport, Ledger
+from rpl.reading.pieces import (
+    BLANK,
+    COMMENT,
+    LAYOUT,
+    Attribute,
+    Block,
+    Close,
+    Element,
+    Item,
+    Middle,
+    ModulePart,
+    Open,
+    Piece,
+    Section,
+)
+from rpl.reading.shapes import ShapeParser, StatementError, SyntaxTree
+from rpl.source import Comment, Origin, Source
+
+UNREADABLE = code(
+    "unreadable-statement",
+    Severity.ERROR,
+    "cannot read this statement: {reason}",
+    "it is kept as text; a run stops there",
+)
+STRAY = code("stray-block-end", Severity.ERROR, "{word} without a block that it could end")
+STRAY_MIDDLE = code("stray-section", Severity.ERROR, "{word} outside of the block it belongs to")
+UNCLOSED = code("missing-block-end", Severity.ERROR, "this {kind} block is never ended")
+TOO_DEEP = code(
+    "blocks-too-deep", Severity.ERROR, "blocks nested more than {limit} deep; the inner one is kept as text"
+)
+UNCLAIMED = code("unclaimed-text", Severity.ERROR, "this text was not accounted for: {text}")
+
+DEEPEST_BLOCK = 100
+
+Lower = Callable[[SyntaxTree, tuple[str, ...], Origin], Element | tuple[Element, ...]]
+"""lower(tree, numbers, origin): numbers[slot.index] is the spelling of a number. May raise StatementError."""
+Build = Callable[[Block], Item | tuple[Item, ...]]
+"""build(block): the IR item of a closed block."""
+
+
+@dataclass(slots=True)
+class _Frame:
+    open: Open
+    sections: list[Section] = field(default_factory=list)
+    head: Middle | None = None
+    items: list[Item] = field(default_factory=list)
+
+    def next_section(self, head: Middle | None) -> None:
+        self.sections.append(Section(self.head, tuple(self.items)))
+        self.head, self.items = head, []
+
+
+@contextmanager
+def paused_cycle_collector() -> Iterator[None]:
+    """Millions of live nodes make Python's cycle collector dominate; trees and IR have no cycles."""
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            gc.enable()
+
+
+@dataclass(frozen=True, slots=True)
+class Assembly:
+    """The items of a file's top level, and its report."""
+
+    items: tuple[Item, ...]
+    report: FileReport
+    ledger: Ledger
+
+
+def assemble(
+    source: Source,
+    dialect: str,
+    pieces: Iterable[Piece],
+    parser: ShapeParser,
+    lower: Lower,
+    build: Build,
+    diagnostics: Diagnostics,
+) -> Assembly:
+    """Read one source. Every block kind is opened, divided and closed by the elements that `lower` gives."""
+    with paused_cycle_collector():
+        assembler = _Assembler(source, parser, lower, build, diagnostics)
+        for piece in pieces:
+            assembler.take(piece)
+        return assembler.finish(dialect)
+
+
+class _Assembler:
+    def __init__(
+        self, source: Source, parser: ShapeParser, lower: Lower, build: Build, diagnostics: Diagnostics
+    ) -> None:
+        self.source, self.parser, self.lower, self.build = source, parser, lower, build
+        self.diagnostics = diagnostics
+        self.ledger = Ledger(source)
+        self.comments: list[Comment] = []
+        self.comment_start = 0
+        self.statements = 0
+        self.unread: list[str] = []
+        root = Open("file", None, Origin(source, 0, len(source.text)))
+        self.frames: list[_Frame] = [_Frame(root)]
+
+    def take(self, piece: Piece) -> None:
+        if piece.kind == BLANK:
+            return
+        if piece.kind in (COMMENT, LAYOUT):
+            self.ledger.claim(piece.start, piece.end, TRIVIA)
+            if not self.comments:
+                self.comment_start = piece.start
+            self.comments.append(Comment(piece.text))
+            return
+        self.statements += 1
+        origin = Origin(self.source, piece.start, piece.end)
+        try:
+            tree, numbers = self.parser.parse(piece.text)
+            lowered = self.lower(tree, numbers, origin)
+        except StatementError as error:
+            self.ledger.claim(piece.start, piece.end, REPORTED)
+            self.unread.append(piece.text)
+            at = Origin(self.source, min(piece.start + error.offset, piece.end), piece.end)
+            self.diagnostics.report(UNREADABLE, at, reason=str(error))
+            lowered = ir.Opaque(piece.text, origin=origin)
+        else:
+            self.ledger.claim(piece.start, piece.end, LOWERED)
+        elements = lowered if isinstance(lowered, tuple) else (lowered,)
+        for position, element in enumerate(elements):
+            self.place(element, piece.comment if position == len(elements) - 1 else None)
+
+    def place(self, element: Element, behind: str | None) -> None:
+        if isinstance(element, Middle | Close):
+            if behind is not None:
+                self.comments.append(Comment(behind))
+            self.flush_comments()
+            if isinstance(element, Middle):
+                self.middle(element)
+            else:
+                self.close(element)
+            return
+        comments = [*self.comments, Comment(behind, behind=True)] if behind is not None else self.comments
+        if comments:
+            element = replace(element, origin=replace(element.origin, comments=tuple(comments)))
+            self.comments = []
+        if isinstance(element, Open):
+            self.frames.append(_Frame(element))
+        else:
+            self.frames[-1].items.append(element)
+
+    def flush_comments(self) -> None:
+        if self.comments:
+            origin = Origin(self.source, self.comment_start, self.comment_start, tuple(self.comments))
+            self.frames[-1].items.append(ir.Nothing(origin=origin))
+            self.comments = []
+
+    def middle(self, element: Middle) -> None:
+        at = self.innermost(element.kind)
+        if at is None:
+            self.diagnostics.report(STRAY_MIDDLE, element.origin, word=element.origin.text.split()[0])
+            self.frames[-1].items.append(ir.Opaque(element.origin.text, origin=element.origin))
+            return
+        self.end_frames_above(at)
+        self.frames[-1].next_section(element)
+
+    def close(self, element: Close) -> None:
+        at = self.innermost(element.kind)
+        if at is None:
+            self.diagnostics.report(STRAY, element.origin, word=element.origin.text.split()[0])
+            self.frames[-1].items.append(ir.Opaque(element.origin.text, origin=element.origin))
+            return
+        self.end_frames_above(at)
+        self.end_frame(element)
+
+    def innermost(self, kind: str) -> int | None:
+        for at in range(len(self.frames) - 1, 0, -1):
+            if self.frames[at].open.kind == kind:
+                return at
+        return None
+
+    def end_frames_above(self, at: int) -> None:
+        while len(self.frames) - 1 > at:
+            opened = self.frames[-1].open
+            self.diagnostics.report(UNCLOSED, opened.origin, kind=opened.kind)
+            self.end_frame(None)
+
+    def end_frame(self, close: Close | None) -> None:
+        depth = len(self.frames) - 1
+        frame = self.frames.pop()
+        frame.next_section(None)
+        opened = frame.open
+        end = close.origin.end if close else (self.ledger.claims[-1][1] if self.ledger.claims else opened.origin.end)
+        if depth > DEEPEST_BLOCK:
+            self.diagnostics.report(TOO_DEEP, opened.origin, limit=DEEPEST_BLOCK)
+            text = self.source.text[opened.origin.start : end]
+            built: Item | tuple[Item, ...] = ir.Opaque(text, origin=replace(opened.origin, end=end))
+        else:
+            built = self.build(Block(opened, tuple(frame.sections), close))
+        self.frames[-1].items.extend(built if isinstance(built, tuple) else (built,))
+
+    def finish(self, dialect: str) -> Assembly:
+        self.flush_comments()
+        self.end_frames_above(0)
+        for start, end in self.ledger.gaps():
+            at = Origin(self.source, start, end)
+            self.diagnostics.report(UNCLAIMED, at, text=self.source.text[start:end].strip()[:60])
+            self.frames[0].items.append(ir.Opaque(self.source.text[start:end], origin=at))
+            self.unread.append(self.source.text[start:end])
+        report = FileReport(self.source.path, dialect, self.statements, len(self.unread), tuple(self.unread))
+        return Assembly(tuple(self.frames[0].items), report, self.ledger)
+
+
+__all__ = ["Assembly", "Attribute", "Build", "Lower", "ModulePart", "assemble", "paused_cycle_collector"]

@@ -1,0 +1,174 @@
+"""The shape cache: most statements differ only in their numbers, so only shapes never seen are parsed.
+
+A statement's numbers are taken out, what remains is its shape; Lark parses the shape once. In the tree number tokens
+(terminals INT and REAL) become `Slot`s that name the number's place in the statement.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import sys
+import tempfile
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import NoReturn
+
+from lark import Lark, Token, Tree
+from lark import __version__ as lark_version
+from lark.exceptions import UnexpectedInput
+
+from rpl.errors import RplError
+
+# Texts and names are kept whole; only free-standing numbers are slots. Dialects may pass their own pattern with the
+# groups `real` and `int`; whatever else it matches stays in the shape.
+NUMBERS = re.compile(
+    r'"(?:[^"\\\n]|\\.|"")*"'
+    r"|'[^'\n]*'"
+    r"|[A-Za-z_$\u0080-\uffff][\w$]*"
+    r"|(?P<real>(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+)"
+    r"|(?P<int>\d+)"
+)
+LONGEST_STATEMENT = 2_000_000
+DEEPEST_EXPRESSION = 150
+_CACHED_SHAPES = 50_000
+
+
+@dataclass(frozen=True, slots=True)
+class Slot:
+    """Place of a number in a parsed shape: `index` into the statement's numbers, `real` when written as a real."""
+
+    index: int
+    real: bool
+
+
+SyntaxTree = Tree[Token | Slot]
+
+
+class StatementError(RplError):
+    """A statement does not parse. `offset` is relative to the statement's text."""
+
+    def __init__(self, message: str, offset: int) -> None:
+        super().__init__(message)
+        self.offset = offset
+
+
+class ShapeParser:
+    """Parses statements of one grammar with the rule `statement`; keeps the trees of shapes already seen."""
+
+    def __init__(self, grammar: str, numbers: re.Pattern[str] = NUMBERS) -> None:
+        """`grammar`: file name in rpl.grammars. Its number terminals are named INT and REAL."""
+        self._lark = load_grammar(grammar)
+        self._numbers = numbers
+        self._trees: dict[str, SyntaxTree] = {}
+
+    def parse(self, text: str) -> tuple[SyntaxTree, tuple[str, ...]]:
+        """Tree of the statement's shape, and the spelling of its numbers in order. Raises StatementError."""
+        found: list[str] = []
+
+        def take(match: re.Match[str]) -> str:
+            kind = match.lastgroup
+            if kind is None:
+                return match.group()
+            found.append(match.group())
+            return "0.5" if kind == "real" else "0"
+
+        shape = self._numbers.sub(take, text)
+        tree = self._trees.get(shape)
+        if tree is None:
+            tree = self._parse_shape(shape, text)
+            if len(self._trees) >= _CACHED_SHAPES:
+                self._trees.clear()
+            self._trees[shape] = tree
+        return tree, tuple(found)
+
+    def _parse_shape(self, shape: str, text: str) -> SyntaxTree:
+        if len(text) > LONGEST_STATEMENT:
+            raise StatementError(f"statement of {len(text)} characters is too long to read", 0)
+        _check_depth(text)
+        try:
+            tree: Tree[Token] = self._lark.parse(shape)
+        except UnexpectedInput:
+            # Parse what was written, so that the place and the words of the report are the user's.
+            try:
+                self._lark.parse(text)
+            except UnexpectedInput as error:
+                _refuse(error, text)
+            raise StatementError("a number stands where none can be", 0) from None
+        tokens = [
+            token for token in tree.scan_values(lambda value: isinstance(value, Token)) if token.type in ("INT", "REAL")
+        ]
+        order = {id(token): index for index, token in enumerate(sorted(tokens, key=lambda token: token.start_pos or 0))}
+        return _with_slots(tree, order)
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, Token) and value.type in ("INT", "REAL")
+
+
+def _with_slots(tree: Tree[Token], order: dict[int, int]) -> SyntaxTree:
+    children: list[SyntaxTree | Token | Slot] = []
+    for child in tree.children:
+        if isinstance(child, Tree):
+            children.append(_with_slots(child, order))
+        elif child is not None and child.type in ("INT", "REAL"):
+            children.append(Slot(order[id(child)], child.type == "REAL"))
+        else:
+            children.append(child)
+    return Tree(tree.data, children)
+
+
+def _check_depth(text: str) -> None:
+    depth = 0
+    for at, sign in enumerate(text):
+        if sign in "([{":
+            depth += 1
+            if depth > DEEPEST_EXPRESSION:
+                raise StatementError(f"brackets nested more than {DEEPEST_EXPRESSION} deep", at)
+        elif sign in ")]}":
+            depth -= 1
+
+
+def _refuse(error: UnexpectedInput, text: str) -> NoReturn:
+    offset = error.pos_in_stream if error.pos_in_stream is not None and error.pos_in_stream >= 0 else len(text)
+    offset = min(offset, len(text))
+    word = re.match(r"\s*(\w+|\S)?", text[offset:])
+    found = word.group(1) if word and word.group(1) else None
+    raise StatementError(
+        f"did not expect {found!r} here" if found else "the statement ends too early", offset
+    ) from None
+
+
+@cache
+def load_grammar(name: str) -> Lark:
+    """The LALR parser of a grammar file. Its tables are kept in the user's cache folder; without one they are built."""
+    text = resources.files("rpl.grammars").joinpath(name).read_text("utf-8")
+    key = hashlib.sha256(f"{text}{lark_version}{sys.version_info[:2]}".encode()).hexdigest()[:20]
+    file = _cache_folder() / f"{name}-{key}.tables"
+    if file.is_file():
+        try:
+            with file.open("rb") as stream:
+                return Lark.load(stream)
+        except (OSError, ValueError, KeyError, EOFError, AttributeError):
+            file.unlink(missing_ok=True)
+    parser = Lark(text, parser="lalr", lexer="contextual", start="statement", maybe_placeholders=False)
+    _store(parser, file)
+    return parser
+
+
+def _store(parser: Lark, file: Path) -> None:
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile(dir=file.parent, delete=False) as stream:
+            parser.save(stream)
+        os.replace(stream.name, file)  # noqa: PTH105 (atomic on every system)
+    except OSError:
+        return  # a read-only home is no reason to fail; the tables are built anew next time
+
+
+def _cache_folder() -> Path:
+    base = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA")
+    return (Path(base) if base else Path.home() / ".cache") / "robot-rpl"

@@ -1,0 +1,118 @@
+"""The only door to dialects and targets: found by folder and by entry point, imported when asked for.
+
+A dialect is the folder `dialects/<name>/` whose `__init__` has `DIALECT`; a target is `postprocessors/<name>/` with
+`TARGET`. Other distributions add theirs with the entry point groups `rpl.dialects` and `rpl.postprocessors`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from functools import cache
+from importlib import import_module, resources
+from importlib.metadata import entry_points
+from typing import TYPE_CHECKING, Protocol
+
+from rpl.diagnostics import Diagnostics
+from rpl.errors import UsageError
+from rpl.source import Source
+
+if TYPE_CHECKING:
+    from rpl.emulator.configuration import Notation
+    from rpl.ir import Module, Program
+    from rpl.ir.rules import Rules
+    from rpl.reading.ledger import FileReport
+    from rpl.writing.target import Capabilities, OutputFile, WriteContext
+
+
+class ReadSources(Protocol):
+    def __call__(self, sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult: ...
+
+
+class WriteProgram(Protocol):
+    def __call__(self, program: Program, context: WriteContext) -> list[OutputFile]: ...
+
+
+@dataclass(frozen=True, slots=True)
+class ReadResult:
+    """What a dialect's reader gives: the modules of all sources, and per file what became of its text."""
+
+    program: Program
+    files: tuple[FileReport, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Dialect:
+    """A language that can be read.
+
+    recognise(path, text) -> 0..100: how sure the content is of this language (never from the extension alone).
+    read(sources, diagnostics): all sources of one project together. rules(): the data of its meaning. prelude(): its
+    predefined data and system routines as a module, or None. notation(): arm configuration flags, or None.
+    """
+
+    name: str
+    title: str
+    extensions: tuple[str, ...]
+    recognise: Callable[[str, str], int]
+    read: ReadSources
+    rules: Callable[[], Rules]
+    prelude: Callable[[], Module | None]
+    notation: Callable[[], Notation] | None = None
+    notation_fields: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A language that can be written. `write` raises InternalError when its ledger finds an unwritten node."""
+
+    name: str
+    title: str
+    capabilities: Callable[[], Capabilities]
+    write: WriteProgram
+    options: Mapping[str, str] = field(default_factory=dict)
+
+
+@cache
+def _names(room: str) -> dict[str, str]:
+    """Name -> module path, of folders in the room and of entry points."""
+    found = {}
+    for entry in resources.files(f"rpl.{room}").iterdir():
+        if entry.is_dir() and entry.joinpath("__init__.py").is_file():
+            found[entry.name] = f"rpl.{room}.{entry.name}"
+    for point in entry_points(group=f"rpl.{room}"):
+        found[point.name] = point.value.partition(":")[0]
+    return dict(sorted(found.items()))
+
+
+def _load(room: str, name: str, attribute: str) -> object:
+    names = _names(room)
+    if name not in names:
+        close = get_close_matches(name, names, 1)
+        hint = f"; did you mean {close[0]}?" if close else ""
+        raise UsageError(f"no {room.rstrip('s')} named {name!r}: there are {', '.join(names)}{hint}")
+    return getattr(import_module(names[name]), attribute)
+
+
+def dialect_names() -> list[str]:
+    return list(_names("dialects"))
+
+
+def target_names() -> list[str]:
+    return list(_names("postprocessors"))
+
+
+@cache
+def dialect(name: str) -> Dialect:
+    """The dialect of that name. Raises UsageError when there is none."""
+    found = _load("dialects", name, "DIALECT")
+    assert isinstance(found, Dialect)  # a promise of our own folders, not of input
+    return found
+
+
+@cache
+def target(name: str) -> Target:
+    """The target of that name. Raises UsageError when there is none."""
+    found = _load("postprocessors", name, "TARGET")
+    assert isinstance(found, Target)
+    return found

@@ -1,0 +1,11 @@
+"""Map the top-level language folders into the import package; sees a new language folder without being edited."""
+
+from pathlib import Path
+
+from setuptools import find_packages, setup
+
+ROOMS = {"rpl": "rpl", "rpl.dialects": "dialects", "rpl.postprocessors": "postprocessors", "rpl.grammars": "grammars"}
+packages = [p for name, folder in ROOMS.items() for p in [name, *(f"{name}.{s}" for s in find_packages(str(Path(folder))))]]
+DATA = ["*.lark", "*.toml", "*.j2", "*.rpl", "*.src", "*.mod", "*.dat", "py.typed"]
+
+setup(packages=packages, package_dir=ROOMS, package_data={"": DATA})
