@@ -4,8 +4,9 @@ Everything here is in the family's own joint variables ("theta": radians, mm for
 robot's pendant degrees into theta is the business of `rpl.emulator.model`. Each arm offers the same four functions
 (`Arm`), vectorised over leading axes, and returns every branch of the inverse in a fixed order.
 
-Sources: ortho-parallel arms with spherical wrist, Brandstoetter, Angerer, Hofbaur (2014), in the convention of the ROS-I
-`opw_kinematics` package; Universal Robots by their published standard DH parameters (Hawkins 2013); SCARA elementary.
+Sources: ortho-parallel arms with spherical wrist, Brandstoetter, Angerer, Hofbaur (2014), in the convention of the
+ROS-I `opw_kinematics` package; Universal Robots by their published standard DH parameters (Hawkins 2013); SCARA
+elementary.
 """
 
 from dataclasses import dataclass
@@ -150,9 +151,9 @@ class OpwArm:
         centre = flange[:, :3, 3] - self.c4 * turn[:, :, 2]
         t1, x1, reachable, free1 = self._shoulder(centre, reference)
         t2, t3, ok, free2 = self._elbow(x1, centre[:, 2] - self.c1, reference)
-        t1, reachable, free1 = (np.broadcast_to(v[:, :, None], t2.shape) for v in (t1, reachable, free1))
+        t1 = np.broadcast_to(t1[:, :, None], t2.shape)
         t4, t5, t6, free4 = self._spherical(turn, t1, t2 + t3, reference)
-        valid, free = reachable & ok, free1 | free2
+        valid, free = reachable[:, :, None] & ok, free1[:, :, None] | free2
         theta = np.empty((len(flange), 2, 2, 2, 6))
         for axis, value in enumerate((t1, t2, t3)):
             theta[..., axis] = value[..., None]
@@ -168,7 +169,7 @@ class OpwArm:
 
     def _shoulder(
         self, centre: FloatArray, reference: FloatArray
-    ) -> tuple[FloatArray, FloatArray, BoolArray, FloatArray]:
+    ) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray]:
         """Joint 1 (k, 2), the wrist's distance from axis 2 along the arm (k, 2), reachable, and singular."""
         radius_squared = centre[:, 0] ** 2 + centre[:, 1] ** 2
         square = radius_squared - self.b**2
@@ -185,7 +186,7 @@ class OpwArm:
 
     def _elbow(
         self, x1: FloatArray, z1: FloatArray, reference: FloatArray
-    ) -> tuple[FloatArray, FloatArray, BoolArray, FloatArray]:
+    ) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray]:
         """Joints 2 and 3, each (k, 2, 2), with reachable and singular (stretched, folded) of the same shape."""
         forearm = float(np.hypot(self.a2, self.c3))
         height = np.broadcast_to(z1[:, None], x1.shape)
@@ -211,7 +212,7 @@ class OpwArm:
     @staticmethod
     def _spherical(
         turn: FloatArray, t1: FloatArray, t23: FloatArray, reference: FloatArray
-    ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    ) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray]:
         """Joints 4, 5, 6, each (k, 2, 2, 2), and where joint 4 is free (k, 2, 2)."""
         c1, s1, c23, s23 = np.cos(t1), np.sin(t1), np.cos(t23), np.sin(t23)
         # M = (Rz(t1) Ry(t23))^T R, row by row, each (k, 2, 2, 3).
@@ -224,9 +225,7 @@ class OpwArm:
         plus = np.where(free, reference[:, 3][:, None, None], np.arctan2(m1[..., 2], m0[..., 2]))
         c4, s4 = np.cos(plus), np.sin(plus)
         # With joint 4 known, the rest follows from the rows that do not vanish at joint 5 = 0.
-        t5 = np.where(
-            free & (m22 > 0), 0.0, np.arctan2(np.where(free, 0.0, c4 * m0[..., 2] + s4 * m1[..., 2]), m22)
-        )
+        t5 = np.where(free & (m22 > 0), 0.0, np.arctan2(np.where(free, 0.0, c4 * m0[..., 2] + s4 * m1[..., 2]), m22))
         t6 = np.arctan2(c4 * m1[..., 0] - s4 * m0[..., 0], c4 * m1[..., 1] - s4 * m0[..., 1])
         return (
             np.stack([plus, plus + np.pi], axis=-1),
@@ -252,7 +251,7 @@ class UrArm:
     """Universal Robots: standard DH (d1,0,90) (0,a2,0) (0,a3,0) (d4,0,90) (d5,0,-90) (d6,0,0), mm.
 
     The base frame is the one the controller shows, half a turn about z from the mounting frame of the ROS models.
-    Shoulder 0 is the solution with the wrist on the +x side of joint 1's frame, elbow 0 joint 3 >= 0, wrist 0 joint 5 >= 0.
+    Shoulder 0: the wrist on the +x side of joint 1's frame. Elbow 0: joint 3 >= 0. Wrist 0: joint 5 >= 0.
     """
 
     d1: float
@@ -312,7 +311,7 @@ class UrArm:
     @staticmethod
     def _wrist(
         flange: FloatArray, t1: FloatArray, side: float, reference: FloatArray
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+    ) -> tuple[FloatArray, FloatArray, BoolArray]:
         """Joints 5 and 6 (k,) from the flange axes seen along joint axes 2, 3, 4; where joint 6 is free."""
         row = np.sin(t1)[:, None] * flange[:, 0, :3] - np.cos(t1)[:, None] * flange[:, 1, :3]
         free = np.hypot(row[:, 0], row[:, 1]) <= SINGULAR
@@ -322,11 +321,9 @@ class UrArm:
 
     def _arm(
         self, flange: FloatArray, t1: FloatArray, t5: FloatArray, t6: FloatArray, bend: float
-    ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+    ) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray, BoolArray]:
         """Joints 2, 3, 4 (k,): the planar three-bar linkage; reachable and stretched."""
-        turn_to_4 = flange[:, :3, :3] @ np.swapaxes(
-            rotation_z(t5) @ rotation_x(-np.pi / 2) @ rotation_z(t6), -1, -2
-        )
+        turn_to_4 = flange[:, :3, :3] @ np.swapaxes(rotation_z(t5) @ rotation_x(-np.pi / 2) @ rotation_z(t6), -1, -2)
         # Frame 5's origin lies d5 along frame 4's z axis; take d6 and d5 off to reach frame 4.
         origin = flange[:, :3, 3] - self.d6 * flange[:, :3, 2] - self.d5 * turn_to_4[:, :, 2]
         c1, s1 = np.cos(t1), np.sin(t1)
@@ -349,8 +346,8 @@ class UrArm:
 class ScaraArm:
     """Two parallel links, a vertical stroke, a tool axis pointing down: theta = (q1, q2, stroke down in mm, q4).
 
-    x = l1 c1 + l2 c12, y = l1 s1 + l2 s12, z = height - stroke, R = Rz(q1 + q2 - q4)·Rx(180 deg). Elbow 0 is joint 2 >= 0.
-    Poses whose tool axis is not vertical (within `tilt`, radians) have no solution.
+    x = l1 c1 + l2 c12, y = l1 s1 + l2 s12, z = height - stroke, R = Rz(q1 + q2 - q4)·Rx(180 deg).
+    Elbow 0 is joint 2 >= 0. Poses whose tool axis is not vertical (within `tilt`, radians) have no solution.
     """
 
     l1: float

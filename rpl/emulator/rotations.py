@@ -2,9 +2,9 @@
 
 Every controller writes an orientation its own way: three angles about moving or fixed axes, a quaternion, a rotation
 vector. Matrices are the common currency, so each convention is a pair of pure functions `..._to_matrix` and
-`matrix_to_...`, vectorised over leading axes, degrees at the border (the rotation vector is in radians, as its only users
-print it). Two rotations are compared as matrices, never angle by angle: at gimbal lock the angles are not unique, and the
-functions here then put the whole turn into one angle and 0 into the other (said at each function).
+`matrix_to_...`, vectorised over leading axes, degrees at the border (the rotation vector is in radians, as its only
+users print it). Two rotations are compared as matrices, never angle by angle: at gimbal lock the angles are not unique,
+and the functions here then put the whole turn into one angle and 0 into the other (said at each function).
 """
 
 from collections.abc import Callable, Mapping
@@ -138,7 +138,7 @@ def matrix_to_xyz_moving(rotation: ArrayLike) -> FloatArray:
 def _degrees(*angles_rad: FloatArray) -> FloatArray:
     """Stack radians as degrees in (-180, 180], without negative zeros."""
     d = np.rad2deg(np.stack(np.broadcast_arrays(*angles_rad), axis=-1))
-    return np.where(d <= -180.0, d + 360.0, d) + 0.0
+    return np.asarray(np.where(d <= -180.0, d + 360.0, d) + 0.0)
 
 
 def quaternion_to_matrix(quaternion_wxyz: ArrayLike) -> FloatArray:
