@@ -42,13 +42,17 @@ class ReadResult:
     files: tuple[FileReport, ...]
 
 
+def _no_companions(path: str) -> tuple[str, ...]:
+    return ()
+
+
 @dataclass(frozen=True, slots=True)
 class Dialect:
     """A language that can be read.
 
     recognise(path, text) -> 0..100: how sure the content is of this language (never from the extension alone).
     read(sources, diagnostics): all sources of one project together. rules(): the data of its meaning. prelude(): its
-    predefined data and system routines as a module, or None. notation(): arm configuration flags, or None.
+    predefined data and system routines as a module, or None. notation(): arm configuration flags, or None. companions(path): files that belong to a named one where they exist (a data list).
     """
 
     name: str
@@ -60,6 +64,7 @@ class Dialect:
     prelude: Callable[[], Module | None]
     notation: Callable[[], Notation] | None = None
     notation_fields: tuple[str, ...] = ()
+    companions: Callable[[str], tuple[str, ...]] = _no_companions
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,199 @@
+"""From paths to a program: files, folders and archives are expanded, recognised by content, and read together.
+
+What is no robot program is refused politely: an error where the user named it, a note where a folder merely held it.
+"""
+
+from __future__ import annotations
+
+import tarfile
+import zipfile
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from io import BytesIO
+from pathlib import Path, PurePosixPath
+
+from rpl import ir, registry
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.errors import UsageError
+from rpl.passes.typing import normalise
+from rpl.reading.ledger import FileReport
+from rpl.source import Origin, Source, source_from_bytes
+
+NOT_A_PROGRAM = code(
+    "not-a-program",
+    Severity.ERROR,
+    "this is not a robot program: {reason}",
+    "name the language with --from if it is one",
+)
+SKIPPED = code("skipped-file", Severity.INFO, "skipped, not a robot program: {reason}")
+UNREADABLE_FILE = code("unreadable-file", Severity.ERROR, "cannot read this file: {reason}")
+UNREADABLE_ARCHIVE = code("unreadable-archive", Severity.ERROR, "cannot open this archive: {reason}")
+
+LARGEST_FILE = 256 * 1024 * 1024
+_SURE_ENOUGH = 30
+_ARCHIVES = (".zip", ".tar", ".tgz", ".tar.gz", ".tar.bz2", ".tar.xz")
+_TEXT_CONTROLS = frozenset(b"\t\n\r\x0c\x1a")
+
+
+@dataclass(frozen=True, slots=True)
+class ReadProgram:
+    """Everything read from the paths. `raw` as lowered, `program` in normal form; `dialects` in order of first use."""
+
+    program: ir.Program
+    raw: ir.Program
+    sources: tuple[Source, ...]
+    files: tuple[FileReport, ...]
+    dialects: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Found:
+    source: Source
+    named: bool
+
+
+def read_program(
+    paths: Sequence[str | Path], dialect: str | None = None, diagnostics: Diagnostics | None = None
+) -> ReadProgram:
+    """Read files, folders and archives as one project.
+
+    `dialect` overrides the recognition by content. Raises UsageError when a path does not exist. Everything else is
+    reported: a file that is no program never stops the others from being read.
+    """
+    collector = diagnostics if diagnostics is not None else Diagnostics()
+    groups: dict[str, list[Source]] = {}
+    for found in _expand(paths, collector):
+        name, reason = (dialect, "") if dialect else recognise(found.source)
+        if name is None:
+            at = Origin(found.source)
+            collector.report(NOT_A_PROGRAM if found.named else SKIPPED, at, reason=reason)
+            continue
+        groups.setdefault(name, []).append(found.source)
+    return _read_groups(groups, collector)
+
+
+def read_sources(sources: Sequence[Source], dialect: str, diagnostics: Diagnostics) -> ReadProgram:
+    """Read sources that are in memory (written text read back, an editor's buffer)."""
+    return _read_groups({dialect: list(sources)}, diagnostics)
+
+
+def _read_groups(groups: dict[str, list[Source]], diagnostics: Diagnostics) -> ReadProgram:
+    raw = ir.Program(())
+    files: list[FileReport] = []
+    for name, sources in groups.items():
+        result = registry.dialect(name).read(sources, diagnostics)
+        part = result.program
+        raw = replace(
+            raw,
+            modules=raw.modules + part.modules,
+            tasks=raw.tasks + part.tasks,
+            entry=raw.entry or part.entry,
+        )
+        files.extend(result.files)
+    program = normalise(raw, diagnostics)
+    every = tuple(source for sources in groups.values() for source in sources)
+    return ReadProgram(program, raw, every, tuple(files), tuple(groups))
+
+
+def recognise(source: Source) -> tuple[str | None, str]:
+    """The dialect whose recogniser is surest of the content, or None with the reason."""
+    if not source.data.strip():
+        return None, "the file is empty"
+    if _is_binary(source):
+        return None, "it is binary, encoded or compressed"
+    suffix = Path(source.path).suffix.lower()
+    best, best_score = None, 0
+    for name in registry.dialect_names():
+        dialect = registry.dialect(name)
+        score = dialect.recognise(source.path, source.text)
+        if score and suffix in dialect.extensions:
+            score += 1  # the extension only decides between equals
+        if score > best_score:
+            best, best_score = name, score
+    if best is None or best_score < _SURE_ENOUGH:
+        return None, "its content matches no language"
+    return best, ""
+
+
+def _is_binary(source: Source) -> bool:
+    if source.encoding.startswith("utf-16"):
+        return False
+    head = source.data[:65536]
+    if b"\x00" in head:
+        return True
+    controls = sum(1 for byte in head if byte < 32 and byte not in _TEXT_CONTROLS)
+    return controls * 50 > len(head)
+
+
+def _expand(paths: Sequence[str | Path], diagnostics: Diagnostics) -> Iterator[_Found]:
+    seen: set[str] = set()
+    for given in paths:
+        path = Path(given)
+        if not path.exists():
+            raise UsageError(f"no such file or folder: {path}")
+        for found in _expand_one(path, diagnostics):
+            key = found.source.path
+            if key not in seen:
+                seen.add(key)
+                yield found
+
+
+def _expand_one(path: Path, diagnostics: Diagnostics) -> Iterator[_Found]:
+    if path.is_dir():
+        for file in sorted(path.rglob("*")):
+            if file.is_file() and not any(part.startswith(".") for part in file.relative_to(path).parts):
+                if file.name.lower().endswith(_ARCHIVES):
+                    yield from _archive(file, diagnostics)
+                else:
+                    yield from _file(file, False, diagnostics)
+        return
+    if path.name.lower().endswith(_ARCHIVES):
+        yield from _archive(path, diagnostics)
+        return
+    yield from _file(path, True, diagnostics)
+    for name in registry.dialect_names():
+        for companion in registry.dialect(name).companions(str(path)):
+            if Path(companion).is_file():
+                yield from _file(Path(companion), False, diagnostics)
+
+
+def _file(path: Path, named: bool, diagnostics: Diagnostics) -> Iterator[_Found]:
+    try:
+        size = path.stat().st_size
+        data = path.read_bytes() if size <= LARGEST_FILE else b""
+    except OSError as error:
+        at = Origin(source_from_bytes(str(path), b""))
+        diagnostics.report(UNREADABLE_FILE, at, reason=error.strerror or type(error).__name__)
+        return
+    if size > LARGEST_FILE:
+        at = Origin(source_from_bytes(str(path), b""))
+        diagnostics.report(UNREADABLE_FILE, at, reason=f"larger than {LARGEST_FILE // 2**20} MiB")
+        return
+    yield _Found(source_from_bytes(str(path), data), named)
+
+
+def _archive(path: Path, diagnostics: Diagnostics) -> Iterator[_Found]:
+    """Members of a controller backup, in memory, in order of their names."""
+    try:
+        members = dict(_members(path))
+    except (OSError, zipfile.BadZipFile, tarfile.TarError, EOFError, RuntimeError, NotImplementedError) as error:
+        at = Origin(source_from_bytes(str(path), b""))
+        diagnostics.report(UNREADABLE_ARCHIVE, at, reason=str(error) or type(error).__name__)
+        return
+    for name in sorted(members):
+        yield _Found(source_from_bytes(f"{path}/{name}", members[name]), False)
+
+
+def _members(path: Path) -> Iterator[tuple[str, bytes]]:
+    data = path.read_bytes()
+    if zipfile.is_zipfile(BytesIO(data)):
+        with zipfile.ZipFile(BytesIO(data)) as archive:
+            for info in archive.infolist():
+                if not info.is_dir() and info.file_size <= LARGEST_FILE:
+                    yield str(PurePosixPath(info.filename)), archive.read(info)
+        return
+    with tarfile.open(fileobj=BytesIO(data)) as tar:
+        for member in tar.getmembers():
+            stream = tar.extractfile(member) if member.isfile() and member.size <= LARGEST_FILE else None
+            if stream is not None:
+                yield str(PurePosixPath(member.name)), stream.read()
