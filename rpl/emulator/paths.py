@@ -1,0 +1,129 @@
+"""The shape that the tool centre point draws: straight lines and circular arcs, with their orientation.
+
+A path gives poses of the tool centre point in the robot's base frame (mm) at fractions 0..1 of its way, evenly in
+distance. It knows nothing of joints or of time. Orientation turns about one fixed axis (slerp) from start to end; along
+an arc either in space or relative to the arc's tangent.
+"""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rpl.emulator.rotations import FloatArray, pose_matrix, rotation_angle, rotation_vector_to_matrix, slerp
+
+# Three points whose triangle is flatter than this sine define no circle.
+FLAT = 1e-6
+
+
+class Path(Protocol):
+    """A curve of poses, evenly parametrised by the fraction of its length."""
+
+    @property
+    def length_mm(self) -> float:
+        """Distance that the tool centre point travels."""
+
+    @property
+    def turn_rad(self) -> float:
+        """Angle that the orientation turns by, as far as the orientation speed has to pay for it."""
+
+    def poses(self, fraction: ArrayLike) -> FloatArray:
+        """Poses (k, 4, 4) at fractions (k,)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Line:
+    """Straight from one pose (4, 4) to another."""
+
+    start: FloatArray
+    end: FloatArray
+
+    @property
+    def length_mm(self) -> float:
+        return float(np.linalg.norm(self.end[:3, 3] - self.start[:3, 3]))
+
+    @property
+    def turn_rad(self) -> float:
+        return float(rotation_angle(self.start[:3, :3].T @ self.end[:3, :3]))
+
+    def poses(self, fraction: ArrayLike) -> FloatArray:
+        s = np.asarray(fraction, dtype=np.float64)
+        position = self.start[:3, 3] + s[..., None] * (self.end[:3, 3] - self.start[:3, 3])
+        return pose_matrix(position, slerp(self.start, self.end, s))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Arc:
+    """Part of a circle, from `start` (4, 4) about `axis` (unit, 3) through `centre` (mm, 3) by `sweep_rad` > 0.
+
+    `end_rotation` (3, 3) is reached at the end of the sweep. With `follow_path` the orientation is interpolated
+    relative to the arc's moving tangent frame, so that it turns with the circle.
+    """
+
+    start: FloatArray
+    end_rotation: FloatArray
+    centre: FloatArray
+    axis: FloatArray
+    sweep_rad: float
+    follow_path: bool
+
+    @property
+    def radius_mm(self) -> float:
+        return float(np.linalg.norm(self.start[:3, 3] - self.centre))
+
+    @property
+    def length_mm(self) -> float:
+        return self.radius_mm * self.sweep_rad
+
+    @property
+    def turn_rad(self) -> float:
+        return float(rotation_angle(self.start[:3, :3].T @ self._goal()))
+
+    def _goal(self) -> FloatArray:
+        if not self.follow_path:
+            return self.end_rotation
+        return np.asarray(rotation_vector_to_matrix(self.axis * self.sweep_rad).T @ self.end_rotation)
+
+    def poses(self, fraction: ArrayLike) -> FloatArray:
+        s = np.asarray(fraction, dtype=np.float64)
+        around = rotation_vector_to_matrix(s[..., None] * self.sweep_rad * self.axis)
+        position = self.centre + around @ (self.start[:3, 3] - self.centre)
+        turn = slerp(self.start, self._goal(), s)
+        return pose_matrix(position, around @ turn if self.follow_path else turn)
+
+
+def arc_through(
+    start: FloatArray,
+    via: FloatArray,
+    end: FloatArray,
+    *,
+    swept_deg: float | None = None,
+    constant_orientation: bool = False,
+    follow_path: bool = False,
+) -> Arc | None:
+    """The arc from `start` over `via` to `end` (poses, 4x4); None when the three points define no circle.
+
+    `swept_deg` replaces the sweep that ends at `end`: then `end` only fixes the circle and the orientation that is
+    reached at the end of the sweep. Its sign reverses the direction and it may exceed 360.
+    """
+    a, b = via[:3, 3] - start[:3, 3], end[:3, 3] - start[:3, 3]
+    normal = np.cross(a, b)
+    area = float(np.linalg.norm(normal))
+    if area <= FLAT * float(np.linalg.norm(a)) * float(np.linalg.norm(b)) or area < 1e-9:
+        return None
+    # Circumcentre of a triangle with one corner at the origin.
+    square = float(normal @ normal)
+    to_centre = np.cross(a @ a * b - b @ b * a, np.cross(a, b)) / (2.0 * square)
+    axis = normal / area
+    radial = -to_centre
+    toward_end = b - to_centre
+    sweep = float(np.arctan2(axis @ np.cross(radial, toward_end), radial @ toward_end)) % (2.0 * np.pi)
+    if swept_deg is not None:
+        if swept_deg == 0.0:
+            return None
+        sweep = abs(float(np.deg2rad(swept_deg)))
+        axis = axis if swept_deg > 0.0 else -axis
+    turned = rotation_vector_to_matrix(axis * sweep) if follow_path else np.eye(3)
+    rotation = turned @ start[:3, :3] if constant_orientation else end[:3, :3]
+    return Arc(start, rotation, start[:3, 3] + to_centre, axis, sweep, follow_path)

@@ -1,0 +1,447 @@
+"""One move: from a request in the controller's terms to joints and poses at every moment, or the reason why not.
+
+`plan` checks what a controller checks before or while it moves (reach, limits, configuration, singularity, speed of
+the axes) and returns a `PlannedMove` that can be asked for any time. Joint moves start and stop all axes together; path
+moves synchronise translation, orientation and external axes, the slowest governs. Moves begin and end at rest; joining
+them in a corner is the business of `rpl.emulator.blending`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rpl.emulator.configuration import Selection
+from rpl.emulator.model import RobotModel
+from rpl.emulator.paths import Arc, Line, Path, arc_through
+from rpl.emulator.rotations import FloatArray, invert_pose, pose_matrix
+from rpl.emulator.timelaw import TimeLaw, limited, travel
+from rpl.emulator.tracking import MotionFault, Track, solve_arm_joints, track_flanges, track_wrist_joints
+
+__all__ = ["MotionFault", "MoveRequest", "MoveSamples", "PlannedMove", "plan"]
+
+Select = Callable[[FloatArray, FloatArray], Selection]
+CheckEnd = Callable[[FloatArray], str | None]
+# An axis may exceed its speed by this share through sampling before it counts.
+SPEED_SLACK = 1e-3
+# A path that needs too fast an axis is called singular when the Jacobian's condition (lengths per arm reach) is worse.
+SINGULAR_CONDITION = 25.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MoveRequest:
+    """What a program asks of one robot: poses are of the tool centre point in the robot's base frame, mm.
+
+    Give `target_joints` (n,) in pendant units or `target_pose` (4, 4). Axis speeds are fractions of their maximum (one
+    number or (n,)). `select` chooses the configuration of a joint move to a pose (default: the nearest solution);
+    `check_end` may refuse the configuration in which a path move arrives. External axes move evenly from
+    `external_start` to `external_target` at most at `external_speeds` (deg/s or mm/s).
+    """
+
+    kind: Literal["joint", "linear", "circular"]
+    target_joints: FloatArray | None = None
+    target_pose: FloatArray | None = None
+    via_pose: FloatArray | None = None
+    swept_deg: float | None = None
+    tool: FloatArray = field(default_factory=lambda: np.eye(4))
+    select: Select | None = None
+    check_end: CheckEnd | None = None
+    path_speed_mm_s: float = 250.0
+    path_acc_mm_s2: float = 2500.0
+    ori_speed_deg_s: float = 180.0
+    ori_acc_deg_s2: float = 600.0
+    joint_speed: FloatArray | float = 1.0
+    joint_acc: FloatArray | float = 1.0
+    duration_s: float | None = None
+    tcp_speed_for_joint_move: float | None = None
+    orientation: Literal["interpolated", "constant", "wrist_joints"] = "interpolated"
+    circle_orientation: Literal["base", "path"] = "base"
+    reduce_speed_near_singularity: bool = False
+    external_start: tuple[float, ...] = ()
+    external_target: tuple[float, ...] = ()
+    external_speeds: tuple[float, ...] = ()
+
+
+class Geometry(Protocol):
+    """Joints and tool poses over the fraction 0..1 of a move."""
+
+    def joints(self, fraction: FloatArray) -> FloatArray:
+        """Joints (k, n) at fractions (k,)."""
+
+    def tcp(self, fraction: FloatArray) -> FloatArray:
+        """Poses of the tool centre point (k, 4, 4) at fractions (k,)."""
+
+    def distance(self, fraction: FloatArray) -> FloatArray:
+        """Millimetres (k,) that the tool centre point has travelled."""
+
+    def fraction_at(self, distance_mm: float) -> float:
+        """The fraction at which that many millimetres are travelled."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JointGeometry:
+    """All joints move evenly; the tool draws whatever curve that gives, measured at `knots` once."""
+
+    model: RobotModel
+    start: FloatArray
+    end: FloatArray
+    tool: FloatArray
+    knots: FloatArray
+    travelled: FloatArray
+
+    def joints(self, fraction: FloatArray) -> FloatArray:
+        return np.asarray(self.start + fraction[..., None] * (self.end - self.start))
+
+    def tcp(self, fraction: FloatArray) -> FloatArray:
+        return np.asarray(self.model.forward(self.joints(fraction)) @ self.tool)
+
+    def distance(self, fraction: FloatArray) -> FloatArray:
+        return np.interp(fraction, self.knots, self.travelled)
+
+    def fraction_at(self, distance_mm: float) -> float:
+        if self.travelled[-1] <= 0.0:
+            return 0.0
+        return float(np.interp(distance_mm, self.travelled, self.knots))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PathGeometry:
+    """The tool follows a path exactly; joints are solved anew at each question, guided by the track."""
+
+    model: RobotModel
+    path: Path
+    tool: FloatArray
+    track: Track
+
+    def joints(self, fraction: FloatArray) -> FloatArray:
+        near = self.track.at(fraction)
+        found = self.model.inverse_batch(self.path.poses(fraction) @ invert_pose(self.tool), near)
+        ref = near[:, None, :]
+        turns = np.where(self.model.revolute, 360.0 * np.round((ref - found.joints) / 360.0), 0.0)
+        choices = found.joints + turns
+        off = np.where(found.valid, np.abs((choices - ref) * self.model.revolute).max(axis=2), np.inf)
+        best = np.argmin(off, axis=1)
+        rows = np.arange(len(near))
+        exact = np.where((off[rows, best] < 5.0)[:, None], choices[rows, best], near)
+        ends = ((fraction <= 0.0) | (fraction >= 1.0))[:, None]
+        return np.where(ends, near, exact)
+
+    def tcp(self, fraction: FloatArray) -> FloatArray:
+        return self.path.poses(fraction)
+
+    def distance(self, fraction: FloatArray) -> FloatArray:
+        return np.asarray(fraction * self.path.length_mm)
+
+    def fraction_at(self, distance_mm: float) -> float:
+        return min(max(distance_mm / self.path.length_mm, 0.0), 1.0) if self.path.length_mm > 0.0 else 0.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WristGeometry:
+    """The tool centre point follows a path while the wrist joints move evenly."""
+
+    model: RobotModel
+    path: Path
+    tool: FloatArray
+    track: Track
+
+    def joints(self, fraction: FloatArray) -> FloatArray:
+        near = self.track.at(fraction)
+        exact = solve_arm_joints(self.model, near, self.path.poses(fraction)[:, :3, 3], self.tool, fraction)
+        return near if isinstance(exact, MotionFault) else exact
+
+    def tcp(self, fraction: FloatArray) -> FloatArray:
+        return np.asarray(self.model.forward(self.joints(fraction)) @ self.tool)
+
+    def distance(self, fraction: FloatArray) -> FloatArray:
+        return np.asarray(fraction * self.path.length_mm)
+
+    def fraction_at(self, distance_mm: float) -> float:
+        return min(max(distance_mm / self.path.length_mm, 0.0), 1.0) if self.path.length_mm > 0.0 else 0.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MoveSamples:
+    """A move at k even moments: times (k,) s, joints (k, n) pendant units, tool poses (k, 4, 4) in the base frame."""
+
+    times: FloatArray
+    joints: FloatArray
+    tcp: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PlannedMove:
+    """A move that can be made. `slowed` tells that the speed was reduced to keep an axis within its maximum."""
+
+    kind: Literal["joint", "linear", "circular"]
+    start_joints: FloatArray
+    end_joints: FloatArray
+    start_pose: FloatArray
+    end_pose: FloatArray
+    duration_s: float
+    length_mm: float
+    slowed: bool
+    geometry: Geometry
+    law: TimeLaw
+    external_start: FloatArray
+    external_end: FloatArray
+
+    def _ask(self, question: Callable[[FloatArray], FloatArray], time_s: ArrayLike) -> FloatArray:
+        fraction = self.law.at(time_s)
+        return question(fraction) if fraction.ndim else question(fraction[None])[0]
+
+    def joints_at(self, time_s: ArrayLike) -> FloatArray:
+        """Joints at a time (n,) or at times (k,) -> (k, n); s from the start of the move."""
+        return self._ask(self.geometry.joints, time_s)
+
+    def tcp_at(self, time_s: ArrayLike) -> FloatArray:
+        """Pose of the tool centre point at a time (4, 4) or at times (k, 4, 4)."""
+        return self._ask(self.geometry.tcp, time_s)
+
+    def external_at(self, time_s: ArrayLike) -> FloatArray:
+        """External axes at a time (e,) or at times (k, e)."""
+        share = self.law.at(time_s)[..., None]
+        return np.asarray(self.external_start + share * (self.external_end - self.external_start))
+
+    def time_at_distance_from_start(self, distance_mm: float) -> float:
+        """The time at which the tool centre point has travelled that far; at most the whole duration."""
+        return float(self.law.time_of(self.geometry.fraction_at(distance_mm)))
+
+    def time_at_distance_from_end(self, distance_mm: float) -> float:
+        """The time at which the tool centre point still has that far to travel; at least 0."""
+        return float(self.law.time_of(self.geometry.fraction_at(max(self.length_mm - distance_mm, 0.0))))
+
+    def sample(self, count: int) -> MoveSamples:
+        """The move at `count` even moments from its start to its end."""
+        times = np.linspace(0.0, self.duration_s, count)
+        return MoveSamples(times, self.joints_at(times), self.tcp_at(times))
+
+
+def plan(model: RobotModel, start_joints: ArrayLike, request: MoveRequest) -> PlannedMove | MotionFault:
+    """Plan one move from joints (n,) in pendant units, at rest at both ends; a `MotionFault` when it cannot be made."""
+    start = np.asarray(start_joints, dtype=np.float64)
+    fault = _bad_request(request)
+    if fault is not None:
+        return fault
+    return _plan_joint(model, start, request) if request.kind == "joint" else _plan_path(model, start, request)
+
+
+def _bad_request(request: MoveRequest) -> MotionFault | None:
+    speeds = {
+        "path speed": request.path_speed_mm_s,
+        "path acceleration": request.path_acc_mm_s2,
+        "orientation speed": request.ori_speed_deg_s,
+        "orientation acceleration": request.ori_acc_deg_s2,
+        "joint speed": float(np.min(request.joint_speed)),
+        "joint acceleration": float(np.min(request.joint_acc)),
+    }
+    for name, value in speeds.items():
+        if not value > 0.0:
+            return MotionFault("bad_speed", f"the {name} is {value:g}, but must be more than zero")
+    if request.target_joints is None and request.target_pose is None:
+        return MotionFault("bad_target", "the move has no target")
+    if request.kind == "circular" and (request.via_pose is None or request.target_pose is None):
+        return MotionFault("bad_target", "a circular move needs a point on the way and an end pose")
+    return None
+
+
+def _plan_joint(model: RobotModel, start: FloatArray, request: MoveRequest) -> PlannedMove | MotionFault:
+    end = _joint_target(model, start, request)
+    if isinstance(end, MotionFault):
+        return end
+    geometry = joint_geometry(model, start, end, request.tool)
+    way = np.abs(end - start)
+    with np.errstate(divide="ignore"):
+        speed = float(np.min(model.speeds * request.joint_speed / way))
+        acceleration = float(np.min(model.accelerations * request.joint_acc / way))
+    length = float(geometry.travelled[-1])
+    if request.tcp_speed_for_joint_move is not None and length > 1e-6:
+        speed = min(speed, request.tcp_speed_for_joint_move / length)
+    return _finish(model, request, geometry, _with_external(request, speed, acceleration), slowed=False)
+
+
+def joint_geometry(model: RobotModel, start: FloatArray, end: FloatArray, tool: FloatArray) -> JointGeometry:
+    """Even joint motion with the tool's way measured along chords, one every four degrees."""
+    count = int(np.clip(np.ceil(np.abs(end - start).max() / 4.0), 8, 120)) + 1
+    knots = np.linspace(0.0, 1.0, count)
+    points = (model.forward(start + knots[:, None] * (end - start)) @ tool)[:, :3, 3]
+    travelled = np.insert(np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1)), 0, 0.0)
+    return JointGeometry(model, start, end, tool, knots, travelled)
+
+
+def _joint_target(model: RobotModel, start: FloatArray, request: MoveRequest) -> FloatArray | MotionFault:
+    if request.target_joints is not None:
+        joints = np.asarray(request.target_joints, dtype=np.float64)
+    else:
+        found = _pose_target(model, start, request)
+        if isinstance(found, MotionFault):
+            return found
+        joints = found
+    outside = model.within_limits(joints)
+    if outside:
+        axis = outside[0]
+        low, high = model.limits[axis]
+        return MotionFault(
+            "joint_limit", f"joint {axis + 1} would be at {joints[axis]:.3f}, outside {low:g}..{high:g}", axis, 1.0
+        )
+    return joints
+
+
+def _pose_target(model: RobotModel, start: FloatArray, request: MoveRequest) -> FloatArray | MotionFault:
+    pose = request.target_pose if request.target_pose is not None else np.eye(4)
+    flange = pose @ invert_pose(request.tool)
+    x, y, z = pose[:3, 3]
+    if not model.inverse(flange, start):
+        return MotionFault("unreachable", f"the pose at {x:.3f}, {y:.3f}, {z:.3f} mm is out of reach", None, 1.0)
+    if request.select is not None:
+        selection = request.select(flange, start)
+        if selection.joints is None:
+            return MotionFault("configuration", selection.reason, None, 1.0)
+        return selection.joints
+    nearest = model.nearest(flange, start)
+    if nearest is not None:
+        return nearest
+    axis = model.within_limits(model.inverse(flange, start)[0].joints)[0]
+    return MotionFault(
+        "joint_limit", f"every solution at {x:.3f}, {y:.3f}, {z:.3f} mm exceeds a joint limit", axis, 1.0
+    )
+
+
+def _plan_path(model: RobotModel, start: FloatArray, request: MoveRequest) -> PlannedMove | MotionFault:
+    outside = model.within_limits(start)
+    if outside:
+        return MotionFault("joint_limit", f"joint {outside[0] + 1} is outside its limits", outside[0], 0.0)
+    first = model.forward(start) @ request.tool
+    path = _path(model, first, request)
+    if isinstance(path, MotionFault):
+        return path
+    track = _track(model, start, path, request)
+    if isinstance(track, MotionFault):
+        return track
+    if request.check_end is not None:
+        reason = request.check_end(track.joints[-1])
+        if reason is not None:
+            return MotionFault("configuration", reason, None, 1.0)
+    geometry: Geometry
+    if request.orientation == "wrist_joints":
+        geometry = WristGeometry(model, path, request.tool, track)
+    else:
+        geometry = PathGeometry(model, path, request.tool, track)
+    turn = np.rad2deg(path.turn_rad)
+    with np.errstate(divide="ignore"):
+        speed = min(_over(request.path_speed_mm_s, path.length_mm), _over(request.ori_speed_deg_s, turn))
+        acceleration = min(_over(request.path_acc_mm_s2, path.length_mm), _over(request.ori_acc_deg_s2, turn))
+    if request.orientation == "wrist_joints":
+        wrist = float(np.min(model.speeds[3:] / np.maximum(np.abs(track.joints[-1] - track.joints[0])[3:], 1e-12)))
+        speed, acceleration = min(speed, wrist), min(acceleration, wrist / 0.1)
+    law = _with_external(request, speed, acceleration)
+    checked = _within_axis_speeds(model, track, law, acceleration, request)
+    if isinstance(checked, MotionFault):
+        return checked
+    return _finish(model, request, geometry, checked, slowed=checked is not law)
+
+
+def _over(rate: float, way: float) -> float:
+    return rate / way if way > 1e-9 else np.inf
+
+
+def _path(model: RobotModel, first: FloatArray, request: MoveRequest) -> Path | MotionFault:
+    if request.target_pose is None:
+        goal = model.forward(request.target_joints if request.target_joints is not None else model.home) @ request.tool
+    else:
+        goal = request.target_pose
+    constant = request.orientation == "constant"
+    if request.kind == "linear" or request.via_pose is None:
+        return Line(first, pose_matrix(goal[:3, 3], first[:3, :3]) if constant else goal)
+    arc: Arc | None = arc_through(
+        first,
+        request.via_pose,
+        goal,
+        swept_deg=request.swept_deg,
+        constant_orientation=constant,
+        follow_path=request.circle_orientation == "path",
+    )
+    if arc is None:
+        return MotionFault("degenerate_circle", "the three points lie on a line or coincide: they fix no circle")
+    return arc
+
+
+def _track(model: RobotModel, start: FloatArray, path: Path, request: MoveRequest) -> Track | MotionFault:
+    length, turn = path.length_mm, np.rad2deg(path.turn_rad)
+    if length < 1e-9 and turn < 1e-9:
+        return Track(np.array([0.0, 1.0]), np.stack([start, start]))
+    samples = int(np.clip(np.ceil(max(length / 10.0, turn / 3.0)), 8, 400)) + 1
+    inverse_tool = invert_pose(request.tool)
+    if request.orientation == "wrist_joints":
+        if model.axes < 6:
+            return MotionFault("bad_target", "evenly moving wrist joints need an arm with six joints")
+        end = model.nearest(path.poses(np.ones(1))[0] @ inverse_tool, start)
+        if end is None:
+            return MotionFault("unreachable", "the end of the path is out of reach", None, 1.0)
+        return track_wrist_joints(model, lambda s: path.poses(s)[:, :3, 3], request.tool, start, end, samples)
+    return track_flanges(model, lambda s: path.poses(s) @ inverse_tool, start, samples)
+
+
+def _within_axis_speeds(
+    model: RobotModel, track: Track, law: TimeLaw, acceleration: float, request: MoveRequest
+) -> TimeLaw | MotionFault:
+    """The law itself, a slower one, or the fault that an axis would have to turn too fast."""
+    steps = np.abs(np.diff(track.joints, axis=0))
+    spans = np.maximum(np.diff(law.time_of(track.fractions)), 1e-12)
+    excess = steps / spans[:, None] / model.speeds
+    if excess.size == 0 or excess.max() <= 1.0 + SPEED_SLACK:
+        return law
+    if request.reduce_speed_near_singularity:
+        gaps = np.diff(track.fractions)
+        with np.errstate(divide="ignore"):
+            ceilings = np.min(model.speeds * gaps[:, None] / np.maximum(steps, 1e-12), axis=1)
+        top = float(law.speeds.max())
+        return limited(track.fractions, np.minimum(ceilings, top), acceleration)
+    place, axis = (int(i) for i in np.unravel_index(np.argmax(excess), excess.shape))
+    kind: Literal["singularity", "axis_speed"] = "singularity" if _ill(model, track.joints[place]) else "axis_speed"
+    return MotionFault(
+        kind,
+        f"joint {axis + 1} would have to move at {100.0 * excess[place, axis]:.0f} % of its maximum speed",
+        axis,
+        float(track.fractions[place]),
+    )
+
+
+def _ill(model: RobotModel, joints: FloatArray) -> bool:
+    """Is the arm close to a singular posture?"""
+    jacobian = model.jacobian(joints)
+    reach = max(float(np.linalg.norm(model.forward(joints)[:3, 3])), 1.0)
+    values = np.linalg.svd(np.vstack([jacobian[:3] / reach, jacobian[3:]]), compute_uv=False)
+    smallest = values[min(model.axes, 6) - 1]
+    return bool(values[0] > SINGULAR_CONDITION * smallest)
+
+
+def _with_external(request: MoveRequest, speed: float, acceleration: float) -> TimeLaw:
+    """The law of the whole move, external axes included."""
+    for begin, goal, top in zip(request.external_start, request.external_target, request.external_speeds, strict=False):
+        speed = min(speed, _over(top, abs(goal - begin)))
+        acceleration = min(acceleration, _over(top / 0.3, abs(goal - begin)))
+    return travel(speed, acceleration, request.duration_s)
+
+
+def _finish(model: RobotModel, request: MoveRequest, geometry: Geometry, law: TimeLaw, *, slowed: bool) -> PlannedMove:
+    ends = np.array([0.0, 1.0])
+    joints, poses = geometry.joints(ends), geometry.tcp(ends)
+    begin = np.array(request.external_start, dtype=np.float64)
+    goal = np.array(request.external_target, dtype=np.float64) if request.external_target else begin
+    return PlannedMove(
+        kind=request.kind,
+        start_joints=joints[0],
+        end_joints=joints[1],
+        start_pose=poses[0],
+        end_pose=poses[1],
+        duration_s=law.duration,
+        length_mm=float(geometry.distance(ends)[1]),
+        slowed=slowed,
+        geometry=geometry,
+        law=law,
+        external_start=begin,
+        external_end=goal,
+    )
