@@ -52,7 +52,8 @@ class Dialect:
 
     recognise(path, text) -> 0..100: how sure the content is of this language (never from the extension alone).
     read(sources, diagnostics): all sources of one project together. rules(): the data of its meaning. prelude(): its
-    predefined data and system routines as a module, or None. notation(): arm configuration flags, or None. companions(path): files that belong to a named one where they exist (a data list).
+    predefined data and system routines as a module, or None. notation(): arm configuration flags, or None.
+    companions(path): files that belong to a named one where they exist (a data list).
     """
 
     name: str

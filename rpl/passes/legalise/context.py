@@ -1,0 +1,76 @@
+"""What every legalisation pass is given, and how it makes new names and temporaries."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics
+from rpl.passes.scope import Fold, ProgramScope, rules_of
+
+if TYPE_CHECKING:
+    from rpl.emulator.model import RobotModel
+    from rpl.writing.target import Capabilities
+
+
+@dataclass(slots=True)
+class Context:
+    """`source` and `target` are dialect names. `robot` is the arm the source was written for, `to_robot` the arm that
+    will run the result; either may be None (then what needs it is reported). `taken` are all names in use, folded."""
+
+    source: str
+    target: str
+    capabilities: Capabilities
+    diagnostics: Diagnostics
+    robot: RobotModel | None = None
+    to_robot: RobotModel | None = None
+    taken: set[str] = field(default_factory=set)
+
+    @property
+    def foreign(self) -> bool:
+        """Is the target another language than the source?"""
+        return self.source != self.target
+
+    def fresh(self, stem: str) -> str:
+        """A name that nothing in the program has: `stem`, else `stem2`, `stem3`, ... Deterministic."""
+        fold = Fold(False)
+        name, number = stem, 1
+        while fold(name) in self.taken:
+            number += 1
+            name = f"{stem}{number}"
+        self.taken.add(fold(name))
+        return name
+
+
+Pass = Callable[[ir.Program, Context], ir.Program]
+
+
+def names_in(program: ir.Program) -> set[str]:
+    """All declared names of the program and of its dialects' preludes, folded to lower case."""
+    taken: set[str] = set()
+    for module in program.modules:
+        taken.add(module.name.lower())
+        for declaration in module.declarations:
+            _add(declaration, taken)
+        for routine in module.routines:
+            taken.add(routine.name.lower())
+            taken.update(parameter.name.lower() for parameter in routine.parameters)
+            for declaration in routine.declarations:
+                _add(declaration, taken)
+    return taken
+
+
+def _add(declaration: ir.Declaration, taken: set[str]) -> None:
+    match declaration:
+        case ir.EnumDeclaration(name=name, members=members):
+            taken.add(name.lower())
+            taken.update(member.lower() for member in members)
+        case ir.Initialise() | ir.Unread():
+            return
+        case _:
+            taken.add(declaration.name.lower())
+
+
+__all__ = ["Context", "Pass", "ProgramScope", "names_in", "rules_of"]
