@@ -4,15 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
+from rpl.passes.capabilities import Capabilities
 from rpl.passes.scope import Fold, ProgramScope, rules_of
 
-if TYPE_CHECKING:
-    from rpl.emulator.model import RobotModel
-    from rpl.writing.target import Capabilities
+
+class Arm(Protocol):
+    """What the passes need to know of an arm (rpl.emulator.model.RobotModel is one). Joints in its own units (deg, mm),
+    poses as 4x4 matrices in mm, flange in the robot's base frame."""
+
+    @property
+    def name(self) -> str: ...
+
+    def forward(self, joints: Any) -> Any: ...
+
+    def nearest(self, flange: Any, reference: Any) -> Any: ...
+
+    def within_limits(self, joints: Any) -> Any: ...
 
 
 @dataclass(slots=True)
@@ -24,8 +35,8 @@ class Context:
     target: str
     capabilities: Capabilities
     diagnostics: Diagnostics
-    robot: RobotModel | None = None
-    to_robot: RobotModel | None = None
+    robot: Arm | None = None
+    to_robot: Arm | None = None
     taken: set[str] = field(default_factory=set)
 
     @property

@@ -1,0 +1,48 @@
+"""What a target's controller can say, as data. The passes ask this record, never the target's name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class NameRules:
+    """What the target accepts as a name. `reserved` in lower case when names are case-insensitive."""
+
+    longest: int
+    case_sensitive: bool
+    reserved: frozenset[str]
+    first: str = "abcdefghijklmnopqrstuvwxyz"
+    further: str = "abcdefghijklmnopqrstuvwxyz0123456789_"
+
+
+@dataclass(frozen=True, slots=True)
+class Capabilities:
+    """What the target's controller can say. passes.legalise rewrites the rest before writing.
+
+    statements: names of IR statement classes the writer prints (a Move may still be refused for one of its settings).
+    functions, procedures, system_variables: neutral names (ir.builtins) the writer prints.
+    operators: operators printed as they are. modal_motion: tool, frame, speed and blend are modal (KRL); otherwise each
+    move names them (RAPID). for_at_least_once / for_scoped / for_automatic: the target's FOR has exactly that rule.
+    notation: arm configuration notation; rotation: `zyx` (a, b, c) or `quaternion` (rot) components.
+    types: names of type classes that can be declared.
+    """
+
+    statements: frozenset[str]
+    functions: frozenset[str]
+    procedures: frozenset[str]
+    system_variables: frozenset[str]
+    operators: frozenset[str]
+    types: frozenset[str]
+    names: NameRules
+    modal_motion: bool
+    notation: str
+    rotation: str
+    for_at_least_once: bool = False
+    for_scoped: bool = False
+    for_automatic: bool = False
+    error_handlers: bool = False
+    optional_parameters: bool = False
+    short_circuit: bool = False
+    enums: bool = False
+    conversions: frozenset[str] = frozenset()
