@@ -1,1 +1,1 @@
-"""IR to text: expression printing, number style, names, layout, the emission ledger. Templates live with the targets."""
+"""IR to text: expressions, numbers, names, layout, the emission ledger. Templates live with the targets."""

@@ -1,0 +1,247 @@
+"""Numbers, names, texts and lines as a target wants them: what every printer shares, driven by the target's data.
+
+Three promises stand here once for all targets: a value that is not zero never prints as zero and `-0` prints as `0`; a
+printed number reads back within half a unit of its last place; two names that differ for the source never become one.
+"""
+
+from __future__ import annotations
+
+import math
+import unicodedata
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from decimal import ROUND_HALF_EVEN, Decimal
+
+from rpl.errors import InternalError
+from rpl.writing.target import NameRules
+
+
+@dataclass(frozen=True, slots=True)
+class NumberStyle:
+    """How a target spells numbers.
+
+    always_point: a real has a point (`1.0`). exponent: the sign before an exponent, empty when the target knows none.
+    smallest_plain, largest_plain: magnitudes outside are written with an exponent. signed_exponent: `1E+20`.
+    """
+
+    always_point: bool = False
+    exponent: str = "E"
+    smallest_plain: float = 1e-4
+    largest_plain: float = 1e15
+    signed_exponent: bool = False
+
+
+PLAIN = NumberStyle()
+ALWAYS_POINT = NumberStyle(always_point=True)
+
+
+def number_text(value: float, decimals: int | None = None, style: NumberStyle = PLAIN) -> str:
+    """The number as text: with at most `decimals` places (zeros behind cut off), without it exact.
+
+    A value too small for the places asked for is written to three significant digits instead of as zero.
+    """
+    if isinstance(value, int):
+        return str(int(value))
+    if not math.isfinite(value):
+        raise InternalError(f"the number {value} cannot be written")
+    if value == 0:
+        return "0.0" if style.always_point else "0"
+    exact = Decimal(repr(value))
+    if decimals is not None:
+        rounded = round_decimal(exact, decimals)
+        exact = rounded if rounded else significant(exact, 3)
+    exact = exact.normalize()
+    magnitude = abs(exact)
+    outside = magnitude >= Decimal(style.largest_plain) or magnitude < Decimal(style.smallest_plain)
+    if outside and style.exponent and (decimals is None or magnitude < Decimal(1).scaleb(-decimals) or magnitude > 1):
+        return _with_exponent(exact, style)
+    text = format(exact, "f")
+    if style.always_point and "." not in text:
+        text += ".0"
+    return text
+
+
+def _with_exponent(exact: Decimal, style: NumberStyle) -> str:
+    sign, digits, _ = exact.as_tuple()
+    mantissa = str(digits[0]) + ("." + "".join(map(str, digits[1:])) if len(digits) > 1 else "")
+    if style.always_point and "." not in mantissa:
+        mantissa += ".0"
+    power = exact.adjusted()
+    plus = "+" if style.signed_exponent and power >= 0 else ""
+    return f"{'-' if sign else ''}{mantissa}{style.exponent}{plus}{power}"
+
+
+def round_decimal(value: Decimal, decimals: int) -> Decimal:
+    """Rounded to a count of places, whatever the size of the number."""
+    if value.adjusted() + decimals > 25:  # far more digits than a float has: nothing to round
+        return value
+    return value.quantize(Decimal(1).scaleb(-decimals), ROUND_HALF_EVEN)
+
+
+def significant(value: Decimal, digits: int) -> Decimal:
+    """Rounded to a count of significant digits."""
+    return value.quantize(Decimal(1).scaleb(value.adjusted() - digits + 1), ROUND_HALF_EVEN)
+
+
+def quoted(text: str, quote: str = '"', escapes: Mapping[str, str] | None = None) -> str:
+    """The text between quotes; `escapes` says how the target writes single characters (RAPID: `"` and `\\` doubled)."""
+    table = {quote: quote * 2} if escapes is None else escapes
+    return quote + "".join(table.get(sign, sign) for sign in text) + quote
+
+
+def comment_lines(text: str, sign: str, width: int = 0, end: str = "") -> list[str]:
+    """The remark as comment lines, each with the target's sign. `width` 0: as long as they are."""
+    lines: list[str] = []
+    room = max(width - len(sign) - len(end), 20) if width else 0
+    for line in text.splitlines() or [""]:
+        for part in wrapped(line, room) if room else [line]:
+            lines.append(f"{sign}{part}{end}".rstrip() if not end else f"{sign}{part}{end}")
+    return lines
+
+
+def wrapped(line: str, width: int) -> list[str]:
+    """A line of prose cut at blanks (inside a word only when it alone is too long); joining the parts gives it back."""
+    parts = []
+    while len(line) > width:
+        at = line.rfind(" ", 1, width) + 1
+        cut = at if at > 1 and line[:at].strip() else width
+        parts.append(line[:cut])
+        line = line[cut:]
+    return [*parts, line]
+
+
+def wrapped_code(
+    line: str, width: int, indent: str, quotes: str = '"', behind: str = "", before: str = ""
+) -> list[str]:
+    """A line of code cut behind commas, blanks or opening brackets outside of texts; further lines are indented.
+
+    `behind` ends a line that goes on, `before` begins the next one. A line with no place to cut stays long.
+    """
+    lines, rest = [], line
+    while len(rest) > width:
+        cut = _last_cut(rest, width - len(behind), quotes)
+        if cut is None:
+            break
+        lines.append(rest[:cut].rstrip() + behind)
+        shorter = indent + before + rest[cut:].lstrip()
+        if len(shorter) >= len(rest):
+            rest = shorter
+            break
+        rest = shorter
+    return [*lines, rest]
+
+
+def _last_cut(line: str, width: int, quotes: str) -> int | None:
+    inside, cut = "", None
+    start = len(line) - len(line.lstrip())
+    for at, sign in enumerate(line[: max(width, 0)]):
+        if inside:
+            inside = "" if sign == inside else inside
+        elif sign in quotes:
+            inside = sign
+        elif at > start and sign in ",( ":
+            cut = at + 1
+    return cut
+
+
+class NameMangler:
+    """Names of a program made legal for a target, the same way every time; `restore` gives the source's name back.
+
+    One source name becomes one target name wherever it stands. `names` are all names of the program: those that are
+    legal keep their spelling, whatever the others need. Taken names are compared as the target compares them.
+    """
+
+    __slots__ = ("_back", "_forth", "_rules", "_source_sensitive", "_taken")
+
+    def __init__(self, rules: NameRules, names: Iterable[str] = (), *, source_case_sensitive: bool = False) -> None:
+        self._rules = rules
+        self._source_sensitive = source_case_sensitive
+        self._forth: dict[str, str] = {}
+        self._back: dict[str, str] = {}
+        self._taken: set[str] = set()
+        ordered = list(dict.fromkeys(names))
+        for name in ordered:
+            if self.legal(name) and self._folded(name) not in self._taken:
+                self._keep(name, name)
+        for name in ordered:
+            self.name(name)
+
+    def legal(self, name: str) -> bool:
+        """May the target use this name as it is (apart from other names)?"""
+        rules = self._rules
+        return (
+            0 < len(name) <= rules.longest
+            and name[0].lower() in rules.first
+            and all(sign.lower() in rules.further for sign in name[1:])
+            and not self._reserved(name)
+        )
+
+    def name(self, source: str) -> str:
+        """The target's name for a source's name."""
+        known = self._forth.get(self._key(source))
+        if known is not None:
+            return known
+        return self._keep(source, self._free(self._spelled(source)))
+
+    def fresh(self, hint: str) -> str:
+        """A new name that no source name has; it restores to itself."""
+        found = self._free(self._spelled(hint))
+        self._taken.add(self._folded(found))
+        return found
+
+    def restore(self, target: str) -> str:
+        """The source's name of a target's name (itself when nothing was renamed to it)."""
+        return self._back.get(self._folded(target), target)
+
+    def renamed(self) -> dict[str, str]:
+        """Source name -> target name of every name that changed, in order of first use."""
+        return {self._back[self._folded(new)]: new for new in self._forth.values() if self.restore(new) != new}
+
+    def _key(self, source: str) -> str:
+        return source if self._source_sensitive else source.lower()
+
+    def _folded(self, target: str) -> str:
+        return target if self._rules.case_sensitive else target.lower()
+
+    def _reserved(self, name: str) -> bool:
+        return self._folded(name) in self._rules.reserved
+
+    def _keep(self, source: str, target: str) -> str:
+        self._forth[self._key(source)] = target
+        self._back[self._folded(target)] = source
+        self._taken.add(self._folded(target))
+        return target
+
+    def _spelled(self, source: str) -> str:
+        rules = self._rules
+        plain = unicodedata.normalize("NFKD", source)
+        filler = "_" if "_" in rules.further else ""
+        signs = [sign if sign.lower() in rules.further else filler for sign in plain if not unicodedata.combining(sign)]
+        text = "".join(signs)
+        if not text or text[0].lower() not in rules.first:
+            text = f"{'n' if 'n' in rules.first else rules.first[0]}{text}"
+        return text
+
+    def _free(self, wanted: str) -> str:
+        count = 1
+        while True:
+            tail = "" if count == 1 else f"_{count}" if "_" in self._rules.further else str(count)
+            candidate = wanted[: self._rules.longest - len(tail)] + tail
+            if self._folded(candidate) not in self._taken and self.legal(candidate):
+                return candidate
+            count += 1
+            if count > 1_000_000:
+                raise InternalError(f"no free name for {wanted!r} in {self._rules.longest} characters")
+
+
+__all__ = [
+    "ALWAYS_POINT",
+    "PLAIN",
+    "NameMangler",
+    "NumberStyle",
+    "comment_lines",
+    "number_text",
+    "quoted",
+    "wrapped",
+    "wrapped_code",
+]
