@@ -1,0 +1,261 @@
+"""Bring along what the source language predefines: a target knows its own system routines and data, not another's.
+
+The parts of the source's prelude that the program uses, directly or through other parts, become modules of the program.
+Calls of small system routines with a constant selector (`BAS(#INITMOV,0)`) are replaced by what they do.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir, registry
+from rpl.passes.legalise.context import Context
+from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.typing import normalise
+
+_LONGEST_INLINED = 40
+
+
+def link_prelude(program: ir.Program, context: Context) -> ir.Program:
+    """The program with the used part of each source dialect's prelude as a module of its own."""
+    modules = list(program.modules)
+    for dialect in sorted({module.dialect for module in program.modules}):
+        prelude = registry.dialect(dialect).prelude()
+        if prelude is None:
+            continue
+        prelude = normalise(ir.Program((replace(prelude, dialect=dialect),)), context.diagnostics).modules[0]
+        modules = [_inlined(module, prelude) if module.dialect == dialect else module for module in modules]
+        linked = _used_part(prelude, [module for module in modules if module.dialect == dialect], context)
+        if linked is not None:
+            modules.append(linked)
+    return replace(program, modules=tuple(modules))
+
+
+# ---- what is used
+
+
+class _Uses:
+    """Names that a piece of IR mentions, folded."""
+
+    def __init__(self) -> None:
+        self.names: set[str] = set()
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        match expression:
+            case ir.Name(id=name):
+                self.names.add(name.lower())
+            case ir.Call(name=name):
+                self.names.add(name.lower())
+            case ir.EnumLiteral(member=member):
+                self.names.add(f"#{member.lower()}")
+            case ir.Aggregate(type_name=word) if word:
+                self.names.add(word.lower())
+        return rewrite_parts(expression, self.expression)
+
+    def body(self, body: ir.Body) -> ir.Body:
+        for statement in body:
+            match statement:
+                case ir.CallRoutine(name=name):
+                    self.names.add(name.lower())
+                case ir.ConnectInterrupt(routine=name):
+                    self.names.add(name.lower())
+            rewrite_parts(statement, self.expression, self.body)
+        return body
+
+    def type(self, type: ir.Type | None) -> None:
+        match type:
+            case ir.NamedType(name=name):
+                self.names.add(name.lower())
+            case ir.ArrayType(element=element):
+                self.type(element)
+                rewrite_parts(type, self.expression)
+
+    def declaration(self, declaration: ir.Declaration) -> None:
+        match declaration:
+            case ir.Variable(type=type, initial=initial):
+                self.type(type)
+                if initial is not None:
+                    self.expression(initial)
+            case ir.RecordDeclaration(fields=fields):
+                for _, type in fields:
+                    self.type(type)
+            case ir.AliasDeclaration(type=type):
+                self.type(type)
+            case ir.Initialise(assign=assign):
+                self.body((assign,))
+
+    def routine(self, routine: ir.Routine) -> None:
+        for parameter in routine.parameters:
+            self.type(parameter.type)
+        self.type(routine.returns)
+        for declaration in routine.declarations:
+            self.declaration(declaration)
+        self.body(routine.body)
+        for handler in routine.handlers:
+            for one in handler.codes:
+                self.expression(one)
+            self.body(handler.body)
+        self.body(routine.undo)
+        self.body(routine.backward)
+
+
+def _keys(declaration: ir.Declaration) -> list[str]:
+    match declaration:
+        case ir.EnumDeclaration(name=name, members=members):
+            return [name.lower(), *(f"#{member.lower()}" for member in members)]
+        case ir.Initialise(assign=ir.Assign(target=target)):
+            base = target
+            while isinstance(base, ir.Index | ir.Field):
+                base = base.base
+            return [base.id.lower()] if isinstance(base, ir.Name) else []
+        case ir.Unread():
+            return []
+    return [declaration.name.lower()]
+
+
+def _used_part(prelude: ir.Module, modules: list[ir.Module], context: Context) -> ir.Module | None:
+    uses = _Uses()
+    own: set[str] = set()
+    for module in modules:
+        for declaration in module.declarations:
+            uses.declaration(declaration)
+            own.update(_keys(declaration))
+        for routine in module.routines:
+            uses.routine(routine)
+            own.add(routine.name.lower())
+    kept: set[int] = set()
+    size = -1
+    while len(kept) != size:
+        size = len(kept)
+        for declaration in prelude.declarations:
+            keys = _keys(declaration)
+            if id(declaration) not in kept and any(key in uses.names and key not in own for key in keys):
+                kept.add(id(declaration))
+                uses.declaration(declaration)
+        for routine in prelude.routines:
+            name = routine.name.lower()
+            if id(routine) not in kept and name in uses.names and name not in own:
+                kept.add(id(routine))
+                uses.routine(routine)
+    if not kept:
+        return None
+    return replace(
+        prelude,
+        name=context.fresh(f"{prelude.dialect}_base"),
+        declarations=tuple(_shared(d) for d in prelude.declarations if id(d) in kept),
+        routines=tuple(replace(r, scope="global") for r in prelude.routines if id(r) in kept),
+    )
+
+
+def _shared(declaration: ir.Declaration) -> ir.Declaration:
+    match declaration:
+        case ir.Variable() | ir.RecordDeclaration() | ir.EnumDeclaration() | ir.AliasDeclaration():
+            return replace(declaration, scope="global")
+    return declaration
+
+
+# ---- inlining of system routines with a constant selector
+
+
+def _inlined(module: ir.Module, prelude: ir.Module) -> ir.Module:
+    routines = {routine.name.lower(): routine for routine in prelude.routines}
+    own = {routine.name.lower() for routine in module.routines}
+
+    def body(statements: ir.Body) -> ir.Body:
+        done: list[ir.Statement] = []
+        for statement in statements:
+            if isinstance(statement, ir.CallRoutine) and statement.name.lower() not in own:
+                routine = routines.get(statement.name.lower())
+                chosen = _specialised(routine, statement) if routine else None
+                if chosen is not None:
+                    done.extend(body(chosen))
+                    continue
+            done.append(rewrite_parts(statement, lambda expression: expression, body))
+        return tuple(done)
+
+    return replace(module, routines=tuple(replace(routine, body=body(routine.body)) for routine in module.routines))
+
+
+def _specialised(routine: ir.Routine, call: ir.CallRoutine) -> ir.Body | None:
+    """The statements the call stands for, when the routine is one Switch over a parameter given as a constant."""
+    if routine.declarations or routine.handlers or len(call.arguments) > len(routine.parameters):
+        return None
+    given: dict[str, ir.Expression] = {}
+    for parameter, argument in zip(routine.parameters, call.arguments, strict=False):
+        if argument.value is None or argument.name or not _repeatable(argument.value):
+            return None
+        given[parameter.name.lower()] = argument.value
+    statements = [statement for statement in routine.body if not isinstance(statement, ir.Nothing)]
+    if len(statements) != 1 or not isinstance(statements[0], ir.Switch):
+        return None
+    switch = statements[0]
+    if not isinstance(switch.selector, ir.Name):
+        return None
+    selector = given.get(switch.selector.id.lower())
+    if not isinstance(selector, ir.EnumLiteral | ir.IntLiteral):
+        return None
+    chosen: ir.Body | None = switch.default
+    for case in switch.cases:
+        if any(_same_constant(value, selector) for value in case.values):
+            chosen = case.body
+            break
+    if chosen is None:
+        chosen = ()
+    missing = {parameter.name.lower() for parameter in routine.parameters} - set(given)
+    uses = _Uses()
+    uses.body(chosen)
+    if uses.names & missing or len(chosen) > _LONGEST_INLINED or _jumps(chosen):
+        return None
+    replaced = _Substitute(given).body(chosen)
+    if not replaced:
+        return (ir.Nothing(origin=call.origin),)
+    origin = call.origin
+    return tuple(
+        replace(statement, origin=origin if at == 0 else replace(origin, comments=()))
+        for at, statement in enumerate(replaced)
+    )
+
+
+def _repeatable(value: ir.Expression) -> bool:
+    return isinstance(
+        value, ir.EnumLiteral | ir.IntLiteral | ir.RealLiteral | ir.BoolLiteral | ir.Name | ir.TextLiteral
+    ) or (isinstance(value, ir.Unary | ir.Convert) and _repeatable(value.operand))
+
+
+def _same_constant(one: ir.Expression, other: ir.Expression) -> bool:
+    match one, other:
+        case ir.EnumLiteral(member=a), ir.EnumLiteral(member=b):
+            return a.lower() == b.lower()
+        case ir.IntLiteral(value=c), ir.IntLiteral(value=d):
+            return c == d
+    return False
+
+
+def _jumps(body: ir.Body) -> bool:
+    found = False
+
+    def look(statements: ir.Body) -> ir.Body:
+        nonlocal found
+        for statement in statements:
+            if isinstance(statement, ir.Return | ir.Goto | ir.Label | ir.For):
+                found = True
+            rewrite_parts(statement, lambda expression: expression, look)
+        return statements
+
+    look(body)
+    return found
+
+
+class _Substitute:
+    """Replaces parameters by the arguments of one call."""
+
+    def __init__(self, given: dict[str, ir.Expression]) -> None:
+        self.given = given
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        if isinstance(expression, ir.Name):
+            return self.given.get(expression.id.lower(), expression)
+        return rewrite_parts(expression, self.expression)
+
+    def body(self, body: ir.Body) -> ir.Body:
+        return tuple(rewrite_parts(statement, self.expression, self.body) for statement in body)
