@@ -11,6 +11,7 @@ import os
 import re
 import sys
 import tempfile
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
@@ -35,11 +36,14 @@ NUMBERS = re.compile(
 LONGEST_STATEMENT = 2_000_000
 DEEPEST_EXPRESSION = 150
 _CACHED_SHAPES = 50_000
+# What stands for a taken-out piece in a shape: pattern group -> terminal and its stand-in text.
+NUMBER_SLOTS: Mapping[str, tuple[str, str]] = {"real": ("REAL", "0.5"), "int": ("INT", "0")}
 
 
 @dataclass(frozen=True, slots=True)
 class Slot:
-    """Place of a number in a parsed shape: `index` into the statement's numbers, `real` when written as a real."""
+    """Place of a number (or of a name or text, where the dialect takes these out too) in a parsed shape: `index` into
+    the pieces taken out, `real` when written as a real."""
 
     index: int
     real: bool
@@ -59,22 +63,31 @@ class StatementError(RplError):
 class ShapeParser:
     """Parses statements of one grammar with the rule `statement`; keeps the trees of shapes already seen."""
 
-    def __init__(self, grammar: str, numbers: re.Pattern[str] = NUMBERS) -> None:
-        """`grammar`: file name in rpl.grammars. Its number terminals are named INT and REAL."""
+    def __init__(
+        self,
+        grammar: str,
+        numbers: re.Pattern[str] = NUMBERS,
+        slots: Mapping[str, tuple[str, str]] = NUMBER_SLOTS,
+    ) -> None:
+        """`grammar`: file name in rpl.grammars. Its number terminals are named INT and REAL. A dialect whose statements
+        differ mostly in names or texts takes these out too: further groups of its pattern with their `slots`."""
         self._lark = load_grammar(grammar)
         self._numbers = numbers
+        self._stand_ins = {group: text for group, (_, text) in slots.items()}
+        self._terminals = {terminal: text for terminal, text in slots.values()}
         self._trees: dict[str, SyntaxTree] = {}
 
     def parse(self, text: str) -> tuple[SyntaxTree, tuple[str, ...]]:
         """Tree of the statement's shape, and the spelling of its numbers in order. Raises StatementError."""
         found: list[str] = []
+        stand_ins = self._stand_ins
 
         def take(match: re.Match[str]) -> str:
             kind = match.lastgroup
             if kind is None:
                 return match.group()
             found.append(match.group())
-            return "0.5" if kind == "real" else "0"
+            return stand_ins[kind]
 
         shape = self._numbers.sub(take, text)
         tree = self._trees.get(shape)
@@ -99,14 +112,12 @@ class ShapeParser:
                 _refuse(error, text)
             raise StatementError("a number stands where none can be", 0) from None
         tokens = [
-            token for token in tree.scan_values(lambda value: isinstance(value, Token)) if token.type in ("INT", "REAL")
+            token
+            for token in tree.scan_values(lambda value: isinstance(value, Token))
+            if self._terminals.get(token.type) == token
         ]
         order = {id(token): index for index, token in enumerate(sorted(tokens, key=lambda token: token.start_pos or 0))}
         return _with_slots(tree, order)
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, Token) and value.type in ("INT", "REAL")
 
 
 def _with_slots(tree: Tree[Token], order: dict[int, int]) -> SyntaxTree:
@@ -114,7 +125,7 @@ def _with_slots(tree: Tree[Token], order: dict[int, int]) -> SyntaxTree:
     for child in tree.children:
         if isinstance(child, Tree):
             children.append(_with_slots(child, order))
-        elif child is not None and child.type in ("INT", "REAL"):
+        elif child is not None and id(child) in order:
             children.append(Slot(order[id(child)], child.type == "REAL"))
         else:
             children.append(child)
