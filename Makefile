@@ -1,0 +1,45 @@
+# `make demo` and `make test` set up all they need in .venv; a second run needs no network.
+PYTHON ?= python3
+VENV ?= .venv
+BIN := $(VENV)/bin
+ROBOT ?= kuka_kr6r900sixx
+TO_ROBOT ?= abb_irb120_3_58
+WORKERS ?= 2
+
+.PHONY: demo test lint types clean
+
+# The stamps say which set of packages the environment has; pyproject.toml decides when that is out of date.
+$(VENV)/.demo-ready: pyproject.toml setup.py
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	test -f $(VENV)/.test-ready || $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[kinematics]'
+	touch $@
+
+$(VENV)/.test-ready: pyproject.toml setup.py
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[kinematics,test,dev]' 'setuptools>=75'
+	touch $@
+
+demo: $(VENV)/.demo-ready
+	@echo "== A KUKA palletiser, checked:"
+	$(BIN)/rpl check samples/krl/palletiser
+	@echo "== Run on the emulated KUKA arm:"
+	$(BIN)/rpl run samples/krl/palletiser --robot $(ROBOT)
+	@echo "== Written for an ABB arm, and proved:"
+	rm -rf demo-out
+	$(BIN)/rpl translate samples/krl/palletiser --to rapid --robot $(ROBOT) --to-robot $(TO_ROBOT) -o demo-out --prove
+	@echo "== The ABB program is in demo-out:"
+	@ls -l demo-out
+
+test: $(VENV)/.test-ready
+	$(BIN)/python -m pytest -n $(WORKERS) -m "not slow"
+
+lint: $(VENV)/.test-ready
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(VENV)/.test-ready
+	$(BIN)/mypy
+
+clean:
+	rm -rf demo-out build dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis $(VENV)/.demo-ready $(VENV)/.test-ready
+	find . -name __pycache__ -not -path './$(VENV)/*' -prune -exec rm -rf {} +

@@ -1,0 +1,124 @@
+"""`rpl`: finds the command, runs it, and turns every mistake into one line and an exit status, never a traceback.
+
+Commands give back their exit status: 0 as asked, 1 the answer is no, 2 bad usage, 3 written with guarded stops.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+
+import click
+
+from rpl import __version__
+from rpl.errors import InternalError, RplError, UsageError
+
+OK, NO, USAGE, GUARDED = 0, 1, 2, 3
+_INTERRUPTED, _PIPE_CLOSED = 130, 141
+
+# Name -> what the list of commands says. Each lives in rpl.cli.<name> as `command`.
+COMMANDS = {
+    "dialects": "List the languages that can be read and written.",
+    "robots": "List the robot models that come with the package.",
+    "check": "Read programs and report what cannot be read or makes no sense.",
+    "translate": "Write programs in another controller's language.",
+    "run": "Run a program on an emulated robot.",
+    "prove": "Decide by running both whether two programs mean the same.",
+    "fk": "Forward kinematics: joints to a pose in a dialect's notation.",
+    "ik": "Inverse kinematics: a pose to all joint solutions.",
+    "repl": "Try RPL statements one by one on an emulated robot.",
+}
+
+
+class LazyGroup(click.Group):
+    """A group whose commands are imported when called; the list of commands needs no import."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name not in COMMANDS:
+            return None
+        found = import_module(f"rpl.cli.{cmd_name}").command
+        assert isinstance(found, click.Command)
+        return found
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        if args and args[0] not in COMMANDS and not args[0].startswith("-"):
+            from difflib import get_close_matches
+
+            close = get_close_matches(args[0], COMMANDS, 1)
+            hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(COMMANDS)}"
+            raise click.UsageError(f"no command {args[0]!r}; {hint}", ctx)
+        return super().resolve_command(ctx, args)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+
+@click.command(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(__version__, prog_name="rpl", message="%(prog)s %(version)s")
+def rpl() -> None:
+    """Read, run, translate and prove industrial robot programs of any brand."""
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Entry point of the console script. Always ends by SystemExit."""
+    sys.exit(run(arguments))
+
+
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Run one command line and give its exit status."""
+    try:
+        result = rpl.main(list(arguments) if arguments is not None else None, "rpl", standalone_mode=False)
+        sys.stdout.flush()
+        return result if isinstance(result, int) else OK
+    except click.exceptions.Exit as end:
+        return int(end.exit_code)
+    except click.Abort:
+        return _INTERRUPTED
+    except click.ClickException as error:
+        _say(f"rpl: {error.format_message()}")
+        return USAGE
+    except KeyboardInterrupt:
+        _say("rpl: interrupted")
+        return _INTERRUPTED
+    except BrokenPipeError:
+        # Whoever read our output went away: no message, and nothing more to flush at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return _PIPE_CLOSED
+    except UsageError as error:
+        _say(f"rpl: {error}")
+        return USAGE
+    except InternalError as error:
+        _say(f"rpl: internal error, please report it with the input: {error}")
+        return NO
+    except RplError as error:
+        _say(f"rpl: {error}")
+        return NO
+    except OSError as error:
+        name = f"{error.filename}: " if error.filename else ""
+        _say(f"rpl: {name}{error.strerror or error}")
+        return USAGE
+    except (RecursionError, MemoryError) as error:
+        _say(f"rpl: the input is too large or too deeply nested ({type(error).__name__})")
+        return NO
+    except ModuleNotFoundError as error:
+        _say(f"rpl: this needs the package {error.name}: pip install 'robot-rpl[kinematics]'")
+        return USAGE
+
+
+def _say(line: str) -> None:
+    try:
+        click.echo(" ".join(line.splitlines()), err=True)
+    except OSError:
+        return  # standard error is closed too: the exit status says what is left to say
+
+
+if __name__ == "__main__":
+    main()

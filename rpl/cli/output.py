@@ -1,0 +1,126 @@
+"""What all commands print the same way: JSON documents, diagnostics, options, and waiting on a terminal."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+import threading
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from rpl.diagnostics import Diagnostic, Diagnostics, Severity
+from rpl.errors import UsageError
+
+if TYPE_CHECKING:
+    from rpl.emulator.model import RobotModel
+
+Decorated = TypeVar("Decorated", bound=Callable[..., Any])
+_PATIENCE_S = 0.7
+
+json_option = click.option("--json", "as_json", is_flag=True, help="One JSON document on stdout and nothing else.")
+from_option = click.option("--from", "dialect", metavar="D", help="Language of the source; else seen from its content.")
+robot_option = click.option("--robot", metavar="R", help="Arm the program was written for: a name or a .toml file.")
+accept_option = click.option("--accept", "accepted", multiple=True, metavar="CODE", help="Acknowledge a report's code.")
+paths_argument = click.argument("paths", nargs=-1, required=True, metavar="PATH...")
+
+
+def print_json(document: object) -> None:
+    """One JSON document on one line. Numbers that JSON lacks become null."""
+    click.echo(json.dumps(plain(document), ensure_ascii=False, allow_nan=False))
+
+
+def plain(value: object) -> object:
+    """The value with tuples as lists and what JSON has no number for as null."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, dict):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    return value
+
+
+def print_diagnostics(items: Iterable[Diagnostic], least: Severity = Severity.INFO) -> None:
+    """Reports on stderr, one per line, from this severity on."""
+    for item in items:
+        if item.severity >= least:
+            click.echo(" ".join(item.as_text().splitlines()), err=True)
+
+
+def collector(accepted: Sequence[str] = ()) -> Diagnostics:
+    """A collector that has acknowledged these codes."""
+    return Diagnostics(accepted=frozenset(accepted))
+
+
+def robot_named(name: str | None) -> RobotModel | None:
+    """The robot of that name. Raises UsageError when there is none."""
+    if name is None:
+        return None
+    from rpl.emulator.model import load_robot
+
+    return load_robot(name)
+
+
+def dialect_exists(name: str | None) -> str | None:
+    """The name again, if there is such a dialect. Raises UsageError otherwise."""
+    from rpl import registry
+
+    return registry.dialect(name).name if name is not None else None
+
+
+def numbers(text: str, what: str, count: int | None = None) -> list[float]:
+    """Numbers separated by commas or blanks. Raises UsageError that names what is wrong."""
+    values = []
+    for part in text.replace(",", " ").split():
+        try:
+            value = float(part)
+        except ValueError:
+            raise UsageError(f"{what}: {part!r} is not a number; write them like 0,-90,90,0,0,0") from None
+        if not math.isfinite(value):
+            raise UsageError(f"{what}: {part!r} is not a finite number")
+        values.append(value)
+    if count is not None and len(values) != count:
+        raise UsageError(f"{what}: {count} numbers are needed, {len(values)} are given")
+    return values
+
+
+def write_file(path: Path, data: bytes) -> None:
+    """Write a file and the folders above it. Raises UsageError when the system refuses."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+    except OSError as error:
+        raise UsageError(f"cannot write {path}: {error.strerror or error}") from None
+
+
+@contextmanager
+def waiting(text: str) -> Iterator[None]:
+    """Shows on a terminal, after a moment, that work goes on. Elsewhere it costs and prints nothing."""
+    if not sys.stderr.isatty():
+        yield
+        return
+    done = threading.Event()
+    thread = threading.Thread(target=_show, args=(text, done), daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        done.set()
+        thread.join()
+
+
+def _show(text: str, done: threading.Event) -> None:
+    if done.wait(_PATIENCE_S):
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        progress.add_task(text, total=None)
+        done.wait()
