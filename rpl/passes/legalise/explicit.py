@@ -1,0 +1,304 @@
+"""Explicit motion to modal motion, for targets where tool, frame, speed and blend are modal (KRL).
+
+Before a move the modal variables that differ from what is known to be set are set; at labels, loops and calls nothing is
+known. Components of constant data are written as numbers. Mappings that change the measure are those of modal.py, read
+backwards, and reported once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.diagnostics import Code, Severity, code
+from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.modal import DROPPED, JOINT_BLEND, MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
+from rpl.passes.legalise.usage import base_name, usage_of
+from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import Scope
+from rpl.passes.typing import component_names, type_of
+from rpl.source import Origin
+
+JOINT_TOOL_SPEED = code(
+    "approximated-tool-speed",
+    Severity.WARNING,
+    "a joint move's tool speed has no counterpart; it is written in percent of the axes ({factor:g} mm/s a percent)",
+)
+TIMED_MOVE = code(
+    "approximated-move-time", Severity.WARNING, "the target has no move of a given time; the move keeps its speed"
+)
+FIXED_TOOL = code("fixed-tool", Severity.LOSS, "a tool that the robot does not hold is not carried over")
+EARLY_LOGIC = code(
+    "early-logic",
+    Severity.INFO,
+    "this statement runs before the corner path on the source; a look-ahead permission keeps the blend on the target",
+)
+
+# Settings of the source's controller that only steer how it interpolates or checks; a target without them drops them.
+_CHECKS = frozenset(
+    {
+        *("joint_configuration_check", "path_configuration_check", "singularity_mode", "acceleration_percent"),
+        *("acceleration_ramp", "deceleration_percent", "speed_limit", "load"),
+    }
+)
+
+
+def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets with modal motion; moves without explicit settings stay as they are."""
+    if not context.capabilities.modal_motion:
+        return program
+    scopes = ProgramScope(program)
+    assigned = usage_of(program).assigned
+    reported: set[Code] = set()
+    modules = []
+    for module in program.modules:
+        routines = []
+        for routine in module.routines:
+            worker = _Modal(context, scopes.routine(module, routine), assigned, reported)
+            handlers = tuple(replace(handler, body=worker.body(handler.body, {})) for handler in routine.handlers)
+            routines.append(replace(routine, body=worker.body(routine.body, {}), handlers=handlers))
+        modules.append(replace(module, routines=tuple(routines)))
+    return replace(program, modules=tuple(modules))
+
+
+Environment = dict[str, ir.Expression]
+
+
+class _Modal:
+    def __init__(self, context: Context, scope: Scope, assigned: set[str], reported: set[Code]) -> None:
+        self.context, self.scope, self.assigned, self.reported = context, scope, assigned, reported
+
+    def report_once(self, what: Code, statement: ir.Statement, **arguments: object) -> None:
+        if what not in self.reported:
+            self.reported.add(what)
+            self.context.diagnostics.report(what, statement.origin, **arguments)
+
+    # ---- flow
+
+    def body(self, body: ir.Body, known: Environment) -> ir.Body:
+        done: list[ir.Statement] = []
+        fly_by = False
+        for statement in body:
+            if isinstance(statement, ir.Move):
+                new = self.move(statement, known)
+                done.extend(new)
+                fly_by = isinstance(new[-1], ir.Move) and new[-1].blend not in (None, ir.BlendStop())
+                continue
+            if fly_by and isinstance(statement, ir.WaitUntil | ir.Assign) and _stops(statement):
+                self.context.diagnostics.report(EARLY_LOGIC, statement.origin)
+                done.append(ir.LookAhead(origin=replace(statement.origin, comments=())))
+            elif not isinstance(statement, ir.Assign | ir.Nothing | ir.WaitUntil):
+                fly_by = False
+            done.extend(self.other(statement, known))
+        return tuple(done)
+
+    def other(self, statement: ir.Statement, known: Environment) -> list[ir.Statement]:
+        match statement:
+            case ir.Assign(target=ir.System(name=name)) if name in _CHECKS:
+                setting = name.replace("_", " ")
+                self.context.diagnostics.report(DROPPED, statement.origin, name=setting)
+                return [ir.Nothing(origin=statement.origin)]
+            case ir.Assign(target=ir.System(name="speed_percent"), value=value):
+                return [replace(statement, target=ir.System("override"), value=value)]
+            case ir.Assign(target=target):
+                self.changed(base_name(target), known)
+                return [statement]
+            case ir.Label():
+                known.clear()
+                return [statement]
+            case ir.CallRoutine() | ir.Do() | ir.TaskControl():
+                known.clear()
+                return [statement]
+            case ir.If() | ir.Switch():
+                new = rewrite_parts(statement, lambda e: e, lambda inner: self.body(inner, dict(known)))
+                known.clear()
+                return [new]
+        new = rewrite_parts(statement, lambda e: e, lambda inner: self.body(inner, {}))
+        if new is not statement:
+            known.clear()
+        return [new]
+
+    def changed(self, name: str | None, known: Environment) -> None:
+        """Forget what was set from a variable that changes now."""
+        for key, value in list(known.items()):
+            if name is not None and _mentions(value, name):
+                del known[key]
+
+    # ---- moves
+
+    def move(self, move: ir.Move, known: Environment) -> list[ir.Statement]:
+        wanted: dict[str, ir.Expression] = {}
+        if move.tool is not None:
+            wanted["tool"] = self.frame_of_tool(move.tool, move)
+        if move.frame is not None:
+            wanted["base"] = self.frame_of_work_object(move.frame)
+        if move.speed is not None:
+            self.speed(move, move.speed, wanted)
+        blend = self.blend(move, wanted)
+        before: list[ir.Statement] = []
+        origin = move.origin
+        for name, value in wanted.items():
+            if known.get(name) != value:
+                known[name] = value
+                before.extend(_set(name, value, replace(origin, comments=())))
+        done = replace(move, tool=None, frame=None, load=None, speed=None, blend=blend, configuration=None)
+        if before:
+            before[0] = replace(before[0], origin=origin)
+            done = replace(done, origin=replace(origin, comments=()))
+        return [*before, done]
+
+    def frame_of_tool(self, tool: ir.Expression, move: ir.Move) -> ir.Expression:
+        if not isinstance(self.type(tool), ir.ToolType):
+            return tool
+        held = self.component(tool, "held")
+        if isinstance(held, ir.BoolLiteral) and not held.value:
+            self.context.diagnostics.report(FIXED_TOOL, move.origin)
+        return self.component(tool, "frame")
+
+    def frame_of_work_object(self, frame: ir.Expression) -> ir.Expression:
+        if not isinstance(self.type(frame), ir.WorkObjectType):
+            return frame
+        user, item = self.component(frame, "user_frame"), self.component(frame, "object_frame")
+        if _is_identity(item):
+            return ir.System("null_frame") if _is_identity(user) else user
+        return item if _is_identity(user) else ir.Binary(":", user, item)
+
+    def type(self, expression: ir.Expression) -> ir.Type | None:
+        return type_of(expression, self.scope)
+
+    def component(self, value: ir.Expression, name: str) -> ir.Expression:
+        """The component; of constant data its initial value."""
+        aggregate = self.constant_aggregate(value)
+        if aggregate is not None:
+            type = self.type(value)
+            names = component_names(type, self.scope) if type is not None else ()
+            for position, (written, entry) in enumerate(aggregate.entries):
+                if (written or (names[position] if position < len(names) else "")) == name:
+                    if name in ("frame", "user_frame", "object_frame") and not _is_identity(entry):
+                        break  # frames stay by name: people re-teach them
+                    return entry
+        return ir.Field(value, name)
+
+    def constant_aggregate(self, value: ir.Expression) -> ir.Aggregate | None:
+        if isinstance(value, ir.Aggregate):
+            return value
+        if not isinstance(value, ir.Name):
+            return None
+        symbol = self.scope.value(value.id)
+        if symbol is None or not isinstance(symbol.declaration, ir.Variable):
+            return None
+        declaration = symbol.declaration
+        fixed = declaration.storage == "constant" or value.id.lower() not in self.assigned
+        initial = declaration.initial
+        if fixed and isinstance(initial, ir.Aggregate):
+            return initial
+        return self.constant_aggregate(initial) if fixed and isinstance(initial, ir.Name) else None
+
+    def speed(self, move: ir.Move, speed: ir.Speed, wanted: dict[str, ir.Expression]) -> None:
+        if speed.duration is not None:
+            self.report_once(TIMED_MOVE, move)
+        path = speed.path or (self.component(speed.profile, "path") if speed.profile is not None else None)
+        rotation = speed.rotation or (self.component(speed.profile, "rotation") if speed.profile is not None else None)
+        if move.kind == "joint":
+            percent = speed.joint
+            if percent is None and path is not None:
+                self.report_once(JOINT_TOOL_SPEED, move, factor=MM_S_PER_PERCENT)
+                percent = _limited(_divided(path, MM_S_PER_PERCENT))
+            if percent is not None:
+                wanted["joint_speed"] = percent
+            return
+        if path is not None:
+            wanted["path_speed"] = _quantity(path, "mm/s")
+        if rotation is not None:
+            wanted["swivel_speed"] = _quantity(rotation, "deg/s")
+            wanted["twist_speed"] = _quantity(rotation, "deg/s")
+
+    def blend(self, move: ir.Move, wanted: dict[str, ir.Expression]) -> ir.Blend | None:
+        if not isinstance(move.blend, ir.BlendZone):
+            return move.blend
+        zone = move.blend
+        stop = self.component(zone.zone, "stop")
+        if zone.distance is None and isinstance(stop, ir.BoolLiteral) and stop.value:
+            return ir.BlendStop()
+        size = zone.distance or self.component(zone.zone, "path")
+        if move.kind == "joint":
+            self.report_once(JOINT_BLEND, move, size="the same radius where the move is long enough")
+            wanted["blend_joint"] = _limited(_divided(size, ZONE_MM_PER_PERCENT))
+            return ir.BlendPercent(ir.System("blend_joint"))
+        wanted["blend_distance"] = _quantity(size, "mm")
+        return ir.BlendDistance(ir.System("blend_distance"))
+
+
+def _set(name: str, value: ir.Expression, origin: Origin) -> list[ir.Statement]:
+    if name == "joint_speed":
+        return [ir.Assign(ir.System(name, (ir.IntLiteral(axis),)), value, origin=origin) for axis in range(1, 7)]
+    return [ir.Assign(ir.System(name), value, origin=origin)]
+
+
+def _quantity(value: ir.Expression, unit: str) -> ir.Expression:
+    return value if isinstance(value, ir.Quantity) else ir.Quantity(value, unit)
+
+
+def _divided(value: ir.Expression, divisor: float) -> ir.Expression:
+    match value:
+        case ir.Quantity(value=inner, unit=unit):
+            return _divided(inner, divisor / ir.UNITS[unit])
+        case ir.RealLiteral(value=number) | ir.IntLiteral(value=number):
+            return ir.RealLiteral(float(f"{number / divisor:.6g}"))
+    return ir.Binary("/", value, ir.RealLiteral(divisor))
+
+
+def _limited(percent: ir.Expression) -> ir.Expression:
+    """Percentages are at least one hundredth and at most 100."""
+    if isinstance(percent, ir.RealLiteral):
+        return ir.RealLiteral(min(100.0, max(0.01, percent.value)))
+    return ir.Builtin("min", (ir.RealLiteral(100.0), percent))
+
+
+def _mentions(value: ir.Expression, name: str) -> bool:
+    found = False
+
+    def look(expression: ir.Expression) -> ir.Expression:
+        nonlocal found
+        found = found or (isinstance(expression, ir.Name) and expression.id.lower() == name)
+        return rewrite_parts(expression, look)
+
+    look(value)
+    return found
+
+
+def _is_identity(value: ir.Expression) -> bool:
+    """Is it written as the identity pose?"""
+    numbers: list[tuple[str, float]] = []
+
+    def look(entry: ir.Expression, path: str) -> bool:
+        match entry:
+            case ir.Aggregate(entries=entries):
+                return all(look(inner, f"{path}.{name or at}") for at, (name, inner) in enumerate(entries))
+            case ir.IntLiteral(value=number) | ir.RealLiteral(value=number):
+                numbers.append((path.rsplit(".", 1)[-1], float(number)))
+                return True
+            case ir.Unary(op="-", operand=operand):
+                return look(operand, path)
+        return False
+
+    if isinstance(value, ir.System):
+        return value.name == "null_frame"
+    if not isinstance(value, ir.Aggregate) or not look(value, ""):
+        return False
+    values = [number for _, number in numbers]
+    quaternion = len(values) == 7
+    return (values == [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]) if quaternion else not any(values)
+
+
+def _stops(statement: ir.WaitUntil | ir.Assign) -> bool:
+    """Would the statement stop an advance run: does it touch a signal?"""
+    found = False
+
+    def look(expression: ir.Expression) -> ir.Expression:
+        nonlocal found
+        found = found or isinstance(expression, ir.Signal)
+        return rewrite_parts(expression, look)
+
+    rewrite_parts(statement, look)
+    return found

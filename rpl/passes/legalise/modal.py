@@ -1,0 +1,415 @@
+"""Modal motion to explicit motion, for targets whose moves name their tool, frame, speed and zone (RAPID).
+
+The modal state becomes global data of the target's own types: setting a modal variable sets a component, and each move
+names the data. Where the value at a move is a known constant, the move names the constant. What a target cannot say in
+the same measure (speeds in percent of the axes, blends in percent) is mapped by one table here and reported once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.diagnostics import Code, Severity, code
+from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.usage import Usage, each_expression, usage_of
+from rpl.passes.rewrite import rewrite_parts
+
+JOINT_SPEED = code(
+    "approximated-joint-speed",
+    Severity.WARNING,
+    "joint speed in percent has no counterpart; {percent} percent is written as {factor:g} mm/s a percent",
+)
+JOINT_BLEND = code(
+    "approximated-blend", Severity.WARNING, "this blend has no exact counterpart; it is written as a zone of {size}"
+)
+DROPPED = code("dropped-setting", Severity.WARNING, "the target has no setting for {name}; it is left out")
+
+# A joint move's speed in percent as a tool speed: 100 % is the largest programmable tool speed of the target.
+MM_S_PER_PERCENT = 50.0
+# A joint blend in percent (of 90 degrees on KUKA) as a zone radius; zones are capped at half the move like the blend.
+ZONE_MM_PER_PERCENT = 4.0
+_STANDARD_EXTERNAL = (ir.RealLiteral(5000.0), ir.RealLiteral(1000.0))
+_DROPPED = frozenset(
+    {
+        *("path_acceleration", "swivel_acceleration", "twist_acceleration", "joint_acceleration", "path_jerk"),
+        *("external_speed", "external_acceleration", "blend_rotation", "blend_speed", "orientation_mode"),
+        *("circle_orientation", "singular_rule", "path_limit_rule", "advance", "load"),
+    }
+)
+
+
+def _real(value: float) -> ir.Expression:
+    return ir.RealLiteral(float(value))
+
+
+@dataclass(slots=True)
+class _State:
+    """Names of the generated data, and which of them are needed."""
+
+    names: dict[str, str] = field(default_factory=dict)
+    reported: set[tuple[Code, str]] = field(default_factory=set)
+
+
+_KINDS: dict[str, tuple[ir.Type, str]] = {
+    "tool": (ir.ToolType(), "persistent"),
+    "frame": (ir.WorkObjectType(), "persistent"),
+    "speed": (ir.SpeedType(), "variable"),
+    "joint_speed": (ir.SpeedType(), "variable"),
+    "zone": (ir.ZoneType(), "variable"),
+    "joint_zone": (ir.ZoneType(), "variable"),
+    "with_tool": (ir.ToolType(), "persistent"),
+    "with_frame": (ir.WorkObjectType(), "persistent"),
+}
+
+
+def modal_to_explicit(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets without modal motion and sources that have it."""
+    if context.capabilities.modal_motion:
+        return program
+    usage = usage_of(program)
+    worker = _Explicit(context, usage)
+    modules = tuple(
+        replace(
+            module,
+            routines=tuple(
+                replace(
+                    routine,
+                    body=worker.routine(routine.body),
+                    handlers=tuple(replace(handler, body=worker.routine(handler.body)) for handler in routine.handlers),
+                )
+                for routine in module.routines
+            ),
+        )
+        for module in program.modules
+    )
+    program = replace(program, modules=modules)
+    declarations = worker.declarations()
+    if declarations:
+        task = next((module.task for module in program.modules), "")
+        name = context.fresh("rpl_motion")
+        home = ir.Module(name, program.modules[0].dialect, declarations, task=task)
+        program = replace(program, modules=(*program.modules, home))
+    return program
+
+
+Environment = dict[str, ir.Expression]
+
+
+class _Explicit:
+    def __init__(self, context: Context, usage: Usage) -> None:
+        self.context = context
+        self.usage = usage
+        self.state = _State()
+        self.defaults = rules_of(context.source).system_defaults
+
+    # ---- generated data
+
+    def name(self, kind: str) -> ir.Expression:
+        if kind not in self.state.names:
+            self.state.names[kind] = self.context.fresh(f"rpl_{kind}")
+        return ir.Name(self.state.names[kind])
+
+    def default(self, name: str, fallback: float) -> float:
+        value = self.defaults.get(name, fallback)
+        return float(value) if not isinstance(value, str) else fallback
+
+    def declarations(self) -> tuple[ir.Declaration, ...]:
+        initial = {
+            "tool": _TOOL,
+            "with_tool": _TOOL,
+            "frame": _FRAME,
+            "with_frame": _FRAME,
+            "speed": _speed(_real(self.default("path_speed", 250.0)), _real(self.default("swivel_speed", 200.0))),
+            "joint_speed": _speed(
+                _real(self.default("joint_speed", 100.0) * MM_S_PER_PERCENT), _real(self.default("swivel_speed", 200.0))
+            ),
+            "zone": _zone(_real(self.default("blend_distance", 0.0))),
+            "joint_zone": _zone(_real(self.default("blend_joint", 50.0) * ZONE_MM_PER_PERCENT)),
+        }
+        return tuple(
+            ir.Variable(name, _KINDS[kind][0], initial[kind], storage=_KINDS[kind][1], scope="global")
+            for kind, name in self.state.names.items()
+        )
+
+    def report_once(self, what: Code, statement: ir.Statement, key: str, **arguments: object) -> None:
+        if (what, key) not in self.state.reported:
+            self.state.reported.add((what, key))
+            self.context.diagnostics.report(what, statement.origin, **arguments)
+
+    # ---- flow of constants
+
+    def routine(self, body: ir.Body) -> ir.Body:
+        return self.body(body, {})
+
+    def body(self, body: ir.Body, known: Environment) -> ir.Body:
+        done: list[ir.Statement] = []
+        for statement in body:
+            done.extend(self.statement(statement, known))
+        return tuple(done)
+
+    def statement(self, statement: ir.Statement, known: Environment) -> list[ir.Statement]:
+        match statement:
+            case ir.Assign(target=ir.System(name=name)) if name in _MODAL or name in _DROPPED:
+                return self.setting(statement, known)
+            case ir.Move():
+                return self.move(statement, known)
+            case ir.Label():
+                known.clear()
+                return [statement]
+            case ir.If(branches=branches, otherwise=otherwise):
+                ends: list[Environment] = []
+                new_branches = []
+                for condition, inner in branches:
+                    inside = dict(known)
+                    new_branches.append((self.expression(condition), self.body(inner, inside)))
+                    ends.append(inside)
+                inside = dict(known)
+                other = self.body(otherwise, inside)
+                _keep_common(known, [*ends, inside])
+                return [replace(statement, branches=tuple(new_branches), otherwise=other)]
+            case ir.Switch():
+                return [self.switch(statement, known)]
+            case ir.For() | ir.While() | ir.Repeat() | ir.Loop():
+                self.forget(known, _set_inside(statement, self.usage))
+                inside = dict(known)
+                new = rewrite_parts(statement, self.expression, lambda inner: self.body(inner, inside))
+                _keep_common(known, [inside])
+                return [new]
+        new = rewrite_parts(statement, self.expression, lambda inner: self.body(inner, {}))
+        self.forget(known, _set_inside(statement, self.usage))
+        return [new]
+
+    def switch(self, statement: ir.Switch, known: Environment) -> ir.Statement:
+        ends = []
+        cases = []
+        for case in statement.cases:
+            inside = dict(known)
+            cases.append(replace(case, body=self.body(case.body, inside)))
+            ends.append(inside)
+        inside = dict(known)
+        default = None if statement.default is None else self.body(statement.default, inside)
+        _keep_common(known, [*ends, inside])
+        selector = self.expression(statement.selector)
+        return replace(statement, selector=selector, cases=tuple(cases), default=default)
+
+    def forget(self, known: Environment, names: set[str]) -> None:
+        for name in names:
+            known.pop(name, None)
+
+    # ---- settings
+
+    def setting(self, statement: ir.Assign, known: Environment) -> list[ir.Statement]:
+        target = statement.target
+        assert isinstance(target, ir.System)
+        name, value = target.name, self.expression(statement.value)
+        if name in _DROPPED:
+            self.report_once(DROPPED, statement, name, name=name.replace("_", " "))
+            return [ir.Nothing(origin=statement.origin)]
+        plain = _number(value)
+        if plain is not None and name not in self.usage.interrupting:
+            known[name] = plain
+        else:
+            known.pop(name, None)
+        kind, component = _MODAL[name]
+        place = ir.Field(self.name(kind), component)
+        made = [ir.Assign(place, _scaled(value, _FACTOR.get(name, 1.0)), origin=statement.origin)]
+        if component == "path" and kind.endswith("zone"):
+            later = replace(statement.origin, comments=())
+            for other, factor in _ZONE_PROPORTIONS[1:]:
+                scaled = _scaled(value, _FACTOR.get(name, 1.0) * factor)
+                made.append(ir.Assign(ir.Field(self.name(kind), other), scaled, origin=later))
+        return list(made)
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        if isinstance(expression, ir.System) and expression.name in _MODAL:
+            kind, component = _MODAL[expression.name]
+            read = ir.Field(self.name(kind), component, origin=expression.origin)
+            factor = _FACTOR.get(expression.name, 1.0)
+            return read if factor == 1.0 else ir.Binary("/", read, _real(factor), origin=expression.origin)
+        return rewrite_parts(expression, self.expression)
+
+    # ---- moves
+
+    def move(self, move: ir.Move, known: Environment) -> list[ir.Statement]:
+        before: list[ir.Statement] = []
+        own: dict[str, ir.Expression] = {}
+        for place, value in move.settings:
+            if isinstance(place, ir.System):
+                own[place.name] = self.expression(value)
+                if place.name not in _MODAL:
+                    self.report_once(DROPPED, move, place.name, name=place.name.replace("_", " "))
+        tool, frame = self.name("tool"), self.name("frame")
+        later = replace(move.origin, comments=())
+        if "tool" in own:
+            tool = self.name("with_tool")
+            before.append(ir.Assign(ir.Field(tool, "frame"), own["tool"], origin=later))
+        if "base" in own:
+            frame = self.name("with_frame")
+            before.append(ir.Assign(ir.Field(frame, "user_frame"), own["base"], origin=later))
+        done = rewrite_parts(move, self.expression)
+        done = replace(
+            done,
+            tool=move.tool or tool,
+            frame=move.frame or frame,
+            speed=done.speed or self.speed(move, known, own),
+            blend=self.blend(done, known, own),
+            settings=(),
+        )
+        return [*before, done]
+
+    def speed(self, move: ir.Move, known: Environment, own: dict[str, ir.Expression]) -> ir.Speed:
+        values = {**known, **own}
+        if move.kind == "joint":
+            percent = values.get("joint_speed")
+            shown = percent.value if isinstance(percent, ir.RealLiteral | ir.IntLiteral) else "the modal"
+            if shown not in (100, 100.0):
+                self.report_once(JOINT_SPEED, move, str(shown), percent=shown, factor=MM_S_PER_PERCENT)
+            if percent is not None:
+                path = _scaled(percent, MM_S_PER_PERCENT)
+                rotation = values.get("swivel_speed") or _real(self.default("swivel_speed", 200.0))
+                return ir.Speed(profile=_speed(path, rotation if _number(rotation) else _real(200.0)))
+            return ir.Speed(profile=self.name("joint_speed"))
+        path_speed = values.get("path_speed")
+        rotation_speed = known.get("swivel_speed")
+        if path_speed is not None and rotation_speed is not None and _number(path_speed) is not None:
+            return ir.Speed(profile=_speed(path_speed, rotation_speed))
+        return ir.Speed(profile=self.name("speed"), path=own.get("path_speed"))
+
+    def blend(self, move: ir.Move, known: Environment, own: dict[str, ir.Expression]) -> ir.Blend:
+        values = {**known, **own}
+        match move.blend:
+            case None | ir.BlendStop():
+                return ir.BlendStop()
+            case ir.BlendDistance(distance=distance) if move.kind != "joint":
+                if distance is None or (isinstance(distance, ir.Field) and distance.name == "path"):
+                    distance = values.get("blend_distance")
+                if distance is None or _number(distance) is None:
+                    return ir.BlendZone(self.name("zone"))
+                return ir.BlendZone(_zone(distance))
+            case ir.BlendZone():
+                return move.blend
+        percent = values.get("blend_joint") if move.kind == "joint" else values.get("blend_distance")
+        factor = ZONE_MM_PER_PERCENT if move.kind == "joint" else 1.0
+        if percent is None or _number(percent) is None:
+            name = "joint_zone" if move.kind == "joint" else "zone"
+            self.report_once(JOINT_BLEND, move, name, size="the modal size")
+            return ir.BlendZone(self.name(name))
+        zone = _scaled(percent, factor)
+        size = zone.value if isinstance(zone, ir.RealLiteral | ir.IntLiteral) else "a computed size"
+        self.report_once(JOINT_BLEND, move, str(size), size=f"{size} mm")
+        return ir.BlendZone(_zone(zone))
+
+
+def _set_inside(statement: ir.Statement, usage: Usage) -> set[str]:
+    """System variables the statement may set, in its bodies and through calls."""
+    found: set[str] = set()
+
+    def look(body: ir.Body) -> ir.Body:
+        for one in body:
+            match one:
+                case ir.Assign(target=ir.System(name=name)):
+                    found.add(name)
+                case ir.CallRoutine(name=name):
+                    found.update(usage.sets.get(name.lower(), _MODAL.keys() if one.dynamic else set()))
+            each_expression(one, call)
+            rewrite_parts(one, lambda expression: expression, look)
+        return body
+
+    def call(expression: ir.Expression) -> None:
+        if isinstance(expression, ir.Call):
+            found.update(usage.sets.get(expression.name.lower(), set()))
+
+    look((statement,))
+    return found
+
+
+def _keep_common(known: Environment, ends: list[Environment]) -> None:
+    for name in list(known):
+        if any(end.get(name) != known[name] for end in ends):
+            del known[name]
+    for name, value in ends[0].items():
+        if all(end.get(name) == value for end in ends):
+            known[name] = value
+
+
+def _number(value: ir.Expression) -> ir.Expression | None:
+    """The expression when it is a plain number in base units, else None."""
+    match value:
+        case ir.RealLiteral() | ir.IntLiteral():
+            return value
+        case ir.Quantity(value=inner, unit=unit):
+            return _scaled(inner, ir.UNITS[unit]) if _number(inner) is not None else None
+    return None
+
+
+def _scaled(value: ir.Expression, factor: float) -> ir.Expression:
+    """value times factor; literals are computed, in decimal-clean form."""
+    match value:
+        case ir.Quantity(value=inner, unit=unit):
+            return _scaled(inner, factor * ir.UNITS[unit])
+        case ir.RealLiteral(value=number) | ir.IntLiteral(value=number):
+            return ir.RealLiteral(float(f"{number * factor:.12g}"), origin=value.origin)
+    return value if factor == 1.0 else ir.Binary("*", value, _real(factor), origin=value.origin)
+
+
+# system variable -> (kind of generated data, component)
+_MODAL: dict[str, tuple[str, str]] = {
+    "tool": ("tool", "frame"),
+    "base": ("frame", "user_frame"),
+    "path_speed": ("speed", "path"),
+    "swivel_speed": ("speed", "rotation"),
+    "twist_speed": ("speed", "rotation"),
+    "joint_speed": ("joint_speed", "path"),
+    "blend_distance": ("zone", "path"),
+    "blend_joint": ("joint_zone", "path"),
+}
+_FACTOR = {"joint_speed": MM_S_PER_PERCENT, "blend_joint": ZONE_MM_PER_PERCENT}
+# The proportions of the predefined zones: z10 is 10, 15, 15 mm, 1.5 deg, 15 mm, 1.5 deg.
+_ZONE_PROPORTIONS: tuple[tuple[str, float], ...] = (
+    ("path", 1.0),
+    ("rotation_path", 1.5),
+    ("external_path", 1.5),
+    ("rotation", 0.15),
+    ("linear_external", 1.5),
+    ("rotary_external", 0.15),
+)
+_ZERO = _real(0.0)
+_NO_TURN = ir.Aggregate((("q1", _real(1.0)), ("q2", _ZERO), ("q3", _ZERO), ("q4", _ZERO)), type_name="rotation")
+_ORIGIN_VECTOR = ir.Aggregate((("x", _ZERO), ("y", _ZERO), ("z", _ZERO)), type_name="vector")
+_IDENTITY = ir.Aggregate((("trans", _ORIGIN_VECTOR), ("rot", _NO_TURN)), type_name="pose")
+_LIGHT = ir.Aggregate(
+    (
+        ("mass", _real(0.001)),
+        ("cog", ir.Aggregate((("x", _ZERO), ("y", _ZERO), ("z", _real(0.001))), type_name="vector")),
+        ("axes", _NO_TURN),
+        ("ix", _ZERO),
+        ("iy", _ZERO),
+        ("iz", _ZERO),
+    ),
+    type_name="load",
+)
+_TOOL = ir.Aggregate((("held", ir.BoolLiteral(True)), ("frame", _IDENTITY), ("load", _LIGHT)), type_name="tool")
+_FRAME = ir.Aggregate(
+    (
+        ("held", ir.BoolLiteral(False)),
+        ("fixed", ir.BoolLiteral(True)),
+        ("unit", ir.TextLiteral("")),
+        ("user_frame", _IDENTITY),
+        ("object_frame", _IDENTITY),
+    ),
+    type_name="workobject",
+)
+
+
+def _speed(path: ir.Expression, rotation: ir.Expression) -> ir.Expression:
+    linear, rotary = _STANDARD_EXTERNAL
+    return ir.Aggregate(
+        (("path", path), ("rotation", rotation), ("linear_external", linear), ("rotary_external", rotary)),
+        type_name="speed",
+    )
+
+
+def _zone(size: ir.Expression) -> ir.Expression:
+    entries = [("stop", ir.BoolLiteral(False)), *((n, _scaled(size, factor)) for n, factor in _ZONE_PROPORTIONS)]
+    return ir.Aggregate(tuple(entries), type_name="zone")

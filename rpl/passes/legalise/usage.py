@@ -1,0 +1,157 @@
+"""Who changes what: names assigned anywhere, system variables a routine sets (with what it calls), interrupts.
+
+Conservative and by name: a name that is assigned in one scope counts as assigned in all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from rpl import ir
+from rpl.passes.rewrite import rewrite_parts
+
+
+def each_statement(body: ir.Body, visit: Callable[[ir.Statement], None]) -> None:
+    """Visit every statement of a body, outer before inner."""
+
+    def look(statements: ir.Body) -> ir.Body:
+        for statement in statements:
+            visit(statement)
+            rewrite_parts(statement, _same, look)
+        return statements
+
+    look(body)
+
+
+def each_expression(statement: ir.Statement, visit: Callable[[ir.Expression], None], inner: bool = False) -> None:
+    """Visit every expression of a statement, outer before inner; with `inner` also those of its bodies."""
+
+    def look(expression: ir.Expression) -> ir.Expression:
+        visit(expression)
+        return rewrite_parts(expression, look)
+
+    def deeper(statements: ir.Body) -> ir.Body:
+        for one in statements:
+            rewrite_parts(one, look, deeper)
+        return statements
+
+    rewrite_parts(statement, look, deeper if inner else None)
+
+
+def bodies(routine: ir.Routine) -> list[ir.Body]:
+    """All bodies of a routine: main, handlers, undo, backward."""
+    return [routine.body, *(handler.body for handler in routine.handlers), routine.undo, routine.backward]
+
+
+def _same(expression: ir.Expression) -> ir.Expression:
+    return expression
+
+
+def base_name(lvalue: ir.Expression) -> str | None:
+    """The variable an lvalue belongs to, folded."""
+    while isinstance(lvalue, ir.Index | ir.Field):
+        lvalue = lvalue.base
+    return lvalue.id.lower() if isinstance(lvalue, ir.Name) else None
+
+
+@dataclass(slots=True)
+class Usage:
+    """Facts about a whole program."""
+
+    assigned: set[str] = field(default_factory=set)
+    """Names assigned, used as an output, or passed where they could be changed."""
+    sets: dict[str, set[str]] = field(default_factory=dict)
+    """Routine (folded) -> system variables it may set, directly or through calls."""
+    interrupting: set[str] = field(default_factory=set)
+    """System variables that an interrupt's routine may set."""
+
+
+def usage_of(program: ir.Program) -> Usage:
+    usage = Usage()
+    calls: dict[str, set[str]] = {}
+    handlers: set[str] = set()
+    for module in program.modules:
+        for declaration in module.declarations:
+            if isinstance(declaration, ir.Initialise):
+                _assigned(declaration.assign, usage)
+        for routine in module.routines:
+            key = routine.name.lower()
+            usage.sets.setdefault(key, set())
+            calls.setdefault(key, set())
+            for body in bodies(routine):
+                each_statement(body, lambda statement, key=key: _statement(statement, key, usage, calls, handlers))  # type: ignore[misc]
+    _close(usage.sets, calls)
+    for name in handlers:
+        usage.interrupting |= usage.sets.get(name, set())
+    return usage
+
+
+def _statement(statement: ir.Statement, key: str, usage: Usage, calls: dict[str, set[str]], handlers: set[str]) -> None:
+    _assigned(statement, usage)
+    match statement:
+        case ir.Assign(target=ir.System(name=name)):
+            usage.sets[key].add(name)
+        case ir.CallRoutine(name=name):
+            calls[key].add(name.lower())
+        case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)) | ir.ConnectInterrupt(routine=name):
+            handlers.add(name.lower())
+            calls[key].add(name.lower())
+        case ir.Trigger(action=ir.CallRoutine(name=name)):
+            handlers.add(name.lower())
+
+    def call(expression: ir.Expression) -> None:
+        if isinstance(expression, ir.Call):
+            calls[key].add(expression.name.lower())
+            _arguments(expression.arguments, usage)
+
+    each_expression(statement, call)
+
+
+def _assigned(statement: ir.Statement, usage: Usage) -> None:
+    """Lvalues of any statement: assignment targets, outputs of built-ins, arguments that may be passed by reference."""
+    match statement:
+        case ir.Assign(target=target):
+            _name(target, usage)
+        case ir.For(counter=counter):
+            usage.assigned.add(counter.lower())
+        case ir.CallRoutine(arguments=arguments):
+            _arguments(arguments, usage)
+        case ir.Do(arguments=values):
+            for value in values:
+                _name(value, usage)
+        case ir.Dialog(answer=answer, timed_out=flag):
+            _name(answer, usage)
+            _name(flag, usage)
+        case ir.WaitUntil(timed_out=flag):
+            _name(flag, usage)
+        case ir.Clock(clock=clock):
+            _name(clock, usage)
+        case ir.DefineTrigger(target=target):
+            _name(target, usage)
+        case ir.Move(search=ir.Search(found=found)):
+            _name(found, usage)
+
+
+def _arguments(arguments: tuple[ir.Argument, ...], usage: Usage) -> None:
+    for argument in arguments:
+        if isinstance(argument.value, ir.Name | ir.Index | ir.Field):
+            _name(argument.value, usage)
+
+
+def _name(value: ir.Expression | None, usage: Usage) -> None:
+    name = base_name(value) if value is not None else None
+    if name is not None:
+        usage.assigned.add(name)
+
+
+def _close(sets: dict[str, set[str]], calls: dict[str, set[str]]) -> None:
+    """Transitive closure over calls."""
+    changed = True
+    while changed:
+        changed = False
+        for key, callees in calls.items():
+            before = len(sets[key])
+            for callee in callees:
+                sets[key] |= sets.get(callee, set())
+            changed = changed or len(sets[key]) != before
