@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +26,8 @@ class Capabilities:
     operators: operators printed as they are. modal_motion: tool, frame, speed and blend are modal (KRL); otherwise each
     move names them (RAPID). for_at_least_once / for_scoped / for_automatic: the target's FOR has exactly that rule.
     notation: arm configuration notation; rotation: `zyx` (a, b, c) or `quaternion` (rot) components.
-    types: names of type classes that can be declared.
+    types: names of type classes that can be declared. signal_prefixes: empty when signals have numbers (KRL); otherwise
+    signals have names (RAPID), and a number 5 of a kind is called prefix + 5.
     """
 
     statements: frozenset[str]
@@ -46,3 +48,4 @@ class Capabilities:
     short_circuit: bool = False
     enums: bool = False
     conversions: frozenset[str] = frozenset()
+    signal_prefixes: Mapping[str, str] = field(default_factory=dict)

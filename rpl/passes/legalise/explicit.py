@@ -1,7 +1,7 @@
 """Explicit motion to modal motion, for targets where tool, frame, speed and blend are modal (KRL).
 
-Before a move the modal variables that differ from what is known to be set are set; at labels, loops and calls nothing is
-known. Components of constant data are written as numbers. Mappings that change the measure are those of modal.py, read
+Before a move the modal variables that differ from what is known to be set are set; at labels, loops and calls nothing
+is known. Components of constant data are written as numbers. Mappings that change the measure are those of modal.py, read
 backwards, and reported once.
 """
 
@@ -110,9 +110,9 @@ class _Modal:
                 known.clear()
                 return [statement]
             case ir.If() | ir.Switch():
-                new = rewrite_parts(statement, lambda e: e, lambda inner: self.body(inner, dict(known)))
+                choice = rewrite_parts(statement, lambda e: e, lambda inner: self.body(inner, dict(known)))
                 known.clear()
-                return [new]
+                return [choice]
         new = rewrite_parts(statement, lambda e: e, lambda inner: self.body(inner, {}))
         if new is not statement:
             known.clear()

@@ -173,9 +173,9 @@ class _Explicit:
             case ir.For() | ir.While() | ir.Repeat() | ir.Loop():
                 self.forget(known, _set_inside(statement, self.usage))
                 inside = dict(known)
-                new = rewrite_parts(statement, self.expression, lambda inner: self.body(inner, inside))
+                loop = rewrite_parts(statement, self.expression, lambda inner: self.body(inner, inside))
                 _keep_common(known, [inside])
-                return [new]
+                return [loop]
         new = rewrite_parts(statement, self.expression, lambda inner: self.body(inner, {}))
         self.forget(known, _set_inside(statement, self.usage))
         return [new]

@@ -1,0 +1,248 @@
+"""Interrupts by priority (KRL) to interrupts by identity with trap routines (RAPID), and back.
+
+What a target's interrupts cannot watch (a computed condition, a timer) is left as it is for the writer to report.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.usage import base_name, each_statement
+from rpl.passes.rewrite import rewrite_parts
+
+_FIRST_PRIORITY = 10  # KRL allows 1..39 and 81..128; the lower ones are left to the user
+
+
+def interrupts(program: ir.Program, context: Context) -> ir.Program:
+    """Rewrites towards whichever kind the target has; leaves programs without interrupts alone."""
+    statements = context.capabilities.statements
+    if "DeclareInterrupt" not in statements and "ConnectInterrupt" in statements:
+        return _Traps(program, context).program()
+    if "ConnectInterrupt" not in statements and "DeclareInterrupt" in statements:
+        return _Priorities(program, context).program()
+    return program
+
+
+def _map_bodies(program: ir.Program, on_body: object) -> ir.Program:
+    assert callable(on_body)
+    modules = tuple(
+        replace(
+            module,
+            routines=tuple(
+                replace(
+                    routine,
+                    body=on_body(routine.body),
+                    handlers=tuple(replace(handler, body=on_body(handler.body)) for handler in routine.handlers),
+                )
+                for routine in module.routines
+            ),
+        )
+        for module in program.modules
+    )
+    return replace(program, modules=modules)
+
+
+def _priority(handle: ir.Expression | None) -> int | None:
+    return handle.value if isinstance(handle, ir.IntLiteral) else None
+
+
+def _watchable(condition: ir.Expression) -> bool:
+    """A signal, or a signal compared with TRUE or FALSE, or its negation."""
+    match condition:
+        case ir.Signal():
+            return condition.kind.startswith("digital")
+        case ir.Unary(op="not", operand=operand):
+            return _watchable(operand)
+        case ir.Binary(op="=" | "<>", left=left, right=ir.BoolLiteral()):
+            return _watchable(left)
+    return False
+
+
+# ---- priority -> trap
+
+
+@dataclass(slots=True)
+class _Trap:
+    handle: str
+    routine: str
+    condition: ir.Expression
+
+
+@dataclass(slots=True)
+class _Traps:
+    source: ir.Program
+    context: Context
+    traps: dict[int, _Trap] = field(default_factory=dict)
+    made: list[ir.Routine] = field(default_factory=list)
+
+    def program(self) -> ir.Program:
+        declared: list[ir.DeclareInterrupt] = []
+
+        def find(statement: ir.Statement) -> None:
+            if isinstance(statement, ir.DeclareInterrupt):
+                declared.append(statement)
+
+        for module in self.source.modules:
+            for routine in module.routines:
+                each_statement(routine.body, find)
+        if not declared:
+            return self.source
+        for one in declared:
+            priority = _priority(one.priority)
+            if priority is not None and priority not in self.traps and _watchable(one.condition):
+                self.add(priority, one)
+        program = _map_bodies(self.source, self.body)
+        declarations = tuple(
+            ir.Variable(trap.handle, ir.InterruptType(), scope="global") for trap in self.traps.values()
+        )
+        first = program.modules[0]
+        home = ir.Module(
+            self.context.fresh("rpl_traps"), first.dialect, declarations, tuple(self.made), task=first.task
+        )
+        return replace(program, modules=(*program.modules, home)) if self.traps else program
+
+    def add(self, priority: int, declared: ir.DeclareInterrupt) -> None:
+        trap = _Trap(
+            self.context.fresh(f"rpl_interrupt_{priority}"),
+            self.context.fresh(f"rpl_trap_{priority}"),
+            declared.condition,
+        )
+        self.traps[priority] = trap
+        # The motion that the action braked goes on when the interrupt routine has ended.
+        body: ir.Body = (declared.action, ir.StartMotion()) if self.brakes(declared.action) else (declared.action,)
+        self.made.append(ir.Routine(trap.routine, "trap", body=body, scope="task"))
+
+    def brakes(self, action: ir.Statement) -> bool:
+        if not isinstance(action, ir.CallRoutine):
+            return False
+        found = False
+
+        def look(statement: ir.Statement) -> None:
+            nonlocal found
+            found = found or isinstance(statement, ir.StopMotion)
+
+        for module in self.source.modules:
+            for routine in module.routines:
+                if routine.name.lower() == action.name.lower():
+                    each_statement(routine.body, look)
+        return found
+
+    def body(self, body: ir.Body) -> ir.Body:
+        done: list[ir.Statement] = []
+        for statement in body:
+            done.extend(self.statement(statement))
+        return tuple(done)
+
+    def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+        match statement:
+            case ir.DeclareInterrupt(priority=priority):
+                trap = self.traps.get(_priority(priority) or 0)
+                if trap is None or trap.condition != statement.condition:
+                    return [statement]
+                return self.connect(trap, statement)
+            case ir.ControlInterrupt(op=op, handle=handle) if handle is not None:
+                trap = self.traps.get(_priority(handle) or 0)
+                if trap is None:
+                    return [statement]
+                name = ir.Name(trap.handle)
+                if op == "on":
+                    return [ir.OrderInterrupt(name, "edge", trap.condition, origin=statement.origin)]
+                if op == "off":
+                    return self.connect(trap, statement)
+                return [replace(statement, handle=name)]
+        return [rewrite_parts(statement, lambda expression: expression, self.body)]
+
+    def connect(self, trap: _Trap, statement: ir.Statement) -> list[ir.Statement]:
+        """An identity is connected once; deleting it first makes that true on every pass."""
+        later = replace(statement.origin, comments=())
+        return [
+            ir.ControlInterrupt("delete", ir.Name(trap.handle), origin=statement.origin),
+            ir.ConnectInterrupt(ir.Name(trap.handle), trap.routine, origin=later),
+        ]
+
+
+# ---- trap -> priority
+
+
+@dataclass(slots=True)
+class _Priorities:
+    source: ir.Program
+    context: Context
+    routine_of: dict[str, str] = field(default_factory=dict)
+    priority_of: dict[str, int] = field(default_factory=dict)
+    once: dict[str, str] = field(default_factory=dict)
+    made: list[ir.Routine] = field(default_factory=list)
+
+    def program(self) -> ir.Program:
+        def find(statement: ir.Statement) -> None:
+            if isinstance(statement, ir.ConnectInterrupt):
+                name = base_name(statement.handle)
+                if name is not None:
+                    self.routine_of.setdefault(name, statement.routine)
+                    self.priority_of.setdefault(name, _FIRST_PRIORITY + len(self.priority_of))
+
+        for module in self.source.modules:
+            for routine in module.routines:
+                each_statement(routine.body, find)
+        if not self.routine_of:
+            return self.source
+        program = _map_bodies(self.source, self.body)
+        modules = []
+        for module in program.modules:
+            declarations = tuple(
+                d
+                for d in module.declarations
+                if not (isinstance(d, ir.Variable) and isinstance(d.type, ir.InterruptType))
+            )
+            routines = tuple(
+                replace(routine, kind="procedure", scope="global") if routine.kind == "trap" else routine
+                for routine in module.routines
+            )
+            modules.append(replace(module, declarations=declarations, routines=routines))
+        if self.made:
+            first = modules[0]
+            home = ir.Module(self.context.fresh("rpl_traps"), first.dialect, (), tuple(self.made), task=first.task)
+            modules.append(home)
+        return replace(program, modules=tuple(modules))
+
+    def body(self, body: ir.Body) -> ir.Body:
+        done: list[ir.Statement] = []
+        for statement in body:
+            done.extend(self.statement(statement))
+        return tuple(done)
+
+    def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+        match statement:
+            case ir.ConnectInterrupt(handle=handle) if base_name(handle) in self.priority_of:
+                return [ir.Nothing(origin=statement.origin)] if statement.origin.comments else []
+            case ir.OrderInterrupt(handle=handle, event="edge", condition=condition) if condition is not None:
+                name = base_name(handle)
+                if name is None or name not in self.priority_of:
+                    return [statement]
+                action = self.action(name, statement.once)
+                priority = ir.IntLiteral(self.priority_of[name])
+                later = replace(statement.origin, comments=())
+                return [
+                    ir.DeclareInterrupt(priority, condition, action, True, origin=statement.origin),
+                    ir.ControlInterrupt("on", priority, origin=later),
+                ]
+            case ir.ControlInterrupt(op=op, handle=handle) if handle is not None:
+                name = base_name(handle)
+                if name not in self.priority_of:
+                    return [statement]
+                op = "off" if op == "delete" else op
+                return [replace(statement, op=op, handle=ir.IntLiteral(self.priority_of[name]))]
+        return [rewrite_parts(statement, lambda expression: expression, self.body)]
+
+    def action(self, name: str, once: bool) -> ir.CallRoutine:
+        trap = self.routine_of[name]
+        if not once:
+            return ir.CallRoutine(trap)
+        if name not in self.once:
+            wrapper = self.context.fresh(f"{trap}_once")
+            self.once[name] = wrapper
+            off = ir.ControlInterrupt("off", ir.IntLiteral(self.priority_of[name]))
+            self.made.append(ir.Routine(wrapper, body=(off, ir.CallRoutine(trap)), scope="global"))
+        return ir.CallRoutine(self.once[name])

@@ -1,0 +1,279 @@
+"""Numbered signals to named ones and back.
+
+A number 5 of digital outputs becomes the name prefix + 5; a declared alias becomes the name itself. Backwards, a name
+that is prefix + number gets that number, and any other name the first free number and a declaration. Numbers known only
+at run time go through generated routines over the numbers in reach.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from rpl import ir, registry
+from rpl.diagnostics import Severity, code
+from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import Scope
+from rpl.source import Origin
+
+DYNAMIC = code(
+    "dynamic-signal",
+    Severity.WARNING,
+    "the signal number is computed; numbers 1 to {last} are covered, another one stops the program",
+)
+NUMBERED = code(
+    "signal-number-chosen", Severity.WARNING, "signal {name} gets number {number}; wire or map it accordingly"
+)
+# Numbers a computed index is expected to reach where the program shows no larger one.
+_REACH = 16
+_FLAGS = 64
+
+
+def name_signals(program: ir.Program, context: Context) -> ir.Program:
+    """For targets whose signals have names."""
+    if not context.capabilities.signal_prefixes:
+        return program
+    scopes = ProgramScope(program)
+    worker = _Named(program, context)
+    modules = []
+    for module in program.modules:
+        declarations = tuple(d for d in module.declarations if not isinstance(d, ir.SignalDeclaration))
+        routines = tuple(
+            replace(
+                routine,
+                declarations=tuple(d for d in routine.declarations if not isinstance(d, ir.SignalDeclaration)),
+                body=worker.in_scope(scopes.routine(module, routine)).body(routine.body),
+                handlers=tuple(replace(h, body=worker.body(h.body)) for h in routine.handlers),
+            )
+            for routine in module.routines
+        )
+        modules.append(replace(module, declarations=declarations, routines=routines))
+    support = worker.support(program.modules[0].dialect, modules[0].task if modules else "")
+    return replace(program, modules=(*modules, *support))
+
+
+class _Named:
+    def __init__(self, program: ir.Program, context: Context) -> None:
+        self.context = context
+        self.prefixes = context.capabilities.signal_prefixes
+        self.aliases: dict[tuple[str, int], str] = {}
+        self.highest: dict[str, int] = {}
+        self.dynamic: dict[str, str] = {}
+        self.flags: str | None = None
+        self.scope: Scope | None = None
+        self._collect(program)
+
+    def _collect(self, program: ir.Program) -> None:
+        def look(expression: ir.Expression) -> ir.Expression:
+            if isinstance(expression, ir.Signal) and isinstance(expression.index, ir.IntLiteral):
+                self.highest[expression.kind] = max(self.highest.get(expression.kind, 0), expression.index.value)
+            return rewrite_parts(expression, look)
+
+        def deeper(body: ir.Body) -> ir.Body:
+            return tuple(rewrite_parts(statement, look, deeper) for statement in body)
+
+        for module in program.modules:
+            for declaration in module.declarations:
+                if isinstance(declaration, ir.SignalDeclaration):
+                    signal = declaration.signal
+                    look(signal)
+                    if isinstance(signal.index, ir.IntLiteral) and signal.last is None:
+                        self.aliases.setdefault((signal.kind, signal.index.value), declaration.name)
+            for routine in module.routines:
+                deeper(routine.body)
+
+    def in_scope(self, scope: Scope) -> _Named:
+        self.scope = scope
+        return self
+
+    def body(self, body: ir.Body) -> ir.Body:
+        return tuple(self.statement(statement) for statement in body)
+
+    def statement(self, statement: ir.Statement) -> ir.Statement:
+        match statement:
+            case ir.Assign(target=ir.Signal(index=index, name=None) as signal, value=value) if not _constant(index):
+                routine = self.routine(f"set_{signal.kind}", statement.origin, signal.kind)
+                assert index is not None
+                arguments = (ir.Argument(self.expression(index)), ir.Argument(self.expression(value)))
+                return ir.CallRoutine(routine, arguments, origin=statement.origin)
+        return rewrite_parts(statement, self.expression, self.body)
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        match expression:
+            case ir.Name(id=name) if self.scope is not None:
+                symbol = self.scope.value(name)
+                if symbol is not None and isinstance(symbol.declaration, ir.SignalDeclaration):
+                    signal = symbol.declaration.signal
+                    if signal.last is not None:
+                        kind = signal.kind.replace("digital", "group")
+                        return ir.Signal(kind, name=symbol.declaration.name, origin=expression.origin)
+                    return self.expression(replace(signal, origin=expression.origin))
+                return expression
+            case ir.Signal(kind=kind, index=index, name=None):
+                if index is not None and _constant(index):
+                    assert isinstance(index, ir.IntLiteral)
+                    name = self.aliases.get((kind, index.value)) or f"{self.prefixes.get(kind, kind)}{index.value}"
+                    return ir.Signal(kind, name=name, origin=expression.origin)
+                routine = self.routine(f"get_{kind}", expression.origin, kind)
+                assert index is not None
+                argument = ir.Argument(self.expression(index))
+                return ir.Call(routine, (argument,), origin=expression.origin)
+            case ir.System(name="flag" | "cyclic_flag", indices=indices):
+                if self.flags is None:
+                    self.flags = self.context.fresh("rpl_flag")
+                inner = tuple(self.expression(index) for index in indices)
+                return ir.Index(ir.Name(self.flags), inner, origin=expression.origin)
+        return rewrite_parts(expression, self.expression)
+
+    def routine(self, what: str, origin: Origin, kind: str) -> str:
+        if what not in self.dynamic:
+            self.dynamic[what] = self.context.fresh(f"rpl_{what}")
+        self.context.diagnostics.report(DYNAMIC, origin, last=self.reach(kind))
+        return self.dynamic[what]
+
+    def reach(self, kind: str) -> int:
+        return max(_REACH, self.highest.get(kind, 0))
+
+    def support(self, dialect: str, task: str) -> tuple[ir.Module, ...]:
+        """The generated routines and data, when there are any."""
+        declarations: tuple[ir.Declaration, ...] = ()
+        if self.flags is not None:
+            type = ir.ArrayType(ir.BoolType(), (ir.IntLiteral(_FLAGS),))
+            declarations = (ir.Variable(self.flags, type, storage="variable", scope="global"),)
+        routines = tuple(self.access(what, name) for what, name in self.dynamic.items())
+        if not declarations and not routines:
+            return ()
+        return (ir.Module(self.context.fresh("rpl_signals"), dialect, declarations, routines, task=task),)
+
+    def access(self, what: str, name: str) -> ir.Routine:
+        verb, _, kind = what.partition("_")
+        type: ir.Type = ir.RealType() if kind.startswith("analog") else ir.BoolType()
+        number, value = ir.Parameter("number", ir.IntType()), ir.Parameter("state", type)
+        cases = []
+        for index in range(1, self.reach(kind) + 1):
+            signal_name = self.aliases.get((kind, index)) or f"{self.prefixes.get(kind, kind)}{index}"
+            signal = ir.Signal(kind, name=signal_name)
+            act: ir.Statement = ir.Assign(signal, ir.Name("state")) if verb == "set" else ir.Return(signal)
+            cases.append(ir.Case((ir.IntLiteral(index),), (act,)))
+        failed: ir.Body = (
+            ir.Message("error", ir.TextLiteral("signal number out of reach")),
+            ir.Halt(),
+        )
+        switch = ir.Switch(ir.Name("number"), tuple(cases), failed)
+        if verb == "set":
+            return ir.Routine(name, "procedure", (number, value), body=(switch,), scope="global")
+        zero: ir.Expression = ir.RealLiteral(0.0) if isinstance(type, ir.RealType) else ir.BoolLiteral(False)
+        return ir.Routine(name, "function", (number,), type, body=(switch, ir.Return(zero)), scope="global")
+
+
+def _constant(index: ir.Expression | None) -> bool:
+    return isinstance(index, ir.IntLiteral)
+
+
+def number_signals(program: ir.Program, context: Context) -> ir.Program:
+    """For targets whose signals have numbers."""
+    if context.capabilities.signal_prefixes:
+        return program
+    names: dict[tuple[str, str], str] = {}
+
+    def collect(expression: ir.Expression) -> ir.Expression:
+        if isinstance(expression, ir.Signal) and expression.name is not None:
+            names.setdefault((expression.kind, expression.name.lower()), expression.name)
+        return rewrite_parts(expression, collect)
+
+    def collect_body(body: ir.Body) -> ir.Body:
+        return tuple(rewrite_parts(statement, collect, collect_body) for statement in body)
+
+    for module in program.modules:
+        for routine in module.routines:
+            for body in (routine.body, routine.undo, *(handler.body for handler in routine.handlers)):
+                collect_body(body)
+    if not names:
+        return program
+    numbers = _numbers(names, _prefixes())
+    declared: list[ir.Declaration] = []
+    aliases: dict[tuple[str, str], str] = {}
+    for (kind, key), name in names.items():
+        number, chosen = numbers[kind, key]
+        if chosen:
+            alias = context.fresh(name)
+            aliases[kind, key] = alias
+            signal = _signal(kind, number)
+            declared.append(ir.SignalDeclaration(alias, signal, scope="global"))
+            context.diagnostics.report(NUMBERED, name=name, number=number)
+
+    def replaced(expression: ir.Expression) -> ir.Expression:
+        if isinstance(expression, ir.Signal) and expression.name is not None:
+            key = (expression.kind, expression.name.lower())
+            if key in aliases:
+                return ir.Name(aliases[key], origin=expression.origin)
+            return replace(_signal(expression.kind, numbers[key][0]), origin=expression.origin)
+        return rewrite_parts(expression, replaced)
+
+    def replaced_body(body: ir.Body) -> ir.Body:
+        return tuple(rewrite_parts(statement, replaced, replaced_body) for statement in body)
+
+    modules = []
+    for module in program.modules:
+        routines = tuple(
+            replace(
+                routine,
+                body=replaced_body(routine.body),
+                undo=replaced_body(routine.undo),
+                handlers=tuple(replace(handler, body=replaced_body(handler.body)) for handler in routine.handlers),
+            )
+            for routine in module.routines
+        )
+        modules.append(replace(module, routines=routines))
+    if declared:
+        name = context.fresh("rpl_signals")
+        modules.append(ir.Module(name, modules[0].dialect, tuple(declared), task=modules[0].task, public=True))
+    return replace(program, modules=tuple(modules))
+
+
+def _signal(kind: str, number: int) -> ir.Signal:
+    """A group of bits gets eight numbers in a row; its width is not known to the program."""
+    if kind.startswith("group"):
+        last = ir.IntLiteral(number + 7)
+        return ir.Signal(kind.replace("group", "digital"), index=ir.IntLiteral(number), last=last)
+    return ir.Signal(kind, index=ir.IntLiteral(number))
+
+
+def _prefixes() -> dict[str, set[str]]:
+    """The prefixes with which any target names a numbered signal of a kind."""
+    found: dict[str, set[str]] = {}
+    for name in registry.target_names():
+        for kind, prefix in registry.target(name).capabilities().signal_prefixes.items():
+            found.setdefault(kind, set()).add(prefix.lower())
+    return found
+
+
+def _numbers(
+    names: dict[tuple[str, str], str], prefixes: dict[str, set[str]]
+) -> dict[tuple[str, str], tuple[int, bool]]:
+    """Number of each named signal, and whether it was chosen (not said by its name)."""
+    result: dict[tuple[str, str], tuple[int, bool]] = {}
+    used: dict[str, set[int]] = {}
+    for kind, key in names:
+        match = re.fullmatch(r"([a-z_]+?)_?([1-9]\d{0,3})", key)
+        if match and match.group(1) in prefixes.get(kind, set()):
+            number = int(match.group(2))
+            if number not in used.setdefault(kind, set()):
+                used[kind].add(number)
+                result[kind, key] = (number, False)
+    for kind, key in names:
+        if (kind, key) in result:
+            continue
+        bits = kind.replace("group", "digital")
+        taken = used.setdefault(bits, set())
+        width = 8 if kind.startswith("group") else 1
+        number = 1
+        while any(number + bit in taken for bit in range(width)):
+            number += 1
+        taken.update(range(number, number + width))
+        result[kind, key] = (number, True)
+    return result
+
+
+__all__ = ["name_signals", "number_signals"]
