@@ -1,0 +1,335 @@
+"""What `equal` means: events first, then geometry, then time. Each level is asked only when the ones before it hold.
+
+Events: per task the same outputs, messages, dialogs, blocking waits and end, in the same order with the same values.
+Geometry: the tool goes the same way, stops in the same joints (on the same arm), and outputs switch at the same place.
+Time: every happening comes at the same moment; asked only of programs in the same language on the same arm, because
+two controllers never agree on accelerations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rpl.proof.difference import Difference, Side
+from rpl.proof.paths import gap
+from rpl.proof.record import Happening, Record, Stretch, Value
+
+LEVELS = ("none", "events", "geometry", "time")
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerance:
+    """What still counts as equal. The printed precision decides: three decimals of a millimetre leave 0.0005 mm per
+    coordinate and four of a degree 0.00005 deg, which a reach of 2 m turns into less than 0.002 mm; 0.01 mm is safely
+    above and far below anything that a robot repeats.
+
+    place_mm: where on a moving path an output may switch. wait_s: of a timed wait. time_share: of a whole run's time.
+    """
+
+    path_mm: float = 0.01
+    turn_deg: float = 0.01
+    joint_deg: float = 0.01
+    place_mm: float = 1.0
+    wait_s: float = 0.002
+    time_s: float = 0.01
+    time_share: float = 0.01
+    number: float = 1e-6
+
+
+@dataclass(slots=True)
+class Verdict:
+    """level: the highest level at which no difference was found."""
+
+    level: str = "none"
+    difference: Difference | None = None
+    max_path_mm: float = 0.0
+    max_joint_deg: float = 0.0
+    max_time_s: float = 0.0
+
+
+def compare(a: Record, b: Record, tolerance: Tolerance) -> Verdict:
+    """Compare two runs level by level; stop at the first level that differs."""
+    verdict = Verdict()
+    verdict.difference = _events(a, b, tolerance)
+    if verdict.difference is not None:
+        _measure_anyway(a, b, tolerance, verdict)
+        return verdict
+    verdict.level = "events"
+    verdict.difference = _geometry(a, b, tolerance, verdict)
+    if verdict.difference is not None:
+        return verdict
+    verdict.level = "geometry"
+    if a.robot == b.robot and a.language == b.language:
+        verdict.difference = _time(a, b, tolerance, verdict)
+        if verdict.difference is None:
+            verdict.level = "time"
+    return verdict
+
+
+def _measure_anyway(a: Record, b: Record, tolerance: Tolerance, verdict: Verdict) -> None:
+    _geometry(a, b, tolerance, verdict)
+
+
+# Events
+
+
+def _events(a: Record, b: Record, tolerance: Tolerance) -> Difference | None:
+    """The first event that differs in any task; tasks are paired by name, a single one with a single one."""
+    pairs = _paired(a, b)
+    if isinstance(pairs, Difference):
+        return pairs
+    found = []
+    for task, ours, theirs in pairs:
+        difference = _task_events(task, ours, theirs, tolerance)
+        if difference is not None:
+            found.append(difference)
+    return min(found, key=_when) if found else None
+
+
+def _when(difference: Difference) -> float:
+    times = [side.t for side in (difference.a, difference.b) if side.t is not None]
+    return min(times, default=0.0)
+
+
+Pair = tuple[str, tuple[Happening, ...], tuple[Happening, ...]]
+
+
+def _paired(a: Record, b: Record) -> list[Pair] | Difference:
+    if len(a.tasks) == 1 and len(b.tasks) == 1:
+        (name, ours), (_, theirs) = next(iter(a.tasks.items())), next(iter(b.tasks.items()))
+        return [(name, ours, theirs)]
+    left = {name.lower(): happenings for name, happenings in a.tasks.items()}
+    right = {name.lower(): happenings for name, happenings in b.tasks.items()}
+    if set(left) != set(right):
+        lone = sorted(set(left) ^ set(right))[0]
+        there = "A" if lone in left else "B"
+        return Difference(
+            "task",
+            "events",
+            f"only {there} has a task {lone}",
+            Side(f"tasks {', '.join(left)}"),
+            Side(f"tasks {', '.join(right)}"),
+            lone,
+        )
+    return [(name, left[name], right[name]) for name in left]
+
+
+def _task_events(
+    task: str, ours: Sequence[Happening], theirs: Sequence[Happening], tolerance: Tolerance
+) -> Difference | None:
+    for index in range(max(len(ours), len(theirs))):
+        first = ours[index] if index < len(ours) else None
+        second = theirs[index] if index < len(theirs) else None
+        if first is None or second is None or not same_event(first, second, tolerance):
+            return _event_difference(task, first, second)
+    return None
+
+
+def same_event(a: Happening, b: Happening, tolerance: Tolerance) -> bool:
+    """Do two happenings mean the same, apart from when and where on the path?"""
+    if a.kind != b.kind:
+        return False
+    match a.kind:
+        case "output":
+            return bool(a.names & b.names) and same_value(a.value, b.value, tolerance.number)
+        case "wait":
+            return same_value(a.value, b.value, tolerance.wait_s)
+        case "message" | "dialog":
+            return " ".join(str(a.value).split()) == " ".join(str(b.value).split())
+        case _:
+            return a.value == b.value
+
+
+def same_value(a: Value, b: Value, slack: float) -> bool:
+    """Numbers within the slack (relative above 1); TRUE is 1 and FALSE is 0."""
+    if isinstance(a, int | float) and isinstance(b, int | float):
+        return abs(float(a) - float(b)) <= slack * max(1.0, abs(float(a)), abs(float(b)))
+    return a == b
+
+
+def in_words(happening: Happening) -> str:
+    """What happened, for people."""
+    match happening.kind:
+        case "output":
+            return f"output {_shown_name(happening.names)} becomes {_shown(happening.value)}"
+        case "message" | "dialog":
+            return f"{happening.kind} {_shown(happening.value)}"
+        case "wait":
+            return "waits for a condition" if happening.value is None else f"waits {happening.value:g} s"
+        case "fault":
+            return f"fault {happening.value}"
+        case _:
+            return f"ends: {happening.value}"
+
+
+def _shown_name(names: frozenset[str]) -> str:
+    return min(names, key=lambda name: (":" in name, name), default="?")
+
+
+def _shown(value: Value) -> str:
+    return str(value).upper() if isinstance(value, bool) else repr(value)
+
+
+def side(happening: Happening | None) -> Side:
+    if happening is None:
+        return Side(None)
+    return Side(in_words(happening), happening.place, happening.t, happening.value)
+
+
+def _event_difference(task: str, a: Happening | None, b: Happening | None) -> Difference:
+    some = a if a is not None else b
+    assert some is not None
+    kind = some.kind if a is None or b is None or a.kind == b.kind else "order"
+    if a is None or b is None:
+        text = f"{'A' if b is None else 'B'} goes on where the other has ended"
+    elif a.kind != b.kind:
+        text = f"the order differs: {in_words(a)} in A, {in_words(b)} in B"
+    elif a.kind == "output" and not a.names & b.names:
+        text = f"different outputs are switched: {_shown_name(a.names)} in A, {_shown_name(b.names)} in B"
+    else:
+        text = f"{some.kind} differs: {_shown(a.value)} in A, {_shown(b.value)} in B"
+    return Difference(kind, "events", text, side(a), side(b), task)
+
+
+# Geometry
+
+
+def _geometry(a: Record, b: Record, tolerance: Tolerance, verdict: Verdict) -> Difference | None:
+    same_arm = a.robot == b.robot
+    for task in a.motion:
+        theirs = b.motion.get(task)
+        if theirs is None:
+            theirs = next(iter(b.motion.values()), ()) if len(a.motion) == 1 else ()
+        difference = _motion(task, a.motion[task], theirs, same_arm, tolerance, verdict)
+        if difference is not None:
+            return difference
+    pairs = _paired(a, b)
+    if isinstance(pairs, Difference):
+        return pairs
+    for task, ours, others in pairs:
+        for first, second in zip(ours, others, strict=False):
+            slack = tolerance.place_mm if first.moving or second.moving else 10.0 * tolerance.path_mm
+            if first.kind == "output" and same_arm and abs(first.along - second.along) > slack:
+                text = (
+                    f"{in_words(first)} after {first.along:.3f} mm of the path in A, after {second.along:.3f} mm in B"
+                )
+                return Difference("place", "geometry", text, side(first), side(second), task)
+    return None
+
+
+def _motion(
+    task: str,
+    ours: Sequence[Stretch],
+    theirs: Sequence[Stretch],
+    same_arm: bool,
+    tolerance: Tolerance,
+    verdict: Verdict,
+) -> Difference | None:
+    first = [stretch for stretch in ours if not _stands(stretch)]
+    second = [stretch for stretch in theirs if not _stands(stretch)]
+    groups = _aligned(first, second)
+    found: Difference | None = None
+    for a, b in groups:
+        difference = _group(task, a, b, same_arm, tolerance, verdict)
+        found = found or difference
+    return found
+
+
+def _stands(stretch: Stretch) -> bool:
+    """A move to where the robot already is."""
+    apart = np.abs(stretch.poses[:, :3, :] - stretch.poses[:1, :3, :]).max(initial=0.0)
+    return bool(apart < 1e-6)
+
+
+Group = tuple[Sequence[Stretch], Sequence[Stretch]]
+
+
+def _aligned(a: Sequence[Stretch], b: Sequence[Stretch]) -> list[Group]:
+    """Move against move where both have the same; else from stop to stop, because one language says with several moves
+    what another says with one (splines, relative moves)."""
+    if [stretch.motion for stretch in a] == [stretch.motion for stretch in b]:
+        return [([one], [other]) for one, other in zip(a, b, strict=True)]
+    left, right = _between_stops(a), _between_stops(b)
+    longest = max(len(left), len(right))
+    left += [[]] * (longest - len(left))
+    right += [[]] * (longest - len(right))
+    return list(zip(left, right, strict=True))
+
+
+def _between_stops(stretches: Sequence[Stretch]) -> list[Sequence[Stretch]]:
+    groups: list[Sequence[Stretch]] = []
+    group: list[Stretch] = []
+    for stretch in stretches:
+        group.append(stretch)
+        if stretch.stops:
+            groups.append(group)
+            group = []
+    return [*groups, group] if group else groups
+
+
+def _group(
+    task: str, a: Sequence[Stretch], b: Sequence[Stretch], same_arm: bool, tolerance: Tolerance, verdict: Verdict
+) -> Difference | None:
+    if not a or not b:
+        who = "A" if a else "B"
+        text = f"only {who} moves here"
+        return Difference("move", "geometry", text, _move_side(a), _move_side(b), task)
+    ours = np.concatenate([stretch.poses for stretch in a])
+    theirs = np.concatenate([stretch.poses for stretch in b])
+    joint_way = any(stretch.motion == "joint" for stretch in (*a, *b))
+    if joint_way and not same_arm:  # two arms bend differently between the same points
+        ours, theirs = ours[-1:], theirs[-1:]
+    worst = gap(ours, theirs)
+    verdict.max_path_mm = max(verdict.max_path_mm, worst.mm)
+    if worst.mm > tolerance.path_mm or worst.deg > tolerance.turn_deg:
+        text = (
+            f"the tool goes another way: {worst.mm:.3f} mm and {worst.deg:.3f} deg apart"
+            f" at ({_xyz(worst.a)}) in A, ({_xyz(worst.b)}) in B"
+        )
+        return Difference("path", "geometry", text, _move_side(a), _move_side(b), task)
+    if same_arm and len(a[-1].joints) == len(b[-1].joints) and a[-1].stops and b[-1].stops:
+        apart = np.abs(a[-1].joints - b[-1].joints)
+        verdict.max_joint_deg = max(verdict.max_joint_deg, float(apart.max(initial=0.0)))
+        if apart.max(initial=0.0) > tolerance.joint_deg:
+            axis = int(np.argmax(apart))
+            text = (
+                f"the arm stands differently: axis {axis + 1} at {a[-1].joints[axis]:.3f} in A,"
+                f" {b[-1].joints[axis]:.3f} in B"
+            )
+            return Difference("joints", "geometry", text, _move_side(a), _move_side(b), task)
+    return None
+
+
+def _xyz(point: tuple[float, float, float]) -> str:
+    return ", ".join(f"{value:.3f}" for value in point)
+
+
+def _move_side(group: Sequence[Stretch]) -> Side:
+    if not group:
+        return Side(None)
+    last = group[-1]
+    x, y, z = (float(value) for value in last.poses[-1, :3, 3])
+    return Side(f"{last.motion} move to ({x:.3f}, {y:.3f}, {z:.3f})", last.place, float(last.times[0]))
+
+
+# Time
+
+
+def _time(a: Record, b: Record, tolerance: Tolerance, verdict: Verdict) -> Difference | None:
+    pairs = _paired(a, b)
+    if isinstance(pairs, Difference):
+        return pairs
+    for task, ours, theirs in pairs:
+        for first, second in zip(ours, theirs, strict=False):
+            apart = abs(first.t - second.t)
+            verdict.max_time_s = max(verdict.max_time_s, apart)
+            if apart > max(tolerance.time_s, tolerance.time_share * max(first.t, second.t)):
+                text = f"{in_words(first)} at {first.t:.3f} s in A, at {second.t:.3f} s in B"
+                return Difference("time", "time", text, side(first), side(second), task)
+    return None
+
+
+__all__ = ["LEVELS", "Tolerance", "Verdict", "compare", "in_words", "same_event"]

@@ -1,0 +1,117 @@
+"""What a run showed, in the terms that a comparison needs: happenings per task in order, and the path of the tool.
+
+A record is free of the language that the program was written in. Signals have all the names under which the other
+program may know them; see `signal_names`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from rpl.source import NOWHERE, Origin
+
+if TYPE_CHECKING:
+    from rpl.emulator.rotations import FloatArray
+
+Value = bool | int | float | str | None
+
+# How people name signals by number, whatever the language: word -> kind. `do3`, `DO_3`, `$OUT[3]`, `out3`, `DOUT[3]`.
+_WORDS = {
+    "digital_out": ("out", "do", "dout", "output", "digitalout", "digout", "q"),
+    "digital_in": ("in", "di", "din", "input", "digitalin", "digin", "i"),
+    "analog_out": ("ao", "anout", "aout", "analogout"),
+    "analog_in": ("ai", "anin", "ain", "analogin"),
+    "group_out": ("go", "gout", "groupout"),
+    "group_in": ("gi", "gin", "groupin"),
+    "flag": ("flag", "flg"),
+}
+_KIND_OF_WORD = {word: kind for kind, words in _WORDS.items() for word in words}
+_NUMBERED = re.compile(r"\$?([A-Za-z_]+?)_?\s*[\[(]?\s*0*(\d+)\s*[\])]?$")
+
+
+def signal_names(
+    kind: str | None, names: Iterable[str], index: int | None = None, last: int | None = None
+) -> frozenset[str]:
+    """The keys by which a signal of one program is found again in another.
+
+    Its names in lower case; its kind and number when it has one. A name that is made of a usual word and a number
+    (`do3`) counts as that number only when no number is known: a name declared for another number keeps its own.
+    """
+    keys = {name.lower().removeprefix("$") for name in names if name}
+    if index is not None and kind:
+        keys.add(f"{kind}:{index}" if last is None or last == index else f"{kind}:{index}-{last}")
+        return frozenset(keys)
+    for name in list(keys):
+        match = _NUMBERED.fullmatch(name)
+        if match and match[1].replace("_", "") in _KIND_OF_WORD:
+            keys.add(f"{_KIND_OF_WORD[match[1].replace('_', '')]}:{int(match[2])}")
+    return frozenset(keys)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where in a program: file, line, and the text of the statement."""
+
+    file: str = ""
+    line: int = 0
+    text: str = ""
+
+    def as_json(self) -> dict[str, object]:
+        return {"file": self.file, "line": self.line, "text": self.text}
+
+    def __str__(self) -> str:
+        where = f"{self.file}:{self.line}" if self.line else "no place in the source"
+        return f"{where}: {self.text}" if self.text else where
+
+
+def place_of(origin: Origin) -> Place:
+    """The place of a node; of a statement over several lines the first."""
+    if origin is NOWHERE or origin.source is None:
+        return Place()
+    lines = origin.text.strip().splitlines()
+    return Place(origin.file, origin.line, lines[0].strip() if lines else "")
+
+
+@dataclass(frozen=True, slots=True)
+class Happening:
+    """Something that can be seen from outside. kind: output, message, dialog, wait, fault, end.
+
+    value: the output's value, the message's text, the seconds of a timed wait (None: on a condition), the fault's code,
+    the status at the end. `along` is how far the tool had travelled on its whole path, mm; `moving` whether it moved.
+    """
+
+    kind: str
+    t: float
+    value: Value = None
+    names: frozenset[str] = frozenset()
+    place: Place = field(default_factory=Place)
+    along: float = 0.0
+    moving: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stretch:
+    """One move as it was driven: tool poses (k, 4, 4) in the robot's base frame, mm, at times (k,), and the joints (n,)
+    at its end. motion: joint, linear, circular, spline. `stops`: the robot came to rest at its end."""
+
+    motion: str
+    times: FloatArray
+    poses: FloatArray
+    joints: FloatArray
+    stops: bool = True
+    place: Place = field(default_factory=Place)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Record:
+    """A whole run: how it ended, what happened in each task, and the motion of each robot by task name."""
+
+    status: str
+    time_s: float
+    tasks: Mapping[str, tuple[Happening, ...]]
+    motion: Mapping[str, tuple[Stretch, ...]]
+    robot: str = ""
+    language: str = ""
