@@ -2,17 +2,39 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from rpl import ir
 from rpl.passes.legalise.context import Context, Pass, names_in
+from rpl.passes.legalise.explicit import explicit_to_modal
+from rpl.passes.legalise.interrupts import interrupts
+from rpl.passes.legalise.lookahead import stop_blends
+from rpl.passes.legalise.modal import modal_to_explicit
+from rpl.passes.legalise.prelude import link_prelude
+from rpl.passes.legalise.signals import name_signals, number_signals
+from rpl.passes.typing import normalise
 
-PASSES: tuple[Pass, ...] = ()
+# First what asks for the source language's own rules (its prelude, its look-ahead), then control, data, motion.
+PASSES: tuple[Pass, ...] = (
+    link_prelude,
+    stop_blends,
+    interrupts,
+    modal_to_explicit,
+    explicit_to_modal,
+    name_signals,
+    number_signals,
+)
 
 
 def legalise(program: ir.Program, context: Context) -> ir.Program:
-    """The program rewritten for the context's target. Same-language writing leaves it as it is."""
+    """The program rewritten for the context's target and governed by its rules.
+
+    Same-language writing leaves it as it is.
+    """
     context.taken |= names_in(program)
     if not context.foreign:
         return program
     for one in PASSES:
         program = one(program, context)
-    return program
+    program = replace(program, modules=tuple(replace(module, dialect=context.target) for module in program.modules))
+    return normalise(program, context.diagnostics)

@@ -1,0 +1,56 @@
+"""A whole translation: normal form, legalisation for the target, names, writing. The proof is the caller's next step."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from rpl import ir, registry
+from rpl.diagnostics import Diagnostic, Diagnostics, Severity
+from rpl.emulator.model import RobotModel, load_robot
+from rpl.passes.legalise import Context, legalise
+from rpl.project import ReadProgram
+from rpl.writing.names import rename
+from rpl.writing.target import OutputFile, WriteContext
+
+
+@dataclass(frozen=True, slots=True)
+class Translation:
+    """Written files, the program as it was written, names that changed, and what was lost (guarded stops)."""
+
+    files: tuple[OutputFile, ...]
+    program: ir.Program
+    renamed: Mapping[str, str]
+    losses: tuple[Diagnostic, ...] = ()
+
+
+def translate_program(
+    read: ReadProgram,
+    target_name: str,
+    robot: str | None = None,
+    to_robot: str | None = None,
+    diagnostics: Diagnostics | None = None,
+) -> Translation:
+    """Write a program that was read in another language (or anew in its own).
+
+    robot: the arm the source was written for; to_robot: the arm that will run the result (default: the same). Raises
+    UsageError for unknown names. What the target cannot say is written as a guarded stop and listed in `losses`.
+    """
+    collector = diagnostics if diagnostics is not None else Diagnostics()
+    target = registry.target(target_name)
+    first = _load(robot)
+    second = _load(to_robot) if to_robot and to_robot != robot else first
+    source = read.dialects[0] if read.dialects else target_name
+    context = Context(source, target_name, target.capabilities(), collector, first, second)
+    program = legalise(read.program, context)
+    renamed: dict[str, str] = {}
+    if source != target_name:
+        program, renamed = rename(program, target.capabilities().names)
+    before = len(collector)
+    files = target.write(program, WriteContext(collector, second))
+    losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
+    return Translation(tuple(files), program, renamed, losses)
+
+
+def _load(name: str | None) -> RobotModel | None:
+    return load_robot(name) if name else None

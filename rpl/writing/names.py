@@ -1,0 +1,214 @@
+"""Every name of a program made legal for a target, consistently, with the map that gives the source's names back."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.typing import type_of
+from rpl.writing.target import NameRules
+from rpl.writing.text import NameMangler
+
+
+def rename(program: ir.Program, rules: NameRules) -> tuple[ir.Program, dict[str, str]]:
+    """The program with names that the target accepts, and source name -> new name of those that changed."""
+    collector = _Collector()
+    collector.program(program)
+    mangler = NameMangler(rules, collector.names)
+    changed = mangler.renamed()
+    if not changed:
+        return program, {}
+    folded = {old.lower(): new for old, new in changed.items()}
+    return _Renamer(folded, collector.fields, ProgramScope(program)).program(program), changed
+
+
+class _Collector:
+    """All names of a program in order of first appearance, and which of them are record fields."""
+
+    def __init__(self) -> None:
+        self.names: dict[str, None] = {}
+        self.fields: set[str] = set()
+
+    def add(self, name: str | None) -> None:
+        if name:
+            self.names.setdefault(name)
+
+    def program(self, program: ir.Program) -> None:
+        for module in program.modules:
+            self.add(module.name)
+            for declaration in module.declarations:
+                self.declaration(declaration)
+            for routine in module.routines:
+                self.add(routine.name)
+                for parameter in routine.parameters:
+                    self.add(parameter.name)
+                for declaration in routine.declarations:
+                    self.declaration(declaration)
+                for body in (routine.body, routine.undo, routine.backward, *(h.body for h in routine.handlers)):
+                    self.body(body)
+
+    def declaration(self, declaration: ir.Declaration) -> None:
+        match declaration:
+            case ir.EnumDeclaration(name=name, members=members):
+                for one in (name, *members):
+                    self.add(one)
+            case ir.RecordDeclaration(name=name, fields=fields):
+                self.add(name)
+                for field, _ in fields:
+                    self.add(field)
+                    self.fields.add(field.lower())
+            case ir.Initialise(assign=assign):
+                self.body((assign,))
+            case ir.Unread() | ir.ExternalDeclaration():
+                return
+            case ir.SignalDeclaration(name=name, signal=signal):
+                self.add(name)
+                self.add(signal.name)
+            case _:
+                self.add(declaration.name)
+                if isinstance(declaration, ir.Variable) and declaration.initial is not None:
+                    self.expression(declaration.initial)
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        match expression:
+            case ir.Name(id=name) | ir.Call(name=name) | ir.Signal(name=name) | ir.EnumLiteral(member=name):
+                self.add(name)
+            case ir.Present(name=name):
+                self.add(name)
+        return rewrite_parts(expression, self.expression)
+
+    def body(self, body: ir.Body) -> ir.Body:
+        for statement in body:
+            match statement:
+                case ir.CallRoutine(name=name, dynamic=None) | ir.Label(name=name) | ir.Goto(label=name):
+                    self.add(name)
+                case ir.For(counter=name) | ir.ConnectInterrupt(routine=name):
+                    self.add(name)
+            rewrite_parts(statement, self.expression, self.body)
+        return body
+
+
+class _Renamer:
+    def __init__(self, changed: dict[str, str], fields: set[str], scopes: ProgramScope) -> None:
+        self.changed = changed
+        self.changed_fields = fields & set(changed)
+        self.scopes = scopes
+        self.scope: Scope | None = None
+
+    def new(self, name: str) -> str:
+        return self.changed.get(name.lower(), name)
+
+    def program(self, program: ir.Program) -> ir.Program:
+        modules = tuple(self.module(module) for module in program.modules)
+        tasks = tuple(
+            replace(task, entry=self.new(task.entry), modules=tuple(map(self.new, task.modules)))
+            for task in program.tasks
+        )
+        return replace(program, modules=modules, tasks=tasks, entry=self.new(program.entry))
+
+    def module(self, module: ir.Module) -> ir.Module:
+        self.scope = self.scopes.module(module)
+        declarations = tuple(map(self.declaration, module.declarations))
+        routines = tuple(self.routine(module, routine) for routine in module.routines)
+        return replace(module, name=self.new(module.name), declarations=declarations, routines=routines)
+
+    def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        self.scope = self.scopes.routine(module, routine)
+        return replace(
+            routine,
+            name=self.new(routine.name),
+            parameters=tuple(replace(p, name=self.new(p.name), type=self.type(p.type)) for p in routine.parameters),
+            returns=None if routine.returns is None else self.type(routine.returns),
+            declarations=tuple(map(self.declaration, routine.declarations)),
+            body=self.body(routine.body),
+            handlers=tuple(
+                replace(h, codes=tuple(map(self.expression, h.codes)), body=self.body(h.body)) for h in routine.handlers
+            ),
+            undo=self.body(routine.undo),
+            backward=self.body(routine.backward),
+        )
+
+    def type(self, type: ir.Type) -> ir.Type:
+        match type:
+            case ir.NamedType(name=name):
+                return ir.NamedType(self.new(name))
+            case ir.ArrayType(element=element):
+                return replace(rewrite_parts(type, self.expression), element=self.type(element))
+            case ir.StringType():
+                return rewrite_parts(type, self.expression)
+        return type
+
+    def declaration(self, declaration: ir.Declaration) -> ir.Declaration:
+        match declaration:
+            case ir.Variable(initial=initial):
+                value = None if initial is None else self.expression(initial)
+                type = self.type(declaration.type)
+                return replace(declaration, name=self.new(declaration.name), type=type, initial=value)
+            case ir.RecordDeclaration(fields=fields):
+                new = tuple((self.new(name), self.type(type)) for name, type in fields)
+                return replace(declaration, name=self.new(declaration.name), fields=new)
+            case ir.EnumDeclaration(members=members):
+                return replace(declaration, name=self.new(declaration.name), members=tuple(map(self.new, members)))
+            case ir.AliasDeclaration(type=type):
+                return replace(declaration, name=self.new(declaration.name), type=self.type(type))
+            case ir.SignalDeclaration(signal=signal):
+                done = self.expression(signal)
+                assert isinstance(done, ir.Signal)
+                return replace(declaration, name=self.new(declaration.name), signal=done)
+            case ir.Initialise(assign=assign):
+                (one,) = self.body((assign,))
+                return replace(declaration, assign=one) if isinstance(one, ir.Assign) else declaration
+        return declaration
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        match expression:
+            case ir.Field(base=base, name=name) if name.lower() in self.changed_fields and self.is_record(base):
+                return replace(expression, base=self.expression(base), name=self.new(name))
+        done = rewrite_parts(expression, self.expression)
+        match done:
+            case ir.Name(id=name):
+                return replace(done, id=self.new(name))
+            case ir.Call(name=name):
+                arguments = tuple(map(self.argument, done.arguments))
+                return replace(done, name=self.new(name), arguments=arguments)
+            case ir.EnumLiteral(member=name):
+                return replace(done, member=self.new(name))
+            case ir.Present(name=name):
+                return replace(done, name=self.new(name))
+            case ir.Signal(name=str() as name):
+                return replace(done, name=self.new(name))
+            case ir.Aggregate(type_name=str() as word) if self.scope is not None:
+                if isinstance(self.scope.type(word), ir.RecordDeclaration):
+                    entries = tuple((None if n is None else self.new(n), value) for n, value in done.entries)
+                    return replace(done, type_name=self.new(word), entries=entries)
+        return done
+
+    def is_record(self, base: ir.Expression) -> bool:
+        return self.scope is not None and isinstance(type_of(base, self.scope), ir.NamedType | None)
+
+    def argument(self, argument: ir.Argument) -> ir.Argument:
+        name = None if argument.name is None else self.new(argument.name)
+        present = None if argument.if_present is None else self.new(argument.if_present)
+        return replace(argument, name=name, if_present=present)
+
+    def body(self, body: ir.Body) -> ir.Body:
+        return tuple(map(self.statement, body))
+
+    def statement(self, statement: ir.Statement) -> ir.Statement:
+        done = rewrite_parts(statement, self.expression, self.body)
+        match done:
+            case ir.CallRoutine(name=name, arguments=arguments):
+                return replace(done, name=self.new(name), arguments=tuple(map(self.argument, arguments)))
+            case ir.Label(name=name):
+                return replace(done, name=self.new(name))
+            case ir.Goto(label=name):
+                return replace(done, label=self.new(name))
+            case ir.For(counter=name):
+                return replace(done, counter=self.new(name))
+            case ir.ConnectInterrupt(routine=name):
+                return replace(done, routine=self.new(name))
+            case ir.TaskControl(task=name):
+                return replace(done, task=self.new(name))
+        return done
