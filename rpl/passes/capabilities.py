@@ -49,3 +49,10 @@ class Capabilities:
     enums: bool = False
     conversions: frozenset[str] = frozenset()
     signal_prefixes: Mapping[str, str] = field(default_factory=dict)
+    for_real: bool = False
+    wait_timeout: bool = False
+    timers: int = 0
+    dynamic_calls: bool = False
+    switch_types: frozenset[str] = frozenset()
+    switch_constant_cases: bool = False
+    text_results: bool = True
