@@ -1,0 +1,92 @@
+"""KUKA KRL: how its files are recognised; the heavy parts are imported when called."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rpl.diagnostics import Diagnostics
+from rpl.registry import Dialect, ReadResult
+from rpl.source import Source
+
+if TYPE_CHECKING:
+    from rpl.emulator.configuration import Notation
+    from rpl.ir import Module
+    from rpl.ir.rules import Rules
+
+_FRAME = re.compile(
+    r"^[ \t\ufeff]*(?:(?:GLOBAL\s+)?DEF(?:FCT\s+[\w$]+(?:\[[^\]]*\])?)?\s+[\w$]+\s*\("
+    r"|DEFDAT\s+[\w$]+|&ACCESS\b|&REL\b|&PARAM\b)",
+    re.IGNORECASE | re.MULTILINE,
+)
+_STATEMENTS = re.compile(
+    r"^[ \t]*(?:S?(?:PTP|LIN|CIRC)(?:_REL)?[ \t]*[\w${]|\$(?:OUT|VEL|BASE|TOOL|APO|ACC)\b|WAIT[ \t]+(?:SEC|FOR)\b"
+    r"|DECL[ \t]|ENDFOR\b|ENDIF\b|ENDSWITCH\b|END[ \t]*$|ENDFCT\b|ENDDAT\b|;FOLD\b|BAS[ \t]*\()",
+    re.IGNORECASE | re.MULTILINE,
+)
+
+
+def _recognise(path: str, text: str) -> int:
+    """How sure the content is KRL: the frame of a module, then the share of typical lines."""
+    head = text[:200_000]
+    frames = len(_FRAME.findall(head[:20_000]))
+    if frames and _STATEMENTS.search(head):
+        return 95
+    if frames:
+        return 80
+    typical = len(_STATEMENTS.findall(head))
+    lines = head.count("\n") + 1
+    suffix = Path(path).suffix.lower()
+    if typical >= 2 and typical * 5 >= lines:
+        return 45
+    return 32 if typical and suffix in (".src", ".sub", ".dat") else 0
+
+
+def _companions(path: str) -> tuple[str, ...]:
+    """The data list of a named program, and the program of a named data list; `$config.dat` beside either."""
+    file = Path(path)
+    other = {".src": (".dat", ".DAT", ".Dat"), ".sub": (".dat", ".DAT"), ".dat": (".src", ".SRC", ".sub", ".SUB")}
+    found = [str(file.with_suffix(suffix)) for suffix in other.get(file.suffix.lower(), ())]
+    if found:
+        found.extend(str(file.with_name(name)) for name in ("$config.dat", "$CONFIG.DAT", "$Config.dat"))
+    return tuple(name for name in found if name != path)
+
+
+def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
+    from .project import read
+
+    return read(sources, diagnostics)
+
+
+def _rules() -> Rules:
+    from .rules import RULES
+
+    return RULES
+
+
+def _prelude() -> Module:
+    from .prelude import prelude
+
+    return prelude()
+
+
+def _notation() -> Notation:
+    from .configuration import NOTATION
+
+    return NOTATION
+
+
+DIALECT = Dialect(
+    name="krl",
+    title="KUKA KRL",
+    extensions=(".src", ".dat", ".sub"),
+    recognise=_recognise,
+    read=_read,
+    rules=_rules,
+    prelude=_prelude,
+    notation=_notation,
+    notation_fields=("s", "t"),
+    companions=_companions,
+)

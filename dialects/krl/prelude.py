@@ -1,0 +1,27 @@
+"""The predefined data and system routines, written in KRL and read by the same reader as any program."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import resources
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics
+from rpl.errors import InternalError
+from rpl.source import source_from_text
+
+_FILES = ("prelude.src", "prelude.dat")
+
+
+@cache
+def prelude() -> ir.Module:
+    """The prelude as one module."""
+    from .project import read
+
+    folder = resources.files(__package__ or "")
+    sources = [source_from_text(name, folder.joinpath(name).read_text("utf-8")) for name in _FILES]
+    diagnostics = Diagnostics()
+    modules = read(sources, diagnostics).program.modules
+    if diagnostics.has_errors or len(modules) != 1:
+        raise InternalError(f"the KRL prelude does not read: {[item.as_text() for item in diagnostics]}")
+    return modules[0]

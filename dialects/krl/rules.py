@@ -1,0 +1,56 @@
+"""What KRL's controller does, as data. `M` marks what rests on memory and has its own test."""
+
+from __future__ import annotations
+
+from rpl.ir.rules import AdvanceRules, Rules
+
+from . import tables
+
+_XYZABC = {name: name for name in ("x", "y", "z", "a", "b", "c")}
+_EXTERNAL = {f"e{n}": f"e{n}" for n in range(1, 7)}
+
+COMPONENTS = {
+    "PoseType": _XYZABC,
+    "TargetType": {**_XYZABC, **_EXTERNAL, "s": "s", "t": "t"},
+    "JointsType": {**{f"a{n}": f"j{n}" for n in range(1, 7)}, **_EXTERNAL},
+}
+
+# Statements before which the advance run stops (expert programming, table of automatic stops); signals and actual
+# positions stop it wherever they are read or written.
+STOPS = frozenset(("Wait", "WaitUntil", "WaitForMotion", "Halt", "Pulse", "Message", "Dialog", "ResumeLevel"))
+
+RULES = Rules(
+    name="krl",
+    advance=AdvanceRules(moves=3, runs_ahead_of="all", stop_statements=STOPS, signals_stop=True),
+    real_to_int="round_half_away",
+    char_numbers=True,
+    components=COMPONENTS,
+    undefined=True,
+    call_depth=20,  # M: about 20 levels, interrupts included
+    # The state after power-on, before BAS(#INITMOV,0) has run: no look-ahead, tool and base not valid (identity here).
+    system_defaults={
+        "advance": 0,
+        "override": 100.0,
+        "path_speed": 3000.0,
+        "path_acceleration": 5000.0,
+        "swivel_speed": 400.0,
+        "twist_speed": 400.0,
+        "swivel_acceleration": 1000.0,
+        "twist_acceleration": 1000.0,
+        "joint_speed": 100.0,
+        "joint_acceleration": 100.0,
+        "external_speed": 100.0,
+        "external_acceleration": 100.0,
+        "blend_distance": 0.0,
+        "blend_rotation": 0.0,
+        "blend_speed": 0.0,
+        "blend_joint": 0.0,
+        "orientation_mode": "variable",
+        "circle_orientation": "path",
+        "interpolation": "base",
+        "path_limit_rule": "constant",
+        "singular_rule": 0,
+        "held_work": False,
+    },
+    type_names=tables.BASIC_TYPES,
+)

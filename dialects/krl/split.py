@@ -1,0 +1,61 @@
+"""KRL source text to pieces: one statement per line, `;` starts a comment anywhere but inside a text.
+
+Fold lines and the parameter data of inline forms live in comments; they are kept whole, as trivia. `&` lines are
+statements of the file header.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from rpl.reading.pieces import COMMENT, LAYOUT, STATEMENT, Piece
+from rpl.source import Source
+
+# What is taken out of a statement's shape. Names that contain digits (XP12, PPDAT3) and texts vary from line to line
+# like numbers do; names in front of a bracket are calls and stay, because they decide what the statement means.
+SHAPE = re.compile(
+    r"\A[ \t]*(?:&|(?:EXT|EXTP|EXTERNAL|EXTERNALP|EXTFCT|EXTFCTP|EXTERNALFCT|EXTERNALFCTP|IMPORT|CHANNEL)\b).*"
+    r'|(?P<text>"[^"\n]*")'
+    r"|'[^'\n]*'|#[ \t]*[A-Za-z_$][\w$]*"
+    r"|(?P<name>(?!E6(?:POS|AXIS)\b|[AE]\d\b|ORI\d\b)[A-Za-z_]++\d[\w$]*+(?!\s*\())"
+    r"|[A-Za-z_$\u0080-\uffff][\w$]*"
+    r"|(?P<real>(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+)"
+    r"|(?P<int>\d+)",
+    re.IGNORECASE,
+)
+SLOTS = {"real": ("REAL", "0.5"), "int": ("INT", "0"), "name": ("NAME", "n0"), "text": ("TEXT", '""')}
+
+_LINE = re.compile(r"[^\r\n]+")
+_CODE = re.compile(r'(?:[^;"]|"[^"]*(?:"|$))*')
+_BLANKS = " \t\f\ufeff\u00a0\x1a\x00"
+
+
+def code_of(text: str) -> str:
+    """A statement's text without the comment behind it."""
+    found = _CODE.match(text)
+    return (found.group() if found else text).strip(_BLANKS)
+
+
+def split(source: Source) -> Iterator[Piece]:
+    """The pieces of a KRL file."""
+    for match in _LINE.finditer(source.text):
+        line, start = match.group(), match.start()
+        body = line.strip(_BLANKS)
+        if not body:
+            if line.strip():
+                yield Piece(LAYOUT, start, match.end(), "")
+            continue
+        at = start if line[0] == "\ufeff" else start + line.index(body[0])
+        end = start + line.index(body[0]) + len(body)
+        if body[0] == ";":
+            fold = body[1:].lstrip()[:7].upper()
+            kind = LAYOUT if fold.startswith(("FOLD", "ENDFOLD")) else COMMENT
+            yield Piece(kind, at, end, body[1:])
+        elif ";" in body and body[0] != "&":
+            code = _CODE.match(body)
+            length = code.end() if code else len(body)
+            comment = body[length + 1 :] if length < len(body) else None
+            yield Piece(STATEMENT, at, end, body[:length].rstrip(_BLANKS), comment)
+        else:
+            yield Piece(STATEMENT, at, end, body)
