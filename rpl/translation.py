@@ -1,4 +1,4 @@
-"""A whole translation: normal form, legalisation for the target, names, writing. The proof is the caller's next step."""
+"""A whole translation: normal form, legalisation for the target, names, writing. The proof comes after, by others."""
 
 from __future__ import annotations
 

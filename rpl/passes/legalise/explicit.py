@@ -1,8 +1,8 @@
 """Explicit motion to modal motion, for targets where tool, frame, speed and blend are modal (KRL).
 
 Before a move the modal variables that differ from what is known to be set are set; at labels, loops and calls nothing
-is known. Components of constant data are written as numbers. Mappings that change the measure are those of modal.py, read
-backwards, and reported once.
+is known. Components of constant data are written as numbers. Mappings that change the measure are those of modal.py,
+read backwards, and reported once.
 """
 
 from __future__ import annotations

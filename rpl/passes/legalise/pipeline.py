@@ -11,13 +11,17 @@ from rpl.passes.legalise.interrupts import interrupts
 from rpl.passes.legalise.lookahead import stop_blends
 from rpl.passes.legalise.modal import modal_to_explicit
 from rpl.passes.legalise.prelude import link_prelude
+from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.signals import name_signals, number_signals
+from rpl.passes.legalise.triggers import triggers
 from rpl.passes.typing import normalise
 
 # First what asks for the source language's own rules (its prelude, its look-ahead), then control, data, motion.
 PASSES: tuple[Pass, ...] = (
+    searches,
     link_prelude,
     stop_blends,
+    triggers,
     interrupts,
     modal_to_explicit,
     explicit_to_modal,

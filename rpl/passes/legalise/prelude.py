@@ -59,6 +59,8 @@ class _Uses:
                     self.names.add(name.lower())
                 case ir.ConnectInterrupt(routine=name):
                     self.names.add(name.lower())
+                case ir.WaitUntil(error=str() as name):
+                    self.names.add(name.lower())
             rewrite_parts(statement, self.expression, self.body)
         return body
 

@@ -1,0 +1,126 @@
+"""Search moves for targets that have none: an interrupt that brakes, keeps the position, and leaves the move.
+
+A routine of its own holds the move, so that the target's resume drops exactly that. The error numbers are the source's:
+signal already there, nothing found.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.rewrite import rewrite_parts
+
+_PRIORITY = 5  # more urgent than the interrupts that passes.interrupts numbers
+
+
+def searches(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets without search moves that can brake and resume from an interrupt."""
+    statements = context.capabilities.statements
+    if "Search" in statements or not {"DeclareInterrupt", "ResumeLevel", "StopMotion"} <= statements:
+        return program
+    worker = _Searches(context, set(rules_of(context.source).errors))
+    modules = tuple(
+        replace(
+            module,
+            routines=tuple(replace(r, body=worker.body(r.body, _local_names(r))) for r in module.routines),
+        )
+        for module in program.modules
+    )
+    if not worker.routines:
+        return program
+    first = modules[0]
+    home = ir.Module(
+        context.fresh("rpl_search"), first.dialect, tuple(worker.declarations), tuple(worker.routines), task=first.task
+    )
+    return replace(program, modules=(*modules, home))
+
+
+def _local_names(routine: ir.Routine) -> frozenset[str]:
+    names = {parameter.name.lower() for parameter in routine.parameters}
+    names.update(d.name.lower() for d in routine.declarations if isinstance(d, ir.Variable))
+    return frozenset(names)
+
+
+@dataclass(slots=True)
+class _Searches:
+    context: Context
+    errors: set[str]
+    declarations: list[ir.Declaration] = field(default_factory=list)
+    routines: list[ir.Routine] = field(default_factory=list)
+
+    def body(self, body: ir.Body, local: frozenset[str]) -> ir.Body:
+        done: list[ir.Statement] = []
+        for statement in body:
+            if isinstance(statement, ir.Move) and statement.search is not None and self.possible(statement, local):
+                done.extend(self.search(statement, statement.search))
+            else:
+                done.append(rewrite_parts(statement, lambda expression: expression, lambda b: self.body(b, local)))
+        return tuple(done)
+
+    def possible(self, move: ir.Move, local: frozenset[str]) -> bool:
+        """The generated routine sees global data only; the goal alone is passed."""
+        found = False
+
+        def look(expression: ir.Expression) -> ir.Expression:
+            nonlocal found
+            found = found or (isinstance(expression, ir.Name) and expression.id.lower() in local)
+            return rewrite_parts(expression, look)
+
+        rewrite_parts(replace(move, target=ir.IntLiteral(0), search=None), look)
+        if move.search is not None:
+            look(move.search.condition)
+        return not found
+
+    def search(self, move: ir.Move, search: ir.Search) -> list[ir.Statement]:
+        target = ir.TargetType(self.context.source)
+        hit, place = self.context.fresh("rpl_hit"), self.context.fresh("rpl_found")
+        react, travel = self.context.fresh("rpl_on_hit"), self.context.fresh("rpl_search_move")
+        self.declarations += [
+            ir.Variable(hit, ir.BoolType(), ir.BoolLiteral(False), scope="global"),
+            ir.Variable(place, target, scope="global"),
+        ]
+        number = ir.IntLiteral(_PRIORITY)
+        stops = search.stop != "none"
+        self.routines += [
+            ir.Routine(
+                react,
+                body=(
+                    *((ir.StopMotion(),) if stops else ()),
+                    ir.Assign(ir.Name(place), ir.System("interrupt_pose")),
+                    ir.Assign(ir.Name(hit), ir.BoolLiteral(True)),
+                    *((ir.ResumeLevel(),) if stops else ()),
+                ),
+                scope="global",
+            ),
+            ir.Routine(
+                travel,
+                parameters=(ir.Parameter("goal", target),),
+                body=(
+                    ir.ControlInterrupt("on", number),
+                    replace(move, target=ir.Name("goal"), search=None, blend=ir.BlendStop()),
+                    ir.WaitForMotion(),
+                    ir.ControlInterrupt("off", number),
+                ),
+                scope="global",
+            ),
+        ]
+        condition = search.condition if search.edge != "falling" else ir.Unary("not", search.condition)
+        origin, later = move.origin, replace(move.origin, comments=())
+        steps: list[ir.Statement] = [ir.Assign(ir.Name(hit), ir.BoolLiteral(False), origin=origin)]
+        if "ERR_SIGSUPSEARCH" in self.errors:
+            already: ir.Body = (ir.Raise(ir.Name("ERR_SIGSUPSEARCH"), origin=later),)
+            steps.append(ir.If(((condition, already),), origin=later))
+        failed: ir.Body = (ir.Raise(ir.Name("ERR_WHLSEARCH"), origin=later),) if "ERR_WHLSEARCH" in self.errors else ()
+        return [
+            *steps,
+            ir.DeclareInterrupt(number, condition, ir.CallRoutine(react), origin=later),
+            ir.CallRoutine(travel, (ir.Argument(move.target),), origin=later),
+            ir.ControlInterrupt("off", number, origin=later),
+            ir.If(
+                ((ir.Name(hit), (ir.Assign(search.found, ir.Name(place), origin=later),)),),
+                failed,
+                origin=later,
+            ),
+        ]

@@ -1,0 +1,155 @@
+"""Path events as statements before a move (KRL) to stored events that the move names (RAPID), and back."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.usage import base_name, bodies, each_statement
+from rpl.passes.rewrite import rewrite_parts
+
+
+def triggers(program: ir.Program, context: Context) -> ir.Program:
+    """Rewrites towards whichever form the target has."""
+    statements = context.capabilities.statements
+    if "Trigger" not in statements and "DefineTrigger" in statements:
+        return _Stored(context).program(program)
+    if "DefineTrigger" not in statements and "Trigger" in statements:
+        return _Before(program).program(program)
+    return program
+
+
+class _Stored:
+    """Trigger statements become variables of trigger type; calls become interrupts with trap routines."""
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+        self.declarations: list[ir.Declaration] = []
+        self.routines: list[ir.Routine] = []
+
+    def program(self, program: ir.Program) -> ir.Program:
+        modules = tuple(
+            replace(module, routines=tuple(replace(r, body=self.body(r.body)) for r in module.routines))
+            for module in program.modules
+        )
+        program = replace(program, modules=modules)
+        if self.declarations:
+            first = modules[0]
+            home = ir.Module(
+                self.context.fresh("rpl_triggers"),
+                first.dialect,
+                tuple(self.declarations),
+                tuple(self.routines),
+                task=first.task,
+            )
+            program = replace(program, modules=(*modules, home))
+        return program
+
+    def body(self, body: ir.Body) -> ir.Body:
+        done: list[ir.Statement] = []
+        waiting: list[ir.Trigger] = []
+        for statement in body:
+            if isinstance(statement, ir.Trigger):
+                waiting.append(statement)
+                continue
+            if waiting and isinstance(statement, ir.Move):
+                names: list[ir.Expression] = []
+                for trigger in waiting:
+                    done.extend(self.stored(trigger, names))
+                waiting = []
+                done.append(replace(statement, triggers=(*statement.triggers, *names)))
+                continue
+            if waiting and not isinstance(statement, ir.Assign | ir.Nothing | ir.LookAhead):
+                done.extend(waiting)  # no move follows here: left for the writer to report
+                waiting = []
+            done.append(rewrite_parts(statement, lambda expression: expression, self.body))
+        done.extend(waiting)
+        return tuple(done)
+
+    def stored(self, trigger: ir.Trigger, names: list[ir.Expression]) -> list[ir.Statement]:
+        name = self.context.fresh("rpl_trigger")
+        self.declarations.append(ir.Variable(name, ir.TriggerType(), scope="global"))
+        names.append(ir.Name(name))
+        later = replace(trigger.origin, comments=())
+        if isinstance(trigger.action, ir.Assign):
+            return [ir.DefineTrigger(ir.Name(name), replace(trigger, origin=later), origin=trigger.origin)]
+        handle, trap = self.context.fresh("rpl_trigger_interrupt"), self.context.fresh("rpl_trigger_trap")
+        self.declarations.append(ir.Variable(handle, ir.InterruptType(), scope="global"))
+        self.routines.append(ir.Routine(trap, "trap", body=(trigger.action,)))
+        return [
+            ir.ControlInterrupt("delete", ir.Name(handle), origin=trigger.origin),
+            ir.ConnectInterrupt(ir.Name(handle), trap, origin=later),
+            ir.DefineTrigger(ir.Name(name), replace(trigger, origin=later), ir.Name(handle), origin=later),
+        ]
+
+
+class _Before:
+    """Stored triggers go back before the moves that name them, where a variable is defined in one place only."""
+
+    def __init__(self, program: ir.Program) -> None:
+        self.defined: dict[str, ir.DefineTrigger | None] = {}
+        self.trap_of: dict[str, str] = {}
+        for module in program.modules:
+            for routine in module.routines:
+                for body in bodies(routine):
+                    each_statement(body, self.collect)
+
+    def collect(self, statement: ir.Statement) -> None:
+        match statement:
+            case ir.DefineTrigger(target=target):
+                name = base_name(target) or ""
+                self.defined[name] = None if name in self.defined else statement
+            case ir.ConnectInterrupt(handle=handle, routine=routine):
+                self.trap_of.setdefault(base_name(handle) or "", routine)
+
+    def program(self, program: ir.Program) -> ir.Program:
+        modules = tuple(
+            replace(
+                module,
+                routines=tuple(replace(r, body=self.body(r.body)) for r in module.routines),
+                declarations=tuple(d for d in module.declarations if not self.is_resolved(d)),
+            )
+            for module in program.modules
+        )
+        return replace(program, modules=modules)
+
+    def is_resolved(self, declaration: ir.Declaration) -> bool:
+        return (
+            isinstance(declaration, ir.Variable)
+            and isinstance(declaration.type, ir.TriggerType)
+            and self.defined.get(declaration.name.lower()) is not None
+        )
+
+    def body(self, body: ir.Body) -> ir.Body:
+        done: list[ir.Statement] = []
+        for statement in body:
+            match statement:
+                case ir.DefineTrigger(target=target) if self.defined.get(base_name(target) or "") is statement:
+                    if statement.origin.comments:
+                        done.append(ir.Nothing(origin=statement.origin))
+                case ir.Move(triggers=triggers) if triggers:
+                    done.extend(self.move(statement))
+                case _:
+                    done.append(rewrite_parts(statement, lambda expression: expression, self.body))
+        return tuple(done)
+
+    def move(self, move: ir.Move) -> list[ir.Statement]:
+        before: list[ir.Statement] = []
+        kept: list[ir.Expression | ir.Trigger] = []
+        for one in move.triggers:
+            trigger = one if isinstance(one, ir.Trigger) else self.resolved(one)
+            if trigger is None:
+                kept.append(one)
+            else:
+                before.append(replace(trigger, origin=replace(move.origin, comments=())))
+        return [*before, replace(move, triggers=tuple(kept))]
+
+    def resolved(self, name: ir.Expression) -> ir.Trigger | None:
+        defined = self.defined.get(base_name(name) or "")
+        if defined is None:
+            return None
+        if defined.interrupt is None:
+            return defined.trigger
+        routine = self.trap_of.get(base_name(defined.interrupt) or "")
+        return replace(defined.trigger, action=ir.CallRoutine(routine)) if routine else None
