@@ -31,6 +31,9 @@ class Path(Protocol):
     def poses(self, fraction: ArrayLike) -> FloatArray:
         """Poses (k, 4, 4) at fractions (k,)."""
 
+    def tangent(self, fraction: float) -> FloatArray:
+        """Change of position (3,) per fraction, mm."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Line:
@@ -51,6 +54,10 @@ class Line:
         s = np.asarray(fraction, dtype=np.float64)
         position = self.start[:3, 3] + s[..., None] * (self.end[:3, 3] - self.start[:3, 3])
         return pose_matrix(position, slerp(self.start, self.end, s))
+
+    def tangent(self, fraction: float) -> FloatArray:
+        del fraction
+        return np.asarray(self.end[:3, 3] - self.start[:3, 3])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -91,6 +98,10 @@ class Arc:
         position = self.centre + around @ (self.start[:3, 3] - self.centre)
         turn = slerp(self.start, self._goal(), s)
         return pose_matrix(position, around @ turn if self.follow_path else turn)
+
+    def tangent(self, fraction: float) -> FloatArray:
+        around = rotation_vector_to_matrix(fraction * self.sweep_rad * self.axis)
+        return np.asarray(self.sweep_rad * np.cross(self.axis, around @ (self.start[:3, 3] - self.centre)))
 
 
 def arc_through(

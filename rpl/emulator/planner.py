@@ -17,7 +17,7 @@ from rpl.emulator.configuration import Selection
 from rpl.emulator.model import RobotModel
 from rpl.emulator.paths import Arc, Line, Path, arc_through
 from rpl.emulator.rotations import FloatArray, invert_pose, pose_matrix
-from rpl.emulator.timelaw import TimeLaw, limited, travel
+from rpl.emulator.timelaw import Profile, TimeLaw, slowed_to
 from rpl.emulator.tracking import MotionFault, Track, solve_arm_joints, track_flanges, track_wrist_joints
 
 __all__ = ["MotionFault", "MoveRequest", "MoveSamples", "PlannedMove", "plan"]
@@ -173,9 +173,12 @@ class MoveSamples:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlannedMove:
-    """A move that can be made. `slowed` tells that the speed was reduced to keep an axis within its maximum."""
+    """A move that can be made. `slowed` tells that the speed was reduced to keep an axis within its maximum.
 
-    kind: Literal["joint", "linear", "circular"]
+    `span` is the part of the geometry that is driven: all of it, or less where a corner takes over.
+    """
+
+    kind: Literal["joint", "linear", "circular", "corner"]
     start_joints: FloatArray
     end_joints: FloatArray
     start_pose: FloatArray
@@ -184,13 +187,25 @@ class PlannedMove:
     length_mm: float
     slowed: bool
     geometry: Geometry
+    profile: Profile
     law: TimeLaw
+    span: tuple[float, float]
     external_start: FloatArray
     external_end: FloatArray
 
+    def _fraction(self, time_s: ArrayLike) -> FloatArray:
+        begin, end = self.span
+        return np.asarray(begin + (end - begin) * self.law.at(time_s))
+
     def _ask(self, question: Callable[[FloatArray], FloatArray], time_s: ArrayLike) -> FloatArray:
-        fraction = self.law.at(time_s)
+        fraction = self._fraction(time_s)
         return question(fraction) if fraction.ndim else question(fraction[None])[0]
+
+    def _time_at(self, distance_mm: float) -> float:
+        begin, end = self.span
+        before = float(self.geometry.distance(np.array([begin]))[0])
+        fraction = self.geometry.fraction_at(before + distance_mm)
+        return float(self.law.time_of((fraction - begin) / max(end - begin, 1e-300)))
 
     def joints_at(self, time_s: ArrayLike) -> FloatArray:
         """Joints at a time (n,) or at times (k,) -> (k, n); s from the start of the move."""
@@ -202,16 +217,16 @@ class PlannedMove:
 
     def external_at(self, time_s: ArrayLike) -> FloatArray:
         """External axes at a time (e,) or at times (k, e)."""
-        share = self.law.at(time_s)[..., None]
+        share = self._fraction(time_s)[..., None]
         return np.asarray(self.external_start + share * (self.external_end - self.external_start))
 
     def time_at_distance_from_start(self, distance_mm: float) -> float:
         """The time at which the tool centre point has travelled that far; at most the whole duration."""
-        return float(self.law.time_of(self.geometry.fraction_at(distance_mm)))
+        return self._time_at(distance_mm)
 
     def time_at_distance_from_end(self, distance_mm: float) -> float:
         """The time at which the tool centre point still has that far to travel; at least 0."""
-        return float(self.law.time_of(self.geometry.fraction_at(max(self.length_mm - distance_mm, 0.0))))
+        return self._time_at(max(self.length_mm - distance_mm, 0.0))
 
     def sample(self, count: int) -> MoveSamples:
         """The move at `count` even moments from its start to its end."""
@@ -259,7 +274,7 @@ def _plan_joint(model: RobotModel, start: FloatArray, request: MoveRequest) -> P
     length = float(geometry.travelled[-1])
     if request.tcp_speed_for_joint_move is not None and length > 1e-6:
         speed = min(speed, request.tcp_speed_for_joint_move / length)
-    return _finish(model, request, geometry, _with_external(request, speed, acceleration), slowed=False)
+    return _finish(request, geometry, _profile(request, speed, acceleration))
 
 
 def joint_geometry(model: RobotModel, start: FloatArray, end: FloatArray, tool: FloatArray) -> JointGeometry:
@@ -336,11 +351,8 @@ def _plan_path(model: RobotModel, start: FloatArray, request: MoveRequest) -> Pl
     if request.orientation == "wrist_joints":
         wrist = float(np.min(model.speeds[3:] / np.maximum(np.abs(track.joints[-1] - track.joints[0])[3:], 1e-12)))
         speed, acceleration = min(speed, wrist), min(acceleration, wrist / 0.1)
-    law = _with_external(request, speed, acceleration)
-    checked = _within_axis_speeds(model, track, law, acceleration, request)
-    if isinstance(checked, MotionFault):
-        return checked
-    return _finish(model, request, geometry, checked, slowed=checked is not law)
+    profile = _within_axis_speeds(model, track, _profile(request, speed, acceleration), request)
+    return profile if isinstance(profile, MotionFault) else _finish(request, geometry, profile)
 
 
 def _over(rate: float, way: float) -> float:
@@ -385,20 +397,19 @@ def _track(model: RobotModel, start: FloatArray, path: Path, request: MoveReques
 
 
 def _within_axis_speeds(
-    model: RobotModel, track: Track, law: TimeLaw, acceleration: float, request: MoveRequest
-) -> TimeLaw | MotionFault:
-    """The law itself, a slower one, or the fault that an axis would have to turn too fast."""
+    model: RobotModel, track: Track, profile: Profile, request: MoveRequest
+) -> Profile | MotionFault:
+    """The profile itself, a slower one, or the fault that an axis would have to turn too fast."""
     steps = np.abs(np.diff(track.joints, axis=0))
-    spans = np.maximum(np.diff(law.time_of(track.fractions)), 1e-12)
+    spans = np.maximum(np.diff(profile.law().time_of(track.fractions)), 1e-12)
     excess = steps / spans[:, None] / model.speeds
-    if excess.size == 0 or excess.max() <= 1.0 + SPEED_SLACK:
-        return law
+    if not steps.any() or excess.max() <= 1.0 + SPEED_SLACK:
+        return profile
     if request.reduce_speed_near_singularity:
         gaps = np.diff(track.fractions)
         with np.errstate(divide="ignore"):
             ceilings = np.min(model.speeds * gaps[:, None] / np.maximum(steps, 1e-12), axis=1)
-        top = float(law.speeds.max())
-        return limited(track.fractions, np.minimum(ceilings, top), acceleration)
+        return Profile(profile.speed, profile.acceleration, track.fractions, ceilings)
     place, axis = (int(i) for i in np.unravel_index(np.argmax(excess), excess.shape))
     kind: Literal["singularity", "axis_speed"] = "singularity" if _ill(model, track.joints[place]) else "axis_speed"
     return MotionFault(
@@ -418,15 +429,18 @@ def _ill(model: RobotModel, joints: FloatArray) -> bool:
     return bool(values[0] > SINGULAR_CONDITION * smallest)
 
 
-def _with_external(request: MoveRequest, speed: float, acceleration: float) -> TimeLaw:
-    """The law of the whole move, external axes included."""
+def _profile(request: MoveRequest, speed: float, acceleration: float) -> Profile:
+    """Top speed and acceleration of the whole move, external axes and a programmed duration included."""
     for begin, goal, top in zip(request.external_start, request.external_target, request.external_speeds, strict=False):
         speed = min(speed, _over(top, abs(goal - begin)))
         acceleration = min(acceleration, _over(top / 0.3, abs(goal - begin)))
-    return travel(speed, acceleration, request.duration_s)
+    if request.duration_s is not None and request.duration_s > 0.0 and np.isfinite(speed):
+        speed = slowed_to(speed, acceleration, request.duration_s)
+    return Profile(speed, acceleration)
 
 
-def _finish(model: RobotModel, request: MoveRequest, geometry: Geometry, law: TimeLaw, *, slowed: bool) -> PlannedMove:
+def _finish(request: MoveRequest, geometry: Geometry, profile: Profile) -> PlannedMove:
+    law = profile.law()
     ends = np.array([0.0, 1.0])
     joints, poses = geometry.joints(ends), geometry.tcp(ends)
     begin = np.array(request.external_start, dtype=np.float64)
@@ -439,9 +453,11 @@ def _finish(model: RobotModel, request: MoveRequest, geometry: Geometry, law: Ti
         end_pose=poses[1],
         duration_s=law.duration,
         length_mm=float(geometry.distance(ends)[1]),
-        slowed=slowed,
+        slowed=profile.ceilings is not None,
         geometry=geometry,
+        profile=profile,
         law=law,
+        span=(0.0, 1.0),
         external_start=begin,
         external_end=goal,
     )

@@ -1,7 +1,7 @@
 """How far along its path a move is at each moment: the law s(t), s from 0 to 1.
 
 A law is a row of pieces of constant acceleration, which covers the plain trapezoid and a speed profile that slows down
-near a singularity alike, and evaluates exactly in both directions. Every move gets its law from `travel`, so a
+near a singularity alike, and evaluates exactly in both directions. Every move gets its law from its `Profile`, so a
 controller with another way of accelerating has one place to go to.
 """
 
@@ -60,43 +60,79 @@ def at_rest() -> TimeLaw:
     return TimeLaw(np.zeros(2), np.array([0.0, 1.0]), np.zeros(2))
 
 
-def travel(speed: float, acceleration: float, duration_s: float | None = None) -> TimeLaw:
+def travel(speed: float, acceleration: float, start_speed: float = 0.0, end_speed: float = 0.0) -> TimeLaw:
     """The trapezoid (or triangle) over the whole path at a top speed in 1/s and an acceleration in 1/s².
 
-    With a duration the top speed is lowered until the move takes that long; a duration too short for speed and
-    acceleration gives the fastest move instead. Infinite speed and acceleration together mean there is nothing to do.
+    Start and end speed (1/s) are not zero next to a corner. Where the path is too short to get from one to the other,
+    the acceleration is raised as far as it takes. Infinite speed and acceleration mean there is nothing to do.
     """
-    if not np.isfinite(speed) and not np.isfinite(acceleration):
-        law = at_rest()
-        if duration_s is None or duration_s <= 0.0:
-            return law
-        return TimeLaw(np.array([0.0, duration_s]), law.fractions, np.full(2, 1.0 / duration_s))
-    top = min(speed, float(np.sqrt(acceleration)))
-    if duration_s is not None and duration_s > 1.0 / top + top / acceleration:
-        wide = acceleration * duration_s
-        top = 2.0 * acceleration / (wide + float(np.sqrt(max(wide * wide - 4.0 * acceleration, 0.0))))
-    ramp, way = top / acceleration, 0.5 * top * top / acceleration
-    cruise = max(1.0 - 2.0 * way, 0.0) / top
+    if not np.isfinite(speed) or not np.isfinite(acceleration):
+        return at_rest()
+    squares = start_speed * start_speed, end_speed * end_speed
+    acceleration = max(acceleration, 0.5 * abs(squares[1] - squares[0]))
+    top = min(max(speed, end_speed), float(np.sqrt(0.5 * (squares[0] + squares[1]) + acceleration)))
+    first = abs(top * top - squares[0]) / (2.0 * acceleration)
+    last = min((top * top - squares[1]) / (2.0 * acceleration), 1.0 - first)
+    cruise = max(1.0 - first - last, 0.0)
+    ramps = abs(top - start_speed) / acceleration, (top - end_speed) / acceleration
     return TimeLaw(
-        np.cumsum([0.0, ramp, cruise, ramp]),
-        np.array([0.0, way, max(1.0 - way, way), 1.0]),
-        np.array([0.0, top, top, 0.0]),
+        np.cumsum([0.0, ramps[0], cruise / top, ramps[1]]),
+        np.array([0.0, first, first + cruise, 1.0]),
+        np.array([start_speed, top, top, end_speed]),
     )
 
 
-def limited(fractions: FloatArray, ceilings: FloatArray, acceleration: float) -> TimeLaw:
-    """The fastest law from rest to rest under a speed ceiling (m-1,) in 1/s per interval of `fractions` (m,).
+def slowed_to(speed: float, acceleration: float, duration_s: float) -> float:
+    """The top speed (1/s) that makes a move from rest to rest last that long; `speed` when it cannot be that short."""
+    top = min(speed, float(np.sqrt(acceleration)))
+    if duration_s <= 1.0 / top + top / acceleration:
+        return speed
+    wide = acceleration * duration_s
+    return 2.0 * acceleration / (wide + float(np.sqrt(max(wide * wide - 4.0 * acceleration, 0.0))))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Profile:
+    """How fast a move may go along its whole path: top speed 1/s, acceleration 1/s², in fractions of the path.
+
+    `ceilings` (m-1,) in 1/s lower the speed in the intervals between `knots` (m,), where an axis would be too slow.
+    """
+
+    speed: float
+    acceleration: float
+    knots: FloatArray | None = None
+    ceilings: FloatArray | None = None
+
+    def law(self, begin: float = 0.0, end: float = 1.0, start_speed: float = 0.0, end_speed: float = 0.0) -> TimeLaw:
+        """The law over `begin`..`end` of the path, as fractions of that part; boundary speeds in 1/s of the path."""
+        part = end - begin
+        if part <= 1e-12:
+            return at_rest()
+        speeds = start_speed / part, end_speed / part
+        if self.knots is None or self.ceilings is None:
+            return travel(self.speed / part, self.acceleration / part, *speeds)
+        inside = (self.knots > begin) & (self.knots < end)
+        knots = np.concatenate([[begin], self.knots[inside], [end]])
+        holder = np.clip(np.searchsorted(self.knots, knots[:-1], side="right") - 1, 0, len(self.ceilings) - 1)
+        ceilings = np.minimum(self.ceilings[holder], self.speed) / part
+        return limited((knots - begin) / part, ceilings, self.acceleration / part, *speeds)
+
+
+def limited(
+    fractions: FloatArray, ceilings: FloatArray, acceleration: float, start_speed: float = 0.0, end_speed: float = 0.0
+) -> TimeLaw:
+    """The fastest law under a speed ceiling (m-1,) in 1/s per interval of `fractions` (m,).
 
     Ceilings hold inside their interval; ramps are of constant acceleration (1/s²): one sweep forward for speeding up,
     one backward for slowing down (Bobrow 1985, without the dynamics).
     """
     steps = np.diff(fractions)
     top = np.minimum(np.append(ceilings, np.inf), np.insert(ceilings, 0, np.inf))
-    top[0] = top[-1] = 0.0
-    for order, first in ((range(1, len(top)), -1), (range(len(top) - 2, -1, -1), 1)):
-        for i in order:
-            step = steps[i - 1] if first < 0 else steps[i]
-            top[i] = min(top[i], float(np.sqrt(top[i + first] ** 2 + 2.0 * acceleration * step)))
+    top[0], top[-1] = start_speed, end_speed
+    for i in range(1, len(top)):
+        top[i] = min(top[i], float(np.sqrt(top[i - 1] ** 2 + 2.0 * acceleration * steps[i - 1])))
+    for i in range(len(top) - 2, -1, -1):
+        top[i] = min(top[i], float(np.sqrt(top[i + 1] ** 2 + 2.0 * acceleration * steps[i])))
     fractions, top = _with_peaks(fractions, top, ceilings, acceleration)
     steps = np.diff(fractions)
     times = np.insert(np.cumsum(2.0 * steps / np.maximum(top[1:] + top[:-1], 1e-300)), 0, 0.0)
