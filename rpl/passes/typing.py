@@ -231,7 +231,30 @@ class Typer:
                 return replace(statement, value=self.assigned(value, self.scope.resolve(wanted) if wanted else None))
             case ir.ConnectInterrupt(routine=name):
                 self.known_routine(name, statement.origin)
+            case ir.Move(target=target, via=via, settings=settings):
+                typed = replace(
+                    statement,
+                    target=self.place(target),
+                    via=None if via is None else self.place(via),
+                    settings=tuple(
+                        (self.value(name), self.assigned(value, self.infer(name)[1])) for name, value in settings
+                    ),
+                )
+                return rewrite_parts(typed, self.value, self.body)
         return rewrite_parts(statement, self.value, self.body)
+
+    def place(self, target: ir.Expression) -> ir.Expression:
+        """A motion target; an aggregate written there is joints or a target by the components it names."""
+        if not isinstance(target, ir.Aggregate) or target.type_name:
+            return self.value(target)
+        written = [name for name, _ in target.entries]
+        if written and all(name is None for name in written):
+            joints = len(written) == len(ir.POSITIONAL[ir.JointsType])
+        else:
+            axes = self.rules.components.get("JointsType", {})
+            neutral = {axes.get(name.lower(), name.lower()) for name in written if name}
+            joints = bool(neutral & set(ir.POSITIONAL[ir.AxesType]))
+        return self.assigned(target, ir.JointsType() if joints else ir.TargetType(self.rules.name))
 
     # ---- expressions
 
