@@ -374,8 +374,9 @@ class Typer:
 
     def binary(self, expression: ir.Binary) -> Typed:
         op = expression.op
-        left, left_type = self.infer(expression.left)
-        right, right_type = self.infer(expression.right)
+        wanted = ir.PoseType() if op == ":" else None
+        left, left_type = self.infer(expression.left, wanted if self.is_pose(expression.left) else None)
+        right, right_type = self.infer(expression.right, wanted if self.is_pose(expression.right) else None)
         if op in _ORDERED:
             left, right = self.comparable(left, left_type, right, right_type)
             return replace(expression, left=left, right=right), _BOOL
@@ -391,6 +392,13 @@ class Typer:
         else:
             op, type = self.arithmetic(op, left_type, right_type)
         return replace(expression, op=op, left=left, right=right), type
+
+    def is_pose(self, expression: ir.Expression) -> bool:
+        """Does an aggregate name components of a pose only (no flags, no external axes)?"""
+        if not isinstance(expression, ir.Aggregate) or expression.type_name:
+            return False
+        known = ir.COMPONENTS[ir.PoseType]
+        return all(name is not None and self.neutral(ir.PoseType(), name) in known for name, _ in expression.entries)
 
     def quotient(self, left: ir.Type | None, right: ir.Type | None) -> tuple[str, ir.Type | None]:
         if isinstance(left, ir.IntType) and isinstance(right, ir.IntType):
