@@ -67,6 +67,10 @@ class MoveRequest:
 class Geometry(Protocol):
     """Joints and tool poses over the fraction 0..1 of a move."""
 
+    @property
+    def tool(self) -> FloatArray:
+        """The tool centre point in the flange (4, 4)."""
+
     def joints(self, fraction: FloatArray) -> FloatArray:
         """Joints (k, n) at fractions (k,)."""
 

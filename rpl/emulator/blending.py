@@ -1,0 +1,298 @@
+"""Corners: two consecutive moves joined without a stop.
+
+The first move is left at the blend distance before its end, the second is met at the same distance after its start, and
+a smooth curve runs between. Between two path moves the tool centre point follows a parabola tangent to both (its corner
+point is missed by 0.354 of the distance at a right angle; measured ABB corners tend to 0.306); where a path is an arc
+the curve is the cubic with the same tangents. Orientation turns along the analogous curve. Where a joint move takes
+part, the corner is the parabola in joint space. The corner's speed is what path acceleration, axis speeds, axis
+accelerations and the two moves allow; speed is continuous along the whole chain.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rpl.emulator.model import RobotModel
+from rpl.emulator.paths import Path
+from rpl.emulator.planner import Geometry, JointGeometry, PathGeometry, PlannedMove
+from rpl.emulator.rotations import (
+    FloatArray,
+    invert_pose,
+    matrix_to_rotation_vector,
+    pose_matrix,
+    rotation_vector_to_matrix,
+)
+from rpl.emulator.timelaw import Profile, TimeLaw
+from rpl.emulator.tracking import MotionFault, track_flanges
+
+# No corner takes more than this share of a move, so that the corners at its two ends never meet.
+MOST = 0.5
+SAMPLES = 33
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Corner:
+    """Three moves instead of two, one after the other; `t_middle_s` is the middle of the corner, from its start."""
+
+    first: PlannedMove
+    corner: PlannedMove
+    second: PlannedMove
+    t_middle_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class NoBlend:
+    """The two moves are driven with a stop between them, and why."""
+
+    reason: str
+
+
+def blend(
+    model: RobotModel,
+    first: PlannedMove,
+    second: PlannedMove,
+    *,
+    distance_mm: float | None = None,
+    fraction: float | None = None,
+) -> Corner | NoBlend:
+    """Join two moves, of which the second starts where the first ends, by a corner of the given size.
+
+    `distance_mm` is measured along the tool's way and is reduced to half of the shorter move; `fraction` (0..0.5) is a
+    share of each move, as for joint moves. `first` may itself be the rest of a move that began with a corner.
+    """
+    gap = np.abs(first.end_joints - second.start_joints)
+    if gap.max() > 1e-4:
+        return NoBlend("the second move does not start where the first ends")
+    ends = _ends(first, second, distance_mm, fraction)
+    if isinstance(ends, NoBlend):
+        return ends
+    leave, meet = ends
+    if leave < first.span[0]:
+        return NoBlend("the corner before takes up the first move")
+    geometry = _corner_geometry(model, first, second, leave, meet)
+    if isinstance(geometry, NoBlend):
+        return geometry
+    return _driven(model, first, second, geometry, leave, meet)
+
+
+def _ends(
+    first: PlannedMove, second: PlannedMove, distance_mm: float | None, fraction: float | None
+) -> tuple[float, float] | NoBlend:
+    """Where to leave the first move and to meet the second, as fractions of their whole geometry."""
+    if fraction is not None:
+        share = min(fraction, MOST)
+        return (1.0 - share, share) if share > 0.0 else NoBlend("the blend distance is zero")
+    whole = [float(move.geometry.distance(np.array([1.0]))[0]) for move in (first, second)]
+    distance = min(distance_mm or 0.0, MOST * whole[0], MOST * whole[1])
+    if distance < 1e-6:
+        return NoBlend("the blend distance is zero" if not distance_mm else "a move without way has no corner")
+    return first.geometry.fraction_at(whole[0] - distance), second.geometry.fraction_at(distance)
+
+
+def _corner_geometry(
+    model: RobotModel, first: PlannedMove, second: PlannedMove, leave: float, meet: float
+) -> Geometry | NoBlend:
+    before = first.geometry.joints(np.array([leave]))[0]
+    after = second.geometry.joints(np.array([meet]))[0]
+    a, b = first.geometry, second.geometry
+    if not (isinstance(a, PathGeometry) and isinstance(b, PathGeometry)):
+        return _joint_corner(model, before, first.end_joints, after, b.tool)
+    curve = _path_corner(a.path, b.path, leave, meet)
+    if curve.length_mm < 1e-9:
+        return NoBlend("the path turns back on itself")
+    back = invert_pose(b.tool)
+    track = track_flanges(model, lambda u: curve.poses(u) @ back, before, SAMPLES)
+    if isinstance(track, MotionFault):
+        return NoBlend(f"no corner: {track.message}")
+    if np.abs(track.joints[-1] - after).max() > 1e-3:
+        return NoBlend("no corner: the arm would change its configuration")
+    return PathGeometry(model, curve, b.tool, track)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BezierPath:
+    """Poses on a cubic through four control positions (4, 3), orientation on the curve of three rotations (3, 3, 3)."""
+
+    positions: FloatArray
+    rotations: FloatArray
+
+    @property
+    def length_mm(self) -> float:
+        points = self._points(np.linspace(0.0, 1.0, 65))
+        return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+
+    @property
+    def turn_rad(self) -> float:
+        steps = self._turns(np.linspace(0.0, 1.0, 9))
+        between = np.swapaxes(steps[:-1], 1, 2) @ steps[1:]
+        return float(np.linalg.norm(matrix_to_rotation_vector(between), axis=1).sum())
+
+    def _points(self, u: FloatArray) -> FloatArray:
+        s, w = u[..., None], 1.0 - u[..., None]
+        p = self.positions
+        return np.asarray(w**3 * p[0] + 3 * w * w * s * p[1] + 3 * w * s * s * p[2] + s**3 * p[3])
+
+    def _turns(self, u: FloatArray) -> FloatArray:
+        """De Casteljau on rotations: tangent to the first turn at 0 and to the second at 1."""
+        r, share = self.rotations, u[..., None]
+        one = r[0] @ rotation_vector_to_matrix(share * matrix_to_rotation_vector(r[0].T @ r[1]))
+        two = r[1] @ rotation_vector_to_matrix(share * matrix_to_rotation_vector(r[1].T @ r[2]))
+        between = matrix_to_rotation_vector(np.swapaxes(one, -1, -2) @ two)
+        return np.asarray(one @ rotation_vector_to_matrix(share * between))
+
+    def poses(self, fraction: ArrayLike) -> FloatArray:
+        u = np.asarray(fraction, dtype=np.float64)
+        return pose_matrix(self._points(u), self._turns(u))
+
+    def tangent(self, fraction: float) -> FloatArray:
+        p, s, w = self.positions, fraction, 1.0 - fraction
+        return np.asarray(3 * (w * w * (p[1] - p[0]) + 2 * w * s * (p[2] - p[1]) + s * s * (p[3] - p[2])))
+
+
+def _path_corner(first: Path, second: Path, leave: float, meet: float) -> BezierPath:
+    """The cubic that leaves and meets two paths along their tangents; between straight lines it is the parabola."""
+    start, goal = first.poses(np.array([leave, 1.0]))
+    end = second.poses(np.array([meet]))[0]
+    out = first.tangent(leave) * (1.0 - leave) * 2.0 / 3.0
+    into = second.tangent(meet) * meet * 2.0 / 3.0
+    positions = np.stack([start[:3, 3], start[:3, 3] + out, end[:3, 3] - into, end[:3, 3]])
+    return BezierPath(positions, np.stack([start[:3, :3], goal[:3, :3], end[:3, :3]]))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JointCorner:
+    """The parabola in joint space with control points (3, n); the tool's way measured at `knots`."""
+
+    model: RobotModel
+    control: FloatArray
+    tool: FloatArray
+    knots: FloatArray
+    travelled: FloatArray
+
+    def joints(self, fraction: FloatArray) -> FloatArray:
+        s, w = fraction[..., None], 1.0 - fraction[..., None]
+        return np.asarray(w * w * self.control[0] + 2.0 * w * s * self.control[1] + s * s * self.control[2])
+
+    def tcp(self, fraction: FloatArray) -> FloatArray:
+        return np.asarray(self.model.forward(self.joints(fraction)) @ self.tool)
+
+    def distance(self, fraction: FloatArray) -> FloatArray:
+        return np.interp(fraction, self.knots, self.travelled)
+
+    def fraction_at(self, distance_mm: float) -> float:
+        return float(np.interp(distance_mm, self.travelled, self.knots)) if self.travelled[-1] > 0.0 else 0.0
+
+
+def _joint_corner(
+    model: RobotModel, before: FloatArray, corner: FloatArray, after: FloatArray, tool: FloatArray
+) -> JointCorner | NoBlend:
+    empty = JointCorner(model, np.stack([before, corner, after]), tool, np.zeros(2), np.zeros(2))
+    knots = np.linspace(0.0, 1.0, SAMPLES)
+    for joints in empty.joints(knots):
+        outside = model.within_limits(joints)
+        if outside:
+            return NoBlend(f"no corner: joint {outside[0] + 1} would leave its limits")
+    points = empty.tcp(knots)[:, :3, 3]
+    travelled = np.insert(np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1)), 0, 0.0)
+    return replace(empty, knots=knots, travelled=travelled)
+
+
+def _driven(
+    model: RobotModel, first: PlannedMove, second: PlannedMove, geometry: Geometry, leave: float, meet: float
+) -> Corner:
+    """Time the three parts: one speed through the corner where the moves have room to reach it, else accelerating.
+
+    Speeds are of fractions: the corner at rate w leaves the first move at 2 (1 - leave) w and meets the second at
+    2 meet w, since the corner's tangents are the rest and the beginning of the two moves.
+    """
+    tail, head = 2.0 * (1.0 - leave), 2.0 * meet
+    begin, arriving = first.span[0], float(first.law.speeds[0]) * (first.span[1] - first.span[0])
+    room = 2.0 * first.profile.acceleration * (leave - begin)
+    stopping = float(np.sqrt(2.0 * second.profile.acceleration * (1.0 - meet)))
+    rate = min(
+        _ceiling(first.profile, leave) / tail,
+        float(np.sqrt(arriving * arriving + room)) / tail,
+        _ceiling(second.profile, meet) / head,
+        stopping / head,
+        _corner_rate(model, first, second, geometry),
+    )
+    entry = max(rate, float(np.sqrt(max(arriving * arriving - room, 0.0))) / tail)
+    law = TimeLaw(np.array([0.0, 2.0 / (entry + rate)]), np.array([0.0, 1.0]), np.array([entry, rate]))
+    trimmed = _part(first, (begin, leave), first.profile.law(begin, leave, arriving, tail * entry))
+    rest = _part(second, (meet, 1.0), second.profile.law(meet, 1.0, head * rate, 0.0))
+    ends = np.array([0.0, 1.0])
+    joints, poses = geometry.joints(ends), geometry.tcp(ends)
+    corner = PlannedMove(
+        kind="corner",
+        start_joints=joints[0],
+        end_joints=joints[1],
+        start_pose=poses[0],
+        end_pose=poses[1],
+        duration_s=law.duration,
+        length_mm=float(geometry.distance(ends)[1]),
+        slowed=first.slowed or second.slowed,
+        geometry=geometry,
+        profile=Profile(max(entry, rate), np.inf),
+        law=law,
+        span=(0.0, 1.0),
+        external_start=_external(first, leave),
+        external_end=_external(second, meet),
+    )
+    return Corner(trimmed, corner, rest, float(law.time_of(0.5)))
+
+
+def _ceiling(profile: Profile, fraction: float) -> float:
+    """Top speed of a move at one place, 1/s."""
+    if profile.knots is None or profile.ceilings is None:
+        return profile.speed
+    holder = int(np.clip(np.searchsorted(profile.knots, fraction, side="right") - 1, 0, len(profile.ceilings) - 1))
+    return min(profile.speed, float(profile.ceilings[holder]))
+
+
+def _corner_rate(model: RobotModel, first: PlannedMove, second: PlannedMove, geometry: Geometry) -> float:
+    """The fastest even rate (1/s) through the corner that keeps path acceleration and the axes within their limits."""
+    knots = np.linspace(0.0, 1.0, SAMPLES)
+    step = knots[1]
+    joints = geometry.joints(knots)
+    fastest = np.abs(np.diff(joints, axis=0)).max(axis=0) / step
+    rate = float(np.min(model.speeds / np.maximum(fastest, 1e-9)))
+    moves = (first, second)
+    if isinstance(geometry, JointCorner):
+        strongest = np.abs(np.diff(joints, n=2, axis=0)).max(axis=0) / step**2
+        available = model.accelerations * min(_acceleration_share(model, move) for move in moves)
+        return min(rate, float(np.sqrt(np.min(available / np.maximum(strongest, 1e-9)))))
+    points = geometry.tcp(knots)[:, :3, 3]
+    bend = float(np.linalg.norm(np.diff(points, n=2, axis=0), axis=1).max()) / step**2
+    wholes = [float(move.geometry.distance(np.array([1.0]))[0]) for move in moves]
+    limit = min(move.profile.acceleration * whole for move, whole in zip(moves, wholes, strict=True))
+    return min(rate, float(np.sqrt(limit / max(bend, 1e-9))))
+
+
+def _acceleration_share(model: RobotModel, move: PlannedMove) -> float:
+    """The share of the axes' accelerations that a joint move uses; 1 for a path move."""
+    if not isinstance(move.geometry, JointGeometry):
+        return 1.0
+    way = np.abs(move.geometry.end - move.geometry.start)
+    return min(1.0, float(np.max(way / model.accelerations)) * move.profile.acceleration)
+
+
+def _part(move: PlannedMove, span: tuple[float, float], law: TimeLaw) -> PlannedMove:
+    """A piece of a move, with its own law."""
+    ends = np.array(span)
+    joints, poses, distances = move.geometry.joints(ends), move.geometry.tcp(ends), move.geometry.distance(ends)
+    return replace(
+        move,
+        start_joints=joints[0],
+        end_joints=joints[1],
+        start_pose=poses[0],
+        end_pose=poses[1],
+        duration_s=law.duration,
+        length_mm=float(distances[1] - distances[0]),
+        law=law,
+        span=span,
+    )
+
+
+def _external(move: PlannedMove, fraction: float) -> FloatArray:
+    return np.asarray(move.external_start + fraction * (move.external_end - move.external_start))
