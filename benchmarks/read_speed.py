@@ -1,0 +1,41 @@
+"""How fast long programs read: generated ones of 20,000 lines, from text to normal form.
+
+python benchmarks/read_speed.py [--lines 20000]
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+
+from generate import GENERATORS
+
+from rpl import registry
+from rpl.diagnostics import Diagnostics
+from rpl.passes.typing import normalise
+from rpl.source import source_from_text
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--lines", type=int, default=20_000)
+    lines = parser.parse_args().lines
+    for name, (generate, path) in GENERATORS.items():
+        source = source_from_text(path, generate(lines))
+        registry.dialect(name).read([source_from_text(path, generate(50))], Diagnostics())  # imports and tables
+        diagnostics = Diagnostics()
+        started = time.perf_counter()
+        result = registry.dialect(name).read([source], diagnostics)
+        read = time.perf_counter()
+        normalise(result.program, diagnostics)
+        done = time.perf_counter()
+        print(
+            f"{name}: {lines} lines, read {read - started:.2f} s ({lines / (read - started):,.0f} lines/s),"
+            f" normal form {done - read:.2f} s, {len(diagnostics)} reports"
+        )
+        for item in list(diagnostics)[:3]:
+            print(f"  {item.as_text()}")
+
+
+if __name__ == "__main__":
+    main()
