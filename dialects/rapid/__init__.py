@@ -1,0 +1,50 @@
+"""ABB RAPID (IRC5, RobotWare 5 to 7): the record that the registry finds. Heavy modules load when asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from rpl.diagnostics import Diagnostics
+from rpl.registry import Dialect, ReadResult
+from rpl.source import Source
+
+if TYPE_CHECKING:
+    from rpl.ir import Module
+    from rpl.ir.rules import Rules
+
+
+def _recognise(path: str, text: str) -> int:
+    from .recognise import recognise
+
+    return recognise(path, text)
+
+
+def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
+    from .reader import read
+
+    return read(sources, diagnostics)
+
+
+def _rules() -> Rules:
+    from .rules import RULES
+
+    return RULES
+
+
+def _prelude() -> Module:
+    from .prelude import prelude
+
+    return prelude()
+
+
+DIALECT = Dialect(
+    "rapid",
+    "ABB RAPID",
+    (".mod", ".sys", ".prg", ".modx", ".sysx"),
+    _recognise,
+    _read,
+    _rules,
+    _prelude,
+    notation_fields=("cf1", "cf4", "cf6", "cfx"),
+)

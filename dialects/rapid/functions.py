@@ -1,0 +1,205 @@
+"""RAPID's installed functions as neutral built-ins. What is not in this table is a call of a predefined routine.
+
+Sources: RAPID reference manuals, system functions; see docs/rapid.md for what is a hypothesis.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from rpl import ir
+
+if TYPE_CHECKING:
+    from .expressions import Arguments, Expressions
+
+Make = Callable[["Arguments", "Expressions"], ir.Expression | None]
+"""make(arguments, expressions): the expression, or None when an option has no neutral form. May raise
+StatementError."""
+
+_ZERO = ir.IntLiteral(0)
+
+
+def _plain(function: str, least: int, most: int | None = None) -> Make:
+    def make(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+        positional = arguments.need(least, most)
+        return None if arguments.options else ir.Builtin(function, tuple(positional))
+
+    return make
+
+
+def _with_option(function: str, least: int, option: str) -> Make:
+    """The option's value follows the positional arguments."""
+
+    def make(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+        positional = arguments.need(least)
+        rest = dict(arguments.options)
+        value = rest.pop(option, None)
+        if rest:
+            return None
+        return ir.Builtin(function, (*positional, value) if value is not None else tuple(positional))
+
+    return make
+
+
+def _binary(op: str) -> Make:
+    def make(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+        left, right = arguments.need(2)
+        return ir.Binary(op, left, right)
+
+    return make
+
+
+def _same(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    """NumToDnum and DnumToNum: num and dnum are one type here."""
+    value = arguments.need(1)[0]
+    return None if arguments.options else value
+
+
+def _signal_value(kind: str) -> Make:
+    def make(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+        signal = expressions.signal(arguments.need(1)[0], kind)
+        return ir.Convert("bit", signal) if kind.startswith("digital") else signal
+
+    return make
+
+
+def _test_signal(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    return expressions.signal(arguments.need(1)[0], "digital_in")
+
+
+def _rel_tool(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    """RelTool(p, dx, dy, dz \\Rx \\Ry \\Rz)"""
+    positional = arguments.need(4)
+    options = arguments.options
+    if set(options) - {"rx", "ry", "rz"}:
+        return None
+    turns = [options.get(name) or _ZERO for name in ("rx", "ry", "rz")]
+    while turns and turns[-1] is _ZERO:
+        turns.pop()
+    return ir.Builtin("tool_offset", (*positional, *turns))
+
+
+def _current(function: str) -> Make:
+    """CRobT and CPos: `\\Tool`, `\\WObj`; what is left out is the one in use."""
+
+    def make(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+        arguments.need(0)
+        options = arguments.options
+        if set(options) - {"tool", "wobj"}:
+            return None
+        tool, frame = options.get("tool"), options.get("wobj")
+        if tool is None and frame is None:
+            return ir.Builtin(function, ())
+        tool = tool or ir.Builtin("current_tool", ())
+        return ir.Builtin(function, (tool,) if frame is None else (tool, frame))
+
+    return make
+
+
+def _kinematics(function: str) -> Make:
+    """CalcRobT(joints, tool \\WObj) and CalcJointT(target, tool \\WObj); the work object is wobj0 when left out."""
+
+    def make(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+        position, tool = arguments.need(2)
+        if set(arguments.options) - {"wobj"}:
+            return None
+        return ir.Builtin(function, (position, tool, arguments.options.get("wobj") or ir.Name("wobj0")))
+
+    return make
+
+
+def _euler(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    rotation = arguments.need(1)[0]
+    for option in ("x", "y", "z"):
+        if set(arguments.options) == {option}:
+            return ir.Builtin(f"euler_{option}", (rotation,))
+    return None
+
+
+def _def_frame(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    points = [ir.Field(point, "trans") for point in arguments.need(3)]
+    if set(arguments.options) - {"origin"}:
+        return None
+    origin = arguments.options.get("origin")
+    return ir.Builtin("frame_from_points", (*points, origin) if origin is not None else tuple(points))
+
+
+def _present(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    match arguments.need(1)[0]:
+        case ir.Name(id=name):
+            return ir.Present(name)
+    return None
+
+
+FUNCTIONS: dict[str, Make] = {
+    # mathematics
+    **{name: _plain(name, 1) for name in ("abs", "sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "exp")},
+    **{f"{name}dnum": _plain(name, 1) for name in ("abs", "sqrt", "sin", "cos", "tan", "asin", "acos", "atan")},
+    "atan2": _plain("atan2", 2),
+    "atan2dnum": _plain("atan2", 2),
+    "pow": _plain("power", 2),
+    "powdnum": _plain("power", 2),
+    "min": _plain("min", 2),
+    "max": _plain("max", 2),
+    "round": _with_option("round", 1, "dec"),
+    "rounddnum": _with_option("round", 1, "dec"),
+    "trunc": _with_option("trunc", 1, "dec"),
+    "truncdnum": _with_option("trunc", 1, "dec"),
+    "numtodnum": _same,
+    "dnumtonum": _same,
+    "bitand": _binary("band"),
+    "bitor": _binary("bor"),
+    "bitxor": _binary("bxor"),
+    "bitanddnum": _binary("band"),
+    "bitordnum": _binary("bor"),
+    "bitxordnum": _binary("bxor"),
+    "bitrsh": _plain("bit_shift_right", 2),
+    "dim": _plain("dimension", 2),
+    # geometry
+    "offs": _plain("offset", 4),
+    "reltool": _rel_tool,
+    "crobt": _current("current_target"),
+    "cpos": _current("current_position"),
+    "cjointt": _plain("current_joints", 0),
+    "ctool": _plain("current_tool", 0),
+    "cwobj": _plain("current_frame", 0),
+    "calcrobt": _kinematics("joints_to_target"),
+    "calcjointt": _kinematics("target_to_joints"),
+    "posemult": _plain("compose", 2),
+    "poseinv": _plain("inverse", 1),
+    "posevect": _plain("transform", 2),
+    "eulerzyx": _euler,
+    "orientzyx": _plain("rotation_zyx", 3),
+    "defframe": _def_frame,
+    "distance": _plain("distance", 2),
+    "vectmagn": _plain("magnitude", 1),
+    "dotprod": _plain("dot", 2),
+    "norient": _plain("normalise", 1),
+    # texts
+    "strlen": _plain("text_length", 1),
+    "strpart": _plain("text_part", 3),
+    "strfind": _plain("text_find_any", 3),
+    "strmatch": _plain("text_match", 3),
+    "strmemb": _plain("text_member", 3),
+    "strmap": _plain("text_map", 3),
+    "strorder": _plain("text_order", 3),
+    "numtostr": _plain("number_text", 2),
+    "dnumtostr": _plain("number_text", 2),
+    "valtostr": _plain("value_text", 1),
+    "strtoval": _plain("parse_value", 2),
+    "ctime": _plain("time_text", 0),
+    "cdate": _plain("date_text", 0),
+    # signals, clocks, the rest
+    "dinput": _signal_value("digital_in"),
+    "doutput": _signal_value("digital_out"),
+    "ainput": _signal_value("analog_in"),
+    "aoutput": _signal_value("analog_out"),
+    "ginput": _signal_value("group_in"),
+    "ginputdnum": _signal_value("group_in"),
+    "goutput": _signal_value("group_out"),
+    "goutputdnum": _signal_value("group_out"),
+    "testdi": _test_signal,
+    "clkread": _with_option("clock_seconds", 1, "highres"),
+    "present": _present,
+}

@@ -1,0 +1,152 @@
+"""Read all sources of a RAPID project into modules and tasks."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.reading.assemble import assemble
+from rpl.reading.ledger import FileReport
+from rpl.reading.pieces import Attribute, Item, ModulePart
+from rpl.registry import ReadResult
+from rpl.source import Origin, Source
+
+from .blocks import Blocks, part
+from .parser import RapidParser
+from .prelude import PREDEFINED_NAMES
+from .project import Project, survey
+from .recognise import encoded
+from .splitter import split
+from .statements import Statements
+
+ENCODED = code(
+    "encoded-module",
+    Severity.ERROR,
+    "this is an encoded (binary) module, not program text",
+    "save it decoded on the controller, or leave it out",
+)
+NO_MODULE = code("no-module", Severity.WARNING, "the text stands in no module; it is read as module {name}")
+
+_TASK_FOLDER = re.compile(r"(?:^|[/\\])(TASK\d+)[/\\]", re.IGNORECASE)
+
+
+def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
+    """All sources of one project together."""
+    usable = [source for source in sources if not encoded(source.data)]
+    project = survey(usable, PREDEFINED_NAMES)
+    parser = RapidParser()
+    modules: list[ir.Module] = []
+    reports: list[FileReport] = []
+    for source in sources:
+        if encoded(source.data):
+            diagnostics.report(ENCODED, Origin(source, 0, 0))
+            reports.append(FileReport(source.path, "rapid", 0, 0))
+            continue
+        found, report = _read_file(source, project, parser, diagnostics)
+        modules.extend(found)
+        reports.append(report)
+    return ReadResult(ir.Program(tuple(modules), _tasks(modules)), tuple(reports))
+
+
+def _read_file(
+    source: Source, project: Project, parser: RapidParser, diagnostics: Diagnostics
+) -> tuple[list[ir.Module], FileReport]:
+    statements = Statements(project, source.path, diagnostics)
+    blocks = Blocks(diagnostics)
+    pieces = split(source, parser)
+    assembly = assemble(source, "rapid", pieces, parser, statements.lower, blocks.build, diagnostics)
+    task = _TASK_FOLDER.search(source.path)
+    parts = _parts(assembly.items, source, diagnostics)
+    modules = [
+        ir.Module(
+            found.name,
+            "rapid",
+            found.declarations,
+            found.routines,
+            found.data,  # type: ignore[arg-type]
+            task.group(1).upper() if task else "",
+            origin=found.origin,
+        )
+        for found in parts
+    ]
+    return modules, assembly.report
+
+
+def _parts(items: tuple[Item, ...], source: Source, diagnostics: Diagnostics) -> list[ModulePart]:
+    """The modules of a file. What stands outside of them goes to the module before it, or makes one of its own."""
+    parts: list[ModulePart] = []
+    loose: list[Item] = []
+    header: list[tuple[str, str]] = []
+    for item in items:
+        if isinstance(item, ModulePart):
+            parts.append(item)
+        elif isinstance(item, Attribute):
+            header.append((item.name, item.value))
+        else:
+            loose.append(item)
+    if parts:
+        first = parts[0]
+        attributes = (*header, *first.data)  # type: ignore[misc]
+        declarations, routines = list(first.declarations), list(first.routines)
+        if loose:
+            more = part(first.name, (), loose, first.origin, diagnostics)
+            assert isinstance(more, ModulePart)  # loose items hold no modules
+            declarations.extend(more.declarations)
+            routines.extend(more.routines)
+        parts[0] = ModulePart(first.name, tuple(declarations), tuple(routines), attributes, first.origin)
+    elif loose:
+        parts.append(_without_module(loose, tuple(header), source, diagnostics))
+    return parts
+
+
+def _without_module(
+    loose: list[Item], header: tuple[tuple[str, str], ...], source: Source, diagnostics: Diagnostics
+) -> ModulePart:
+    """A fragment: statements outside of any routine become a routine named like the file."""
+    origin = Origin(source, 0, 0)
+    name = re.sub(r"\W", "_", source.name) or "module"
+    diagnostics.report(NO_MODULE, origin, name=name)
+    declared = (ir.Variable, ir.RecordDeclaration, ir.AliasDeclaration, ir.Unread, ir.Routine, Attribute, ModulePart)
+    body = [item for item in loose if not isinstance(item, declared)]
+    others: list[Item] = [item for item in loose if isinstance(item, declared)]
+    if any(not isinstance(item, ir.Nothing | ir.Opaque) for item in body):
+        others.append(ir.Routine(name, body=tuple(body), origin=origin))  # type: ignore[arg-type]
+    else:
+        others.extend(body)
+    made = part(name, header, others, origin, diagnostics)
+    assert isinstance(made, ModulePart)  # loose items hold no modules
+    return made
+
+
+def _tasks(modules: list[ir.Module]) -> tuple[ir.Task, ...]:
+    """One task per TASKn folder of a backup. A task without motion runs beside the others."""
+    names: dict[str, list[ir.Module]] = {}
+    for module in modules:
+        if module.task:
+            names.setdefault(module.task, []).append(module)
+    tasks = []
+    for name, members in sorted(names.items()):
+        moves = len(names) == 1 or any(_has_motion(routine.body) for module in members for routine in module.routines)
+        kind = "motion" if moves else "background"
+        listed = tuple(module.name for module in members)
+        tasks.append(ir.Task(name, "main", kind, cyclic=not moves, modules=listed))
+    return tuple(tasks)
+
+
+def _has_motion(body: ir.Body) -> bool:
+    for statement in body:
+        match statement:
+            case ir.Move() | ir.MoveExternal():
+                return True
+            case ir.If(branches=branches, otherwise=otherwise):
+                if any(_has_motion(inner) for _, inner in branches) or _has_motion(otherwise):
+                    return True
+            case ir.For(body=inner) | ir.While(body=inner):
+                if _has_motion(inner):
+                    return True
+            case ir.Switch(cases=cases, default=default):
+                if any(_has_motion(case.body) for case in cases) or _has_motion(default or ()):
+                    return True
+    return False

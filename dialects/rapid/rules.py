@@ -1,0 +1,69 @@
+"""RAPID's meaning as data for the core."""
+
+from __future__ import annotations
+
+from rpl.ir.rules import AdvanceRules, Rules
+
+from .prelude import ERRORS
+from .types import TYPES
+
+_EXTERNAL = {f"eax_{letter}": f"e{index}" for index, letter in enumerate("abcdef", 1)}
+_AXES = {f"rax_{index}": f"j{index}" for index in range(1, 7)}
+
+# Component -> neutral name, per built-in type.
+COMPONENTS: dict[str, dict[str, str]] = {
+    "TargetType": {"trans": "trans", "rot": "rot", "robconf": "conf", "extax": "ext"},
+    "JointsType": {"robax": "robax", "extax": "ext"},
+    "AxesType": _AXES,
+    "ExternalType": _EXTERNAL,
+    "PoseType": {"trans": "trans", "rot": "rot"},
+    "VectorType": {"x": "x", "y": "y", "z": "z"},
+    "RotationType": {"q1": "q1", "q2": "q2", "q3": "q3", "q4": "q4"},
+    "ConfigType": {"cf1": "cf1", "cf4": "cf4", "cf6": "cf6", "cfx": "cfx"},
+    "ToolType": {"robhold": "held", "tframe": "frame", "tload": "load"},
+    "WorkObjectType": {
+        "robhold": "held",
+        "ufprog": "fixed",
+        "ufmec": "unit",
+        "uframe": "user_frame",
+        "oframe": "object_frame",
+    },
+    "LoadType": {"mass": "mass", "cog": "cog", "aom": "axes", "ix": "ix", "iy": "iy", "iz": "iz"},
+    "SpeedType": {"v_tcp": "path", "v_ori": "rotation", "v_leax": "linear_external", "v_reax": "rotary_external"},
+    "ZoneType": {
+        "finep": "stop",
+        "pzone_tcp": "path",
+        "pzone_ori": "rotation_path",
+        "pzone_eax": "external_path",
+        "zone_ori": "rotation",
+        "zone_leax": "linear_external",
+        "zone_reax": "rotary_external",
+    },
+}
+
+# A fly-by move lets the program go on about 0.1 s before the corner path (overview manual, motion and logic); a stop
+# point holds it until the robot stands.
+_ADVANCE = AdvanceRules(moves=4, runs_ahead_of="fly_by", lead_s=0.1)
+
+_DEFAULTS: dict[str, float | bool | str] = {
+    "speed_percent": 100.0,
+    "speed_limit": 5000.0,
+    "acceleration_percent": 100.0,
+    "acceleration_ramp": 100.0,
+    "deceleration_percent": 100.0,
+    "joint_configuration_check": True,
+    "path_configuration_check": True,
+    "singularity_mode": "off",
+    "override": 100.0,
+}
+
+RULES = Rules(
+    "rapid",
+    _ADVANCE,
+    text_plus=True,
+    components=COMPONENTS,
+    wait_poll_s=0.1,
+    system_defaults=_DEFAULTS,
+    errors=ERRORS,
+    type_names=TYPES,
+)

@@ -1,0 +1,71 @@
+"""Installed routines that only an ABB controller has: instructions with their effect, functions with their type.
+
+One table each. An instruction becomes a vendor statement with that effect; a function becomes a predefined routine
+whose result a run has to be told. effect: none, message, time, unknown (see ir.Vendor). An instruction of the neutral
+tables stands here too when some of its options have no neutral form.
+"""
+
+from __future__ import annotations
+
+from .words import words
+
+# Nothing that a run or a translation can show changes without them.
+_NONE = words(
+    """PathResol MotionSup SoftAct SoftDeact ActUnit DeactUnit TPShow PathRecStart PathRecStop SpyStart SpyStop
+    MechUnitLoad PathAccLim WorldAccLim SkipWarn TuneServo TuneReset EOffsOff PDispOff CorrClear ClearIOBuff
+    ClearRawBytes TextTabInstall RMQEmptyQueue Save CloseDir CheckProgRef SyncMoveUndo UIShow"""
+)
+_MESSAGE = words(
+    """ErrLog Write WriteAnyBin WriteBin WriteStrBin WriteRawBytes WriteCfgData Rewind RMQSendMessage SocketSend
+    SocketSendTo ErrWrite TPWrite"""
+)
+_TIME = words("WaitLoad")
+_UNKNOWN = words(
+    """AccSet Add AliasIO ArcC ArcCEnd ArcCStart ArcL ArcLEnd ArcLStart ArcKill ArcRefresh BitClear BitSet
+    CallByVar CamFlush CamGetParameter CamGetResult CamLoadJob CamReqImage CamSetExposure CamSetParameter
+    CamSetProgramMode CamSetRunMode CamStartLoadJob CamWaitLoadJob CancelLoad CirPathMode Close ContactL
+    CopyFile CopyRawBytes CorrCon CorrDiscon CorrWrite Decr DropSensor DropWObj EGMActJoint EGMActMove
+    EGMActPose EGMGetId EGMMoveC EGMMoveL EGMReset EGMRunJoint EGMRunPose EGMSetupAI EGMSetupAO EGMSetupGI
+    EGMSetupUC EGMStop EOffsOn EOffsSet EraseModule ErrRaise FCAct FCCalib FCDeact FCPress1LStart FCPressC
+    FCPressEnd FCPressL FCRefStart FCRefStop GetDataVal GetSysData GetTrapData IError IOBusStart IODisable
+    IOEnable IRMQMessage ISignalAI ISignalAO IVarValue Incr IndAMove IndCMove IndDMove IndRMove IndReset
+    InvertDO Load MakeDir ManLoadIdProc MoveAbsJ MoveC MoveJ MoveL Open OpenDir PDispOn PDispSet PackDNHeader
+    PackRawBytes PathRecMoveBwd PathRecMoveFwd ProcerrRecovery PrxActivRecord PulseDO RMQFindSlot RMQGetMessage
+    RMQGetMsgData RMQGetMsgHeader RMQReadWait RMQSendWait RaiseToUser ReadAnyBin ReadBlock ReadCfgData
+    ReadErrData ReadRawBytes ReadVarArr RemoveDir RemoveFile RenameFile SearchC SearchExtJ SearchL SetAO
+    SetAllDataVal SetDO SetDataSearch SetDataVal SetGO SetSysData SingArea SocketAccept SocketBind SocketClose
+    SocketConnect SocketCreate SocketListen SocketReceive SocketReceiveFrom SpeedLimAxis SpeedLimCheckPoint
+    SpeedRefresh SpotJ SpotL SpotMJ SpotML StartLoad StartMove StepBwdPath StopMove StopMoveReset StorePath
+    SupSyncSensorOff SupSyncSensorOn SyncMoveOff SyncMoveOn SyncMoveResume SyncMoveSuspend SyncToSensor
+    SystemStopAction TPReadDnum TPReadFK TPReadNum TestSignDefine TestSignReset TriggC TriggCheckIO TriggEquip
+    TriggIO TriggInt TriggJ TriggJIOs TriggL TriggLIOs TriggRampAO TriggSpeed TriggStopProc TryInt UIMsgBox
+    UIMsgWrite UIMsgWriteAbort UnLoad UnpackRawBytes VelSet WZBoxDef WZCylDef WZDOSet WZDisable WZEnable WZFree
+    WZHomeJointDef WZLimJointDef WZLimSup WZSphDef WaitAI WaitAO WaitDI WaitDO WaitGI WaitGO WaitSensor
+    WaitSyncTask WaitTime WaitUntil WaitWObj WarmStart WriteBlock WriteVar WriteVarArr"""
+)
+
+EFFECTS: dict[str, str] = {
+    name.lower(): effect
+    for effect, names in {"unknown": _UNKNOWN, "time": _TIME, "message": _MESSAGE, "none": _NONE}.items()
+    for name in names
+}
+
+# Functions without a neutral built-in, by the type of their result.
+_FUNCTIONS = {
+    "bool": """BitCheck BitCheckDnum IndInpos IndSpeed IsCyclicBool IsFile IsMechUnitActive IsPers IsStopMoveAct
+        IsStopStateEvent IsSyncMoveOn IsSysId IsVar PFRestart PathRecValidBwd PathRecValidFwd RobOS StrDigCmp
+        TaskRunMec TaskRunRob TestAndSet TextTabFreeToUse TriggDataValid UIClientExist ValidIO""",
+    "num": """EventType ExecHandler ExecLevel FSSize FileSize GetModalPayLoadMode GetTime IOUnitState MaxRobSpeed
+        MotionPlannerNo OpMode ParIdPosValid ParIdRobValid ProgMemFree RawBytesLen ReadBin ReadMotor ReadNum
+        RunMode SocketGetStatus SocketPeek TestSignRead TextTabGet UIListView UIMessageBox UINumEntry UINumTune
+        BitLSh BitNeg CSpeedOverride CamNumberOfResults GetMotorTorque GetTaskNo""",
+    "dnum": "BitLShDnum BitNegDnum BitRShDnum ReadDnum StrToDnum UIDnumEntry UIDnumTune",
+    "byte": "StrToByte",
+    "string": """ArgName ByteToStr CamGetLoadedJob CamGetName DecToHex EventName GetMecUnitName GetServiceInfo
+        GetSysInfo GetTaskName HexToDec ReadDir ReadStr ReadStrBin RMQGetSlotName StrDigCalc StrFormat TextGet
+        UIAlphaEntry""",
+    "robtarget": "MirPos ORobT",
+    "pose": "DefAccFrame",
+    "pos": "CorrRead",
+}
+FUNCTION_RESULTS: dict[str, str] = {name: result for result, names in _FUNCTIONS.items() for name in names.split()}
