@@ -145,6 +145,12 @@ def type_of(expression: ir.Expression, scope: Scope) -> ir.Type | None:
     return Typer(scope, Diagnostics()).infer(expression)[1]
 
 
+def counter_type(loop: ir.For, scope: Scope) -> ir.Type:
+    """Type of a loop's own counter: whole where the language tells numbers apart and the loop starts at a whole one."""
+    whole = scope.rules.real_to_int and isinstance(type_of(loop.start, scope), ir.IntType)
+    return _INT if whole else _REAL
+
+
 def normalise(program: ir.Program, diagnostics: Diagnostics) -> ir.Program:
     """The program in normal form. Reports unknown names and type errors."""
     scopes = ProgramScope(program)
@@ -213,7 +219,7 @@ class Typer:
                 name = statement.name
                 return replace(statement, arguments=self.arguments(name, statement.arguments, statement.origin))
             case ir.For(scoped=True):
-                counter = ir.Variable(statement.counter, _REAL)
+                counter = ir.Variable(statement.counter, counter_type(statement, self.scope))
                 inner = Typer(self.scope.with_value(counter), self.diagnostics, self.reported)
                 body = inner.body(statement.body)
                 return replace(rewrite_parts(replace(statement, body=()), self.value, self.body), body=body)
