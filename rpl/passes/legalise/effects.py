@@ -13,7 +13,11 @@ from rpl.passes.rewrite import rewrite_parts
 
 # Built-in functions that fail for some arguments (a root of a negative number, a text that is no number, ...).
 _FAILING = frozenset(
-    ["sqrt", "log", "asin", "acos", "power", "text_part", "text_value", "text_find", "text_find_any", "text_match", "text_member", "from_code", "target_to_joints", "joints_to_target", "frame_from_points", "normalise", "message_text", "format"]
+    (
+        *("sqrt", "log", "asin", "acos", "power", "text_part", "text_value", "text_find", "text_find_any"),
+        *("text_match", "text_member", "from_code", "target_to_joints", "joints_to_target", "frame_from_points"),
+        *("normalise", "message_text", "format"),
+    )
 )
 # Statements a function may contain without any effect outside of it.
 _HARMLESS = (ir.If, ir.Switch, ir.For, ir.While, ir.Repeat, ir.Loop, ir.ExitLoop, ir.NextPass, ir.Label, ir.Goto,
