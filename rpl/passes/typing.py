@@ -10,10 +10,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir, registry
-from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.diagnostics import Code, Diagnostics, Severity, code
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope, signal_type
-from rpl.source import Origin
+from rpl.source import NOWHERE, Origin
 
 UNKNOWN_NAME = code("unknown-name", Severity.WARNING, "{name} is not declared in what was read")
 UNKNOWN_ROUTINE = code("unknown-routine", Severity.WARNING, "routine {name} is not in what was read")
@@ -175,10 +175,12 @@ class Typer:
         self.rules = scope.rules
         self.diagnostics = diagnostics
         self.reported: set[str] = set() if reported is None else reported
+        self.here = NOWHERE
 
     # ---- declarations and statements
 
     def declaration(self, declaration: ir.Declaration) -> ir.Declaration:
+        self.here = declaration.origin
         match declaration:
             case ir.Variable(type=type, initial=initial) if initial is not None:
                 value = self.assigned(initial, self.scope.resolve(type))
@@ -211,6 +213,7 @@ class Typer:
         return tuple(self.statement(statement) for statement in body)
 
     def statement(self, statement: ir.Statement) -> ir.Statement:
+        self.here = statement.origin
         match statement:
             case ir.Assign(target=target, value=value):
                 lvalue, wanted = self.infer(target)
@@ -283,7 +286,7 @@ class Typer:
             case ir.CharType(), ir.IntType() if self.rules.char_numbers:
                 return self.convert("char", done)
         if strict and _clash(wanted, found):
-            self.diagnostics.report(MISMATCH, expression.origin, found=type_word(found), wanted=type_word(wanted))
+            self.report(MISMATCH, expression.origin, found=type_word(found), wanted=type_word(wanted))
         return done
 
     def convert(self, how: str, operand: ir.Expression) -> ir.Expression:
@@ -374,7 +377,7 @@ class Typer:
         name = self.neutral(type, expression.name)
         found = component_type(type, name, self.scope)
         if found is None and not (isinstance(type, ir.NamedType) and self.scope.type(type.name) is None):
-            self.diagnostics.report(UNKNOWN_COMPONENT, expression.origin, type=type_word(type), name=expression.name)
+            self.report(UNKNOWN_COMPONENT, expression.origin, type=type_word(type), name=expression.name)
             return replace(expression, base=base), None
         return replace(expression, base=base, name=name), found
 
@@ -460,7 +463,7 @@ class Typer:
             place = name or (names[position] if position < len(names) else "")
             inner = component_type(type, place, self.scope)
             if inner is None and not self._unknown_record(type):
-                self.diagnostics.report(
+                self.report(
                     UNKNOWN_COMPONENT, expression.origin, type=type_word(type), name=written or f"number {position + 1}"
                 )
             done.append((name, self.assigned(value, inner)))
@@ -504,7 +507,7 @@ class Typer:
         for argument in given:
             parameter = by_name.get(self.scope.fold(argument.name)) if argument.name else next(positional, None)
             if routine and parameter is None and argument.value is not None:
-                self.diagnostics.report(TOO_MANY, origin, name=name, count=len(parameters), given=len(given))
+                self.report(TOO_MANY, origin, name=name, count=len(parameters), given=len(given))
             if argument.value is None:
                 done.append(argument)
             elif parameter is None or parameter.mode == "reference":
@@ -520,11 +523,15 @@ class Typer:
             self.report_once(UNKNOWN_ROUTINE, name, origin)
         return routine
 
-    def report_once(self, what: object, name: str, origin: Origin) -> None:
+    def report_once(self, what: Code, name: str, origin: Origin) -> None:
         key = self.scope.fold(name)
         if key not in self.reported:
             self.reported.add(key)
-            self.diagnostics.report(UNKNOWN_ROUTINE if what is UNKNOWN_ROUTINE else UNKNOWN_NAME, origin, name=name)
+            self.report(what, origin, name=name)
+
+    def report(self, what: Code, origin: Origin, /, **arguments: object) -> None:
+        """Report at the expression, or at its statement where a reader keeps no places of expressions."""
+        self.diagnostics.report(what, origin if origin.source else self.here, **arguments)
 
 
 _CONVERTED: dict[str, ir.Type] = {
