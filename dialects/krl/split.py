@@ -14,15 +14,14 @@ from rpl.source import Source
 
 # What is taken out of a statement's shape. Names that contain digits (XP12, PPDAT3) and texts vary from line to line
 # like numbers do; names in front of a bracket are calls and stay, because they decide what the statement means.
+# Whatever is not matched stays in the shape: names without digits need no match.
 SHAPE = re.compile(
-    r"\A[ \t]*(?:&|(?:EXT|EXTP|EXTERNAL|EXTERNALP|EXTFCT|EXTFCTP|EXTERNALFCT|EXTERNALFCTP|IMPORT|CHANNEL)\b).*"
+    r"\A[ \t]*(?:&|(?i:EXT|EXTP|EXTERNAL|EXTERNALP|EXTFCT|EXTFCTP|EXTERNALFCT|EXTERNALFCTP|IMPORT|CHANNEL)\b).*"
     r'|(?P<text>"[^"\n]*")'
     r"|'[^'\n]*'|#[ \t]*[A-Za-z_$][\w$]*"
-    r"|(?P<name>(?!E6(?:POS|AXIS)\b|[AE]\d\b|ORI\d\b)[A-Za-z_]++\d[\w$]*+(?!\s*\())"
-    r"|[A-Za-z_$\u0080-\uffff][\w$]*"
+    r"|(?<![\w$])(?:(?P<name>(?!(?i:E6(?:POS|AXIS)|[AE]\d|ORI\d)\b)[A-Za-z_]++\d[\w$]*+(?!\s*\())"
     r"|(?P<real>(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+)"
-    r"|(?P<int>\d+)",
-    re.IGNORECASE,
+    r"|(?P<int>\d+))"
 )
 SLOTS = {"real": ("REAL", "0.5"), "int": ("INT", "0"), "name": ("NAME", "n0"), "text": ("TEXT", '""')}
 
