@@ -27,7 +27,8 @@ class Capabilities:
     move names them (RAPID). for_at_least_once / for_scoped / for_automatic: the target's FOR has exactly that rule.
     notation: arm configuration notation; rotation: `zyx` (a, b, c) or `quaternion` (rot) components.
     types: names of type classes that can be declared. signal_prefixes: empty when signals have numbers (KRL); otherwise
-    signals have names (RAPID), and a number 5 of a kind is called prefix + 5.
+    signals have names (RAPID), and a number 5 of a kind is called prefix + 5. named_aggregates: members are named (else
+    listed in order); partial_aggregates: some may be left out; constant_aggregates: members must be constants.
     """
 
     statements: frozenset[str]
@@ -56,3 +57,6 @@ class Capabilities:
     switch_types: frozenset[str] = frozenset()
     switch_constant_cases: bool = False
     text_results: bool = True
+    named_aggregates: bool = False
+    partial_aggregates: bool = False
+    constant_aggregates: bool = False
