@@ -1,0 +1,205 @@
+"""Rotations and poses of constants in plain Python: what the passes need to convert literals between conventions.
+
+The emulator has the vectorised versions; a translation that needs no kinematics starts without NumPy, and passes do not
+look upwards. Millimetres and degrees. R(a, b, c) = Rz(a)·Ry(b)·Rx(c); quaternions are w, x, y, z.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+Triple = tuple[float, float, float]
+Quadruple = tuple[float, float, float, float]
+# Below this cosine of b the first and last angle turn about the same axis.
+GIMBAL = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Vector:
+    x: float
+    y: float
+    z: float
+
+    def plus(self, other: Vector, factor: float = 1.0) -> Vector:
+        return Vector(self.x + factor * other.x, self.y + factor * other.y, self.z + factor * other.z)
+
+    def times(self, factor: float) -> Vector:
+        return Vector(self.x * factor, self.y * factor, self.z * factor)
+
+    def dot(self, other: Vector) -> float:
+        return self.x * other.x + self.y * other.y + self.z * other.z
+
+    def cross(self, other: Vector) -> Vector:
+        return Vector(
+            self.y * other.z - self.z * other.y,
+            self.z * other.x - self.x * other.z,
+            self.x * other.y - self.y * other.x,
+        )
+
+    @property
+    def length(self) -> float:
+        return math.sqrt(self.dot(self))
+
+
+@dataclass(frozen=True, slots=True)
+class Rotation:
+    """A rotation by its unit quaternion. `written` are the ZYX angles it was given by, when it was given by angles:
+    they are kept because a reader wants to meet them again."""
+
+    quaternion: Quadruple
+    written: Triple | None = field(default=None, compare=False)
+
+    @property
+    def zyx(self) -> Triple:
+        """Angles (a, b, c) in degrees; a and c in (-180, 180], b in [-90, 90] unless written otherwise."""
+        return self.written or quaternion_to_zyx(self.quaternion)
+
+    def then(self, other: Rotation) -> Rotation:
+        """The product self·other."""
+        return Rotation(_unit(multiply(self.quaternion, other.quaternion)))
+
+    @property
+    def inverse(self) -> Rotation:
+        w, x, y, z = self.quaternion
+        return Rotation((w, -x, -y, -z))
+
+    def turn(self, vector: Vector) -> Vector:
+        """The vector turned by this rotation."""
+        rows = self.rows
+        return Vector(*(row[0] * vector.x + row[1] * vector.y + row[2] * vector.z for row in rows))
+
+    @property
+    def rows(self) -> tuple[Triple, Triple, Triple]:
+        """The matrix by rows."""
+        w, x, y, z = self.quaternion
+        return (
+            (1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)),
+            (2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)),
+            (2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    position: Vector
+    rotation: Rotation
+
+    def then(self, other: Pose) -> Pose:
+        """The product self:other."""
+        return Pose(self.place(other.position), self.rotation.then(other.rotation))
+
+    def place(self, vector: Vector) -> Vector:
+        """A point given in this pose, in the pose's reference."""
+        return self.position.plus(self.rotation.turn(vector))
+
+    @property
+    def inverse(self) -> Pose:
+        back = self.rotation.inverse
+        return Pose(back.turn(self.position).times(-1.0), back)
+
+    @property
+    def matrix(self) -> list[list[float]]:
+        """4x4 matrix by rows, mm."""
+        p = self.position
+        rows = [list(row) for row in self.rotation.rows]
+        return [[*rows[0], p.x], [*rows[1], p.y], [*rows[2], p.z], [0.0, 0.0, 0.0, 1.0]]
+
+
+NO_TURN = Rotation((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+IDENTITY = Pose(Vector(0.0, 0.0, 0.0), NO_TURN)
+
+
+def rotation_of_quaternion(w: float, x: float, y: float, z: float) -> Rotation | None:
+    """The rotation of a quaternion of any length; None for one of length zero."""
+    length = math.sqrt(w * w + x * x + y * y + z * z)
+    return None if length < 1e-12 else Rotation((w / length, x / length, y / length, z / length))
+
+
+def rotation_of_zyx(a: float, b: float, c: float) -> Rotation:
+    """Rz(a)·Ry(b)·Rx(c) of angles in degrees."""
+    turns = (_about(3, a), _about(2, b), _about(1, c))
+    return Rotation(_unit(multiply(multiply(turns[0], turns[1]), turns[2])), (a, b, c))
+
+
+def rotation_of_rows(rows: tuple[Triple, Triple, Triple]) -> Rotation:
+    """The rotation of a matrix by rows (Shepperd 1978: the formula with the largest divisor)."""
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = rows
+    candidates = (
+        (1 + xx + yy + zz, zy - yz, xz - zx, yx - xy),
+        (zy - yz, 1 + xx - yy - zz, xy + yx, xz + zx),
+        (xz - zx, xy + yx, 1 - xx + yy - zz, yz + zy),
+        (yx - xy, xz + zx, yz + zy, 1 - xx - yy + zz),
+    )
+    best = max(range(4), key=lambda at: candidates[at][at])
+    return Rotation(_unit(candidates[best]))
+
+
+def pose_of_matrix(matrix: list[list[float]]) -> Pose:
+    """The pose of a rigid 4x4 matrix by rows."""
+    m = matrix
+    rows = ((m[0][0], m[0][1], m[0][2]), (m[1][0], m[1][1], m[1][2]), (m[2][0], m[2][1], m[2][2]))
+    return Pose(Vector(m[0][3], m[1][3], m[2][3]), rotation_of_rows(rows))
+
+
+def quaternion_to_zyx(quaternion: Quadruple) -> Triple:
+    """Angles (a, b, c) in degrees, a and c in (-180, 180]. At b = ±90: c = 0, all in a."""
+    (xx, xy, xz), (yx, yy, yz), (zx, _, _) = Rotation(quaternion).rows
+    cosine = math.hypot(xx, yx)
+    if cosine < GIMBAL:
+        return clean(_half_open(math.degrees(math.atan2(-xy, yy)))), math.copysign(90.0, -zx), 0.0
+    a = math.atan2(yx, xx)
+    s, k = math.sin(a), math.cos(a)
+    c = math.atan2(s * xz - k * yz, k * yy - s * xy)
+    b = math.atan2(-zx, cosine)
+    return (
+        clean(_half_open(math.degrees(a))),
+        clean(math.degrees(b)),
+        clean(_half_open(math.degrees(c))),
+    )
+
+
+def clean(value: float) -> float:
+    """The value without the noise of the last binary places, and never a negative zero."""
+    rounded = float(f"{value:.12g}")
+    return 0.0 if abs(rounded) < 1e-10 else rounded
+
+
+def multiply(p: Quadruple, q: Quadruple) -> Quadruple:
+    """Hamilton product."""
+    a, b, c, d = p
+    e, f, g, h = q
+    return (
+        a * e - b * f - c * g - d * h,
+        a * f + b * e + c * h - d * g,
+        a * g - b * h + c * e + d * f,
+        a * h + b * g - c * f + d * e,
+    )
+
+
+def _about(axis: int, degrees: float) -> Quadruple:
+    half = math.fmod(degrees, 720.0) / 2
+    sine, cosine = _exact_sine(half), _exact_sine(half + 90.0)
+    parts = [cosine, 0.0, 0.0, 0.0]
+    parts[axis] = sine
+    return (parts[0], parts[1], parts[2], parts[3])
+
+
+def _exact_sine(degrees: float) -> float:
+    """Sine that is exact at multiples of 90 degrees, so that 180 gives (0, 0, 1, 0) and no 6e-17."""
+    if degrees % 90.0 == 0.0:
+        return (0.0, 1.0, 0.0, -1.0)[round(degrees / 90.0) % 4]
+    return math.sin(math.radians(degrees))
+
+
+def _unit(q: Quadruple) -> Quadruple:
+    """Unit length, w >= 0, and the first component that is not zero positive when w is."""
+    length = math.sqrt(sum(part * part for part in q)) or 1.0
+    parts = [0.0 if abs(part / length) < 1e-16 else part / length for part in q]
+    lead = next((part for part in parts if part != 0.0), 1.0)
+    sign = -1.0 if lead < 0 else 1.0
+    return (sign * parts[0] + 0.0, sign * parts[1] + 0.0, sign * parts[2] + 0.0, sign * parts[3] + 0.0)
+
+
+def _half_open(degrees: float) -> float:
+    return degrees + 360.0 if degrees <= -180.0 else degrees
