@@ -287,54 +287,56 @@ class UrArm:
         )
 
     def inverse(self, flange: FloatArray, reference: FloatArray) -> Branches:
-        theta = np.empty((len(flange), 2, 2, 2, 6))
-        valid = np.empty((len(flange), 2, 2, 2), dtype=np.bool_)
-        singular = np.empty_like(valid)
         centre = flange[:, :3, 3] - self.d6 * flange[:, :3, 2]
         square = centre[:, 0] ** 2 + centre[:, 1] ** 2 - self.d4**2
         reachable = square >= -COSINE_SLACK * self.d4**2
-        root = np.sqrt(np.maximum(square, 0.0))
-        heading = np.arctan2(centre[:, 1], centre[:, 0])
-        for shoulder, sign in enumerate((1.0, -1.0)):
-            t1 = heading + np.arctan2(self.d4, sign * root)
-            for wrist, side in enumerate((1.0, -1.0)):
-                t5, t6, free = self._wrist(flange, t1, side, reference)
-                for elbow, bend in enumerate((1.0, -1.0)):
-                    t2, t3, t4, ok, stretched = self._arm(flange, t1, t5, t6, bend)
-                    cell = (slice(None), shoulder, elbow, wrist)
-                    theta[cell] = np.stack([t1, t2, t3, t4, t5, t6], axis=-1)
-                    valid[cell] = ok & reachable
-                    singular[cell] = free | stretched
+        sides = np.array([1.0, -1.0])
+        root = np.sqrt(np.maximum(square, 0.0))[:, None] * sides
+        t1 = np.arctan2(centre[:, 1], centre[:, 0])[:, None] + np.arctan2(self.d4, root)
+        t5, t6, free = self._wrist(flange, t1, reference)
+        x, y, total = self._linkage(flange, t1, t5, t6)
+        cosine = (x * x + y * y - self.a2**2 - self.a3**2) / (2.0 * self.a2 * self.a3)
+        ok = (np.abs(cosine) <= 1.0 + COSINE_SLACK) & reachable[:, None, None]
+        cosine = np.clip(cosine, -1.0, 1.0)
+        stretched = np.abs(cosine) >= 1.0 - COSINE_SLACK
+        # Axes of the result: pose, shoulder, elbow, wrist.
+        t3 = np.arccos(cosine)[:, :, None, :] * sides[:, None]
+        t2 = np.arctan2(y, x)[:, :, None, :] - np.arctan2(self.a3 * np.sin(t3), self.a2 + self.a3 * np.cos(t3))
+        theta = np.empty((*t3.shape, 6))
+        theta[..., 0] = t1[:, :, None, None]
+        theta[..., 1], theta[..., 2] = t2, t3
+        theta[..., 3] = total[:, :, None, :] - t2 - t3
+        theta[..., 4], theta[..., 5] = t5[:, :, None, :], t6[:, :, None, :]
+        valid = np.broadcast_to(ok[:, :, None, :], t3.shape).reshape(-1, 8).copy()
+        singular = np.broadcast_to((free[:, :, None] | stretched)[:, :, None, :], t3.shape).reshape(-1, 8).copy()
+        theta = theta.reshape(-1, 8, 6)
         theta[~valid] = np.nan
-        return Branches(theta.reshape(-1, 8, 6), valid.reshape(-1, 8), singular.reshape(-1, 8))
+        return Branches(theta, valid, singular)
 
     @staticmethod
-    def _wrist(
-        flange: FloatArray, t1: FloatArray, side: float, reference: FloatArray
-    ) -> tuple[FloatArray, FloatArray, BoolArray]:
-        """Joints 5 and 6 (k,) from the flange axes seen along joint axes 2, 3, 4; where joint 6 is free."""
-        row = np.sin(t1)[:, None] * flange[:, 0, :3] - np.cos(t1)[:, None] * flange[:, 1, :3]
-        free = np.hypot(row[:, 0], row[:, 1]) <= SINGULAR
-        t6 = np.where(free, reference[:, 5], np.arctan2(-side * row[:, 1], side * row[:, 0]))
-        sine = np.where(free, 0.0, np.cos(t6) * row[:, 0] - np.sin(t6) * row[:, 1])
-        return np.arctan2(sine, row[:, 2]), t6, free
+    def _wrist(flange: FloatArray, t1: FloatArray, reference: FloatArray) -> tuple[FloatArray, FloatArray, BoolArray]:
+        """Joints 5 and 6 (k, shoulder, wrist) from the flange axes seen along axes 2, 3, 4; where 6 is free (k, 2)."""
+        row = np.sin(t1)[..., None] * flange[:, None, 0, :3] - np.cos(t1)[..., None] * flange[:, None, 1, :3]
+        x, y, z = row[..., 0, None], row[..., 1, None], row[..., 2, None]
+        free = np.hypot(x, y) <= SINGULAR
+        sides = np.array([1.0, -1.0])
+        t6 = np.where(free, reference[:, 5][:, None, None], np.arctan2(-sides * y, sides * x))
+        sine = np.where(free, 0.0, np.cos(t6) * x - np.sin(t6) * y)
+        return np.arctan2(sine, z), t6, free[..., 0]
 
-    def _arm(
-        self, flange: FloatArray, t1: FloatArray, t5: FloatArray, t6: FloatArray, bend: float
-    ) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray, BoolArray]:
-        """Joints 2, 3, 4 (k,): the planar three-bar linkage; reachable and stretched."""
-        turn_to_4 = flange[:, :3, :3] @ np.swapaxes(rotation_z(t5) @ rotation_x(-np.pi / 2) @ rotation_z(t6), -1, -2)
-        # Frame 5's origin lies d5 along frame 4's z axis; take d6 and d5 off to reach frame 4.
-        origin = flange[:, :3, 3] - self.d6 * flange[:, :3, 2] - self.d5 * turn_to_4[:, :, 2]
-        c1, s1 = np.cos(t1), np.sin(t1)
-        x, y = c1 * origin[:, 0] + s1 * origin[:, 1], origin[:, 2] - self.d1
-        cosine = (x * x + y * y - self.a2**2 - self.a3**2) / (2.0 * self.a2 * self.a3)
-        ok = np.abs(cosine) <= 1.0 + COSINE_SLACK
-        cosine = np.clip(cosine, -1.0, 1.0)
-        t3 = bend * np.arccos(cosine)
-        t2 = np.arctan2(y, x) - np.arctan2(self.a3 * np.sin(t3), self.a2 + self.a3 * np.cos(t3))
-        total = np.arctan2(turn_to_4[:, 2, 0], c1 * turn_to_4[:, 0, 0] + s1 * turn_to_4[:, 1, 0])
-        return t2, t3, total - t2 - t3, ok, np.abs(cosine) >= 1.0 - COSINE_SLACK
+    def _linkage(
+        self, flange: FloatArray, t1: FloatArray, t5: FloatArray, t6: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Where the planar links of joints 2 and 3 must end (x, y) and t2 + t3 + t4, each (k, shoulder, wrist)."""
+        turn = flange[:, None, None, :3, :3]
+        c5, s5, c6, s6 = np.cos(t5), np.sin(t5), np.cos(t6), np.sin(t6)
+        # Frame 4 seen from the base: R·(Rz(t5)·Rx(-90)·Rz(t6))^T, its x and z axes.
+        x4 = turn[..., 0] * (c5 * c6)[..., None] - turn[..., 1] * (c5 * s6)[..., None] - turn[..., 2] * s5[..., None]
+        z4 = -turn[..., 0] * s6[..., None] - turn[..., 1] * c6[..., None]
+        origin = (flange[:, :3, 3] - self.d6 * flange[:, :3, 2])[:, None, None] - self.d5 * z4
+        c1, s1 = np.cos(t1)[..., None], np.sin(t1)[..., None]
+        x, y = c1 * origin[..., 0] + s1 * origin[..., 1], origin[..., 2] - self.d1
+        return x, y, np.arctan2(x4[..., 2], c1 * x4[..., 0] + s1 * x4[..., 1])
 
     def branch(self, theta: FloatArray) -> Branch:
         heading = self._frames(theta)[5][:3, 3]

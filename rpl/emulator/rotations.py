@@ -21,28 +21,38 @@ GIMBAL = 1e-9
 
 
 def _stack(rows: list[list[FloatArray]]) -> FloatArray:
-    return np.stack([np.stack(np.broadcast_arrays(*row), axis=-1) for row in rows], axis=-2)
+    """Matrices (..., r, c) from their elements, all of one shape (filling beats np.stack three to one on single ones)."""
+    out = np.empty((*np.shape(rows[0][0]), len(rows), len(rows[0])))
+    for i, row in enumerate(rows):
+        for j, element in enumerate(row):
+            out[..., i, j] = element
+    return out
+
+
+def _turned(angle_rad: ArrayLike, first: int, second: int) -> FloatArray:
+    """Rotations that carry axis `first` towards axis `second`."""
+    a = np.asarray(angle_rad, dtype=np.float64)
+    out = np.zeros((*a.shape, 3, 3))
+    out[..., first, first] = out[..., second, second] = np.cos(a)
+    out[..., second, first] = sine = np.sin(a)
+    out[..., first, second] = -sine
+    out[..., 3 - first - second, 3 - first - second] = 1.0
+    return out
 
 
 def rotation_x(angle_rad: ArrayLike) -> FloatArray:
     """Elementary rotations about x, shape (..., 3, 3), of angles (...) in radians."""
-    a = np.asarray(angle_rad, dtype=np.float64)
-    c, s, o, i = np.cos(a), np.sin(a), np.zeros_like(a), np.ones_like(a)
-    return _stack([[i, o, o], [o, c, -s], [o, s, c]])
+    return _turned(angle_rad, 1, 2)
 
 
 def rotation_y(angle_rad: ArrayLike) -> FloatArray:
     """Elementary rotations about y, shape (..., 3, 3), of angles (...) in radians."""
-    a = np.asarray(angle_rad, dtype=np.float64)
-    c, s, o, i = np.cos(a), np.sin(a), np.zeros_like(a), np.ones_like(a)
-    return _stack([[c, o, s], [o, i, o], [-s, o, c]])
+    return _turned(angle_rad, 2, 0)
 
 
 def rotation_z(angle_rad: ArrayLike) -> FloatArray:
     """Elementary rotations about z, shape (..., 3, 3), of angles (...) in radians."""
-    a = np.asarray(angle_rad, dtype=np.float64)
-    c, s, o, i = np.cos(a), np.sin(a), np.zeros_like(a), np.ones_like(a)
-    return _stack([[c, -s, o], [s, c, o], [o, o, i]])
+    return _turned(angle_rad, 0, 1)
 
 
 def _matrix(rotation: ArrayLike) -> FloatArray:
@@ -166,7 +176,7 @@ def matrix_to_quaternion(rotation: ArrayLike) -> FloatArray:
     """
     m = _matrix(rotation)
     xx, yy, zz = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
-    squares = np.stack([1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz], axis=-1)
+    squares = _stack([[1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz]])[..., 0, :]
     wx, wy, wz = m[..., 2, 1] - m[..., 1, 2], m[..., 0, 2] - m[..., 2, 0], m[..., 1, 0] - m[..., 0, 1]
     xy, xz, yz = m[..., 0, 1] + m[..., 1, 0], m[..., 0, 2] + m[..., 2, 0], m[..., 1, 2] + m[..., 2, 1]
     candidates = _stack(
