@@ -1,0 +1,73 @@
+"""`rpl prove`: do two programs mean the same?"""
+
+from __future__ import annotations
+
+import click
+
+from rpl.cli.output import collector, dialect_exists, json_option, print_diagnostics, print_json, robot_option, waiting
+from rpl.diagnostics import Severity
+from rpl.errors import UsageError
+
+
+@click.command("prove")
+@click.argument("a")
+@click.argument("b")
+@robot_option
+@click.option("--to-robot", metavar="R2", help="Arm that B was written for; else the same.")
+@click.option("--cell", metavar="F.toml", help="Surroundings for both runs: inputs, parts, answers of the operator.")
+@click.option("--entry", metavar="NAME", help="Routine to start with in A, and in B unless --to-entry says another.")
+@click.option("--to-entry", metavar="NAME", help="Routine to start with in B.")
+@click.option("--from", "dialect", metavar="D", help="Language of A; else seen from its content.")
+@click.option("--to", "other", metavar="D", help="Language of B; else seen from its content.")
+@click.option("--tolerance", type=float, metavar="MM", help="Distance of the tool paths that still counts as equal.")
+@click.option("--max-time", type=float, metavar="S", help="Compare at most so many simulated seconds.")
+@json_option
+def command(
+    a: str,
+    b: str,
+    robot: str | None,
+    to_robot: str | None,
+    cell: str | None,
+    entry: str | None,
+    to_entry: str | None,
+    dialect: str | None,
+    other: str | None,
+    tolerance: float | None,
+    max_time: float | None,
+    as_json: bool,
+) -> int:
+    """Decide by running both whether the programs A and B (each a file, folder or archive) mean the same.
+
+    Exit status 0 when they do, 1 when they do not; the first difference is shown with both source lines.
+    """
+    from rpl.project import read_program
+    from rpl.proof.prove import load_cell, prove_programs
+
+    if tolerance is not None and not tolerance >= 0:
+        raise UsageError(f"--tolerance: {tolerance:g} is not a distance")
+    programs = []
+    for path, language in ((a, dialect), (b, other)):
+        diagnostics = collector()
+        with waiting("reading"):
+            read = read_program([path], dialect_exists(language), diagnostics)
+        print_diagnostics(diagnostics, Severity.WARNING)
+        if not read.files:
+            raise UsageError(f"no robot program in {path}; name the language with --from or --to if there is one")
+        programs.append(read.program)
+    with waiting("proving"):
+        result = prove_programs(
+            programs[0],
+            programs[1],
+            robot,
+            to_robot or robot,
+            load_cell(cell),
+            entry=entry,
+            to_entry=to_entry or entry,
+            path_mm=tolerance,
+            max_time_s=max_time,
+        )
+    if as_json:
+        print_json(result.as_json())
+    else:
+        click.echo(result.as_text())
+    return 0 if result.equal else 1

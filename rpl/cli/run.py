@@ -1,0 +1,92 @@
+"""`rpl run`: a program on an emulated robot."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from rpl.cli.output import (
+    collector,
+    dialect_exists,
+    from_option,
+    json_option,
+    paths_argument,
+    plain,
+    print_diagnostics,
+    print_json,
+    robot_named,
+    robot_option,
+    waiting,
+    write_file,
+)
+from rpl.diagnostics import Severity
+from rpl.errors import UsageError
+
+if TYPE_CHECKING:
+    from rpl.runtime.run import RunResult
+
+
+@click.command("run")
+@paths_argument
+@from_option
+@robot_option
+@click.option("--cell", metavar="F.toml", help="Surroundings: inputs over time, answers of the operator, parts.")
+@click.option("--entry", metavar="NAME", help="Routine to start with; else main, or the only one nobody calls.")
+@click.option("--trace", type=click.Path(dir_okay=False, path_type=Path), metavar="F.jsonl", help="Write every event.")
+@click.option("--max-time", type=float, metavar="S", help="Stop after so many simulated seconds.")
+@json_option
+def command(
+    paths: Sequence[str],
+    dialect: str | None,
+    robot: str | None,
+    cell: str | None,
+    entry: str | None,
+    trace: Path | None,
+    max_time: float | None,
+    as_json: bool,
+) -> int:
+    """Run a program on an emulated robot, in simulated time.
+
+    Exit status 0 when the program came to its end or its own stop, 1 for a fault, a deadlock or the time limit.
+    """
+    from rpl.project import read_program
+    from rpl.proof.prove import load_cell
+    from rpl.runtime.run import run_program
+
+    if max_time is not None and not max_time > 0:
+        raise UsageError(f"--max-time: {max_time:g} is not a time above 0 s")
+    diagnostics = collector()
+    with waiting("reading"):
+        read = read_program(paths, dialect_exists(dialect), diagnostics)
+    print_diagnostics(diagnostics, Severity.WARNING)
+    if not read.files:
+        raise UsageError("no robot program was found; name the language with --from if there is one")
+    model = robot_named(robot)
+    with waiting("running"):
+        result = run_program(read.program, model, load_cell(cell), entry, max_time)
+    if trace is not None:
+        lines = [json.dumps(plain(event), ensure_ascii=False) for event in result.trace_lines()]
+        write_file(trace, "".join(line + "\n" for line in lines).encode("utf-8"))
+    if as_json:
+        print_json(result.as_json())
+    else:
+        show(result)
+    return 0 if result.status in ("finished", "stopped") else 1
+
+
+def show(result: RunResult) -> None:
+    """The run for people."""
+    document = result.as_json()
+    messages, outputs, fault = document["messages"], document["outputs"], document["fault"]
+    assert isinstance(messages, list) and isinstance(outputs, list)
+    for t, name, value in outputs:
+        click.echo(f"{t:9.3f} s  {name} = {str(value).upper() if isinstance(value, bool) else value}")
+    for message in messages:
+        click.echo(f"message    {message}")
+    click.echo(f"{result.status} after {result.time_s:.3f} s, {result.moves} moves, {result.statements} statements")
+    if fault:
+        click.echo(f"rpl: {fault}", err=True)

@@ -1,0 +1,194 @@
+"""`rpl translate`: write programs in another controller's language, and prove on request that they mean the same."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING
+
+import click
+
+from rpl import registry
+from rpl.cli.output import (
+    accept_option,
+    collector,
+    dialect_exists,
+    from_option,
+    json_option,
+    paths_argument,
+    print_diagnostics,
+    print_json,
+    robot_option,
+    waiting,
+    write_file,
+)
+from rpl.diagnostics import Diagnostics, Severity
+from rpl.errors import InternalError, UsageError
+
+if TYPE_CHECKING:
+    from rpl.project import ReadProgram
+    from rpl.proof.prove import ProofResult
+    from rpl.translation import Translation
+    from rpl.writing.target import OutputFile
+
+OK, NO, GUARDED = 0, 1, 3
+
+
+@click.command("translate")
+@paths_argument
+@click.option("--to", "target", required=True, metavar="D", help="Language to write.")
+@from_option
+@robot_option
+@click.option("--to-robot", metavar="R2", help="Arm that will run the result; else the same.")
+@click.option(
+    "-o", "--output", type=click.Path(file_okay=False, path_type=Path), metavar="DIR", help="Folder to write."
+)
+@click.option("--prove", "proving", is_flag=True, help="Run both programs and compare what they do.")
+@click.option("--cell", metavar="F.toml", help="Surroundings for the proof: inputs, parts, answers of the operator.")
+@click.option("--strict", is_flag=True, help="Take every approximation for an error.")
+@accept_option
+@json_option
+def command(
+    paths: Sequence[str],
+    target: str,
+    dialect: str | None,
+    robot: str | None,
+    to_robot: str | None,
+    output: Path | None,
+    proving: bool,
+    cell: str | None,
+    strict: bool,
+    accepted: Sequence[str],
+    as_json: bool,
+) -> int:
+    """Write programs in another controller's language.
+
+    What the target cannot say becomes a comment and the target's own stop, is listed, and gives exit status 3. Without
+    -o a single file is printed.
+    """
+    from rpl.project import read_program
+    from rpl.translation import translate_program
+
+    registry.target(target)
+    diagnostics = collector(accepted)
+    with waiting("reading"):
+        read = read_program(paths, dialect_exists(dialect), diagnostics)
+    if not read.files:
+        raise UsageError("no robot program was found; name the language with --from if there is one")
+    if diagnostics.has_errors:
+        return _refuse(diagnostics, as_json)
+    before = len(diagnostics)
+    with waiting("writing"):
+        translation = translate_program(read, target, robot, to_robot, diagnostics)
+    if strict:
+        _raise_approximations(diagnostics, before)
+    if diagnostics.has_errors:
+        return _refuse(diagnostics, as_json)
+    written = _write(translation.files, output, as_json or proving)
+    proof = _prove(read, translation, target, robot, to_robot or robot, cell) if proving else None
+    print_diagnostics(diagnostics)
+    if as_json:
+        print_json(_document(translation, written, diagnostics, proof))
+    else:
+        _print(translation, written, output, proof)
+    if proof is not None and not proof.equal:
+        return NO
+    return GUARDED if diagnostics.has_losses else OK
+
+
+def _refuse(diagnostics: Diagnostics, as_json: bool) -> int:
+    """Nothing is written from a program with errors."""
+    print_diagnostics(diagnostics)
+    if as_json:
+        items = [item.as_json() for item in diagnostics]
+        print_json({"files": [], "diagnostics": items, "losses": [], "proof": None})
+    click.echo("rpl: nothing was written: the errors come first", err=True)
+    return NO
+
+
+def _raise_approximations(diagnostics: Diagnostics, first: int) -> None:
+    for index in range(first, len(diagnostics.items)):
+        if diagnostics.items[index].severity == Severity.WARNING:
+            diagnostics.items[index] = replace(diagnostics.items[index], severity=Severity.ERROR)
+
+
+def _write(files: Sequence[OutputFile], output: Path | None, any_number: bool) -> list[dict[str, object]]:
+    """Write the files, or show their text when no folder is named."""
+    if output is None and len(files) > 1 and not any_number:
+        names = ", ".join(file.path for file in files)
+        raise UsageError(f"{len(files)} files would be written ({names}): name a folder with -o")
+    rows: list[dict[str, object]] = []
+    for file in files:
+        inside = PurePosixPath(file.path)
+        if inside.is_absolute() or ".." in inside.parts:
+            raise InternalError(f"a file outside of the output folder would be written: {file.path}")
+        if output is None:
+            rows.append({"path": file.path, "text": _text(file)})
+        else:
+            write_file(output / inside, file.data)
+            rows.append({"path": file.path, "written": str(output / inside)})
+    return rows
+
+
+def _text(file: OutputFile) -> str:
+    from rpl.source import decode
+
+    return decode(file.data)[0]
+
+
+def _prove(
+    read: ReadProgram,
+    translation: Translation,
+    target: str,
+    robot: str | None,
+    to_robot: str | None,
+    cell: str | None,
+) -> ProofResult:
+    """Read the written files back and compare the runs of both programs."""
+    from rpl.project import read_sources
+    from rpl.proof.prove import load_cell, prove_programs
+    from rpl.source import source_from_bytes
+
+    sources = [source_from_bytes(file.path, file.data) for file in translation.files]
+    again = Diagnostics()
+    back = read_sources(sources, target, again)
+    errors = again.of(Severity.ERROR)
+    if errors:
+        raise InternalError(f"what was written cannot be read back: {errors[0].as_text()}")
+    with waiting("proving"):
+        return prove_programs(read.program, back.program, robot, to_robot, load_cell(cell))
+
+
+def _document(
+    translation: Translation,
+    written: Sequence[dict[str, object]],
+    diagnostics: Diagnostics,
+    proof: ProofResult | None,
+) -> dict[str, object]:
+    return {
+        "files": list(written),
+        "diagnostics": [item.as_json() for item in diagnostics],
+        "losses": [item.as_json() for item in translation.losses],
+        "renamed": dict(translation.renamed),
+        "proof": proof.as_json() if proof is not None else None,
+    }
+
+
+def _print(
+    translation: Translation, written: Sequence[dict[str, object]], output: Path | None, proof: ProofResult | None
+) -> None:
+    if output is None:
+        for row in written:
+            click.echo(row["text"], nl=False)
+    else:
+        for row in written:
+            click.echo(f"wrote {row['written']}")
+        for old, new in translation.renamed.items():
+            click.echo(f"renamed {old} to {new}")
+        losses = len(translation.losses)
+        click.echo(
+            f"{losses} statements could not be said and stop the program there" if losses else "nothing was lost"
+        )
+    if proof is not None:
+        click.echo(proof.as_text(), err=output is None)

@@ -1,0 +1,176 @@
+"""Every sample, in every language: reads without an error, does what it says, and still does when written anew.
+
+Driven by the registry and by `samples/<language>/<sample>/expected.toml`; names no vendor. Keys of `expected.toml`:
+
+    robot = "..."            the arm it is written for
+    status = "finished"      how the run ends (default)
+    outputs = [["do1", true], ...]   changes in order, each signal by any of its names (left out: not checked)
+    messages = ["..."]       in order (left out: not checked)
+    cell = "cell.toml"       surroundings, relative to the sample
+    entry = "main"           routine to start with
+    end_xyz_mm = [x, y, z]   where the tool stands at the end
+    retarget = ["..."]       other arms that the sample must run on after translation
+    divergences = ["rapid: why"]     targets in which it cannot mean the same, with the reason
+"""
+
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rpl import registry
+from rpl.diagnostics import Diagnostics, Severity
+from rpl.project import ReadProgram, read_program, read_sources
+from rpl.proof.prove import ProofResult, load_cell, prove_programs
+from rpl.proof.record import signal_names
+from rpl.proof.recording import record_of
+from rpl.source import source_from_bytes
+from rpl.translation import translate_program
+
+ROOT = Path(__file__).parents[2]
+SAMPLES = sorted(path.parent for path in (ROOT / "samples").glob("*/*/expected.toml"))
+TARGETS = registry.target_names()
+KNOWN_KEYS = {
+    *("robot", "status", "outputs", "messages", "cell", "entry", "end_xyz_mm", "retarget", "divergences"),
+    *("title", "description", "source", "sources", "max_time"),
+}
+
+
+def name_of(sample: Path) -> str:
+    return f"{sample.parent.name}-{sample.name}"
+
+
+each_sample = pytest.mark.parametrize("sample", SAMPLES, ids=name_of)
+each_target = pytest.mark.parametrize("target", TARGETS)
+
+
+@dataclass(frozen=True)
+class Expected:
+    data: dict[str, Any]
+    folder: Path
+
+    @property
+    def robot(self) -> str:
+        return str(self.data["robot"])
+
+    @property
+    def cell(self) -> Any:
+        return load_cell(str(self.folder / self.data["cell"]) if "cell" in self.data else None)
+
+    @property
+    def entry(self) -> str | None:
+        return self.data.get("entry")
+
+    def divergence(self, target: str) -> str | None:
+        for line in self.data.get("divergences", []):
+            name, _, reason = line.partition(":")
+            if name.strip() == target:
+                return str(reason.strip())
+        return None
+
+
+@cache
+def expected(sample: Path) -> Expected:
+    data = tomllib.loads((sample / "expected.toml").read_text("utf-8"))
+    return Expected(data, sample)
+
+
+@cache
+def read(sample: Path) -> tuple[ReadProgram, Diagnostics]:
+    diagnostics = Diagnostics()
+    return read_program([sample], None, diagnostics), diagnostics
+
+
+def programs_of(sample: Path) -> ReadProgram:
+    return read(sample)[0]
+
+
+def proof_of(sample: Path, target: str, to_robot: str | None = None) -> tuple[ProofResult, Diagnostics]:
+    """Write the sample in the target, read it back, run both."""
+    wanted, program = expected(sample), programs_of(sample)
+    diagnostics = Diagnostics()
+    translation = translate_program(program, target, wanted.robot, to_robot, diagnostics)
+    sources = [source_from_bytes(file.path, file.data) for file in translation.files]
+    again = Diagnostics()
+    back = read_sources(sources, target, again)
+    assert not again.has_errors, [item.as_text() for item in again.of(Severity.ERROR)]
+    entry = wanted.entry
+    to_entry = translation.renamed.get(entry, entry) if entry else None
+    other = to_robot or wanted.robot
+    result = prove_programs(
+        program.program, back.program, wanted.robot, other, wanted.cell, entry=entry, to_entry=to_entry
+    )
+    return result, diagnostics
+
+
+def test_every_language_that_is_read_has_samples() -> None:
+    lonely = [
+        name for name in registry.dialect_names() if not any(sample.parent.name == name for sample in SAMPLES)
+    ]
+    assert not lonely, f"no samples for {', '.join(lonely)}"
+
+
+@each_sample
+def test_its_expectations_are_spelled_right(sample: Path) -> None:
+    assert not set(expected(sample).data) - KNOWN_KEYS
+
+
+@each_sample
+def test_it_reads_without_an_error(sample: Path) -> None:
+    program, diagnostics = read(sample)
+    assert not diagnostics.has_errors, [item.as_text() for item in diagnostics.of(Severity.ERROR)]
+    assert program.dialects == (sample.parent.name,)
+    assert sum(report.opaque for report in program.files) == 0
+
+
+@each_sample
+def test_it_does_what_it_says(sample: Path) -> None:
+    from rpl.emulator.model import load_robot
+    from rpl.runtime.run import run_program
+
+    wanted, program = expected(sample), programs_of(sample).program
+    robot = load_robot(wanted.robot)
+    result = run_program(program, robot, wanted.cell, wanted.entry)
+    record = record_of(result, program, robot)
+    happenings = [happening for task in record.tasks.values() for happening in task]
+    assert result.status == wanted.data.get("status", "finished"), result.as_json()["fault"]
+    if "outputs" in wanted.data:
+        seen = [happening for happening in happenings if happening.kind == "output"]
+        seen.sort(key=lambda happening: happening.t)
+        asked = wanted.data["outputs"]
+        shown = [(sorted(happening.names), happening.value) for happening in seen]
+        assert len(seen) == len(asked), shown
+        for happening, (name, value) in zip(seen, asked, strict=True):
+            assert happening.names & signal_names(None, [name]), (name, shown)
+            assert happening.value == pytest.approx(value), (name, shown)
+    if "messages" in wanted.data:
+        said = [str(happening.value) for happening in happenings if happening.kind in ("message", "dialog")]
+        assert said == wanted.data["messages"]
+    if "end_xyz_mm" in wanted.data:
+        stretches = next(iter(record.motion.values()))
+        assert stretches[-1].poses[-1, :3, 3] == pytest.approx(wanted.data["end_xyz_mm"], abs=0.01)
+
+
+@each_target
+@each_sample
+def test_it_means_the_same_when_written_anew(sample: Path, target: str) -> None:
+    reason = expected(sample).divergence(target)
+    result, diagnostics = proof_of(sample, target)
+    if reason is not None:
+        assert not result.equal or diagnostics.has_losses, f"no divergence any more ({reason}): take it off the list"
+        return
+    assert not diagnostics.has_losses, [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    assert result.equal, result.as_text()
+
+
+@each_sample
+def test_it_means_the_same_on_another_arm(sample: Path) -> None:
+    arms = expected(sample).data.get("retarget", [])
+    for arm in arms:
+        for target in TARGETS:
+            if expected(sample).divergence(target) is None:
+                result, _ = proof_of(sample, target, arm)
+                assert result.equal, f"{target} on {arm}: {result.as_text()}"
