@@ -10,6 +10,7 @@ from rpl.registry import Dialect, ReadResult
 from rpl.source import Source
 
 if TYPE_CHECKING:
+    from rpl.emulator.configuration import Notation
     from rpl.ir import Module
     from rpl.ir.rules import Rules
 
@@ -38,6 +39,12 @@ def _prelude() -> Module:
     return prelude()
 
 
+def _notation() -> Notation:
+    from .configuration import NOTATION
+
+    return NOTATION
+
+
 DIALECT = Dialect(
     "rapid",
     "ABB RAPID",
@@ -46,5 +53,6 @@ DIALECT = Dialect(
     _read,
     _rules,
     _prelude,
+    _notation,
     notation_fields=("cf1", "cf4", "cf6", "cfx"),
 )

@@ -78,7 +78,8 @@ class RapidParser(ShapeParser):
             tree: Tree[Token] = self._grammar.parse(shape)
         except UnexpectedInput as error:
             raise self._refusal(error, text) from None
-        tokens = list(tree.scan_values(lambda value: isinstance(value, Token) and value.type in _LEAVES))
+        # A reserved word where only a name can stand is read as one, but it was not taken out of the shape.
+        tokens = list(tree.scan_values(lambda value: isinstance(value, Token) and _taken_out(value)))
         order = {id(token): index for index, token in enumerate(sorted(tokens, key=lambda token: token.start_pos or 0))}
         return _with_slots(tree, order)
 
@@ -98,12 +99,16 @@ class RapidParser(ShapeParser):
 _STANDS_FOR = {"text": '""', "real": "0.5", "int": "0", "component": "x", "name": "x"}
 
 
+def _taken_out(token: Token) -> bool:
+    return token.type in _LEAVES and str(token) not in RESERVED
+
+
 def _with_slots(tree: Tree[Token], order: dict[int, int]) -> SyntaxTree:
     children: list[SyntaxTree | Token | Slot] = []
     for child in tree.children:
         if isinstance(child, Tree):
             children.append(_with_slots(child, order))
-        elif child.type in _LEAVES:
+        elif _taken_out(child):
             children.append(Slot(order[id(child)], child.type == "REAL"))
         else:
             children.append(child)

@@ -22,7 +22,7 @@ _COUNTER = re.compile(r"\bFOR\s+(\w+)\s+FROM\b", re.IGNORECASE)
 _RECORD = re.compile(r"\b(?:RECORD|ALIAS\s+\w+)\s+(\w+)", re.IGNORECASE)
 # The first argument behind an instruction or inside a function tells the kind of signal.
 _USES = (
-    (r"Set|Reset|InvertDO|SetDO|PulseDO|WaitDO|ISignalDO|DOutput|IODisable_", "digital_out"),
+    (r"Set|Reset|InvertDO|SetDO|PulseDO|WaitDO|ISignalDO|DOutput", "digital_out"),
     (r"WaitDI|ISignalDI|DInput|TestDI|SearchL|SearchC|SearchExtJ", "digital_in"),
     (r"SetAO|WaitAO|AOutput", "analog_out"),
     (r"AInput|WaitAI|ISignalAI", "analog_in"),
@@ -30,9 +30,9 @@ _USES = (
     (r"GInput|GInputDnum|WaitGI|ISignalGI", "group_in"),
 )
 _OPTION = r"(?:\\\w+(?:\s*:=\s*[\w.]+)?\s*,?\s*)*"
-_SIGNAL_USES = tuple(
-    (re.compile(rf"(?<![\w\\.])(?:{words})\s*\(?\s*{_OPTION}([^\W\d]\w*)\s*(?=[,;)\\])", re.IGNORECASE), kind)
-    for words, kind in _USES
+_USE_KINDS = {word.lower(): kind for words, kind in _USES for word in words.split("|")}
+_SIGNAL_USE = re.compile(
+    rf"(?<![\w\\.])({'|'.join(words for words, _ in _USES)})\s*\(?\s*{_OPTION}([^\W\d]\w*)\s*(?=[,;)\\])", re.IGNORECASE
 )
 _DOP = re.compile(r"\\(DOp|AOp|GOp)\s*:=\s*([^\W\d]\w*)", re.IGNORECASE)
 _DOP_KINDS = {"dop": "digital_out", "aop": "analog_out", "gop": "group_out"}
@@ -78,9 +78,8 @@ def survey(sources: Iterable[Source], predefined: Iterable[str]) -> Project:
         project.declared.update(name.lower() for name in _DATA.findall(text))
         project.declared.update(name.lower() for name in _COUNTER.findall(text))
         project.types.update(name.lower() for name in _RECORD.findall(text))
-        for pattern, kind in _SIGNAL_USES:
-            for name in pattern.findall(text):
-                project.signals.setdefault(name.lower(), kind)
+        for word, name in _SIGNAL_USE.findall(text):
+            project.signals.setdefault(name.lower(), _USE_KINDS[word.lower()])
         for option, name in _DOP.findall(text):
             project.signals.setdefault(name.lower(), _DOP_KINDS[option.lower()])
     for routine, kinds in project.signal_arguments.items():
