@@ -21,7 +21,7 @@ GIMBAL = 1e-9
 
 
 def _stack(rows: list[list[FloatArray]]) -> FloatArray:
-    """Matrices (..., r, c) from their elements, all of one shape (filling beats np.stack three to one on single ones)."""
+    """Matrices (..., r, c) from elements of one shape; filling is three times as fast as np.stack for a single one."""
     out = np.empty((*np.shape(rows[0][0]), len(rows), len(rows[0])))
     for i, row in enumerate(rows):
         for j, element in enumerate(row):

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -255,3 +256,11 @@ def test_loading_a_closed_form_arm_needs_no_pinocchio() -> None:
         "m.inverse(m.forward(m.home)); sys.exit('pinocchio' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_every_robot_is_in_the_documentation() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "robots.md").read_text(encoding="utf-8")
+    for name in robot_names():
+        file = read_robot_file(name)
+        row = f"| `{name}` | {file.maker} | {file.title} | {len(file.home)} | {file.kind} | "
+        assert row + (", ".join(file.assumed) or "-") in page
