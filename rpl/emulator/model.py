@@ -30,7 +30,7 @@ from rpl.emulator.robotfile import (
 from rpl.emulator.rotations import FloatArray
 
 if TYPE_CHECKING:
-    import pinocchio as pin  # type: ignore[import-untyped]  # ships no type information
+    import pinocchio as pin  # ships no type information
 
 __all__ = [
     "BatchSolutions",
