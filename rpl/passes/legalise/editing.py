@@ -299,8 +299,16 @@ class Hoister:
     def _flat_body(self, body: ir.Body) -> ir.Body:
         return tuple(rewrite_parts(statement, self.flat, self._flat_body) for statement in body)
 
-    def _finished(self, old: ir.Statement, before: Sequence[ir.Statement], new: ir.Statement) -> ir.Body:
-        return (new,) if not before else expansion(old.origin, (*before, new))
+    def ready(self, before: ir.Body) -> ir.Body:
+        """The statements in front of a condition, as they are written there (a pass may add checks)."""
+        return before
+
+    def failed(self) -> ir.Body:
+        """What leaves a loop whose condition could not be evaluated."""
+        return ()
+
+    def _finished(self, old: ir.Statement, before: ir.Body, new: ir.Statement) -> ir.Body:
+        return (new,) if not before else expansion(old.origin, (*self.ready(before), new))
 
     def _plain(self, statement: ir.Statement, watched: tuple[ir.Expression, ...] = ()) -> ir.Body:
         parts = children(statement)
@@ -348,7 +356,8 @@ class Hoister:
             (before, condition), body = lowered[at]
             branches.insert(0, (condition, self.body(body)))
             if before and at > 0:
-                otherwise = (*before, ir.If(tuple(branches), otherwise))
+                chain = ir.If(tuple(branches), otherwise, origin=replace(statement.origin, comments=()))
+                otherwise = self._finished(chain, before, chain)
                 branches = []
         same = otherwise is statement.otherwise and len(branches) == len(statement.branches)
         if same and all(
@@ -366,7 +375,7 @@ class Hoister:
             same = condition is statement.condition and body is statement.body
             return (statement if same else replace(statement, condition=condition, body=body),)
         leave = ir.If(((negation(condition), (ir.ExitLoop(),)),))
-        return (ir.Loop((*before, leave, *body), origin=statement.origin),)
+        return (ir.Loop((*self.ready(before), *self.failed(), leave, *body), origin=statement.origin),)
 
     def _repeat(self, statement: ir.Repeat) -> ir.Body:
         before, until = self.lower(statement.until)
@@ -375,9 +384,10 @@ class Hoister:
             same = until is statement.until and body is statement.body
             return (statement if same else replace(statement, until=until, body=body),)
         if not passes_on(body):
-            return (replace(statement, until=until, body=(*body, *before)),)
+            return (replace(statement, until=until, body=(*body, *self.ready(before), *self.failed())),)
         again = self.editor.temporary("again", ir.BoolType())
-        check = ir.If(((again, (*before, ir.If(((until, (ir.ExitLoop(),)),)))),))
+        leave = ir.If(((until, (ir.ExitLoop(),)),))
+        check = ir.If(((again, (*self.ready(before), *self.failed(), leave)),))
         loop = ir.Loop((check, ir.Assign(again, ir.BoolLiteral(True)), *body))
         return expansion(statement.origin, (ir.Assign(again, ir.BoolLiteral(False)), loop))
 
