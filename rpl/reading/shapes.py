@@ -35,6 +35,7 @@ NUMBERS = re.compile(
 )
 LONGEST_STATEMENT = 2_000_000
 DEEPEST_EXPRESSION = 150
+DEEPEST_TREE = 200
 _CACHED_SHAPES = 50_000
 # What stands for a taken-out piece in a shape: pattern group -> terminal and its stand-in text.
 NUMBER_SLOTS: Mapping[str, tuple[str, str]] = {"real": ("REAL", "0.5"), "int": ("INT", "0")}
@@ -74,7 +75,7 @@ class ShapeParser:
         self._lark = load_grammar(grammar)
         self._numbers = numbers
         self._stand_ins = {group: text for group, (_, text) in slots.items()}
-        self._terminals = {terminal: text for terminal, text in slots.values()}
+        self._terminals = dict(slots.values())
         self._trees: dict[str, SyntaxTree] = {}
 
     def parse(self, text: str) -> tuple[SyntaxTree, tuple[str, ...]]:
@@ -111,6 +112,7 @@ class ShapeParser:
             except UnexpectedInput as error:
                 _refuse(error, text)
             raise StatementError("a number stands where none can be", 0) from None
+        _check_tree(tree)
         tokens = [
             token
             for token in tree.scan_values(lambda value: isinstance(value, Token))
@@ -141,6 +143,16 @@ def _check_depth(text: str) -> None:
                 raise StatementError(f"brackets nested more than {DEEPEST_EXPRESSION} deep", at)
         elif sign in ")]}":
             depth -= 1
+
+
+def _check_tree(tree: Tree[Token]) -> None:
+    """Long chains of operators make deep trees without a bracket; every later room walks them recursively."""
+    level, depth = [tree], 0
+    while level:
+        depth += 1
+        if depth > DEEPEST_TREE:
+            raise StatementError(f"expressions nested more than {DEEPEST_TREE} deep", 0)
+        level = [child for node in level for child in node.children if isinstance(child, Tree)]
 
 
 def _refuse(error: UnexpectedInput, text: str) -> NoReturn:
