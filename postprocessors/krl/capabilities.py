@@ -1,0 +1,47 @@
+"""What a KUKA controller can say, for the passes that rewrite the rest."""
+
+from __future__ import annotations
+
+from rpl.passes.capabilities import Capabilities, NameRules
+
+from . import tables
+
+CAPABILITIES = Capabilities(
+    statements=frozenset(
+        (
+            *("Assign", "CallRoutine", "If", "Switch", "For", "While", "Repeat", "Loop", "ExitLoop", "Label", "Goto"),
+            *("Return", "Halt", "Wait", "WaitUntil", "WaitForMotion", "LookAhead", "Pulse", "DeclareInterrupt"),
+            *("ControlInterrupt", "StopMotion", "ResumeLevel", "Message", "Dialog", "Do", "Nothing", "Move", "Spline"),
+            *("Trigger", "Vendor", "Opaque"),
+        )
+    ),
+    functions=frozenset((*tables.FUNCTIONS, "text_equal", "text_find", "is_uninitialised", "message_text", "compose")),
+    procedures=frozenset(tables.PROCEDURES),
+    system_variables=frozenset(tables.SYSTEM),
+    operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary)),
+    types=frozenset(
+        (
+            *("IntType", "RealType", "BoolType", "CharType", "StringType", "PoseType", "TargetType", "JointsType"),
+            *("NamedType", "ArrayType"),
+        )
+    ),
+    names=NameRules(
+        longest=24,
+        case_sensitive=False,
+        reserved=tables.RESERVED,
+        first="abcdefghijklmnopqrstuvwxyz_",
+        further="abcdefghijklmnopqrstuvwxyz0123456789_",
+    ),
+    modal_motion=True,
+    notation="krl",
+    rotation="zyx",
+    enums=True,
+    conversions=tables.SILENT_CONVERSIONS,
+    timers=64,
+    switch_types=frozenset(("IntType", "CharType", "NamedType")),
+    switch_constant_cases=True,
+    text_results=False,
+    named_aggregates=True,
+    partial_aggregates=True,
+    constant_aggregates=True,
+)

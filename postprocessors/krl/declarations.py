@@ -1,0 +1,134 @@
+"""IR declarations as KRL lines: variables, structures, enumerations, signals, routine headers."""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.passes.scope import Scope
+
+from . import tables
+from .expressions import CannotSayError, Expressions
+
+_LITERALS = (ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.EnumLiteral)
+
+
+def type_parts(type: ir.Type, expressions: Expressions) -> tuple[str, str]:
+    """The type's word and the brackets that stand behind the name."""
+    match type:
+        case ir.IntType():
+            return "INT", ""
+        case ir.RealType():
+            return "REAL", ""
+        case ir.BoolType():
+            return "BOOL", ""
+        case ir.CharType():
+            return "CHAR", ""
+        case ir.PoseType():
+            return "FRAME", ""
+        case ir.TargetType(external=external):
+            return "E6POS" if external else "POS", ""
+        case ir.JointsType(external=external):
+            return "E6AXIS" if external else "AXIS", ""
+        case ir.NamedType(name=name):
+            return name, ""
+        case ir.StringType(capacity=capacity):
+            return "CHAR", f"[{expressions.text(capacity) if capacity is not None else ''}]"
+        case ir.ArrayType(element=element, dimensions=dimensions):
+            word, inner = type_parts(element, expressions)
+            bounds = [expressions.text(bound) if bound is not None else "" for bound in dimensions]
+            if inner:
+                bounds.append(inner[1:-1])
+            if len(bounds) > 3:
+                raise CannotSayError("KRL's arrays have at most three dimensions")
+            return word, f"[{','.join(bounds)}]"
+    raise CannotSayError(f"KRL has no type for {type.__class__.__name__.removesuffix('Type').lower()}")
+
+
+def variable_line(variable: ir.Variable, scope: Scope, in_data: bool) -> str:
+    """One variable. In a data list with its value; in a routine the value is assigned later."""
+    expressions = Expressions(scope)
+    type = variable.type
+    if isinstance(type, ir.StringType) and type.capacity is None:
+        type = ir.StringType(ir.IntLiteral(tables.DEFAULT_TEXT_CAPACITY))
+    word, brackets = type_parts(type, expressions)
+    words = ["DECL"]
+    if in_data and variable.scope in ("task", "global"):
+        words.append("GLOBAL")
+    if variable.storage == "constant" and in_data:
+        words.append("CONST")
+    text = f"{' '.join(words)} {word} {variable.name}{brackets}"
+    if variable.initial is not None and in_data:
+        if isinstance(type, ir.ArrayType):
+            raise CannotSayError("KRL initialises an array element by element")
+        if not _constant(variable.initial):
+            raise CannotSayError("a data list takes constants only")
+        text += f"={expressions.stored(variable.initial)}"
+    return text
+
+
+def _constant(value: ir.Expression) -> bool:
+    match value:
+        case ir.Unary(op="-" | "+", operand=operand) | ir.Convert(operand=operand):
+            return _constant(operand)
+        case ir.Aggregate(entries=entries):
+            return all(_constant(part) for _, part in entries)
+        case ir.System(name="null_frame" | "world"):
+            return True
+    return isinstance(value, _LITERALS)
+
+
+def record_line(record: ir.RecordDeclaration, scope: Scope) -> str:
+    expressions = Expressions(scope)
+    parts, last = [], ""
+    for name, type in record.fields:
+        word, brackets = type_parts(type, expressions)
+        parts.append(f"{word} {name}{brackets}" if word != last else f"{name}{brackets}")
+        last = word
+    return f"{_scope(record.scope)}STRUC {record.name} {','.join(parts)}"
+
+
+def enum_line(enum: ir.EnumDeclaration) -> str:
+    return f"{_scope(enum.scope)}ENUM {enum.name} {','.join(enum.members)}"
+
+
+def signal_line(declaration: ir.SignalDeclaration, scope: Scope) -> str:
+    """`SIGNAL name $OUT[1]`, a range, or another name that the signal stands for."""
+    expressions = Expressions(scope)
+    signal, head = declaration.signal, f"{_scope(declaration.scope)}SIGNAL {declaration.name} "
+    if signal.index is None:
+        if signal.name is None:
+            raise CannotSayError("this signal has neither number nor name")
+        return head + signal.name
+    first = expressions.text(signal.index)
+    if signal.last is not None:
+        word = tables.GROUPS.get(signal.kind) or tables.SIGNALS.get(signal.kind, "$OUT")
+        return f"{head}{word}[{first}] TO {word}[{expressions.text(signal.last)}]"
+    return f"{head}{tables.SIGNALS[signal.kind]}[{first}]"
+
+
+def _scope(scope: str) -> str:
+    return "GLOBAL " if scope in ("task", "global") else ""
+
+
+def header_line(routine: ir.Routine, scope: Scope, first: bool) -> str:
+    """`DEF name(a:IN,b[]:OUT)`; the first routine of a file is global without saying so."""
+    expressions = Expressions(scope)
+    parameters = []
+    for parameter in routine.parameters:
+        if parameter.optional or parameter.switch:
+            raise CannotSayError("KRL has no optional parameters")
+        _, brackets = type_parts(parameter.type, expressions)
+        empty = f"[{',' * brackets.count(',')}]" if brackets else ""
+        parameters.append(f"{parameter.name}{empty}:{'OUT' if parameter.mode == 'reference' else 'IN'}")
+    everywhere = "" if first or routine.scope == "module" else "GLOBAL "
+    listed = ",".join(parameters) or " "
+    if routine.returns is None:
+        return f"{everywhere}DEF {routine.name}({listed})"
+    word, brackets = type_parts(routine.returns, expressions)
+    return f"{everywhere}DEFFCT {word}{brackets} {routine.name}({listed})"
+
+
+def parameter_line(parameter: ir.Parameter, scope: Scope) -> str:
+    word, brackets = type_parts(parameter.type, Expressions(scope))
+    if isinstance(parameter.type, ir.ArrayType | ir.StringType):
+        brackets = f"[{',' * brackets.count(',')}]"
+    return f"DECL {word} {parameter.name}{brackets}"

@@ -1,0 +1,341 @@
+"""IR statements as KRL lines. What KRL cannot say becomes a guarded stop: the original as a comment, then HALT."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.passes.scope import Scope
+from rpl.source import Comment, Origin
+from rpl.writing.ledger import EmissionLedger
+
+from . import tables
+from .expressions import CannotSayError, Expressions
+from .motion import Motion
+
+GUARDED = code(
+    "krl-guarded-stop",
+    Severity.LOSS,
+    "KRL cannot say this: {reason}",
+    "the program stops there with HALT; write the line by hand",
+)
+LONG_LINE = code("krl-long-line", Severity.WARNING, "a line of {length} characters; controllers read at most {most}")
+
+_STEP = "  "
+
+
+@dataclass(slots=True)
+class Printer:
+    """Prints the bodies of one routine."""
+
+    scope: Scope
+    ledger: EmissionLedger
+    diagnostics: Diagnostics
+    lines: list[str] = field(default_factory=list)
+    depth: int = 0
+
+    def __post_init__(self) -> None:
+        self.expressions = Expressions(self.scope)
+        self.motion = Motion(self.expressions)
+
+    expressions: Expressions = field(init=False)
+    motion: Motion = field(init=False)
+
+    # ---- lines and comments
+
+    def line(self, text: str, origin: Origin | None = None) -> None:
+        """One line, with the comments that belong to its statement."""
+        indent = _STEP * self.depth
+        behind = ""
+        for comment in origin.comments if origin else ():
+            if comment.behind:
+                behind = f" ;{_one_line(comment.text)}"
+            else:
+                self.comment(comment)
+        whole = f"{indent}{text}{behind}"
+        if len(whole) > tables.LONGEST_LINE and origin is not None:
+            self.diagnostics.report(LONG_LINE, origin, length=len(whole), most=tables.LONGEST_LINE)
+        self.lines.append(whole)
+
+    def comment(self, comment: Comment) -> None:
+        self.lines.extend(f"{_STEP * self.depth};{part}" for part in comment.text.splitlines() or [""])
+
+    def comments_only(self, origin: Origin) -> None:
+        for comment in origin.comments:
+            self.comment(comment)
+
+    # ---- bodies
+
+    def body(self, body: ir.Body) -> None:
+        self.depth += 1
+        for statement in body:
+            self.statement(statement)
+        self.depth -= 1
+
+    def statement(self, statement: ir.Statement) -> None:
+        """One statement, or its guarded stop."""
+        kept, depth = len(self.lines), self.depth
+        try:
+            self.written(statement)
+        except CannotSayError as error:
+            del self.lines[kept:]
+            self.depth = depth
+            self.guard(statement, str(error))
+        else:
+            self.ledger.written(statement)
+
+    def guard(self, statement: ir.Statement, reason: str) -> None:
+        self.comments_only(statement.origin)
+        original = statement.origin.text or getattr(statement, "text", "") or statement.__class__.__name__
+        self.lines.extend(f"{_STEP * self.depth};{part.strip()}" for part in original.splitlines())
+        self.lines.append(f"{_STEP * self.depth}HALT")
+        self.diagnostics.report(GUARDED, statement.origin, reason=reason)
+        self.ledger.reported(statement)
+
+    def written(self, statement: ir.Statement) -> None:
+        match statement:
+            case ir.Nothing(origin=origin):
+                self.comments_only(origin)
+            case ir.If() | ir.Switch() | ir.For() | ir.While() | ir.Repeat() | ir.Loop() | ir.Spline():
+                self.block(statement)
+            case ir.Opaque(text=text):
+                raise CannotSayError(f"it was not read ({text.strip()[:40]})")
+            case ir.Vendor(dialect=dialect, text=text):
+                if dialect != "krl":
+                    raise CannotSayError(f"it belongs to {dialect}")
+                self.line(text, statement.origin)
+            case _:
+                self.line(self.simple(statement), statement.origin)
+
+    # ---- blocks
+
+    def block(self, statement: ir.Statement) -> None:
+        text = self.expressions.text
+        origin = statement.origin
+        match statement:
+            case ir.If(branches=branches, otherwise=otherwise):
+                self.branches(branches, otherwise, origin)
+            case ir.Switch():
+                self.switch(statement)
+            case ir.For():
+                self.counting(statement)
+            case ir.While(condition=condition, body=body):
+                self.line(f"WHILE {text(condition)}", origin)
+                self.body(body)
+                self.line("ENDWHILE")
+            case ir.Repeat(until=until, body=body):
+                ending = f"UNTIL {text(until)}"
+                self.line("REPEAT", origin)
+                self.body(body)
+                self.line(ending)
+            case ir.Loop(body=body):
+                self.line("LOOP", origin)
+                self.body(body)
+                self.line("ENDLOOP")
+            case ir.Spline():
+                head, tail = self.motion.spline(statement)
+                self.line(head, origin)
+                self.body(statement.body)
+                self.line(tail)
+
+    def branches(
+        self, branches: tuple[tuple[ir.Expression, ir.Body], ...], otherwise: ir.Body, origin: Origin | None
+    ) -> None:
+        """IF ... ELSE ... ENDIF; further branches nest, because KRL has no ELSEIF."""
+        (condition, body), *rest = branches
+        self.line(f"IF {self.expressions.text(condition)} THEN", origin)
+        self.body(body)
+        if rest or otherwise:
+            self.line("ELSE")
+            if rest:
+                self.depth += 1
+                self.branches(tuple(rest), otherwise, None)
+                self.depth -= 1
+            else:
+                self.body(otherwise)
+        self.line("ENDIF")
+
+    def switch(self, statement: ir.Switch) -> None:
+        if not statement.cases:
+            raise CannotSayError("a SWITCH without a CASE")
+        self.line(f"SWITCH {self.expressions.text(statement.selector)}", statement.origin)
+        self.depth += 1
+        for case in statement.cases:
+            values = ",".join(self.expressions.text(value) for value in case.values)
+            self.line(f"CASE {values}")
+            self.body(case.body)
+        if statement.default is not None:
+            self.line("DEFAULT")
+            self.body(statement.default)
+        self.depth -= 1
+        self.line("ENDSWITCH")
+
+    def counting(self, loop: ir.For) -> None:
+        if loop.scoped or loop.automatic or loop.at_least_once:
+            raise CannotSayError("a loop whose counter or first pass follows another language's rule")
+        text = self.expressions.text
+        step = f" STEP {text(loop.step)}" if loop.step is not None else ""
+        self.line(f"FOR {loop.counter}={text(loop.start)} TO {text(loop.stop)}{step}", loop.origin)
+        self.body(loop.body)
+        self.line("ENDFOR")
+
+    # ---- simple statements
+
+    def simple(self, statement: ir.Statement) -> str:
+        text = self.expressions.text
+        match statement:
+            case ir.Assign():
+                return assignment(statement, self.expressions)
+            case ir.CallRoutine():
+                return call(statement, self.expressions)
+            case ir.ExitLoop():
+                return "EXIT"
+            case ir.Label(name=name):
+                return f"{name}:"
+            case ir.Goto(label=name):
+                return f"GOTO {name}"
+            case ir.Return(value=value):
+                return f"RETURN {text(value)}" if value is not None else "RETURN"
+            case ir.Halt():
+                return "HALT"
+            case ir.Wait(time=time):
+                return f"WAIT SEC {self.expressions.measured(time, 's')}"
+            case ir.WaitUntil(condition=condition, timeout=None, error=None):
+                return f"WAIT FOR {text(condition)}"
+            case ir.WaitForMotion():
+                return "WAIT SEC 0"
+            case ir.LookAhead():
+                return "CONTINUE"
+            case ir.Pulse(signal=signal, value=value, duration=duration):
+                return f"PULSE({text(signal)},{text(value)},{self.expressions.measured(duration, 's')})"
+            case ir.StopMotion(hard=hard):
+                return "BRAKE F" if hard else "BRAKE"
+            case ir.ResumeLevel():
+                return "RESUME"
+            case ir.Do(procedure=procedure, arguments=arguments) if procedure in tables.PROCEDURES:
+                return self.expressions.procedure(procedure, arguments)
+            case ir.Message() | ir.Dialog():
+                return self.told(statement)
+            case ir.DeclareInterrupt() | ir.ControlInterrupt():
+                return self.interrupt(statement)
+            case ir.Move():
+                return self.motion.move(statement)
+            case ir.Trigger():
+                return self.trigger(statement)
+        raise CannotSayError(f"KRL has no {statement.__class__.__name__}")
+
+    def interrupt(self, statement: ir.DeclareInterrupt | ir.ControlInterrupt) -> str:
+        text = self.expressions.text
+        if isinstance(statement, ir.ControlInterrupt):
+            if statement.op == "delete":
+                raise CannotSayError("an interrupt cannot be deleted")
+            priority = f" {text(statement.handle)}" if statement.handle is not None else ""
+            return f"INTERRUPT {statement.op.upper()}{priority}"
+        everywhere = "GLOBAL " if statement.everywhere else ""
+        action = self.action(statement.action)
+        condition = text(statement.condition)
+        return f"{everywhere}INTERRUPT DECL {text(statement.priority)} WHEN {condition} DO {action}"
+
+    def trigger(self, trigger: ir.Trigger) -> str:
+        text = self.expressions
+        action = trigger.action
+        bare = trigger.distance is None and trigger.delay is None and trigger.priority is None
+        output = isinstance(action, ir.Assign) and isinstance(action.target, ir.Signal)
+        if bare and output and trigger.reference == "start":
+            assert isinstance(action, ir.Assign)
+            written = assignment(action, text)
+            self.ledger.merged(action)
+            return written.replace("$OUT[", "$OUT_C[", 1) if written.startswith("$OUT[") else self.at(trigger, action)
+        return self.at(trigger, action)
+
+    def at(self, trigger: ir.Trigger, action: ir.Assign | ir.CallRoutine) -> str:
+        text = self.expressions
+        if trigger.distance is not None or trigger.reference == "end":
+            distance = text.measured(trigger.distance, "") if trigger.distance is not None else "0"
+            start = " ONSTART" if trigger.reference == "start" else ""
+            where = f"PATH={distance}{start}"
+        else:
+            where = f"DISTANCE={0 if trigger.reference == 'start' else 1}"
+        delay = text.measured(trigger.delay, "ms") if trigger.delay is not None else "0"
+        priority = text.text(trigger.priority) if trigger.priority is not None else ""
+        if not priority and isinstance(action, ir.CallRoutine):
+            priority = "-1"
+        return f"TRIGGER WHEN {where} DELAY={delay} DO {self.action(action)}" + (
+            f" PRIO={priority}" if priority else ""
+        )
+
+    def action(self, action: ir.Assign | ir.CallRoutine) -> str:
+        if isinstance(action, ir.Assign):
+            return assignment(action, self.expressions)
+        if action.name.upper() == "PULSE_OUT" and len(action.arguments) == 3:
+            number, value, time = (argument.value for argument in action.arguments)
+            if number is not None and value is not None and time is not None:
+                text = self.expressions.text
+                return f"PULSE($OUT[{text(number)}],{text(value)},{text(time)})"
+        return call(action, self.expressions)
+
+    # ---- messages
+
+    def told(self, statement: ir.Message | ir.Dialog) -> str:
+        text = self.expressions.text
+        wanted = statement.text
+        parameters: tuple[ir.Expression, ...] = ()
+        if isinstance(wanted, ir.Builtin) and wanted.function == "message_text":
+            wanted, *rest = wanted.arguments
+            parameters = tuple(rest)
+        if isinstance(wanted, ir.Binary):
+            raise CannotSayError("a message is one text with up to three parameters")
+        if len(parameters) > 3:
+            raise CannotSayError("a message has at most three parameters")
+        shown = [text(wanted), text(statement.sender) if statement.sender is not None else '""']
+        shown.extend(text(value) if value != ir.TextLiteral("") else "" for value in parameters)
+        if isinstance(statement, ir.Message):
+            if statement.kind not in tables.MESSAGES:
+                raise CannotSayError(f"KRL has no message of kind {statement.kind}")
+            if len(shown) == 2 and statement.sender is None:
+                shown.pop()
+            return f"{tables.MESSAGES[statement.kind]}({','.join(shown)})"
+        if statement.kind != "keys" or statement.timeout is not None:
+            raise CannotSayError("KRL's dialogs are answered by a key, without a time limit")
+        shown[0:0] = [text(statement.answer)]
+        shown.extend([""] * (6 - len(shown)))
+        shown.extend(text(key) if key is not None else "" for key in statement.keys)
+        return f"MsgDialog({','.join(shown)})"
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.splitlines())
+
+
+def assignment(statement: ir.Assign, expressions: Expressions) -> str:
+    """An assignment; modal variables take their value in KRL's unit, modes their own member."""
+    target, value = statement.target, statement.value
+    match target:
+        case ir.System(name=name):
+            return f"{expressions.system(target, _own_unit(name))}={setting(name, value, expressions)}"
+        case ir.Signal():
+            return f"{expressions.signal(target)}={expressions.text(value)}"
+        case ir.Name() | ir.Index() | ir.Field():
+            known = expressions.type(target) is not None
+            return f"{expressions.place(target)}={expressions.stored(value) if known else expressions.text(value)}"
+    raise CannotSayError("this cannot be assigned to")
+
+
+def _own_unit(name: str) -> str:
+    return tables.SYSTEM.get(name, ("", ""))[1]
+
+
+def setting(name: str, value: ir.Expression, expressions: Expressions) -> str:
+    """The value of a modal variable as KRL writes it."""
+    if isinstance(value, ir.EnumLiteral) and name in tables.MODES:
+        return f"#{tables.MODES[name].get(value.member, value.member)}"
+    if isinstance(value, ir.Aggregate):
+        return expressions.stored(value)
+    return expressions.measured(value, _own_unit(name))
+
+
+def call(statement: ir.CallRoutine, expressions: Expressions) -> str:
+    if statement.dynamic is not None:
+        raise CannotSayError("KRL has no call by a computed name")
+    return f"{statement.name}({expressions.arguments(statement.arguments) or ' '})"

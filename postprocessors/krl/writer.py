@@ -1,0 +1,223 @@
+"""A program in KRL's terms to `.src`, `.sub` and `.dat` files. Templates give the frame, the printers the lines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from typing import TYPE_CHECKING
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.passes.scope import ProgramScope, Scope
+from rpl.writing.ledger import EmissionLedger
+from rpl.writing.target import OutputFile, WriteContext
+
+from . import tables
+from .declarations import enum_line, header_line, parameter_line, record_line, signal_line, variable_line
+from .expressions import CannotSayError
+from .statements import Printer, assignment
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+LOST_DECLARATION = code(
+    "krl-lost-declaration", Severity.LOSS, "KRL cannot declare {name}: {reason}", "it is left as a comment"
+)
+LOST_HANDLER = code("krl-lost-handler", Severity.LOSS, "KRL has no error handlers; the one of {name} is left out", "")
+
+_KRL_FILES = (".src", ".dat", ".sub")
+
+
+@cache
+def _environment() -> Environment:
+    from jinja2 import DictLoader, Environment, StrictUndefined
+
+    folder = resources.files(__package__ or "").joinpath("templates")
+    texts = {name: folder.joinpath(name).read_text("utf-8") for name in ("program.src.j2", "data.dat.j2")}
+    return Environment(
+        loader=DictLoader(texts), undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, autoescape=False
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class RoutineText:
+    """What the template needs of one routine."""
+
+    before: tuple[str, ...]
+    head: str
+    lines: tuple[str, ...]
+    foot: str
+
+
+def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
+    """All files of a program. Raises InternalError when the ledger finds a node that nobody accounted for."""
+    ledger = EmissionLedger()
+    scopes = ProgramScope(program)
+    background = {name for task in program.tasks if task.kind == "background" for name in task.modules}
+    files: list[OutputFile] = []
+    for module in program.modules:
+        files.extend(_Module(module, scopes, ledger, context, module.name in background).files())
+    ledger.check(program)
+    return files
+
+
+class _Module:
+    def __init__(
+        self, module: ir.Module, scopes: ProgramScope, ledger: EmissionLedger, context: WriteContext, background: bool
+    ) -> None:
+        self.module, self.scopes, self.ledger, self.background = module, scopes, ledger, background
+        self.diagnostics = context.diagnostics
+        self.scope = scopes.module(module)
+
+    def files(self) -> list[OutputFile]:
+        """The program file and, where there is anything to put into it, the data list."""
+        module = self.module
+        self.ledger.written(module)
+        found = []
+        program, data = self.attributes()
+        lines = self.data_lines()
+        if module.routines:
+            routines = [self.routine(routine, index == 0) for index, routine in enumerate(self.ordered())]
+            if not self.named_after_module():
+                routines.insert(0, RoutineText((), f"DEF {module.name}( )", (), "END"))
+            suffix = "sub" if self.background else "src"
+            text = _environment().get_template("program.src.j2").render(attributes=program, routines=routines)
+            found.append(_file(f"{module.name}.{suffix}", text))
+        if lines or data or not module.routines:
+            public = module.public or any(
+                getattr(declaration, "scope", "") in ("task", "global") for declaration in module.declarations
+            )
+            text = (
+                _environment()
+                .get_template("data.dat.j2")
+                .render(attributes=data, name=module.name, public=public, lines=lines)
+            )
+            found.append(_file(f"{module.name}.dat", text))
+        return found
+
+    def attributes(self) -> tuple[list[str], list[str]]:
+        """File attributes of the program and of the data list; other languages' attributes have no place here."""
+        program: list[str] = []
+        data: list[str] = []
+        for name, value in self.module.attributes:
+            of_data, bare = name.startswith("dat "), name.removeprefix("dat ")
+            if bare.upper() in tables.ATTRIBUTES:
+                (data if of_data else program).append(f"{bare} {value}".rstrip())
+        return program, data
+
+    def ordered(self) -> list[ir.Routine]:
+        """The routine that is named like the file, or one that others may call, stands first."""
+        routines = list(self.module.routines)
+        first = next((r for r in routines if r.name.lower() == self.module.name.lower()), None)
+        if first is not None:
+            routines.remove(first)
+            routines.insert(0, first)
+        return routines
+
+    def named_after_module(self) -> bool:
+        """A controller wants the first routine named like its file. A KRL file that breaks this stays as it was."""
+        source = self.module.origin.source
+        if source is not None and source.path.lower().endswith(_KRL_FILES):
+            return True
+        return any(routine.name.lower() == self.module.name.lower() for routine in self.module.routines)
+
+    # ---- data list
+
+    def data_lines(self) -> list[str]:
+        printer = Printer(self.scope, self.ledger, self.diagnostics)
+        for declaration in self.module.declarations:
+            self.declaration(declaration, printer, self.scope, in_data=True)
+        return printer.lines
+
+    def declaration(self, declaration: ir.Declaration, printer: Printer, scope: Scope, in_data: bool) -> None:
+        origin = declaration.origin
+        try:
+            match declaration:
+                case ir.Variable():
+                    printer.line(variable_line(declaration, scope, in_data), origin)
+                case ir.RecordDeclaration():
+                    printer.line(record_line(declaration, scope), origin)
+                case ir.EnumDeclaration():
+                    printer.line(enum_line(declaration), origin)
+                case ir.SignalDeclaration():
+                    printer.line(signal_line(declaration, scope), origin)
+                case ir.ExternalDeclaration(text=text):
+                    printer.line(text, origin)
+                case ir.Initialise(assign=assign):
+                    printer.line(assignment(assign, printer.expressions), origin)
+                case ir.Unread(text=""):
+                    printer.comments_only(origin)
+                case ir.Unread(text=text):
+                    raise CannotSayError(f"it was not read ({text.strip()[:40]})")
+                case ir.AliasDeclaration():
+                    raise CannotSayError("there are no second names for types")
+        except CannotSayError as error:
+            self.lost(declaration, printer, str(error))
+        else:
+            self.ledger.written(declaration)
+
+    def lost(self, declaration: ir.Declaration, printer: Printer, reason: str) -> None:
+        printer.comments_only(declaration.origin)
+        name = getattr(declaration, "name", "this")
+        for part in (declaration.origin.text or str(name)).splitlines():
+            printer.lines.append(f";{part.strip()}")
+        self.diagnostics.report(LOST_DECLARATION, declaration.origin, name=name, reason=reason)
+        self.ledger.reported(declaration)
+
+    # ---- routines
+
+    def routine(self, routine: ir.Routine, first: bool) -> RoutineText:
+        scope = self.scopes.routine(self.module, routine)
+        printer = Printer(scope, self.ledger, self.diagnostics)
+        before = Printer(scope, self.ledger, self.diagnostics)
+        before.comments_only(routine.origin)
+        foot = "END" if routine.returns is None else "ENDFCT"
+        try:
+            head = header_line(routine, scope, first)
+            for parameter in routine.parameters:
+                printer.line(parameter_line(parameter, scope))
+        except CannotSayError as error:
+            self.diagnostics.report(LOST_DECLARATION, routine.origin, name=routine.name, reason=str(error))
+            self.ledger.reported(routine)
+            original = tuple(f";{line.strip()}" for line in routine.origin.text.splitlines())
+            return RoutineText(tuple(before.lines) + original, f"DEF {routine.name}( )", ("HALT",), "END")
+        self.ledger.written(routine)
+        for declaration in routine.declarations:
+            self.declaration(declaration, printer, scope, in_data=False)
+        self.initial_values(routine, printer)
+        printer.depth = -1
+        printer.body(routine.body)
+        self.handlers(routine)
+        return RoutineText(tuple(before.lines), head, tuple(printer.lines), foot)
+
+    def initial_values(self, routine: ir.Routine, printer: Printer) -> None:
+        """A routine's variables are declared bare; their first values are assignments."""
+        for declaration in routine.declarations:
+            if isinstance(declaration, ir.Variable) and declaration.initial is not None:
+                target = ir.Name(declaration.name)
+                try:
+                    printer.line(assignment(ir.Assign(target, declaration.initial), printer.expressions))
+                except CannotSayError as error:
+                    self.diagnostics.report(
+                        LOST_DECLARATION, declaration.origin, name=declaration.name, reason=str(error)
+                    )
+                    printer.line("HALT")
+
+    def handlers(self, routine: ir.Routine) -> None:
+        """What a KRL routine has no place for. The passes before carry over what they can."""
+        lost = [statement for handler in routine.handlers for statement in handler.body]
+        lost.extend((*routine.undo, *routine.backward))
+        if routine.handlers or lost:
+            self.diagnostics.report(LOST_HANDLER, routine.origin, name=routine.name)
+        for statement in lost:
+            self.ledger.reported(statement)
+
+
+def _file(path: str, text: str) -> OutputFile:
+    """Controllers read 8-bit text with CR LF; what that cannot hold is written as UTF-8."""
+    text = "\r\n".join(line.rstrip() for line in text.splitlines()) + "\r\n"
+    try:
+        return OutputFile(path, text.encode("cp1252"))
+    except UnicodeEncodeError:
+        return OutputFile(path, text.encode("utf-8"))
