@@ -1,0 +1,47 @@
+"""RPL: the universal robot programming language, and the text of the IR."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from rpl.registry import Dialect, ReadResult
+
+if TYPE_CHECKING:
+    from rpl.diagnostics import Diagnostics
+    from rpl.ir import Module
+    from rpl.ir.rules import Rules
+    from rpl.source import Source
+
+
+def _recognise(path: str, text: str) -> int:
+    from .reader import recognise
+
+    return recognise(path, text)
+
+
+def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
+    from .reader import read
+
+    return read(sources, diagnostics)
+
+
+def _rules() -> Rules:
+    from .rules import RULES
+
+    return RULES
+
+
+def _prelude() -> Module | None:
+    return None
+
+
+DIALECT = Dialect(
+    name="rpl",
+    title="RPL, the universal robot programming language",
+    extensions=(".rpl",),
+    recognise=_recognise,
+    read=_read,
+    rules=_rules,
+    prelude=_prelude,
+)

@@ -1,0 +1,131 @@
+"""Files of RPL to a program: every MODULE becomes one; what stands outside is a module named like its file."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics
+from rpl.ir import words
+from rpl.ir.walk import is_statement
+from rpl.reading.assemble import assemble
+from rpl.reading.ledger import FileReport
+from rpl.reading.pieces import Attribute, Element, Item, ModulePart
+from rpl.reading.shapes import ShapeParser, SyntaxTree
+from rpl.registry import ReadResult
+from rpl.source import Comment, Origin, Source
+
+from .affixment import Affixment, affix
+from .blocks import Builder, lower, scoped
+from .expressions import Reading
+from .splitter import NUMBERS, split
+
+_SURE = re.compile(
+    r"^[ \t]*(?:END (?:PROCEDURE|MODULE)|MODULE[ \t]+\S+[ \t]+USING[ \t]+\w+)\b", re.IGNORECASE | re.MULTILINE
+)
+_LIKELY = re.compile(
+    r"^[ \t]*(?:MOVE(?: JOINT| LINEAR| CIRCULAR)? (?:TO|BY|VIA)\b|END (?:IF|FOR|WHILE|LOOP|SWITCH|FUNCTION)\b"
+    r"|(?:VAR|CONST|PERSISTENT)[ \t]+\w+[ \t]*:[ \t]*\w+|SET .+ TO (?:ON|OFF)\b|WAIT UNTIL\b|(?:OPEN|CLOSE) \w+[ \t]*$"
+    r"|WAIT [\d.]+ s\b|MESSAGE \"|FRAME \w+ = |GRIPPER \w+ = )",
+    re.IGNORECASE | re.MULTILINE,
+)
+
+
+def recognise(path: str, text: str) -> int:
+    """How sure it is that the text is RPL, from its own block ends and statements."""
+    if _SURE.search(text):
+        return 85
+    hits = sum(1 for _ in zip(_LIKELY.finditer(text), range(8), strict=False))
+    return 30 + 5 * hits if hits else 0
+
+
+def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
+    """Read all sources as one program."""
+    parser = ShapeParser("rpl.lark", NUMBERS)
+    modules: list[ir.Module] = []
+    tasks: list[ir.Task] = []
+    entry = ""
+    files: list[FileReport] = []
+    for source in sources:
+        affixed: list[Affixment] = []
+        builder = Builder(diagnostics)
+
+        def lowered(
+            tree: SyntaxTree, numbers: tuple[str, ...], origin: Origin, affixed: list[Affixment] = affixed
+        ) -> Element | tuple[Element, ...]:
+            return lower(tree, Reading(numbers, origin, affixed))
+
+        assembly = assemble(source, words.NATIVE, split(source), parser, lowered, builder.build, diagnostics)
+        found = _File(source)
+        for item in assembly.items:
+            found.take(item)
+        modules.extend(affix(module, affixed) for module in found.finish())
+        tasks.extend(found.tasks)
+        entry = entry or found.entry
+        files.append(assembly.report)
+    return ReadResult(ir.Program(tuple(modules), tuple(tasks), entry), tuple(files))
+
+
+class _File:
+    """Sorts what stands at the top of one file."""
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+        self.modules: list[ir.Module] = []
+        self.tasks: list[ir.Task] = []
+        self.entry = ""
+        self.comments: list[Comment] = []
+        self.loose: list[Item] = []
+
+    def take(self, item: Item) -> None:
+        match item:
+            case ModulePart(data=ir.Module() as module):
+                if self.comments:
+                    comments = (*self.comments, *module.origin.comments)
+                    module = replace(module, origin=replace(module.origin, comments=comments))
+                    self.comments = []
+                self.modules.append(module)
+            case ModulePart(data=ir.Task() as task):
+                self.tasks.append(task)
+            case ModulePart(data=str(entry)):
+                self.entry = entry
+            case ir.Nothing() if not self.loose:
+                self.comments.extend(item.origin.comments)
+            case _:
+                self.loose.append(item)
+
+    def finish(self) -> list[ir.Module]:
+        """The modules; loose declarations, routines and statements make one more."""
+        if self.loose:
+            self.modules.insert(0, self._own_module())
+        elif self.comments and self.modules:
+            last = self.modules[-1]
+            rest = ir.Unread("", origin=replace(last.origin, comments=tuple(self.comments)))
+            self.modules[-1] = replace(last, declarations=(*last.declarations, rest))
+        return self.modules
+
+    def _own_module(self) -> ir.Module:
+        declarations: list[ir.Declaration] = []
+        routines: list[ir.Routine] = []
+        attributes: list[tuple[str, str]] = []
+        body: list[ir.Statement] = []
+        for item in self.loose:
+            if isinstance(item, ir.Routine):
+                routines.append(item)
+            elif isinstance(item, Attribute):
+                attributes.append((item.name, item.value))
+            elif is_statement(item):
+                body.append(item)  # type: ignore[arg-type]
+            elif not isinstance(item, ModulePart):
+                declarations.append(scoped(item, "module"))  # type: ignore[arg-type]
+        origin = Origin(self.source, 0, 0, tuple(self.comments))
+        if body:
+            if all(isinstance(item, ir.Nothing) for item in body):
+                declarations.extend(ir.Unread("", origin=item.origin) for item in body)
+            else:
+                routines.insert(0, ir.Routine("main", body=tuple(body), origin=body[0].origin))
+        return ir.Module(
+            self.source.name, words.NATIVE, tuple(declarations), tuple(routines), tuple(attributes), origin=origin
+        )
