@@ -129,9 +129,9 @@ class _Assembler:
             return
         self.statements += 1
         origin = Origin(self.source, piece.start, piece.end)
+        lowered: Element | tuple[Element, ...]
         try:
-            tree, numbers = self.parser.parse(piece.text)
-            lowered = self.lower(tree, numbers, origin)
+            lowered = self.read(piece, origin)
         except StatementError as error:
             self.ledger.claim(piece.start, piece.end, REPORTED)
             self.unread.append(piece.text)
@@ -143,6 +143,13 @@ class _Assembler:
         elements = lowered if isinstance(lowered, tuple) else (lowered,)
         for position, element in enumerate(elements):
             self.place(element, piece.comment if position == len(elements) - 1 else None)
+
+    def read(self, piece: Piece, origin: Origin) -> Element | tuple[Element, ...]:
+        try:
+            tree, numbers = self.parser.parse(piece.text)
+            return self.lower(tree, numbers, origin)
+        except RecursionError:  # costs its statement like any other damage
+            raise StatementError("the expression is nested too deep", 0) from None
 
     def place(self, element: Element, behind: str | None) -> None:
         if isinstance(element, Middle | Close):
