@@ -21,7 +21,6 @@ LEVELS = [
     ["diagnostics", "source", "errors"],
 ]
 LEVEL = {room: number for number, rooms in enumerate(LEVELS) for room in rooms}
-# What the contract of a dialect or target is made of; the registry names these types and imports them for checking only.
 MOST_LINES, MOST_FUNCTION_LINES = 600, 60
 
 

@@ -1,4 +1,4 @@
-"""The built wheel holds everything the source tree holds: a folder without `__init__.py` would be missing in silence."""
+"""The built wheel holds what the source tree holds: a folder without `__init__.py` would be missing in silence."""
 
 import os
 import shutil
