@@ -124,6 +124,8 @@ def _sort_items(source: Source, items: tuple[Item, ...], modules: dict[str, _Par
                 parts.declarations.extend(_visible(item, public))
             case ir.Nothing():
                 parts.declarations.append(ir.Unread("", origin=item.origin))
+            case ir.Variable(storage="variable") if _suffix(source) == ".dat":  # a data list without its frame
+                parts.declarations.append(replace(item, storage="persistent"))
             case ir.Variable() | ir.RecordDeclaration() | ir.EnumDeclaration() | ir.SignalDeclaration():
                 parts.declarations.append(item)
             case ir.ExternalDeclaration() | ir.AliasDeclaration() | ir.Initialise() | ir.Unread():

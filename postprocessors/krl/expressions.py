@@ -163,7 +163,7 @@ class Expressions:
             case "text_find", (text, start, wanted):
                 return f"StrFind({self.listed((start, text, wanted))},#CASE_SENS)"
             case "is_uninitialised", (ir.Name(id=variable),):
-                return f'(VARSTATE("{variable.upper()}")<>#INITIALIZED)'
+                return f'(VARSTATE("{variable}")<>#INITIALIZED)'
             case "compose", (first, second):
                 return f"({self.printer.atom(first)}:{self.printer.atom(second)})"
         if name in tables.PROCEDURES:

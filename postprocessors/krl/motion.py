@@ -5,6 +5,7 @@ from __future__ import annotations
 from rpl import ir
 
 from .expressions import CannotSayError, Expressions
+from .settings import grouped
 
 _WORDS = {
     ("joint", "classic"): "PTP",
@@ -98,7 +99,12 @@ class Motion:
 
         if not settings:
             return ""
-        shown = [assignment(ir.Assign(target, value), self.expressions) for target, value in settings]
+        shown = []
+        for target, value in grouped(settings):
+            if isinstance(target, str):
+                shown.append(f"{target}={self.expressions.text(value)}")
+            else:
+                shown.append(assignment(ir.Assign(target, value), self.expressions))
         return " WITH " + ",".join(shown)
 
     def spline(self, spline: ir.Spline) -> tuple[str, str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
@@ -13,6 +13,7 @@ from rpl.writing.ledger import EmissionLedger
 from . import tables
 from .expressions import CannotSayError, Expressions
 from .motion import Motion
+from .settings import whole_structure
 
 GUARDED = code(
     "krl-guarded-stop",
@@ -23,6 +24,7 @@ GUARDED = code(
 LONG_LINE = code("krl-long-line", Severity.WARNING, "a line of {length} characters; controllers read at most {most}")
 
 _STEP = "  "
+_LARGEST_STRUCTURE = 4
 
 
 @dataclass(slots=True)
@@ -69,9 +71,36 @@ class Printer:
 
     def body(self, body: ir.Body) -> None:
         self.depth += 1
-        for statement in body:
-            self.statement(statement)
+        at = 0
+        while at < len(body):
+            at += self.structure(body[at:]) or self.one(body[at])
         self.depth -= 1
+
+    def one(self, statement: ir.Statement) -> int:
+        self.statement(statement)
+        return 1
+
+    def structure(self, body: ir.Body) -> int:
+        """`$VEL=f()` stands for an assignment to each component: written as the one it was. Counts the statements."""
+        first = body[0]
+        if not (isinstance(first, ir.Assign) and isinstance(first.target, ir.System)):
+            return 0
+        pairs = [(s.target, s.value) for s in body[:_LARGEST_STRUCTURE] if isinstance(s, ir.Assign)]
+        whole = whole_structure(pairs)
+        if whole is None:
+            return 0
+        name, value = whole
+        try:
+            shown = self.expressions.text(value)
+        except CannotSayError:
+            return 0  # each assignment is then guarded on its own
+        count = len(tables.STRUCTURES[name])
+        origins = [statement.origin for statement in body[:count]]
+        comments = tuple(comment for origin in origins for comment in origin.comments)
+        self.line(f"{name}={shown}", replace(first.origin, comments=comments))
+        for statement in body[:count]:
+            self.ledger.written(statement)
+        return count
 
     def statement(self, statement: ir.Statement) -> None:
         """One statement, or its guarded stop."""

@@ -94,6 +94,12 @@ SYSTEM: dict[str, tuple[str, str]] = {
     "cyclic_flag": ("$CYCFLAG", ""),
     "singular_rule": ("$SINGUL_POS", ""),
 }
+# Structured variables whose components are neutral variables of their own, in KRL's order.
+STRUCTURES: dict[str, tuple[tuple[str, str], ...]] = {
+    "$VEL": (("CP", "path_speed"), ("ORI1", "swivel_speed"), ("ORI2", "twist_speed")),
+    "$ACC": (("CP", "path_acceleration"), ("ORI1", "swivel_acceleration"), ("ORI2", "twist_acceleration")),
+    "$APO": (("CVEL", "blend_speed"), ("CPTP", "blend_joint"), ("CDIS", "blend_distance"), ("CORI", "blend_rotation")),
+}
 MODES: dict[str, dict[str, str]] = {
     "orientation_mode": {"variable": "VAR", "constant": "CONSTANT", "wrist": "JOINT"},
     "circle_orientation": {"base": "BASE", "path": "PATH"},

@@ -26,6 +26,7 @@ LOST_DECLARATION = code(
 )
 LOST_HANDLER = code("krl-lost-handler", Severity.LOSS, "KRL has no error handlers; the one of {name} is left out", "")
 
+_CONFIG = "$config"
 _KRL_FILES = (".src", ".dat", ".sub")
 
 
@@ -85,8 +86,9 @@ class _Module:
             text = _environment().get_template("program.src.j2").render(attributes=program, routines=routines)
             found.append(_file(f"{module.name}.{suffix}", text))
         if lines or data or not module.routines:
+            seen = module.name.lower() != _CONFIG  # its data are seen everywhere without the word
             public = module.public or any(
-                getattr(declaration, "scope", "") in ("task", "global") for declaration in module.declarations
+                seen and getattr(declaration, "scope", "") in ("task", "global") for declaration in module.declarations
             )
             text = (
                 _environment()
