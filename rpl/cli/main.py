@@ -82,6 +82,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return int(end.exit_code)
     except click.Abort:
         return _INTERRUPTED
+    except click.exceptions.NoArgsIsHelpError as error:
+        click.echo(error.format_message(), err=True)
+        return USAGE
     except click.ClickException as error:
         _say(f"rpl: {error.format_message()}")
         return USAGE
@@ -109,6 +112,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
         _say(f"rpl: the input is too large or too deeply nested ({type(error).__name__})")
         return NO
     except ModuleNotFoundError as error:
+        if error.name is None or error.name.startswith("rpl"):
+            raise
         _say(f"rpl: this needs the package {error.name}: pip install 'robot-rpl[kinematics]'")
         return USAGE
 

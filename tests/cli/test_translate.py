@@ -1,0 +1,71 @@
+"""`rpl translate` without a proof: what is written where, and what each exit status says."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from rpl.cli.main import run
+
+PROGRAM = """DEF demo()
+INT i
+FOR i=1 TO 3
+  $OUT[i]=TRUE
+ENDFOR
+END
+"""
+
+
+@pytest.fixture
+def program(tmp_path: Path) -> Path:
+    path = tmp_path / "demo.src"
+    path.write_text(PROGRAM)
+    return path
+
+
+def test_a_single_file_is_printed(program: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["translate", str(program), "--to", "krl"]) == 0
+    assert "$OUT[i]=TRUE" in capsys.readouterr().out
+
+
+def test_a_folder_is_written(program: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = tmp_path / "new" / "out"
+    assert run(["translate", str(program), "--to", "krl", "-o", str(folder), "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert {"files", "diagnostics", "losses", "proof"} <= set(document)
+    assert document["proof"] is None
+    assert document["losses"] == []
+    (file,) = document["files"]
+    assert Path(file["written"]).read_text("latin-1").startswith("DEF demo")
+
+
+def test_without_a_folder_json_carries_the_text(program: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["translate", str(program), "--to", "rpl", "--json"]) == 0
+    (file,) = json.loads(capsys.readouterr().out)["files"]
+    assert "FOR i = 1 TO 3" in file["text"]
+
+
+def test_nothing_is_written_from_a_program_with_errors(
+    program: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    program.write_text(PROGRAM.replace("ENDFOR", "ENDFORR )"))
+    folder = tmp_path / "out"
+    assert run(["translate", str(program), "--to", "krl", "-o", str(folder), "--json"]) == 1
+    out, err = capsys.readouterr()
+    assert not folder.exists()
+    assert json.loads(out)["files"] == []
+    assert "nothing was written" in err
+
+
+def test_a_folder_that_cannot_be_written_is_a_usage_error(
+    program: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "taken").write_text("")
+    assert run(["translate", str(program), "--to", "krl", "-o", str(tmp_path / "taken" / "in")]) == 2
+    assert "cannot write" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("option", [["--robot", "nobody"], ["--to-robot", "nobody"], ["--from", "nobody"]])
+def test_unknown_names(program: Path, option: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["translate", str(program), "--to", "krl", *option]) == 2
+    assert "nobody" in capsys.readouterr().err
