@@ -1,0 +1,33 @@
+"""ABB RAPID as a target: the record that the registry finds. Heavy modules load when asked for."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rpl.registry import Target
+
+if TYPE_CHECKING:
+    from rpl.ir import Program
+    from rpl.passes.capabilities import Capabilities
+    from rpl.writing.target import OutputFile, WriteContext
+
+
+def _capabilities() -> Capabilities:
+    from .capabilities import CAPABILITIES
+
+    return CAPABILITIES
+
+
+def _write(program: Program, context: WriteContext) -> list[OutputFile]:
+    from .write import write
+
+    return write(program, context)
+
+
+TARGET = Target(
+    "rapid",
+    "ABB RAPID",
+    _capabilities,
+    _write,
+    options={"header": "yes: begin each module with the load header of program files"},
+)

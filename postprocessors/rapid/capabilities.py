@@ -1,0 +1,52 @@
+"""What RAPID can say, as data for the passes that rewrite the rest."""
+
+from __future__ import annotations
+
+from rpl.passes.capabilities import Capabilities, NameRules
+
+from .functions import FUNCTIONS
+from .tables import OPERATORS, RESERVED, TYPE_NAMES, words
+
+_STATEMENTS = words(
+    """Assign CallRoutine If Switch For While Label Goto Return Halt Wait WaitUntil WaitForMotion Pulse SetAfter
+    ConnectInterrupt OrderInterrupt ControlInterrupt StopMotion StartMotion ClearMotion StoreMotion Raise Retry
+    TryNext Message Dialog Clock Do Vendor Nothing Move MoveExternal DefineTrigger"""
+)
+
+CAPABILITIES = Capabilities(
+    statements=_STATEMENTS,
+    functions=frozenset(FUNCTIONS),
+    procedures=frozenset(("increment", "decrement", "clear", "parse_value")),
+    system_variables=frozenset(
+        (
+            *("speed_percent", "speed_limit", "acceleration_percent", "acceleration_ramp", "deceleration_percent"),
+            *("joint_configuration_check", "path_configuration_check", "singularity_mode", "load", "override"),
+            *("error_number", "interrupt_number", "circle_orientation", "actual_pose", "actual_joints"),
+        )
+    ),
+    operators=OPERATORS,
+    types=frozenset(type.__name__ for type in TYPE_NAMES),
+    names=NameRules(32, False, RESERVED),
+    modal_motion=False,
+    notation="rapid",
+    rotation="quaternion",
+    for_at_least_once=True,
+    for_scoped=True,
+    for_automatic=True,
+    error_handlers=True,
+    optional_parameters=True,
+    short_circuit=True,
+    conversions=frozenset(("real", "round_half_away", "trunc", "truth", "code", "char")),
+    signal_prefixes={
+        "digital_in": "di",
+        "digital_out": "do",
+        "analog_in": "ai",
+        "analog_out": "ao",
+        "group_in": "gi",
+        "group_out": "go",
+    },
+    for_real=True,
+    wait_timeout=True,
+    dynamic_calls=True,
+    switch_types=frozenset(("IntType", "RealType", "StringType", "BoolType")),
+)

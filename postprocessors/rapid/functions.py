@@ -1,0 +1,71 @@
+"""How RAPID writes the neutral built-in functions: a pattern over the printed arguments, or a printer of its own.
+
+In a pattern `{0}` is the first argument. Sources as in the dialect's function table, of which this is the inverse.
+"""
+
+from __future__ import annotations
+
+# Function -> pattern for each count of arguments that it can be written with.
+FUNCTIONS: dict[str, dict[int, str]] = {
+    "abs": {1: "Abs({0})"},
+    "sqrt": {1: "Sqrt({0})"},
+    "sin": {1: "Sin({0})"},
+    "cos": {1: "Cos({0})"},
+    "tan": {1: "Tan({0})"},
+    "asin": {1: "ASin({0})"},
+    "acos": {1: "ACos({0})"},
+    "atan": {1: "ATan({0})"},
+    "atan2": {2: "ATan2({0},{1})"},
+    "exp": {1: "Exp({0})"},
+    "power": {2: "Pow({0},{1})"},
+    "round": {1: "Round({0})", 2: "Round({0}\\Dec:={1})"},
+    "trunc": {1: "Trunc({0})", 2: "Trunc({0}\\Dec:={1})"},
+    "min": {2: "Min({0},{1})"},
+    "max": {2: "Max({0},{1})"},
+    "bit_shift_right": {2: "BitRSh({0},{1})"},
+    "dimension": {2: "Dim({0},{1})"},
+    "offset": {4: "Offs({0},{1},{2},{3})"},
+    "tool_offset": {
+        4: "RelTool({0},{1},{2},{3})",
+        5: "RelTool({0},{1},{2},{3}\\Rx:={4})",
+        6: "RelTool({0},{1},{2},{3}\\Rx:={4}\\Ry:={5})",
+        7: "RelTool({0},{1},{2},{3}\\Rx:={4}\\Ry:={5}\\Rz:={6})",
+    },
+    "current_target": {0: "CRobT()", 1: "CRobT(\\Tool:={0})", 2: "CRobT(\\Tool:={0}\\WObj:={1})"},
+    "current_position": {0: "CPos()", 1: "CPos(\\Tool:={0})", 2: "CPos(\\Tool:={0}\\WObj:={1})"},
+    "current_joints": {0: "CJointT()"},
+    "current_tool": {0: "CTool()"},
+    "current_frame": {0: "CWObj()"},
+    "joints_to_target": {2: "CalcRobT({0},{1})", 3: "CalcRobT({0},{1}\\WObj:={2})"},
+    "target_to_joints": {2: "CalcJointT({0},{1})", 3: "CalcJointT({0},{1}\\WObj:={2})"},
+    "compose": {2: "PoseMult({0},{1})"},
+    "inverse": {1: "PoseInv({0})"},
+    "transform": {2: "PoseVect({0},{1})"},
+    "euler_x": {1: "EulerZYX(\\X,{0})"},
+    "euler_y": {1: "EulerZYX(\\Y,{0})"},
+    "euler_z": {1: "EulerZYX(\\Z,{0})"},
+    "rotation_zyx": {3: "OrientZYX({0},{1},{2})"},
+    "frame_from_points": {3: "DefFrame({0},{1},{2})", 4: "DefFrame({0},{1},{2}\\Origin:={3})"},
+    "distance": {2: "Distance({0},{1})"},
+    "magnitude": {1: "VectMagn({0})"},
+    "dot": {2: "DotProd({0},{1})"},
+    "normalise": {1: "NOrient({0})"},
+    "text_length": {1: "StrLen({0})"},
+    "text_part": {3: "StrPart({0},{1},{2})"},
+    "text_find_any": {3: "StrFind({0},{1},{2})"},
+    "text_match": {3: "StrMatch({0},{1},{2})"},
+    "text_member": {3: "StrMemb({0},{1},{2})"},
+    "text_map": {3: "StrMap({0},{1},{2})"},
+    "text_order": {3: "StrOrder({0},{1},{2})"},
+    "text_upper": {1: "StrMap({0},STR_LOWER,STR_UPPER)"},
+    "text_lower": {1: "StrMap({0},STR_UPPER,STR_LOWER)"},
+    "number_text": {2: "NumToStr({0},{1})"},
+    "value_text": {1: "ValToStr({0})"},
+    "parse_value": {2: "StrToVal({0},{1})"},
+    "parse_number": {2: "StrToVal({0},{1})"},
+    "time_text": {0: "CTime()"},
+    "date_text": {0: "CDate()"},
+    "clock_seconds": {1: "ClkRead({0})"},
+}
+# Arguments that RAPID takes as whole targets although only their position matters.
+TARGETS_FOR_POSITIONS = {"frame_from_points": 3}

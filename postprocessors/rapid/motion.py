@@ -1,0 +1,228 @@
+"""Write motion: moves with all that is attached to them, searches, stored path events."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rpl import ir
+from rpl.passes.typing import type_of
+
+from .expressions import Expressions, UnsayableError
+
+_WORLD = ir.Name("wobj0")
+_LETTERS = {"joint": "J", "linear": "L", "circular": "C"}
+_STOPS = {"stop": "\\Stop", "path": "\\PStop", "soft": "\\SStop", "none": ""}
+_EDGES = {"rising": "", "falling": "\\NegFlank", "either": "\\Flanks"}
+_OUTPUTS = {"digital_out": "DO", "analog_out": "AO", "group_out": "GO"}
+_OPTIONS = {"digital_out": "DOp", "analog_out": "AOp", "group_out": "GOp"}
+
+
+@dataclass(frozen=True, slots=True)
+class MoveText:
+    """The parts of a motion instruction: name, options before the points, points and data, options behind them."""
+
+    name: str
+    before: str
+    points: tuple[str, ...]
+    settings: str = ""
+
+
+def move(statement: ir.Move, expressions: Expressions) -> MoveText:
+    """The parts of a move. Raises UnsayableError for a setting that RAPID has not."""
+    _refuse(statement)
+    letter = _LETTERS.get(statement.kind)
+    if letter is None:
+        raise UnsayableError(f"there is no {statement.kind} move")
+    if statement.search is not None:
+        return _search(statement, statement.search, letter, expressions)
+    name = f"Move{letter}"
+    if isinstance(type_of(statement.target, expressions.scope), ir.JointsType):
+        if statement.kind != "joint":
+            raise UnsayableError("only a joint move goes to joint values")
+        name = "MoveAbsJ"
+    points = _points(statement, expressions)
+    speed, zone = _speed(statement.speed, expressions), _zone(statement.blend, expressions)
+    tool = _tool(statement, expressions)
+    before = "\\Conc" if statement.concurrent else ""
+    triggers = statement.triggers
+    if not triggers:
+        return MoveText(name, before, (*points, speed, zone, tool))
+    if len(triggers) == 1 and isinstance(triggers[0], ir.Trigger):
+        suffix, more = _middle_action(triggers[0], expressions)
+        if name == "MoveAbsJ":
+            raise UnsayableError("a move to joint values has no action on its path")
+        return MoveText(f"{name}{suffix}", before, (*points, speed, zone, tool, *more))
+    events = []
+    for trigger in triggers:
+        if isinstance(trigger, ir.Trigger):
+            raise UnsayableError("an event on the path has to be stored before")
+        events.append(expressions.text(trigger))
+    listed = events[0] + "".join(f"\\T{number}:={event}" for number, event in enumerate(events[1:], 2))
+    if len(events) > 8 or name == "MoveAbsJ":
+        raise UnsayableError("these events cannot be attached to the move")
+    return MoveText(f"Trigg{letter}", before, (*points, speed, listed, zone, tool))
+
+
+def _refuse(statement: ir.Move) -> None:
+    for what, found in (
+        ("a relative move", statement.relative),
+        ("a circle by its angle", statement.swept),
+        ("an acceleration of one move", statement.acceleration),
+        ("an orientation rule of one move", statement.orientation not in (None, "variable")),
+        ("a circle's orientation rule of one move", statement.circle_orientation not in (None, "base")),
+        ("a configuration rule of one move", statement.configuration),
+        ("settings of one move", statement.settings),
+        ("a motion group", statement.group != 1),
+    ):
+        if found:
+            raise UnsayableError(f"{what} is not known")
+
+
+def _points(statement: ir.Move, expressions: Expressions) -> tuple[str, ...]:
+    target = expressions.text(statement.target) + ("\\NoEOffs" if statement.without_offsets else "")
+    if statement.identity is not None:
+        target += f"\\ID:={expressions.text(statement.identity)}"
+    if statement.kind != "circular":
+        return (target,)
+    if statement.via is None:
+        raise UnsayableError("a circle needs its point on the way")
+    return (expressions.text(statement.via), target)
+
+
+def _speed(speed: ir.Speed | None, expressions: Expressions) -> str:
+    if speed is None or speed.joint is not None or (speed.profile is None and speed.path is None):
+        raise UnsayableError("the move has no speed of its own")
+    if speed.rotation is not None:
+        raise UnsayableError("a move has no rotation speed beside its speed data")
+    own = "" if speed.path is None else f"\\V:={expressions.text(speed.path)}"
+    if speed.profile is None:
+        assert speed.path is not None  # checked above
+        profile, own = f"[{expressions.text(speed.path)},500,5000,1000]", ""
+    else:
+        profile = expressions.text(speed.profile)
+    time = "" if speed.duration is None else f"\\T:={expressions.text(speed.duration)}"
+    return f"{profile}{own}{time}"
+
+
+def _zone(blend: ir.Blend | None, expressions: Expressions) -> str:
+    match blend:
+        case None | ir.BlendStop():
+            return "fine"
+        case ir.BlendZone(zone=zone, distance=distance, in_position=in_position):
+            size = "" if distance is None else f"\\Z:={expressions.text(distance)}"
+            stop = "" if in_position is None else f"\\Inpos:={expressions.text(in_position)}"
+            return f"{expressions.text(zone)}{size}{stop}"
+    raise UnsayableError("corners are given by zone data only")
+
+
+def _tool(statement: ir.Move, expressions: Expressions) -> str:
+    text = "tool0" if statement.tool is None else _persistent(statement.tool, expressions, "tool")
+    if statement.frame is not None and statement.frame != _WORLD:
+        text += f"\\WObj:={_persistent(statement.frame, expressions, 'work object')}"
+    if statement.load is not None:
+        text += f"\\TLoad:={_persistent(statement.load, expressions, 'load')}"
+    return text
+
+
+def _persistent(value: ir.Expression, expressions: Expressions, what: str) -> str:
+    if isinstance(value, ir.Name | ir.Index | ir.Field):
+        return expressions.text(value)
+    raise UnsayableError(f"the {what} of a move has to be persistent data")
+
+
+def _middle_action(trigger: ir.Trigger, expressions: Expressions) -> tuple[str, tuple[str, ...]]:
+    """Suffix and further arguments of an instruction that acts in the middle of the corner path."""
+    if trigger.reference != "middle" or trigger.distance is not None or trigger.delay is not None:
+        raise UnsayableError("an event on the path has to be stored before")
+    match trigger.action:
+        case ir.Assign(target=ir.Signal(kind=kind) as signal, value=value) if kind in _OUTPUTS:
+            return _OUTPUTS[kind], (expressions.signal(signal), output_value(kind, value, expressions))
+        case ir.CallRoutine(dynamic=None, name=name, arguments=()):
+            return "Sync", (f'"{name}"',)
+        case ir.CallRoutine(dynamic=text, arguments=()) if text is not None:
+            return "Sync", (expressions.text(text),)
+    raise UnsayableError("this action cannot be attached to a move")
+
+
+def output_value(kind: str, value: ir.Expression, expressions: Expressions) -> str:
+    """The number written to an output. Raises UnsayableError for a BOOL that is not a literal or a signal."""
+    if kind != "digital_out":
+        return expressions.text(value)
+    match value:
+        case ir.BoolLiteral(value=truth):
+            return "1" if truth else "0"
+        case ir.Convert(how="truth", operand=operand):
+            return expressions.text(operand)
+        case ir.Signal():
+            return expressions.value_of_signal(value)
+    raise UnsayableError("a digital output takes a number")
+
+
+def _search(statement: ir.Move, search: ir.Search, letter: str, expressions: Expressions) -> MoveText:
+    if statement.kind == "joint" or statement.triggers:
+        raise UnsayableError("a search goes on a line or circle and carries no events")
+    if not isinstance(search.condition, ir.Signal | ir.Name):
+        raise UnsayableError("a search watches one signal")
+    signal = expressions.signal(search.condition)
+    points = _points(statement, expressions)
+    speed, tool = _speed(statement.speed, expressions), _tool(statement, expressions)
+    found = expressions.text(search.found)
+    before = _STOPS[search.stop]
+    edge = _EDGES[search.edge]
+    return MoveText(f"Search{letter}", before, (f"{signal}{edge}", found, *points, speed, tool))
+
+
+def move_external(statement: ir.MoveExternal, expressions: Expressions) -> MoveText:
+    points = (
+        expressions.text(statement.target),
+        _speed(statement.speed, expressions),
+        _zone(statement.blend, expressions),
+    )
+    return MoveText("MoveExtJ", "", points)
+
+
+def define_trigger(statement: ir.DefineTrigger, expressions: Expressions) -> str:
+    """TriggIO, TriggEquip or TriggInt, without the semicolon."""
+    trigger = statement.trigger
+    target = expressions.text(statement.target)
+    place, switch = _place(trigger, expressions)
+    if statement.interrupt is not None:
+        return f"TriggInt {target},{place}{switch},{expressions.text(statement.interrupt)}"
+    match trigger.action:
+        case ir.Assign(target=ir.Signal(kind=kind) as signal, value=value) if kind in _OPTIONS:
+            option = f"\\{_OPTIONS[kind]}:={expressions.signal(signal)}"
+            written = output_value(kind, value, expressions)
+        case _:
+            raise UnsayableError("a path event writes an output")
+    if trigger.distance is None or trigger.delay is None:
+        return f"TriggIO {target},{place}{switch}{option},{written}"
+    lag = negative_of(trigger.delay)
+    if lag is not None:
+        return f"TriggEquip {target},{place}{switch},{expressions.text(lag)}{option},{written}"
+    return f"TriggIO {target},{place}{switch}{option},{written}\\DODelay:={expressions.text(trigger.delay)}"
+
+
+def _place(trigger: ir.Trigger, expressions: Expressions) -> tuple[str, str]:
+    match trigger.reference, trigger.distance, trigger.delay:
+        case "start", distance, _ if distance is not None:
+            return expressions.text(distance), "\\Start"
+        case "end", None, delay if delay is not None:
+            before = negative_of(delay)
+            if before is not None:
+                return expressions.text(before), "\\Time"
+        case "end", distance, _ if distance is not None:
+            before = negative_of(distance)
+            return expressions.text(before if before is not None else ir.Unary("-", distance)), ""
+    raise UnsayableError("there is no path event at this place")
+
+
+def negative_of(value: ir.Expression) -> ir.Expression | None:
+    """What a value is the negative of; None when it is not written as one."""
+    match value:
+        case ir.Unary(op="-", operand=operand):
+            return operand
+        case ir.IntLiteral(value=number) if number <= 0:
+            return value if number == 0 else ir.IntLiteral(-number)
+        case ir.RealLiteral(value=number) if number <= 0:
+            return value if number == 0 else ir.RealLiteral(-number)
+    return None

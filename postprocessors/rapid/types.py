@@ -1,0 +1,104 @@
+"""Write types, parameters and declarations."""
+
+from __future__ import annotations
+
+from rpl import ir
+
+from .expressions import Expressions, UnsayableError
+from .tables import SIGNAL_NAMES, TYPE_NAMES
+
+_STORAGE = {"constant": "CONST", "variable": "VAR", "persistent": "PERS"}
+# A motion instruction demands its tool, work object and load as persistent data.
+_PERSISTENT = (ir.ToolType, ir.WorkObjectType, ir.LoadType)
+
+
+def type_name(type: ir.Type) -> str:
+    """The type's name; of an array that of its elements. Raises UnsayableError."""
+    match type:
+        case ir.ArrayType(element=element):
+            return type_name(element)
+        case ir.NamedType(name=name):
+            return name
+        case ir.VendorType(dialect="rapid", name=name):
+            return name
+        case ir.SignalType(kind=kind) if kind in SIGNAL_NAMES:
+            return SIGNAL_NAMES[kind]
+        case ir.TargetType(notation=notation) | ir.ConfigType(notation=notation) if notation != "rapid":
+            raise UnsayableError(f"targets in the notation of {notation} are not known here")
+    word = TYPE_NAMES.get(type.__class__)
+    if word is None:
+        raise UnsayableError(f"there is no type for {type.__class__.__name__}")
+    return word
+
+
+def sizes(type: ir.Type, expressions: Expressions) -> str:
+    """The `{2,3}` behind a name; `*` for a dimension that the argument gives."""
+    if not isinstance(type, ir.ArrayType):
+        return ""
+    if len(type.dimensions) > 3:
+        raise UnsayableError("arrays have three dimensions at most")
+    parts = ("*" if size is None else expressions.text(size) for size in type.dimensions)
+    return f"{{{','.join(parts)}}}"
+
+
+def variable(declaration: ir.Variable, expressions: Expressions) -> str:
+    """One data declaration."""
+    storage = _STORAGE[declaration.storage]
+    prefix = ""
+    if declaration.scope == "module":
+        prefix = "LOCAL "
+    elif declaration.scope == "task" and declaration.storage == "persistent":
+        prefix = "TASK "
+    name = f"{declaration.name}{sizes(declaration.type, expressions)}"
+    initial = "" if declaration.initial is None else f":={expressions.text(declaration.initial)}"
+    return f"{prefix}{storage} {type_name(declaration.type)} {name}{initial};"
+
+
+def record(declaration: ir.RecordDeclaration, expressions: Expressions) -> list[str]:
+    """A record with its components."""
+    fields = [f"  {type_name(type)} {name}{sizes(type, expressions)};" for name, type in declaration.fields]
+    local = "LOCAL " if declaration.scope == "module" else ""
+    return [f"{local}RECORD {declaration.name}", *fields, "ENDRECORD"]
+
+
+def parameters(routine: ir.Routine, expressions: Expressions) -> str:
+    """The formal parameters between the parentheses."""
+    parts: list[str] = []
+    before: ir.Parameter | None = None
+    for parameter in routine.parameters:
+        text = one_parameter(parameter, expressions)
+        if parameter.choice is not None and before is not None and before.choice == parameter.choice:
+            parts.append(f" | {text}")
+        elif parameter.optional:
+            parts.append(f"\\{text}")
+        else:
+            parts.append(f",{text}" if parts else text)
+        before = parameter
+    return "".join(parts)
+
+
+def one_parameter(parameter: ir.Parameter, expressions: Expressions) -> str:
+    if parameter.switch:
+        return f"switch {parameter.name}"
+    mode = ""
+    if parameter.mode == "reference":
+        mode = "INOUT "
+        if isinstance(parameter.type, ir.SignalType):
+            mode = "VAR "
+        elif isinstance(parameter.type, _PERSISTENT):
+            mode = "PERS "
+    return f"{mode}{type_name(parameter.type)} {parameter.name}{sizes(parameter.type, expressions)}"
+
+
+def heading(routine: ir.Routine, expressions: Expressions) -> tuple[str, str]:
+    """First and last line of a routine."""
+    local = "LOCAL " if routine.scope == "module" else ""
+    match routine.kind:
+        case "function":
+            if routine.returns is None:
+                raise UnsayableError("a function without a type of result")
+            returns = type_name(routine.returns)
+            return f"{local}FUNC {returns} {routine.name}({parameters(routine, expressions)})", "ENDFUNC"
+        case "trap":
+            return f"{local}TRAP {routine.name}", "ENDTRAP"
+    return f"{local}PROC {routine.name}({parameters(routine, expressions)})", "ENDPROC"

@@ -1,0 +1,163 @@
+"""Write a program as RAPID modules: one file per module, data before routines, checked by the emission ledger."""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.passes.scope import ProgramScope
+from rpl.source import Origin
+from rpl.writing.ledger import EmissionLedger
+from rpl.writing.target import OutputFile, WriteContext
+
+from .expressions import LONGEST_TEXT, Expressions, UnsayableError
+from .frames import environment
+from .statements import INDENT, NOT_SAID, Statements, behind, indented, remark_lines
+from .types import heading, record, type_name, variable
+
+CUT_TEXT = code("text-cut", Severity.WARNING, "a text of {length} characters is cut to {limit}")
+_HEADER = ("%VERSION", "%LANGUAGE")
+_ATTRIBUTES = ("SYSMODULE", "NOSTEPIN", "VIEWONLY", "READONLY", "NOVIEW")
+
+
+def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
+    """All modules of the program as files. Raises InternalError when a node was neither written nor reported."""
+    ledger = EmissionLedger()
+    scopes = ProgramScope(program)
+    header = context.options.get("header", "").lower() in ("yes", "true", "1")
+    files = []
+    for module in program.modules:
+        writer = _ModuleWriter(module, scopes, context.diagnostics, ledger)
+        text = writer.text(header)
+        suffix = ".sys" if any(name == "SYSMODULE" for name, _ in module.attributes) else ".mod"
+        folder = f"{module.task}/" if module.task else ""
+        files.append(OutputFile(f"{folder}{module.name}{suffix}", _encoded(text)))
+    ledger.check(program)
+    return files
+
+
+def _encoded(text: str) -> bytes:
+    """ISO 8859-1 is what controllers read; text beyond it needs a newer one and UTF-8."""
+    try:
+        return text.encode("latin-1")
+    except UnicodeEncodeError:
+        return text.encode("utf-8")
+
+
+class _ModuleWriter:
+    def __init__(
+        self, module: ir.Module, scopes: ProgramScope, diagnostics: Diagnostics, ledger: EmissionLedger
+    ) -> None:
+        self.module, self.scopes = module, scopes
+        self.diagnostics, self.ledger = diagnostics, ledger
+
+    def text(self, header: bool) -> str:
+        module = self.module
+        self.ledger.written(module)
+        expressions = Expressions(self.scopes.module(module))
+        declarations: list[str] = []
+        for declaration in _ordered(module.declarations):
+            declarations.extend(self.declaration(declaration, expressions))
+        self.long_texts(expressions, module.origin)
+        attributes = [name for name, _ in module.attributes if name in _ATTRIBUTES]
+        return (
+            environment()
+            .get_template("module.j2")
+            .render(
+                header=header or any(name in _HEADER for name, _ in module.attributes),
+                comments=remark_lines(module.origin),
+                behind=behind(module.origin),
+                name=module.name,
+                attributes=attributes,
+                declarations=[f"{INDENT}{line}" for line in declarations],
+                routines=[indented(self.routine(routine)) for routine in module.routines],
+            )
+        )
+
+    def declaration(self, declaration: ir.Declaration, expressions: Expressions) -> list[str]:
+        """The lines of a declaration with its comments; as comment lines when RAPID cannot say it."""
+        try:
+            lines = self.declared(declaration, expressions)
+        except UnsayableError as reason:
+            self.ledger.reported(declaration)
+            self.diagnostics.report(NOT_SAID, declaration.origin, reason=str(reason))
+            original = declaration.origin.text or getattr(declaration, "text", "") or repr(declaration)
+            shown = [f"! {line.strip()}" for line in original.splitlines()]
+            return [*remark_lines(declaration.origin), f"! not carried over: {reason}", *shown]
+        self.ledger.written(declaration)
+        if lines:
+            lines[0] += behind(declaration.origin)
+        elif behind(declaration.origin):
+            lines = [behind(declaration.origin).strip()]
+        return [*remark_lines(declaration.origin), *lines]
+
+    def declared(self, declaration: ir.Declaration, expressions: Expressions) -> list[str]:
+        match declaration:
+            case ir.Variable():
+                return [variable(declaration, expressions)]
+            case ir.RecordDeclaration():
+                return record(declaration, expressions)
+            case ir.AliasDeclaration(name=name, type=type, scope=scope):
+                return [f"{'LOCAL ' if scope == 'module' else ''}ALIAS {type_name(type)} {name};"]
+            case ir.Unread(text=""):
+                return []
+            case ir.Unread():
+                raise UnsayableError("it could not be read")
+            case ir.ExternalDeclaration(text=text):
+                return [f"! {line.strip()}" for line in text.splitlines()]
+        raise UnsayableError(f"there is no {declaration.__class__.__name__}")
+
+    def routine(self, routine: ir.Routine) -> list[str]:
+        expressions = Expressions(self.scopes.routine(self.module, routine))
+        statements = Statements(expressions, self.diagnostics, self.ledger)
+        try:
+            head, ending = heading(routine, expressions)
+        except UnsayableError as reason:
+            self.ledger.reported(routine)
+            self.diagnostics.report(NOT_SAID, routine.origin, reason=str(reason))
+            shown = [f"! {line.strip()}" for line in (routine.origin.text or routine.name).splitlines()]
+            return [*remark_lines(routine.origin), f"! not carried over: {reason}", *shown]
+        self.ledger.written(routine)
+        lines: list[str] = []
+        for declaration in _ordered(routine.declarations):
+            lines.extend(self.declaration(declaration, expressions))
+        lines.extend(statements.body(routine.body))
+        handlers = []
+        for handler in routine.handlers:
+            codes = f" ({expressions.list(handler.codes)})" if handler.codes else ""
+            remarks = [f"{INDENT}{line}" for line in remark_lines(handler.origin)]
+            lines_of = indented(statements.body(handler.body))
+            handlers.append((f"ERROR{codes}", "\n".join((*remarks, lines_of)) if remarks else lines_of))
+        for word, body in (("UNDO", routine.undo), ("BACKWARD", routine.backward)):
+            if body:
+                handlers.append((word, indented(statements.body(body))))
+        self.long_texts(expressions, routine.origin)
+        text = (
+            environment()
+            .get_template("routine.j2")
+            .render(
+                comments=remark_lines(routine.origin),
+                heading=head,
+                behind=behind(routine.origin),
+                body=indented(lines),
+                handlers=handlers,
+                ending=ending,
+            )
+        )
+        return text.splitlines()
+
+    def long_texts(self, expressions: Expressions, origin: Origin) -> None:
+        for text in expressions.long_texts:
+            self.diagnostics.report(CUT_TEXT, origin, length=len(text), limit=LONGEST_TEXT)
+
+
+def _ordered(declarations: tuple[ir.Declaration, ...]) -> list[ir.Declaration]:
+    """Type definitions come before data on the controller; otherwise the order stays."""
+    kinds = (ir.RecordDeclaration, ir.AliasDeclaration)
+    seen_data = False
+    for declaration in declarations:
+        if isinstance(declaration, ir.Variable):
+            seen_data = True
+        elif isinstance(declaration, kinds) and seen_data:
+            types = [one for one in declarations if isinstance(one, kinds)]
+            return [*types, *(one for one in declarations if not isinstance(one, kinds))]
+    return list(declarations)
