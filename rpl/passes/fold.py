@@ -96,7 +96,7 @@ class _Folder:
         declaration = symbol.declaration
         own = symbol.routine is not None
         predefined = symbol.module is None and not own
-        fixed = declaration.storage == "constant" or predefined
+        fixed = declaration.storage == "constant"
         if not fixed and self.unchanged is not None and not own:
             fixed = name.lower() not in self.unchanged.assigned
         if not fixed:

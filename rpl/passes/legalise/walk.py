@@ -15,7 +15,7 @@ from rpl.passes.fold import Unchanged
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.usage import base_name, usage_of
 from rpl.passes.rewrite import rewrite_parts
-from rpl.passes.typing import type_of
+from rpl.passes.typing import counter_type, type_of
 
 EARLY = code(
     "condition-read-once",
@@ -180,7 +180,7 @@ class Rewriter:
 
     def counter_type(self, statement: ir.For) -> ir.Type:
         """The type of a counter that exists in its loop only."""
-        return ir.RealType()
+        return counter_type(statement, self.scope)
 
     def choice(
         self, branches: list[tuple[ir.Expression, ir.Body]], otherwise: ir.Body, statement: ir.If

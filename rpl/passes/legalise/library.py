@@ -1,0 +1,236 @@
+"""Functions that a translated program brings along: geometry in terms of a target's own components and composition.
+
+Each is made once, when first asked for, and lives in a module of its own, so that translated statements stay as short
+as the original ones. Poses have components x, y, z, a, b, c here, vectors and rotations are poses without the rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from rpl import ir
+from rpl.passes.legalise.context import Context
+
+_REAL, _POSE = ir.RealType(), ir.PoseType()
+COMPONENTS = ("x", "y", "z", "a", "b", "c")
+Made = tuple[tuple[ir.Parameter, ...], ir.Type, tuple[ir.Variable, ...], ir.Body]
+
+
+def number(value: float) -> ir.Expression:
+    return ir.RealLiteral(float(value))
+
+
+def call(name: str, *arguments: ir.Expression) -> ir.Call:
+    """A call with positional arguments."""
+    return ir.Call(name, tuple(ir.Argument(value) for value in arguments))
+
+
+def plus(*terms: ir.Expression) -> ir.Expression:
+    return _chain("+", terms)
+
+
+def minus(left: ir.Expression, right: ir.Expression) -> ir.Expression:
+    return ir.Binary("-", left, right)
+
+
+def times(*factors: ir.Expression) -> ir.Expression:
+    return _chain("*", factors)
+
+
+def composed(*poses: ir.Expression) -> ir.Expression:
+    """The product of poses from left to right."""
+    return _chain(":", poses)
+
+
+def function(name: str, *arguments: ir.Expression) -> ir.Builtin:
+    return ir.Builtin(name, arguments)
+
+
+def part(base: str, name: str) -> ir.Field:
+    return ir.Field(ir.Name(base), name)
+
+
+def _chain(op: str, parts: tuple[ir.Expression, ...]) -> ir.Expression:
+    done = parts[0]
+    for one in parts[1:]:
+        done = ir.Binary(op, done, one)
+    return done
+
+
+@dataclass(slots=True)
+class Library:
+    """The functions asked for so far. `target` is the type of targets in the program's notation."""
+
+    context: Context
+    target: ir.Type
+    names: dict[str, str] = field(default_factory=dict)
+    routines: list[ir.Routine] = field(default_factory=list)
+
+    def name(self, key: str) -> str:
+        """The name of a function of this library; it is made when it is not there yet."""
+        if key not in self.names:
+            name = self.names[key] = self.context.fresh(f"rpl_{key}")
+            parameters, returns, declarations, body = _MAKERS[key](self)
+            self.routines.append(ir.Routine(name, "function", parameters, returns, declarations, body, scope="global"))
+        return self.names[key]
+
+    def call(self, key: str, *arguments: ir.Expression) -> ir.Call:
+        return call(self.name(key), *arguments)
+
+    def module(self, dialect: str, task: str) -> ir.Module | None:
+        """The module that holds them; None when nothing was asked for."""
+        if not self.routines:
+            return None
+        return ir.Module(self.context.fresh("rpl_geometry"), dialect, routines=tuple(self.routines), task=task)
+
+
+def _reals(names: str) -> tuple[ir.Parameter, ...]:
+    return tuple(ir.Parameter(name, _REAL) for name in names.split())
+
+
+def _local(names: str, type: ir.Type) -> tuple[ir.Variable, ...]:
+    return tuple(ir.Variable(name, type, scope="routine") for name in names.split())
+
+
+def _set(place: str, value: ir.Expression) -> ir.Assign:
+    base, _, name = place.partition(".")
+    return ir.Assign(part(base, name) if name else ir.Name(base), value)
+
+
+def _copy(target: str, source: str, names: tuple[str, ...]) -> tuple[ir.Statement, ...]:
+    return tuple(_set(f"{target}.{name}", part(source, name)) for name in names)
+
+
+def _names(words: str) -> list[ir.Expression]:
+    return [ir.Name(word) for word in words.split()]
+
+
+def _frame(library: Library) -> Made:
+    body: ir.Body = (*(_set(f"f.{name}", ir.Name(name)) for name in COMPONENTS), ir.Return(ir.Name("f")))
+    return _reals("x y z a b c"), _POSE, _local("f", _POSE), body
+
+
+def _offset(library: Library) -> Made:
+    moved = tuple(_set(f"p.{n}", plus(part("p", n), ir.Name(f"d{n}"))) for n in ("x", "y", "z"))
+    parameters = (ir.Parameter("p", library.target), *_reals("dx dy dz"))
+    return parameters, library.target, (), (*moved, ir.Return(ir.Name("p")))
+
+
+def _tool_offset(library: Library) -> Made:
+    frame = library.name("frame")
+    zero = number(0)
+    shift, about = _names("dx dy dz"), _names("rx ry rz")
+    product = composed(
+        ir.Name("p"),
+        call(frame, *shift, zero, zero, about[0]),
+        call(frame, zero, zero, zero, zero, about[1], zero),
+        call(frame, zero, zero, zero, about[2], zero, zero),
+    )
+    body: ir.Body = (_set("f", product), *_copy("p", "f", COMPONENTS), ir.Return(ir.Name("p")))
+    parameters = (ir.Parameter("p", library.target), *_reals("dx dy dz rx ry rz"))
+    return parameters, library.target, _local("f", _POSE), body
+
+
+def _transform(library: Library) -> Made:
+    zero = number(0)
+    placed = composed(ir.Name("f"), call(library.name("frame"), *_names("x y z"), zero, zero, zero))
+    body: ir.Body = (_set("f", placed), *(_set(f"f.{n}", zero) for n in ("a", "b", "c")), ir.Return(ir.Name("f")))
+    return (ir.Parameter("f", _POSE), *_reals("x y z")), _POSE, (), body
+
+
+def _length(library: Library) -> Made:
+    squares = [times(one, one) for one in _names("x y z")]
+    return _reals("x y z"), _REAL, (), (ir.Return(function("sqrt", plus(*squares))),)
+
+
+def _pose(library: Library) -> Made:
+    """The pose of a target."""
+    body: ir.Body = (*_copy("f", "p", COMPONENTS), ir.Return(ir.Name("f")))
+    return (ir.Parameter("p", library.target),), _POSE, _local("f", _POSE), body
+
+
+def _current(library: Library) -> Made:
+    """The target that the robot stands at, seen with another tool and in another frame than the modal ones."""
+    product = composed(
+        function("inverse", ir.Name("reference")),
+        ir.System("base"),
+        ir.Name("p"),
+        function("inverse", ir.System("tool")),
+        ir.Name("tcp"),
+    )
+    body: ir.Body = (
+        _set("p", ir.System("actual_pose")),
+        _set("f", product),
+        *_copy("p", "f", COMPONENTS),
+        ir.Return(ir.Name("p")),
+    )
+    parameters = (ir.Parameter("tcp", _POSE), ir.Parameter("reference", _POSE))
+    return parameters, library.target, (*_local("p", library.target), *_local("f", _POSE)), body
+
+
+def _quaternion(library: Library) -> Made:
+    """Component 1..4 (w, x, y, z) of the quaternion of ZYX angles."""
+    two = number(2)
+    halves = tuple(
+        _set(f"{kind}{angle}", function(name, ir.Binary("/", ir.Name(angle), two)))
+        for angle in "abc"
+        for kind, name in (("s", "sin"), ("c", "cos"))
+    )
+    sa, ca, sb, cb, sc, cc = _names("sa ca sb cb sc cc")
+    components = (
+        plus(times(ca, cb, cc), times(sa, sb, sc)),
+        minus(times(ca, cb, sc), times(sa, sb, cc)),
+        plus(times(ca, sb, cc), times(sa, cb, sc)),
+        minus(times(sa, cb, cc), times(ca, sb, sc)),
+    )
+    w, which = components[0], ir.Name("n")
+    sign = ir.If(((ir.Binary("<", w, number(0)), (_set("q", ir.Unary("-", ir.Name("q"))),)),))
+    choices = tuple(
+        (ir.Binary("=", which, ir.IntLiteral(at)), (_set("q", one),)) for at, one in enumerate(components[1:], 2)
+    )
+    body: ir.Body = (*halves, ir.If(choices, (_set("q", w),)), sign, ir.Return(ir.Name("q")))
+    parameters = (ir.Parameter("n", ir.IntType()), *_reals("a b c"))
+    return parameters, _REAL, _local("q sa ca sb cb sc cc", _REAL), body
+
+
+def _rotation(library: Library) -> Made:
+    """The rotation of a quaternion of any length, as ZYX angles; at b = ±90: c = 0."""
+    one, two = number(1), number(2)
+    unit = tuple(_set(f"q{at}", ir.Binary("/", ir.Name(f"q{at}"), ir.Name("l"))) for at in range(1, 5))
+    w, x, y, z = _names("q1 q2 q3 q4")
+    squares = [times(value, value) for value in (w, x, y, z)]
+    xx, yx = minus(one, times(two, plus(squares[2], squares[3]))), times(two, plus(times(x, y), times(z, w)))
+    zx, zy = times(two, minus(times(x, z), times(y, w))), times(two, plus(times(y, z), times(x, w)))
+    zz = minus(one, times(two, plus(squares[1], squares[2])))
+    xy, yy = times(two, minus(times(x, y), times(z, w))), minus(one, times(two, plus(squares[1], squares[3])))
+    cosine = function("sqrt", plus(times(ir.Name("m"), ir.Name("m")), times(ir.Name("n"), ir.Name("n"))))
+    regular = (
+        _set("a", function("atan2", ir.Name("n"), ir.Name("m"))),
+        _set("c", function("atan2", zy, zz)),
+    )
+    gimbal = (_set("a", function("atan2", ir.Unary("-", xy), yy)), _set("c", number(0)))
+    body: ir.Body = (
+        _set("l", function("sqrt", plus(*squares))),
+        *unit,
+        _set("m", xx),
+        _set("n", yx),
+        _set("l", cosine),
+        ir.If(((ir.Binary(">", ir.Name("l"), number(1e-6)), regular),), gimbal),
+        _set("b", function("atan2", ir.Unary("-", zx), ir.Name("l"))),
+        ir.Return(call(library.name("frame"), number(0), number(0), number(0), *_names("a b c"))),
+    )
+    return _reals("q1 q2 q3 q4"), _POSE, _local("a b c l m n", _REAL), body
+
+
+_MAKERS: dict[str, Callable[[Library], Made]] = {
+    "frame": _frame,
+    "offset": _offset,
+    "tool_offset": _tool_offset,
+    "transform": _transform,
+    "length": _length,
+    "pose": _pose,
+    "current": _current,
+    "quaternion": _quaternion,
+    "rotation": _rotation,
+}
