@@ -242,8 +242,7 @@ class Expressions:
     def aggregate(self, expression: ir.Aggregate) -> str:
         entries = expression.entries
         if not entries or all(name is None for name, _ in entries):
-            named = self.predefined(expression, tuple(value for _, value in entries))
-            return named or f"[{','.join(self.text(value) for _, value in entries)}]"
+            return f"[{','.join(self.text(value) for _, value in entries)}]"
         type = word_type(expression.type_name, self.scope) if expression.type_name else None
         if type is None:
             raise UnsayableError("a structured value of unknown type cannot be written in order")

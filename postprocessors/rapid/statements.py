@@ -180,7 +180,11 @@ class Statements:
             case ir.ConnectInterrupt(handle=handle, routine=routine):
                 return made.connect(self.text(handle), routine)
             case ir.Move():
-                return self.motion(motion.move(statement, self.expressions))
+                text = self.motion(motion.move(statement, self.expressions))
+                for trigger in statement.triggers:
+                    if isinstance(trigger, ir.Trigger):
+                        self.ledger.merged(trigger)
+                return text
             case ir.MoveExternal():
                 return self.motion(motion.move_external(statement, self.expressions))
             case ir.DefineTrigger():
