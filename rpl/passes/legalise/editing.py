@@ -211,30 +211,13 @@ class Hoister:
             case ir.Index() | ir.Field():
                 in_place = [True] + [False] * (len(parts) - 1)
             case ir.Call(name=name, arguments=arguments):
-                in_place = self.by_reference(name, arguments)
+                in_place = written_arguments(name, arguments, self.editor.scope)
             case _:
                 in_place = [False] * len(parts)
         before, values = self.several(parts, in_place)
         if all(new is old for new, old in zip(values, parts, strict=True)):
             return before, expression
         return before, rebuilt(expression, values)
-
-    def by_reference(self, name: str, arguments: tuple[ir.Argument, ...]) -> list[bool]:
-        """For each argument with a value: may the routine write it?"""
-        routine = self.editor.scope.routine(name)
-        given = [argument for argument in arguments if argument.value is not None]
-        if routine is None:
-            return [True] * len(given)
-        fold = self.editor.scope.fold
-        by_name = {fold(parameter.name): parameter for parameter in routine.parameters}
-        required = [parameter for parameter in routine.parameters if not parameter.optional]
-        positional = iter(required)
-        done = []
-        for argument in arguments:
-            parameter = by_name.get(fold(argument.name)) if argument.name else next(positional, None)
-            if argument.value is not None:
-                done.append(parameter is None or parameter.mode == "reference")
-        return done
 
     def several(self, parts: Sequence[ir.Expression], in_place: Sequence[bool]) -> tuple[ir.Body, list[ir.Expression]]:
         """Operands in order of evaluation: one that would be overtaken by a later one's statements is saved first."""
@@ -328,7 +311,7 @@ class Hoister:
         """Which expressions of a statement are places that it writes."""
         match statement:
             case ir.CallRoutine(name=name, arguments=arguments, dynamic=None):
-                return self.by_reference(name, arguments)
+                return written_arguments(name, arguments, self.editor.scope)
             case ir.Do(procedure=procedure, arguments=arguments):
                 kinds = ir.PROCEDURES[procedure].parameters if procedure in ir.PROCEDURES else ""
                 given = [at for at, one in enumerate(arguments) if one is not None]
@@ -417,6 +400,21 @@ def rebuilt(node: Node, values: Sequence[ir.Expression]) -> Node:
     """The node with its direct expressions replaced, in the order of `children`."""
     given = iter(values)
     return rewrite_parts(node, lambda _: next(given))
+
+
+def written_arguments(name: str, arguments: tuple[ir.Argument, ...], scope: Scope) -> list[bool]:
+    """For each argument with a value: may the routine write it?"""
+    routine = scope.routine(name)
+    if routine is None:
+        return [True for argument in arguments if argument.value is not None]
+    by_name = {scope.fold(parameter.name): parameter for parameter in routine.parameters}
+    positional = iter([parameter for parameter in routine.parameters if not parameter.optional])
+    done = []
+    for argument in arguments:
+        parameter = by_name.get(scope.fold(argument.name)) if argument.name else next(positional, None)
+        if argument.value is not None:
+            done.append(parameter is None or parameter.mode == "reference")
+    return done
 
 
 def jumps(body: ir.Body) -> bool:

@@ -350,13 +350,16 @@ class _Handling(_Passing):
             head, rest = body[:at], body[at + 1 :]
             match statement:
                 case ir.Retry():
-                    return (*head, ir.Assign(self.variable("retry"), ir.BoolLiteral(True), origin=statement.origin))
+                    again = ir.Assign(self.variable("retry"), ir.BoolLiteral(True), origin=statement.origin)
+                    return (*head, *self.behind((again,), rest, falls=True))
                 case ir.TryNext():
-                    return head or (ir.Nothing(origin=statement.origin),)
+                    done = self.behind((ir.Nothing(origin=statement.origin),), rest, falls=True)
+                    return (*head, *done) if len(done) > 1 or not head else head
                 case ir.Raise(code=number):
-                    return (*head, *expansion(statement.origin, (*self.signal(number), *self.leave())))
+                    left = expansion(statement.origin, (*self.signal(number), *self.leave()))
+                    return (*head, *self.behind(left, rest, falls=False))
                 case ir.Return() | ir.Halt(kind="exit"):
-                    return body[: at + 1]
+                    return (*head, *self.behind((statement,), rest, falls=False))
                 case ir.If() if _ways_out(statement):
                     return (*head, *self.forked(statement, rest))
                 case ir.Switch() if _ways_out(statement):
@@ -364,6 +367,17 @@ class _Handling(_Passing):
         if self.routine.returns is None:
             return (*body, ir.Return())
         return (*body, ir.Return(self.nothing()))
+
+    def behind(self, way_out: ir.Body, rest: ir.Body, falls: bool) -> ir.Body:
+        """A way out of the handler; what follows it can be reached by its labels only."""
+        first = next((at for at, one in enumerate(rest) if isinstance(one, ir.Label)), None)
+        if first is None:
+            return way_out
+        reached = self.tail(rest[first:])
+        if not falls:
+            return (*way_out, *reached)
+        end = self.editor.context.fresh("handled")
+        return (*way_out, ir.Goto(end), *reached, ir.Label(end))
 
     def forked(self, statement: ir.If, rest: ir.Body) -> ir.Body:
         """What follows the If belongs to the branches that reach it."""

@@ -22,10 +22,12 @@ from rpl.passes.legalise.editing import (
     map_body,
     negation,
     passes_on,
+    written_arguments,
 )
 from rpl.passes.legalise.effects import everything, is_constant, root, statements_in
 from rpl.passes.legalise.usage import base_name, each_expression
 from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import Scope
 
 
 def fit_loops(program: ir.Program, context: Context) -> ir.Program:
@@ -261,7 +263,7 @@ class _Loops:
                 case ir.For(counter=counter):
                     if counter.lower() == key:
                         return True
-            if _handed_over(statement, key):
+            if _handed_over(statement, key, self.editor.scope):
                 return True
         return False
 
@@ -406,10 +408,10 @@ def _whole(bound: ir.Expression) -> ir.Expression:
     return bound
 
 
-def _handed_over(statement: ir.Statement, key: str) -> bool:
+def _handed_over(statement: ir.Statement, key: str, scope: Scope) -> bool:
     """Is the variable given to something that could write it?"""
     match statement:
-        case ir.CallRoutine(arguments=arguments) if _in_arguments(arguments, key):
+        case ir.CallRoutine(name=name, arguments=arguments) if _in_arguments(name, arguments, key, scope):
             return True
         case ir.Do(arguments=values) if any(value is not None and base_name(value) == key for value in values):
             return True
@@ -420,15 +422,17 @@ def _handed_over(statement: ir.Statement, key: str) -> bool:
 
     def look(expression: ir.Expression) -> None:
         nonlocal found
-        if isinstance(expression, ir.Call) and _in_arguments(expression.arguments, key):
+        if isinstance(expression, ir.Call) and _in_arguments(expression.name, expression.arguments, key, scope):
             found = True
 
     each_expression(statement, look)
     return found
 
 
-def _in_arguments(arguments: tuple[ir.Argument, ...], key: str) -> bool:
-    return any(argument.value is not None and base_name(argument.value) == key for argument in arguments)
+def _in_arguments(name: str, arguments: tuple[ir.Argument, ...], key: str, scope: Scope) -> bool:
+    values = [argument.value for argument in arguments if argument.value is not None]
+    written = written_arguments(name, arguments, scope)
+    return any(writes and base_name(value) == key for writes, value in zip(written, values, strict=True))
 
 
 def _used_outside_loops(routine: ir.Routine) -> set[str]:

@@ -1,0 +1,133 @@
+"""Two made-up targets with the powers of real ones, and the check that a pass keeps what a run shows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics
+from rpl.passes.capabilities import Capabilities, NameRules
+from rpl.passes.legalise.context import Context, Pass, names_in
+from rpl.passes.legalise.effects import blocks, children, everything
+from rpl.passes.typing import normalise
+from rpl.project import read_sources
+from rpl.source import source_from_text
+
+from .machine import run
+
+COMMON = frozenset(
+    (
+        *("Assign", "CallRoutine", "If", "Switch", "For", "While", "Label", "Goto", "Return", "Halt", "Wait"),
+        *("WaitUntil", "Message", "Do", "Nothing", "Pulse", "Move"),
+    )
+)
+NAMES = NameRules(24, False, frozenset())
+OPERATORS = frozenset(("+", "-", "*", "/", "=", "<>", "<", ">", "<=", ">=", "and", "or", "not"))
+# A controller with blocks but few functions: no early end of `and`, no handlers, no optional parameters.
+PLAIN = Capabilities(
+    statements=COMMON | {"Repeat", "Loop", "ExitLoop"},
+    functions=frozenset(
+        ("abs", "sqrt", "sin", "cos", "tan", "acos", "atan2", "text_length", "text_equal", "text_find")
+    ),
+    procedures=frozenset(("text_append", "text_copy", "text_clear", "format_into")),
+    system_variables=frozenset(("timer", "timer_stopped")),
+    operators=OPERATORS | {"div", "band", "bor", "bxor", "xor", "bnot"},
+    types=frozenset(("IntType", "RealType", "BoolType", "CharType", "StringType")),
+    names=NAMES,
+    modal_motion=True,
+    notation="krl",
+    rotation="zyx",
+    conversions=frozenset(("real", "round_half_away", "code", "char")),
+    timers=16,
+    switch_types=frozenset(("IntType", "CharType", "EnumDeclaration")),
+    switch_constant_cases=True,
+    text_results=False,
+)
+# A controller with handlers, early `and`, its own loop counters, but neither Repeat nor ExitLoop nor bit operators.
+RICH = Capabilities(
+    statements=COMMON | {"Raise", "Retry", "TryNext", "Clock"},
+    functions=frozenset(ir.FUNCTIONS) - {"floor", "ceil", "min", "max", "text_find_any"},
+    procedures=frozenset(("increment", "decrement", "clear")),
+    system_variables=frozenset(),
+    operators=OPERATORS | {"div", "mod", "cand", "cor", "&", "xor"},
+    types=frozenset(("RealType", "BoolType", "StringType", "ClockType")),
+    names=NAMES,
+    modal_motion=False,
+    notation="rapid",
+    rotation="quaternion",
+    for_at_least_once=True,
+    for_scoped=True,
+    for_automatic=True,
+    error_handlers=True,
+    optional_parameters=True,
+    short_circuit=True,
+    wait_timeout=True,
+    dynamic_calls=True,
+    for_real=True,
+)
+
+
+def read(dialect: str, *texts: str) -> ir.Program:
+    suffix = {"krl": "src", "rapid": "mod"}[dialect]
+    diagnostics = Diagnostics()
+    sources = [source_from_text(f"part{at}.{suffix}", text) for at, text in enumerate(texts)]
+    program = read_sources(sources, dialect, diagnostics).program
+    assert not diagnostics.has_errors, [item.as_text() for item in diagnostics]
+    return program
+
+
+def context(program: ir.Program, capabilities: Capabilities) -> Context:
+    source = program.modules[0].dialect
+    made = Context(source, "rapid" if source == "krl" else "krl", capabilities, Diagnostics())
+    made.taken |= names_in(program)
+    return made
+
+
+def legalised(program: ir.Program, capabilities: Capabilities, *passes: Pass) -> tuple[ir.Program, Context]:
+    given = context(program, capabilities)
+    for one in passes:
+        program = one(program, given)
+        diagnostics = Diagnostics()
+        again = normalise(program, diagnostics)
+        assert not diagnostics.has_errors, [item.as_text() for item in diagnostics]
+        assert not [item for item in diagnostics if item.code.name.startswith("unknown")], [
+            item.as_text() for item in diagnostics
+        ]
+        del again
+    return program, given
+
+
+def same_run(
+    program: ir.Program, capabilities: Capabilities, *passes: Pass, inputs: Any = None, entry: str = "main"
+) -> ir.Program:
+    """The rewritten program, after checking that its run shows the same."""
+    after, _ = legalised(program, capabilities, *passes)
+    # A rewritten program says itself that nobody handles an error; a controller does that for the original.
+    shown = [one for one in run(after, entry, inputs) if "is not handled" not in str(one)]
+    assert shown == run(program, entry, inputs)
+    return after
+
+
+def nodes(program: ir.Program) -> Sequence[object]:
+    """All statements and expressions of a program."""
+    found: list[object] = []
+
+    def body(statements: ir.Body) -> None:
+        for statement in statements:
+            found.append(statement)
+            for child in children(statement):
+                found.extend(everything(child))
+            for inner in blocks(statement):
+                body(inner)
+
+    for module in program.modules:
+        for routine in module.routines:
+            for one in (routine.body, *(handler.body for handler in routine.handlers), routine.undo):
+                body(one)
+    return found
+
+
+def count(program: ir.Program, wanted: Callable[[object], bool] | type) -> int:
+    test = wanted if not isinstance(wanted, type) else lambda node: isinstance(node, wanted)
+    return sum(1 for node in nodes(program) if test(node))
