@@ -83,7 +83,7 @@ def _begins_anew(text: str, at: int) -> bool:
 def _piece(
     text: str, start: int, end: int, remarks: list[tuple[int, int]], *, ended_by_line: bool, until: int = 0
 ) -> list[Piece]:
-    """What stands in the span. `until`: the piece reaches to there, behind its `;`, which alone is the empty statement."""
+    """What stands in the span. `until`: the piece reaches to behind its `;`, which alone is the empty statement."""
     code = text[start:end]
     for a, b in remarks:
         code = code[: a - start] + " " * (b - a) + code[b - start :]

@@ -251,11 +251,10 @@ def word_token(tree: SyntaxTree, terminal: str) -> Token | None:
     return next(tokens(tree, terminal), None)
 
 
-ACTIONS: dict[str, Lowering] = {"assign": _assign, "set": _set, "call": _call}
+ACTIONS: dict[str, Lowering] = {"assign": _assign, "set": _set, "call": _call, "call_by_name": _call_by_name}
 
 STATEMENTS: dict[str, Lowering] = {
     **ACTIONS,
-    "call_by_name": _call_by_name,
     "open_gripper": _gripper_call("open_"),
     "close_gripper": _gripper_call("close_"),
     "set_after": _set_after,

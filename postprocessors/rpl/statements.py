@@ -174,7 +174,7 @@ def line_text(statement: ir.Statement) -> str:
 
 def _call_by_name(name: str, arguments: tuple[ir.Argument, ...], dynamic: ir.Expression) -> str:
     known = f"{name_text(name)} " if name else ""
-    given = f" WITH ({arguments_text(arguments)})" if arguments else ""
+    given = f" PASSING ({arguments_text(arguments)})" if arguments else ""
     return f"CALL {known}BY {expression_text(dynamic)}{given}"
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 
-from lark import Lark
 from lark.lexer import TerminalDef
 
 from rpl.reading.shapes import load_grammar
