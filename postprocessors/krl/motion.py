@@ -38,7 +38,7 @@ class Motion:
             if move.swept is not None:
                 target += f",CA {self.expressions.text(move.swept)}"
         blend = self.blend(move.blend)
-        return f"{word}{relative} {target}{axes}{self.settings(move.settings)}{blend}"
+        return f"{word}{relative} {target}{self.settings(move.settings)}{blend}{axes}"
 
     def refuse(self, move: ir.Move) -> None:
         """Settings that the passes before should have made modal, and those that KRL does not have at a move."""

@@ -288,11 +288,10 @@ class Printer:
             where = f"DISTANCE={0 if trigger.reference == 'start' else 1}"
         delay = text.measured(trigger.delay, "ms") if trigger.delay is not None else "0"
         priority = text.text(trigger.priority) if trigger.priority is not None else ""
-        if not priority and isinstance(action, ir.CallRoutine):
-            priority = "-1"
-        return f"TRIGGER WHEN {where} DELAY={delay} DO {self.action(action)}" + (
-            f" PRIO={priority}" if priority else ""
-        )
+        done = self.action(action)
+        if not priority and isinstance(action, ir.CallRoutine) and not done.startswith("PULSE("):
+            priority = "-1"  # a subroutine needs one: the controller's own choice
+        return f"TRIGGER WHEN {where} DELAY={delay} DO {done}" + (f" PRIO={priority}" if priority else "")
 
     def action(self, action: ir.Assign | ir.CallRoutine) -> str:
         if isinstance(action, ir.Assign):

@@ -79,8 +79,9 @@ class _Module:
         program, data = self.attributes()
         lines = self.data_lines()
         if module.routines:
-            routines = [self.routine(routine, index == 0) for index, routine in enumerate(self.ordered())]
-            if not self.named_after_module():
+            fits = self.named_after_module()
+            routines = [self.routine(routine, fits and index == 0) for index, routine in enumerate(self.ordered())]
+            if not fits:
                 routines.insert(0, RoutineText((), f"DEF {module.name}( )", (), "END"))
             suffix = "sub" if self.background else "src"
             text = _environment().get_template("program.src.j2").render(attributes=program, routines=routines)
