@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rpl.ir.types import NamedType
 from rpl.passes.capabilities import Capabilities, NameRules
 
 from . import tables
@@ -41,6 +42,7 @@ CAPABILITIES = Capabilities(
     switch_types=frozenset(("IntType", "CharType", "NamedType")),
     switch_constant_cases=True,
     text_results=False,
+    format_state=NamedType("STATE_T"),
     named_aggregates=True,
     partial_aggregates=True,
     constant_aggregates=True,

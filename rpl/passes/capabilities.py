@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from rpl.ir.types import Type
+
 
 @dataclass(frozen=True, slots=True)
 class NameRules:
@@ -29,6 +31,11 @@ class Capabilities:
     types: names of type classes that can be declared. signal_prefixes: empty when signals have numbers (KRL); otherwise
     signals have names (RAPID), and a number 5 of a kind is called prefix + 5. named_aggregates: members are named (else
     listed in order); partial_aggregates: some may be left out; constant_aggregates: members must be constants.
+    for_real: the counter of a FOR may be a real number. wait_timeout: WaitUntil takes a timeout. timers: how many
+    system timers there are (`timer[1]` ...). dynamic_calls: a procedure may be called by a name computed at run time.
+    switch_types: type classes a Switch may select by (NamedType: enumerations); empty: any type.
+    switch_constant_cases: case values must be literals. text_results: functions may return texts.
+    format_state: type of the state that format_into writes; None when it has none.
     """
 
     statements: frozenset[str]
@@ -60,3 +67,4 @@ class Capabilities:
     named_aggregates: bool = False
     partial_aggregates: bool = False
     constant_aggregates: bool = False
+    format_state: Type | None = None

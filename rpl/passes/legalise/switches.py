@@ -48,8 +48,8 @@ class _Switches(Hoister):
     def _kind(self, expression: ir.Expression) -> str:
         type = self.editor.type_of(expression)
         if isinstance(type, ir.NamedType):
-            declared = self.editor.scope.type(type.name)
-            return declared.__class__.__name__
+            enumeration = isinstance(self.editor.scope.type(type.name), ir.EnumDeclaration)
+            return "NamedType" if enumeration else "RecordDeclaration"
         return type.__class__.__name__
 
     def _chain(self, statement: ir.Switch) -> ir.Body:

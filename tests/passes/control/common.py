@@ -40,7 +40,7 @@ PLAIN = Capabilities(
     rotation="zyx",
     conversions=frozenset(("real", "round_half_away", "code", "char")),
     timers=16,
-    switch_types=frozenset(("IntType", "CharType", "EnumDeclaration")),
+    switch_types=frozenset(("IntType", "CharType", "NamedType")),
     switch_constant_cases=True,
     text_results=False,
 )
