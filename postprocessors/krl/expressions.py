@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from rpl import ir
 from rpl.errors import RplError
+from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typing import component_type, type_of
 from rpl.writing.precedence import ExpressionPrinter, Printed
@@ -13,6 +15,7 @@ from rpl.writing.text import ALWAYS_POINT, number_text
 
 from . import tables
 
+_LEAVES = (ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.EnumLiteral, ir.Name, ir.Aggregate)
 _REAL = re.compile(r"(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+")
 _BITS = re.compile(r"'[BHbh][0-9A-Fa-f]+'")
 
@@ -30,7 +33,28 @@ class Expressions:
 
     def text(self, expression: ir.Expression) -> str:
         """The expression; an untyped aggregate keeps the type that its place does not give."""
-        return self.printer.text(expression)
+        return self.printer.text(self.divided(expression))
+
+    def divided(self, expression: ir.Expression) -> ir.Expression:
+        """KRL's `/` goes by the operands' types, so a real division of whole numbers gets a real operand, and a whole
+        one has whole operands only."""
+        if isinstance(expression, _LEAVES):
+            return expression
+        done = rewrite_parts(expression, self.divided)
+        if not isinstance(done, ir.Binary) or done.op not in ("/", "div"):
+            return done
+        whole = [isinstance(self.type(side), ir.IntType) for side in (done.left, done.right)]
+        if done.op == "div":
+            if not all(whole):
+                raise CannotSayError("a whole division of numbers that KRL takes for real ones")
+            return done
+        if not all(whole):
+            return done
+        if isinstance(done.left, ir.IntLiteral):
+            return replace(done, left=ir.RealLiteral(float(done.left.value)))
+        if isinstance(done.right, ir.IntLiteral):
+            return replace(done, right=ir.RealLiteral(float(done.right.value)))
+        return replace(done, left=ir.Binary("*", ir.RealLiteral(1.0), done.left))
 
     def stored(self, expression: ir.Expression) -> str:
         """A value in a place whose type is known: the aggregate needs no type of its own."""

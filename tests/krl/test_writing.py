@@ -163,6 +163,25 @@ def test_brackets_stand_around_mixed_operands(text: str, wanted: str) -> None:
     assert wanted in out
 
 
+_TYPES = {"N": ir.IntType(), "M": ir.IntType(), "R": ir.RealType()}
+DIVISIONS = [
+    (ir.IntLiteral(7), ir.IntLiteral(2), "/", "7.0/2"),
+    (ir.Name("N"), ir.IntLiteral(2), "/", "N/2.0"),
+    (ir.Name("N"), ir.Name("M"), "/", "(1.0*N)/M"),
+    (ir.Name("N"), ir.Name("R"), "/", "N/R"),
+    (ir.Name("N"), ir.Name("M"), "div", "N/M"),
+]
+
+
+@pytest.mark.parametrize(("left", "right", "op", "wanted"), DIVISIONS)
+def test_division_goes_by_its_operands(left: ir.Expression, right: ir.Expression, op: str, wanted: str) -> None:
+    declared = tuple(ir.Variable(name, type) for name, type in _TYPES.items())
+    assign = ir.Assign(ir.Name("R"), ir.Binary(op, left, right))
+    routine = ir.Routine("P", declarations=declared, body=(assign,), scope="global")
+    (file,), _ = written(ir.Program((ir.Module("P", "krl", routines=(routine,)),)))
+    assert f"R={wanted}\r\n" in file.data.decode()
+
+
 @given(st.floats(allow_nan=False, allow_infinity=False))
 def test_numbers_read_back(value: float) -> None:
     from rpl.postprocessors.krl.expressions import literal
