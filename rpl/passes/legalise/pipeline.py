@@ -36,7 +36,7 @@ def legalise(program: ir.Program, context: Context) -> ir.Program:
     Same-language writing leaves it as it is.
     """
     context.taken |= names_in(program)
-    if not context.foreign:
+    if not context.foreign or context.capabilities.carries_rules:
         return program
     for one in PASSES:
         program = one(program, context)
