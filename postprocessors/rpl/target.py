@@ -32,6 +32,13 @@ CAPABILITIES = Capabilities(
     short_circuit=True,
     enums=True,
     conversions=frozenset(ir.CONVERSIONS),
+    for_real=True,
+    wait_timeout=True,
+    timers=1_000_000,
+    dynamic_calls=True,
+    named_aggregates=True,
+    partial_aggregates=True,
+    carries_rules=True,
 )
 
 
