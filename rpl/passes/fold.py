@@ -8,6 +8,7 @@ and tools are in programs whose language has no other place for them. `literal` 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
 
@@ -32,9 +33,15 @@ class Unchanged:
     initialised: dict[str, list[tuple[ir.Expression, ir.Expression, ir.Module]]] = field(default_factory=dict)
 
 
-def constant(expression: ir.Expression, scope: Scope, unchanged: Unchanged | None = None) -> Value | None:
-    """The value of a normalised expression, None when it may change or cannot be known here."""
-    return _Folder(scope, unchanged).value(expression, None)
+def constant(
+    expression: ir.Expression,
+    scope: Scope,
+    unchanged: Unchanged | None = None,
+    known: Mapping[str, Value] | None = None,
+) -> Value | None:
+    """The value of a normalised expression, None when it may change or cannot be known here. `known` are values at this
+    place of the run: of variables by folded name, of system variables with a `$` in front."""
+    return _Folder(scope, unchanged, known=known).value(expression, None)
 
 
 def constant_number(expression: ir.Expression, scope: Scope, unchanged: Unchanged | None = None) -> float | None:
@@ -53,8 +60,10 @@ def _prelude_scope(dialect: str) -> tuple[ir.Module, Scope] | None:
 
 
 class _Folder:
-    def __init__(self, scope: Scope, unchanged: Unchanged | None, depth: int = 0) -> None:
-        self.scope, self.unchanged, self.depth = scope, unchanged, depth
+    def __init__(
+        self, scope: Scope, unchanged: Unchanged | None, depth: int = 0, known: Mapping[str, Value] | None = None
+    ) -> None:
+        self.scope, self.unchanged, self.depth, self.known = scope, unchanged, depth, known or {}
 
     def value(self, expression: ir.Expression, wanted: ir.Type | None) -> Value | None:
         match expression:
@@ -63,7 +72,10 @@ class _Folder:
             case ir.EnumLiteral(member=member):
                 return Member(member.lower())
             case ir.Name(id=name):
-                return self.name(name)
+                found = self.known.get(name.lower())
+                return self.name(name) if found is None else found
+            case ir.System(name=name) if f"${name}" in self.known:
+                return self.known[f"${name}"]
             case ir.System(name=name):
                 return rigid.IDENTITY if name in ("null_frame", "world") else None
             case ir.Field(base=base, name=name):

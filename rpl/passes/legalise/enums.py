@@ -95,8 +95,9 @@ class _Enums(Rewriter):
             case ir.EnumLiteral(member=member):
                 name = self.names.get(member.lower())
                 return expression if name is None else ir.Name(name, origin=expression.origin)
-            case ir.Binary(left=ir.System(), right=ir.EnumLiteral()) | ir.Binary(left=ir.EnumLiteral(), right=ir.System()):
-                return expression  # a mode of the controller, in neutral words
+            case ir.Binary(left=left, right=right) if isinstance(left, ir.System) or isinstance(right, ir.System):
+                # A mode of the controller is compared in neutral words.
+                return rewrite_parts(expression, lambda e: e if isinstance(e, ir.EnumLiteral) else self.expression(e))
             case ir.Aggregate(type_name=word) if word and isinstance(self.scope.type(word), ir.EnumDeclaration):
                 return rewrite_parts(replace(expression, type_name=None), self.expression)
         return super().expression(expression)

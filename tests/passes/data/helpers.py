@@ -33,7 +33,7 @@ RAPID = Capabilities(
     functions=frozenset((*KRL.functions, "compose", "transform", "offset", "tool_offset", "rotation_zyx", "distance"))
     | {"magnitude", "dot", "euler_x", "euler_y", "euler_z", "normalise", "trunc", "character_code", "from_code"},
     procedures=frozenset(),
-    system_variables=frozenset(),
+    system_variables=frozenset(("joint_configuration_check", "path_configuration_check")),
     operators=frozenset(("+", "-", "*", "/", "div", "mod", "&", "@", "cand", "cor", "=", "<>", "<", ">", "<=", ">=")),
     types=frozenset(
         (

@@ -95,12 +95,15 @@ def test_statements(text: str) -> None:
 def test_declarations() -> None:
     program = read(FRAME % "p:=p1;tl:=grip;", "rapid")
     done = to_angles(program, context(program, "rapid"))
-    texts = {name: show(variable(done, name).initial or ir.Name("-")) for name in ("p1", "home", "grip", "corners", "v")}
+    texts = {
+        name: show(variable(done, name).initial or ir.Name("-")) for name in ("p1", "home", "grip", "corners", "v")
+    }
     assert texts == {
         "p1": "{x 1, y 2, z 3, a 180.0, b 0.0, c 180.0}",
         "home": "{j1 0, j2 0, j3 0, j4 0, j5 30, j6 0, e2 5}",
         "grip": "{held True, frame {x 0, y 0, z 120, a 0.0, b 0.0, c 0.0}, load {mass 1.2, "
-        "cog {x 0, y 0, z 60, a 0.0, b 0.0, c 0.0}, axes {x 0.0, y 0.0, z 0.0, a 0.0, b 0.0, c 0.0}, ix 0, iy 0, iz 0}}",
+        "cog {x 0, y 0, z 60, a 0.0, b 0.0, c 0.0}, axes {x 0.0, y 0.0, z 0.0, a 0.0, b 0.0, c 0.0}, "
+        "ix 0, iy 0, iz 0}}",
         "corners": "{{x 1, y 2, z 3, a 0.0, b 0.0, c 0.0}, {x 4, y 5, z 6, a 0.0, b 0.0, c 0.0}}",
         "v": "{x 0.0, y 0.0, z 0.0, a 0.0, b 0.0, c 0.0}",
     }

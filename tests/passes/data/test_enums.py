@@ -61,7 +61,9 @@ def test_statements_and_types_follow() -> None:
 
 
 def test_a_taken_name_is_avoided_and_the_pass_is_idempotent() -> None:
-    program = read("DEF t()\nDECL C v\nDECL INT red\nv=#RED\nred=1\nEND\n====\nDEFDAT t\nENUM C RED,BLACK\nENDDAT\n", "krl")
+    program = read(
+        "DEF t()\nDECL C v\nDECL INT red\nv=#RED\nred=1\nEND\n====\nDEFDAT t\nENUM C RED,BLACK\nENDDAT\n", "krl"
+    )
     surroundings = context(program, "krl")
     done = enums_to_constants(program, surroundings)
     assert lines(done) == ["v := RED2", "red := 1"]

@@ -1,0 +1,426 @@
+"""Arm configuration from the notation of the source to that of the target, through the robot's own kinematics.
+
+A written target's flags choose one posture of the arm: flange = base : pose : inverse(tool) with the tool and frame of
+the moves that the target serves. That posture is encoded anew. On another arm the posture nearest by name is chosen,
+and joint targets travel through their pose. What cannot be known is reported, and the controller keeps the nearest.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from rpl import ir, registry
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.passes.fold import constant, real
+from rpl.passes.legalise.context import Arm, Context, rules_of
+from rpl.passes.legalise.flow import Use, Uses
+from rpl.passes.legalise.walk import Rewriter
+from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.typing import component_names, type_word
+from rpl.passes.values import Record, Target, component
+
+if TYPE_CHECKING:
+    from rpl.emulator.configuration import Notation
+
+NOT_CONVERTED = code(
+    "configuration-not-converted",
+    Severity.WARNING,
+    "the arm configuration is not converted ({reason}); the controller takes the nearest",
+    "name the arm with --robot, and give moves constant tools and frames",
+)
+UNREACHABLE = code("unreachable-on-target-arm", Severity.ERROR, "the arm {arm} does not reach this {what}: {reason}")
+JOINTS_LOST = code(
+    "joints-not-converted", Severity.LOSS, "these joint values are not constant; they mean another posture on {arm}"
+)
+FLAG_ACCESS = code(
+    "configuration-field", Severity.LOSS, "{name} is part of the arm configuration, which the target writes otherwise"
+)
+
+_AXES, _EXTERNAL = tuple(ir.COMPONENTS[ir.AxesType]), tuple(ir.COMPONENTS[ir.ExternalType])
+_CHECKS = ("joint_configuration_check", "path_configuration_check")
+
+
+def configurations(program: ir.Program, context: Context) -> ir.Program:
+    """Types, flags of constant targets and, for another arm, constant joint targets."""
+    trial = _Configurations(program, replace(context, diagnostics=Diagnostics()))
+    if not trial.foreign and not trial.other_arm:
+        return program
+    trial.program()  # what is refused must be known before the moves that go there
+    return _Configurations(program, context, trial).program()
+
+
+@dataclass(frozen=True, slots=True)
+class _Refused:
+    """Why there are no flags. `fatal`: the arm cannot go there."""
+
+    reason: str
+    fatal: bool = False
+
+
+class _Configurations(Rewriter):
+    def __init__(self, program: ir.Program, context: Context, trial: _Configurations | None = None) -> None:
+        super().__init__(program, context)
+        self.trial = trial
+        self.target_notation = context.capabilities.notation
+        sources = {module.dialect for module in program.modules}
+        self.foreign = any(one != self.target_notation for one in sources)
+        self.arm, self.to_arm = context.robot, context.to_robot or context.robot
+        self.other_arm = bool(self.arm and self.to_arm and self.arm.name != self.to_arm.name)
+        self.results: dict[int, dict[str, int] | _Refused] = trial.results if trial else {}
+        self.exact, self.nearest = False, False  # are there joint moves to converted, to other targets?
+        self.uses: Uses
+        if trial is not None:
+            self.uses, self.scopes = trial.uses, trial.scopes
+        else:
+            self.uses = Uses.of(program, self.scopes) if self.foreign or self.other_arm else Uses()
+
+    # ---- program
+
+    def program(self) -> ir.Program:
+        done = super().program()
+        checks = self.checks()
+        if not checks:
+            return done
+        entries = self.entries(done)
+        modules = tuple(
+            replace(
+                module,
+                routines=tuple(
+                    replace(one, body=(*checks, *one.body)) if one.name.lower() in entries else one
+                    for one in module.routines
+                ),
+            )
+            for module in done.modules
+        )
+        return replace(done, modules=modules)
+
+    def checks(self) -> tuple[ir.Statement, ...]:
+        """Switch off the checks of the target's controller that the source's did not make."""
+        if not self.results:
+            return ()
+        known = rules_of(self.context.source).system_defaults
+        joint, path = _CHECKS
+        wanted = [path] if self.foreign and path not in known else []
+        wanted += [joint] if self.nearest and not self.exact else []
+        return tuple(_check(name, False) for name in sorted(wanted) if self.can_set(name))
+
+    def can_set(self, name: str) -> bool:
+        return name in self.context.capabilities.system_variables
+
+    def joint_move(self, move: ir.Move) -> list[ir.Statement]:
+        """A joint move; where its target's flags are not known, without the check of the flags."""
+        done = super().statement(move)
+        found = [self.results[key] for key in self.uses.reach(move.target, self.scope) if key in self.results]
+        if not found:
+            return done
+        if not any(isinstance(one, _Refused) for one in found):
+            self.exact = True
+            return done
+        self.nearest = True
+        mixed = self.trial is not None and self.trial.exact
+        if not mixed or not self.can_set(_CHECKS[0]):
+            return done
+        return [_check(_CHECKS[0], False), *done, _check(_CHECKS[0], True)]
+
+    def entries(self, program: ir.Program) -> set[str]:
+        if program.entry:
+            return {program.entry.lower()}
+        if program.tasks:
+            return {task.entry.lower() for task in program.tasks if task.kind == "motion"}
+        called: set[str] = set()
+
+        def expression(one: ir.Expression) -> ir.Expression:
+            if isinstance(one, ir.Call):
+                called.add(one.name.lower())
+            return rewrite_parts(one, expression)
+
+        def body(statements: ir.Body) -> ir.Body:
+            for one in statements:
+                match one:
+                    case ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name):
+                        called.add(name.lower())
+                rewrite_parts(one, expression, body)
+            return statements
+
+        rewrite_parts(program, expression, body)
+        routines = [one for module in program.modules for one in module.routines]
+        return {one.name.lower() for one in routines if one.kind == "procedure" and one.name.lower() not in called}
+
+    # ---- types
+
+    def type(self, type: ir.Type) -> ir.Type:
+        match type:
+            case ir.TargetType():
+                return replace(type, notation=self.target_notation)
+            case ir.ConfigType():
+                return replace(type, notation=self.target_notation)
+        return super().type(type)
+
+    def initial(self, value: ir.Expression, declaration: ir.Variable) -> ir.Expression | None:
+        if isinstance(self.scope.resolve(declaration.type), ir.ConfigType) and self.foreign:
+            self.context.diagnostics.report(FLAG_ACCESS, declaration.origin, name=declaration.name)
+            return None
+        return super().initial(value, declaration)
+
+    # ---- access to flags
+
+    def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+        if isinstance(statement, ir.Move) and statement.kind == "joint":
+            return self.joint_move(statement)
+        if not self.foreign:
+            return super().statement(statement)
+        match statement:
+            case ir.Assign(target=ir.Field(name=name) as target) if self.is_flag(target):
+                self.context.diagnostics.report(FLAG_ACCESS, statement.origin, name=name)
+                return [ir.Opaque(statement.origin.text or f"assignment to {name}", origin=statement.origin)]
+            case ir.Assign(target=ir.Field(base=base, name="conf"), value=value):
+                return self.copied(statement, base, value)
+        return super().statement(statement)
+
+    def copied(self, statement: ir.Assign, base: ir.Expression, value: ir.Expression) -> list[ir.Statement]:
+        """One target's configuration to another's; it is copied flag by flag where targets have them side by side."""
+        if not (isinstance(value, ir.Field) and value.name == "conf"):
+            self.context.diagnostics.report(FLAG_ACCESS, statement.origin, name="the configuration")
+            return [ir.Opaque(statement.origin.text or "a configuration", origin=statement.origin)]
+        if not self.flat:
+            return super().statement(statement)
+        place, given = self.expression(base), self.expression(value.base)
+        return [ir.Assign(ir.Field(place, name), ir.Field(given, name)) for name in self.fields]
+
+    def is_flag(self, field: ir.Field) -> bool:
+        base = self.type_of(field.base)
+        if not isinstance(base, ir.TargetType | ir.ConfigType):
+            return False
+        return field.name in registry.dialect(base.notation).notation_fields
+
+    @property
+    def flat(self) -> bool:
+        """Do the target's targets have their flags side by side with the position?"""
+        return self.context.capabilities.rotation == "zyx"
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        return registry.dialect(self.target_notation).notation_fields
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        match expression:
+            case ir.Field(name=name) if self.foreign and self.is_flag(expression):
+                self.context.diagnostics.report(FLAG_ACCESS, expression.origin, name=name)
+                self.before.append(ir.Opaque(expression.origin.text or name, origin=expression.origin))
+                return ir.IntLiteral(0)
+            case ir.Aggregate():
+                type = self.type_of(expression)
+                if isinstance(type, ir.TargetType):
+                    return self.target(expression, type)
+                if isinstance(type, ir.JointsType) and self.other_arm:
+                    return self.joints(expression)
+        return super().expression(expression)
+
+    # ---- written targets
+
+    def target(self, expression: ir.Aggregate, type: ir.TargetType) -> ir.Expression:
+        flags = set(registry.dialect(type.notation).notation_fields)
+        given = self.named(expression, type)
+        had = bool(flags & set(given)) or "conf" in given
+        entries = [(n, self.expression(v)) for n, v in given.items() if n not in flags and n != "conf"]
+        word = type_word(replace(type, notation=self.target_notation))
+        done = replace(expression, type_name=word)
+        copied = given.get("conf")
+        if isinstance(copied, ir.Field) and copied.name == "conf":
+            return replace(done, entries=self.with_copy(entries, self.expression(copied.base)))
+        key = id(expression)
+        if key not in self.results:
+            self.results[key] = self.converted(expression, had)
+        found = self.results[key]
+        if isinstance(found, _Refused):
+            self.refused(found, expression, had)
+            return replace(done, entries=tuple(entries) if self.flat else self.with_flags(entries, None))
+        return replace(done, entries=self.with_flags(entries, found))
+
+    def named(self, expression: ir.Aggregate, type: ir.Type) -> dict[str, ir.Expression]:
+        names = component_names(type, self.scope)
+        return {
+            written or (names[at] if at < len(names) else str(at)): value
+            for at, (written, value) in enumerate(expression.entries)
+        }
+
+    def with_flags(
+        self, entries: list[tuple[str, ir.Expression]], flags: dict[str, int] | None
+    ) -> tuple[tuple[str | None, ir.Expression], ...]:
+        """The entries with flags in their place: before the external axes. None: all zero."""
+        made = [(name, ir.IntLiteral((flags or {}).get(name, 0))) for name in self.fields]
+        extra: list[tuple[str | None, ir.Expression]] = list(made)
+        if not self.flat:
+            word = type_word(ir.ConfigType(self.target_notation))
+            extra = [("conf", ir.Aggregate(tuple(made), type_name=word))]
+        return _inserted(entries, extra)
+
+    def with_copy(
+        self, entries: list[tuple[str, ir.Expression]], base: ir.Expression
+    ) -> tuple[tuple[str | None, ir.Expression], ...]:
+        extra: list[tuple[str | None, ir.Expression]] = [("conf", ir.Field(base, "conf"))]
+        if self.flat:
+            extra = [(name, ir.Field(base, name)) for name in self.fields]
+        return _inserted(entries, extra)
+
+    def refused(self, found: _Refused, expression: ir.Aggregate, had: bool) -> None:
+        uses = self.uses.found.get(id(expression), set())
+        if found.fatal and self.to_arm is not None:
+            what = {"arm": self.to_arm.name, "what": "target", "reason": found.reason}
+            self.context.diagnostics.report(UNREACHABLE, expression.origin, **what)
+        elif had and (any(use.joint for use in uses) or (not uses and _is_taught(expression))):
+            self.context.diagnostics.report(NOT_CONVERTED, expression.origin, reason=found.reason)
+
+    def converted(self, expression: ir.Aggregate, had: bool) -> dict[str, int] | _Refused:
+        """The flags of the target's notation."""
+        if self.arm is None or self.to_arm is None:
+            return _Refused("no arm is named")
+        value = constant(expression, self.scope, None)
+        if not isinstance(value, Target):
+            return _Refused("the target is computed")
+        uses = self.uses.found.get(id(expression), set())
+        if not uses:
+            return _Refused("no move uses it")
+        flags: dict[str, int] | None = None
+        refused: _Refused | None = None
+        for use in sorted(uses, key=lambda one: not one.joint):
+            found = self.for_use(value, use, had)
+            if isinstance(found, _Refused):
+                if found.fatal or use.joint:
+                    return found
+                refused = found
+            elif flags is not None and use.joint and found != flags:
+                return _Refused("it is used with several tools or frames")
+            else:
+                flags = flags or found
+        if not had:
+            return _Refused("it has none")
+        return flags if flags is not None else refused or _Refused("no move uses it")
+
+    def for_use(self, target: Target, use: Use, had: bool) -> dict[str, int] | _Refused:
+        assert self.arm is not None and self.to_arm is not None  # `converted` checked
+        flange = use.frames.flange(target.pose)
+        if flange is None:
+            which = "tool" if use.frames.tool is None else "frame"
+            return _Refused(f"the {which} of its moves is not constant")
+        matrix = _array(flange.matrix)
+        notation = _notation(target.type.notation)
+        if notation is None:
+            return _Refused("the source language writes no configuration")
+        flags = {name: value for name, value in target.flags if name in notation.fields}
+        selection = notation.select(_any(self.arm), matrix, flags, None if had else self.arm.home)
+        joints = selection.joints
+        if joints is None and not use.joint:
+            joints = self.arm.nearest(matrix, self.arm.home)
+        if self.other_arm:
+            joints = self.on_other_arm(matrix, joints)
+            if joints is None:
+                return _Refused(self.why_not(matrix), fatal=True)
+        if joints is None:
+            return _Refused(selection.reason)
+        wanted = _notation(self.target_notation)
+        return wanted.encode(_any(self.to_arm), joints) if wanted is not None else {}
+
+    # ---- another arm
+
+    def on_other_arm(self, flange: Any, joints: Any) -> Any:
+        """The other arm's joints for the same flange pose: the posture with the most equal names, turns minimal."""
+        assert self.arm is not None and self.to_arm is not None  # only with two arms
+        arm = self.to_arm
+        posture = None if joints is None else self.arm.posture(joints).branch
+        best, rank = None, (9, 0.0)
+        for solution in arm.inverse(flange, arm.home):
+            for choice in arm.expand_turns(solution):
+                differing = 0 if posture is None else _differing(posture, arm.posture(choice).branch)
+                travel = float(abs(choice - arm.home).sum())
+                if (differing, travel) < rank:
+                    best, rank = choice, (differing, travel)
+        return best
+
+    def why_not(self, flange: Any) -> str:
+        assert self.to_arm is not None  # only with two arms
+        found = self.to_arm.inverse(flange, self.to_arm.home)
+        return "every posture exceeds a joint limit" if found else "it is out of reach"
+
+    def joints(self, expression: ir.Aggregate) -> ir.Expression:
+        assert self.arm is not None and self.to_arm is not None  # only with two arms
+        value = constant(expression, self.scope, None)
+        given = _joint_values(value) if isinstance(value, Record) else None
+        if given is None or len(given) != self.arm.axes or self.to_arm.axes > len(_AXES):
+            self.context.diagnostics.report(JOINTS_LOST, expression.origin, arm=self.to_arm.name)
+            return super().expression(expression)
+        flange = self.arm.forward(_array(given))
+        found = self.on_other_arm(flange, _array(given))
+        if found is None:
+            what = {"arm": self.to_arm.name, "what": "joint position", "reason": self.why_not(flange)}
+            self.context.diagnostics.report(UNREACHABLE, expression.origin, **what)
+            return super().expression(expression)
+        new = {name: real(float(value)) for name, value in zip(_AXES, found, strict=False)}
+        return _with_joints(expression, new, self.named(expression, ir.JointsType()))
+
+
+def _check(name: str, value: bool) -> ir.Assign:
+    return ir.Assign(ir.System(name), ir.BoolLiteral(value))
+
+
+def _with_joints(
+    expression: ir.Aggregate, new: dict[str, ir.Expression], given: dict[str, ir.Expression]
+) -> ir.Aggregate:
+    """The aggregate, nested or not, with new joint values."""
+    if "robax" in given:
+        axes = ir.Aggregate(tuple(new.items()), type_name="axes", origin=given["robax"].origin)
+        rest = tuple((name, value) for name, value in given.items() if name != "robax")
+        return replace(expression, entries=(("robax", axes), *rest))
+    rest = tuple((name, value) for name, value in given.items() if name not in _AXES)
+    return replace(expression, entries=(*new.items(), *rest))
+
+
+def _joint_values(value: Record) -> list[float] | None:
+    axes = value.part("robax")
+    source = axes if isinstance(axes, Record) else value
+    values = [component(source, name) for name in _AXES]
+    found = [float(one) for one in values if isinstance(one, int | float)]
+    return found if len(found) == len(values) else None
+
+
+def _inserted(
+    entries: list[tuple[str, ir.Expression]], extra: list[tuple[str | None, ir.Expression]]
+) -> tuple[tuple[str | None, ir.Expression], ...]:
+    at = next((i for i, (name, _) in enumerate(entries) if name == "ext" or name in _EXTERNAL), len(entries))
+    return (*entries[:at], *extra, *entries[at:])
+
+
+def _differing(one: Any, other: Any) -> int:
+    """In how many names do two postures differ?"""
+    return sum(getattr(one, name) != getattr(other, name) for name in ("shoulder", "elbow", "wrist"))
+
+
+def _is_taught(expression: ir.Aggregate) -> bool:
+    """A target that only serves as a placeholder has no posture worth a report."""
+
+    def numbers(value: ir.Expression) -> list[float]:
+        match value:
+            case ir.Aggregate(entries=entries):
+                return [number for _, one in entries for number in numbers(one)]
+            case ir.IntLiteral(value=number) | ir.RealLiteral(value=number):
+                return [float(number)]
+        return []
+
+    return any(number not in (0.0, 1.0) and abs(number) < 9e8 for number in numbers(expression))
+
+
+def _notation(name: str) -> Notation | None:
+    make = registry.dialect(name).notation
+    return make() if make is not None else None
+
+
+def _array(values: Any) -> Any:
+    import numpy as np
+
+    return np.array(values, dtype=np.float64)
+
+
+def _any(arm: Arm) -> Any:
+    """A notation is written against the emulator's own model, which every arm is."""
+    return arm

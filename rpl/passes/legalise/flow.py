@@ -1,0 +1,422 @@
+"""Which tool and frame hold at each move, as far as they are constant, and which moves a written target serves.
+
+Tool and frame of a move are its own or the modal ones; those are followed through assignments, branches, loops and
+calls, as far as they are constant. A target reaches moves through variables, arrays, parameters and results.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from rpl import ir
+from rpl.passes import rigid
+from rpl.passes.fold import constant
+from rpl.passes.legalise.context import ProgramScope
+from rpl.passes.legalise.usage import base_name, bodies, each_expression, each_statement
+from rpl.passes.legalise.walk import unchanged_in
+from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import Scope
+from rpl.passes.values import Record, Value, pose_of
+
+_MODAL = ("tool", "base", "robot_root")
+_ROUNDS = 24
+State = dict[str, Value]
+
+
+@dataclass(frozen=True, slots=True)
+class Frames:
+    """Tool in the flange and frame in the robot's base at a move; None when not constant."""
+
+    tool: rigid.Pose | None
+    base: rigid.Pose | None
+
+    def flange(self, pose: rigid.Pose) -> rigid.Pose | None:
+        """The flange in the robot's base frame for a pose of the tool in the frame."""
+        if self.tool is None or self.base is None:
+            return None
+        return self.base.then(pose).then(self.tool.inverse)
+
+
+@dataclass(frozen=True, slots=True)
+class Use:
+    """One way a target is used. `joint`: its arm configuration chooses the posture."""
+
+    frames: Frames
+    joint: bool
+
+
+class ModalFlow:
+    """Follows modal tool and frame through a whole program; `frames` has each move by identity."""
+
+    def __init__(self, program: ir.Program, scopes: ProgramScope) -> None:
+        self.scopes, self.unchanged = scopes, unchanged_in(program)
+        self.frames: dict[int, Frames] = {}
+        self.relevant = _relevant(program)
+        self.entries: dict[int, State] = {}
+        self.calls: dict[int, State] = {}
+        self.exits: dict[int, State] = {}
+        self.ends: list[State] = []
+        self.routine: ir.Routine | None = None
+        every = list(scopes.routines())
+        self.scope_of = {id(routine): scopes.routine(module, routine) for module, routine in every}
+        called = self.called(every)
+        start: State = dict.fromkeys((f"${name}" for name in _MODAL), rigid.IDENTITY)
+        roots = [routine for _, routine in every if id(routine) not in called]
+        for _ in range(_ROUNDS):
+            before = (dict(self.entries), dict(self.exits))
+            self.calls = {id(root): dict(start) for root in roots if root.kind != "trap"}
+            for _, routine in every:
+                if id(routine) in self.entries or id(routine) in self.calls:
+                    self.visit(routine, dict(self.entries.get(id(routine), self.calls.get(id(routine), {}))))
+            self.entries = dict(self.calls)
+            if (self.entries, self.exits) == before:
+                break
+        for _, routine in every:
+            if id(routine) not in self.entries:
+                self.visit(routine, {})
+
+    def called(self, every: list[tuple[ir.Module, ir.Routine]]) -> set[int]:
+        found: set[int] = set()
+        for _, routine in every:
+            scope = self.scope_of[id(routine)]
+            for body in bodies(routine):
+                each_statement(body, lambda one, scope=scope: found.update(map(id, _callees(one, scope))))  # type: ignore[misc]
+        return found
+
+    def visit(self, routine: ir.Routine, state: State) -> None:
+        self.routine, self.ends = routine, []
+        scope = self.scope_of[id(routine)]
+        self.body(routine.body, state, scope)
+        for handler in routine.handlers:
+            self.body(handler.body, {}, scope)
+        for end in self.ends:
+            _join(state, end)
+        self.exits[id(routine)] = _outside(state, scope)
+
+    def body(self, body: ir.Body, state: State, scope: Scope) -> None:
+        for statement in body:
+            self.statement(statement, state, scope)
+
+    def statement(self, statement: ir.Statement, state: State, scope: Scope) -> None:
+        for callee in _callees(statement, scope):
+            self.call(callee, state, scope)
+        match statement:
+            case ir.Move():
+                self.frames[id(statement)] = self.of_move(statement, state, scope)
+            case ir.Assign(target=target, value=value):
+                self.assign(target, value, state, scope)
+            case ir.If(branches=branches, otherwise=otherwise):
+                self.branches(branches, otherwise, state, scope)
+            case ir.Switch(cases=cases, default=default):
+                ends = [self.ended(case.body, state, scope) for case in cases]
+                ends.append(self.ended(default or (), state, scope))
+                _replace(state, ends)
+            case ir.For(body=body) | ir.While(body=body) | ir.Repeat(body=body) | ir.Loop(body=body):
+                for _ in range(_ROUNDS):
+                    end = self.ended(body, state, scope)
+                    old = dict(state)
+                    _join(state, end)
+                    if state == old:
+                        break
+            case ir.Label():
+                state.clear()
+            case ir.Return():
+                self.ends.append(dict(state))
+            case ir.Spline(body=inner):
+                self.body(inner, state, scope)
+            case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
+                state.clear()
+
+    def ended(self, body: ir.Body, state: State, scope: Scope) -> State:
+        inside = dict(state)
+        self.body(body, inside, scope)
+        return inside
+
+    def branches(
+        self, branches: tuple[tuple[ir.Expression, ir.Body], ...], otherwise: ir.Body, state: State, scope: Scope
+    ) -> None:
+        ends: list[State] = []
+        for condition, body in branches:
+            known = constant(condition, scope, None, state) if self.mentions(condition) else None
+            if known is False:
+                self.ended(body, state, scope)  # its moves still need frames
+                continue
+            ends.append(self.ended(body, state, scope))
+            if known is True:
+                _replace(state, ends)
+                return
+        ends.append(self.ended(otherwise, state, scope))
+        _replace(state, ends)
+
+    def mentions(self, condition: ir.Expression) -> bool:
+        return bool(_names(condition) & self.relevant)
+
+    def assign(self, target: ir.Expression, value: ir.Expression, state: State, scope: Scope) -> None:
+        match target:
+            case ir.System(name=name) if name in _MODAL:
+                _put(state, f"${name}", pose_of(constant(value, scope, self.unchanged, state)))
+            case ir.Field(base=ir.System(name=name)):
+                state.pop(f"${name}", None)
+            case ir.Name(id=name) if name.lower() in self.relevant:
+                _put(state, name.lower(), constant(value, scope, self.unchanged, state))
+            case _:
+                state.pop(base_name(target) or "", None)
+
+    def call(self, callee: ir.Routine, state: State, scope: Scope) -> None:
+        passed = _outside(state, scope)
+        key = id(callee)
+        if key in self.calls:
+            _join(self.calls[key], passed)
+        else:
+            self.calls[key] = dict(passed)
+        end = self.exits.get(key)
+        if end is not None:
+            for name in [name for name in state if name in passed and end.get(name) != state[name]]:
+                del state[name]
+            state.update(end)
+
+    def of_move(self, move: ir.Move, state: State, scope: Scope) -> Frames:
+        settings = {place.name: value for place, value in move.settings if isinstance(place, ir.System)}
+        tool = self.part(move.tool or settings.get("tool"), "tool", state, scope)
+        base = self.part(move.frame or settings.get("base"), "base", state, scope)
+        root = pose_of(state.get("$robot_root", rigid.IDENTITY))
+        if base is not None and root is not None and root != rigid.IDENTITY:
+            base = root.inverse.then(base)
+        return Frames(tool, base)
+
+    def part(self, given: ir.Expression | None, name: str, state: State, scope: Scope) -> rigid.Pose | None:
+        if given is None:
+            return pose_of(state.get(f"${name}"))
+        value = constant(given, scope, self.unchanged, state)
+        if isinstance(value, Record):
+            if value.part("held") is (name == "base"):
+                return None  # the robot holds the part; the tool stands in the room
+            if name == "tool":
+                return pose_of(value.part("frame"))
+            user, item = pose_of(value.part("user_frame")), pose_of(value.part("object_frame"))
+            return user.then(item) if user and item else None
+        return pose_of(value)
+
+
+def _put(state: State, name: str, value: Value | None) -> None:
+    if value is None:
+        state.pop(name, None)
+    else:
+        state[name] = value
+
+
+def _join(state: State, other: State) -> None:
+    for name in [name for name, value in state.items() if other.get(name) != value]:
+        del state[name]
+
+
+def _replace(state: State, ends: list[State]) -> None:
+    first, *rest = ends
+    for one in rest:
+        _join(first, one)
+    state.clear()
+    state.update(first)
+
+
+def _outside(state: State, scope: Scope) -> State:
+    """What a called routine sees of it."""
+
+    def own(name: str) -> bool:
+        symbol = scope.value(name)
+        return symbol is None or symbol.routine is not None
+
+    return {name: value for name, value in state.items() if name.startswith("$") or not own(name)}
+
+
+def _callees(statement: ir.Statement, scope: Scope) -> list[ir.Routine]:
+    names: list[str] = []
+    if isinstance(statement, ir.CallRoutine) and statement.dynamic is None:
+        names.append(statement.name)
+
+    def look(expression: ir.Expression) -> None:
+        if isinstance(expression, ir.Call):
+            names.append(expression.name)
+
+    each_expression(statement, look)
+    found = [scope.routine(name) for name in names]
+    return [routine for routine in found if routine is not None]
+
+
+def _names(expression: ir.Expression) -> set[str]:
+    found: set[str] = set()
+
+    def look(one: ir.Expression) -> ir.Expression:
+        if isinstance(one, ir.Name):
+            found.add(one.id.lower())
+        return rewrite_parts(one, look)
+
+    look(expression)
+    return found
+
+
+def _relevant(program: ir.Program) -> set[str]:
+    """Variables that tool and frame may rest on."""
+    rests: dict[str, set[str]] = {}
+    wanted: set[str] = set()
+
+    def look(one: ir.Statement) -> None:
+        match one:
+            case ir.Assign(target=ir.System(name=name), value=value) if name in _MODAL:
+                wanted.update(_names(value))
+            case ir.Assign(target=ir.Name(id=name), value=value):
+                rests.setdefault(name.lower(), set()).update(_names(value))
+            case ir.If(branches=branches) if _sets_frames(one):
+                for condition, _ in branches:
+                    wanted.update(_names(condition))
+
+    for module in program.modules:
+        for routine in module.routines:
+            for body in bodies(routine):
+                each_statement(body, look)
+    size = -1
+    while size != len(wanted):
+        size = len(wanted)
+        for name in list(wanted):
+            wanted |= rests.get(name, set())
+    return wanted
+
+
+def _sets_frames(statement: ir.Statement) -> bool:
+    found = False
+
+    def look(one: ir.Statement) -> None:
+        nonlocal found
+        match one:
+            case ir.Assign(target=ir.System(name=name)) if name in _MODAL:
+                found = True
+
+    each_statement((statement,), look)
+    return found
+
+
+# ---- targets to the moves they serve
+
+
+@dataclass(slots=True)
+class Uses:
+    """For each written target (an aggregate, by identity) how it is used."""
+
+    found: dict[int, set[Use]] = field(default_factory=dict)
+    sources: dict[int, set[int]] = field(default_factory=dict)
+    moves: list[tuple[int, Use]] = field(default_factory=list)
+    keep: list[object] = field(default_factory=list)
+
+    @classmethod
+    def of(cls, program: ir.Program, scopes: ProgramScope) -> Uses:
+        uses = cls()
+        flow = ModalFlow(program, scopes)
+        for module in program.modules:
+            scope = scopes.module(module)
+            uses.declared(module.declarations, scope)
+            for routine in module.routines:
+                inner = scopes.routine(module, routine)
+                uses.declared(routine.declarations, inner)
+                for body in bodies(routine):
+                    each_statement(body, lambda one, s=inner, r=routine: uses.statement(one, s, r, flow))  # type: ignore[misc]
+        uses.spread()
+        return uses
+
+    def declared(self, declarations: tuple[ir.Declaration, ...], scope: Scope) -> None:
+        for one in declarations:
+            match one:
+                case ir.Variable(initial=initial) if initial is not None:
+                    self.feed(id(one), initial, scope)
+                case ir.Initialise(assign=assign):
+                    self.feed_place(assign.target, assign.value, scope)
+
+    def statement(self, statement: ir.Statement, scope: Scope, routine: ir.Routine, flow: ModalFlow) -> None:
+        match statement:
+            case ir.Assign(target=target, value=value):
+                self.feed_place(target, value, scope)
+            case ir.Return(value=value) if value is not None:
+                self.feed(id(routine), value, scope)
+            case ir.Move(target=target, via=via, kind=kind):
+                frames = flow.frames.get(id(statement), Frames(None, None))
+                use = Use(frames, kind == "joint")
+                for place in (target, via):
+                    if place is not None:
+                        self.moves.extend((root, use) for root in self.roots(place, scope))
+            case ir.CallRoutine(name=name, arguments=arguments, dynamic=None):
+                self.passed(name, arguments, scope)
+
+        def look(expression: ir.Expression) -> None:
+            if isinstance(expression, ir.Call):
+                self.passed(expression.name, expression.arguments, scope)
+
+        each_expression(statement, look)
+
+    def passed(self, name: str, arguments: tuple[ir.Argument, ...], scope: Scope) -> None:
+        routine = scope.routine(name)
+        if routine is None:
+            return
+        required = [one for one in routine.parameters if not one.optional]
+        by_name = {one.name.lower(): one for one in routine.parameters}
+        for at, argument in enumerate(arguments):
+            if argument.value is None:
+                continue
+            positional = required[at] if at < len(required) else None
+            parameter = by_name.get(argument.name.lower()) if argument.name else positional
+            if parameter is not None:
+                self.feed(id(parameter), argument.value, scope)
+                if parameter.mode == "reference":
+                    for root in self.roots(argument.value, scope):
+                        self.sources.setdefault(root, set()).add(id(parameter))
+
+    def feed_place(self, target: ir.Expression, value: ir.Expression, scope: Scope) -> None:
+        for place in self.roots(target, scope):
+            self.feed(place, value, scope)
+
+    def feed(self, place: int, value: ir.Expression, scope: Scope) -> None:
+        found = set(self.roots(value, scope))
+        if found:
+            self.sources.setdefault(place, set()).update(found)
+
+    def roots(self, value: ir.Expression, scope: Scope) -> Iterator[int]:
+        """What a value's arm configuration comes from: declarations, routines, written aggregates."""
+        match value:
+            case ir.Name(id=name):
+                symbol = scope.value(name)
+                if symbol is not None:
+                    yield id(symbol.declaration)
+            case ir.Index(base=base) | ir.Field(base=base):
+                yield from self.roots(base, scope)
+            case ir.Binary(op=":", right=right):
+                yield from self.roots(right, scope)
+            case ir.Builtin(arguments=(first, *_)):
+                yield from self.roots(first, scope)
+            case ir.Call(name=name):
+                routine = scope.routine(name)
+                if routine is not None:
+                    yield id(routine)
+            case ir.Aggregate(entries=entries):
+                yield id(value)
+                self.keep.append(value)
+                for _, entry in entries:
+                    self.sources.setdefault(id(value), set()).update(self.roots(entry, scope))
+
+    def reach(self, value: ir.Expression, scope: Scope) -> set[int]:
+        """Everything that the value's arm configuration may come from."""
+        found: set[int] = set()
+        work = list(self.roots(value, scope))
+        while work:
+            key = work.pop()
+            if key not in found:
+                found.add(key)
+                work.extend(self.sources.get(key, ()))
+        return found
+
+    def spread(self) -> None:
+        work = list(self.moves)
+        while work:
+            key, use = work.pop()
+            have = self.found.setdefault(key, set())
+            if use in have:
+                continue
+            have.add(use)
+            work.extend((source, use) for source in self.sources.get(key, ()))
