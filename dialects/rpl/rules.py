@@ -1,8 +1,8 @@
 """How a program in RPL itself behaves; a module `USING` another language keeps that language's rules.
 
-The choices are the ones that surprise least: conversions are written down, a variable without a value is an error,
-`AND` and `OR` evaluate both sides (`AND THEN`, `OR ELSE` do not), and the program is one move ahead of the robot, so
-that it can blend; a statement that needs the robot to stand says so (WAIT FOR MOTION, AT REST).
+The choices are the ones that surprise least. Conversions are written down, a variable without a value is an error,
+`AND` and `OR` evaluate both sides (`AND THEN`, `OR ELSE` do not). A move without a blend has ended before the next
+statement begins; behind a move with a blend the program goes on when the robot reaches the corner.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from rpl.ir.words import NATIVE
 
 RULES = Rules(
     name=NATIVE,
-    advance=AdvanceRules(moves=1, stop_statements=frozenset(("Halt", "Wait", "WaitUntil", "Message", "Dialog"))),
+    advance=AdvanceRules(moves=1, runs_ahead_of="fly_by", stop_statements=frozenset(("Halt",))),
     undefined=True,
     system_defaults={
         "path_speed": 250.0,
