@@ -35,8 +35,8 @@ class Capabilities:
     system timers there are (`timer[1]` ...). dynamic_calls: a procedure may be called by a name computed at run time.
     switch_types: type classes a Switch may select by (NamedType: enumerations); empty: any type.
     switch_constant_cases: case values must be literals. text_results: functions may return texts.
-    format_state: type of the state that format_into writes; None when it has none. carries_rules: the target's text says
-    by which language's rules a module runs (RPL's USING), so nothing has to be rewritten.
+    format_state: type of the state that format_into writes; None when it has none. carries_rules: the target's text
+    says by which language's rules a module runs (RPL's USING), so nothing has to be rewritten.
     """
 
     statements: frozenset[str]
