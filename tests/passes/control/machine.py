@@ -166,7 +166,7 @@ class Machine:
             key = parameter.name.lower()
             if argument.if_present and argument.if_present.lower() not in caller.present:
                 continue
-            if argument.value is None:
+            if argument.value is None or parameter.switch:
                 if argument.name:
                     frame.present.add(key)
                 continue
