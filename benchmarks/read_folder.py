@@ -20,6 +20,7 @@ from pathlib import Path
 
 from rpl import registry
 from rpl.diagnostics import Diagnostics, Severity
+from rpl.passes.typing import normalise
 from rpl.project import recognise
 from rpl.reading.ledger import FileReport
 from rpl.source import Source, read_source
@@ -88,6 +89,7 @@ def measure(folders: Sequence[Path], dialect: str | None, progress: bool) -> tup
             started = time.perf_counter()
             result = registry.dialect(name).read(group, diagnostics)
             tallies[name].seconds += time.perf_counter() - started
+            normalise(result.program, diagnostics)  # what makes no sense counts like what cannot be read
             count(tallies[name], result.files, diagnostics)
             if progress:
                 print(f"\r{tallies[name].files} {name} files, {folder}"[:110].ljust(110), end="", file=sys.stderr)
