@@ -114,9 +114,9 @@ def _actions(statement: ir.Statement) -> list[ir.CallRoutine]:
 
 
 def _call(facts: _Facts, here: str, name: str, arguments: tuple[ir.Argument, ...], scope: Scope) -> None:
-    for argument in arguments:
-        if argument.if_present:
-            facts.asked.add((here, argument.if_present.lower()))
+    for one in arguments:
+        if one.if_present:
+            facts.asked.add((here, one.if_present.lower()))
     routine = scope.routine(name)
     if routine is None:
         return
