@@ -25,11 +25,16 @@ _SIGN = re.compile(
     r'"(?:[^"\\\n\r]|\\[^\n\r])*"|`(?:[^`\\\n\r]|\\[^\n\r])*`|(?P<comment>--[^\n\r]*)|(?P<end>;)'
     r"|(?P<open>[(\[{])|(?P<close>[)\]}])|(?P<line>\r\n|\n|\r)"
 )
-_FIRST_WORD = re.compile(r"[ \t\f]*([A-Za-z]\w*)?[ \t\f]*([\r\n]|$)?")
+_NEXT = re.compile(r"[ \t\f]*(?:([^\W\d]\w*)|([\w\"`$#])|([\r\n]|$))?")
+_LAST = re.compile(r"([^\W\d]\w*)$|[\w\")\]}`]$")
 # Words that begin a line inside brackets only when the bracket before was never closed.
 _BEGINNERS = words.RESERVED - frozenset(
     ("true", "false", "not", "bnot", "on", "off", "switch", "array", "signal", "vendor", "plain")
 ) | {"end"}
+# Words between operands: a line may end or begin with them.
+_BETWEEN = frozenset(("and", "or", "xor", "then", "else", "not", "bnot", "div", "mod", "quo", "band", "bor", "bxor"))
+_BETWEEN |= {"as", "to", "of", "from", "if", "switch"}
+_LONGEST_WORD = 200
 _BLANKS = " \t\f\r\n\ufeff\x1a"
 
 
@@ -69,15 +74,24 @@ def _statement(text: str, start: int) -> tuple[list[Piece], int]:
             case "end" if depth == 0:
                 return _piece(text, start, match.start(), remarks, ended_by_line=False, until=at), at
             case "line":
-                if depth == 0 or _begins_anew(text, at):
+                code_end = remarks[-1][0] if remarks and remarks[-1][1] == match.start() else match.start()
+                if depth == 0 or _begins_anew(text, start, code_end, at):
                     return _piece(text, start, match.start(), remarks, ended_by_line=True), at
 
 
-def _begins_anew(text: str, at: int) -> bool:
-    match = _FIRST_WORD.match(text, at)
-    if match is None or match[2] is not None:
-        return match is not None and match[1] is None
-    return match[1] is not None and match[1].lower() in _BEGINNERS
+def _begins_anew(text: str, start: int, end: int, at: int) -> bool:
+    """Is a bracket that is open at the end of the line `start:end` a mistake, because a new statement begins at `at`?
+    So it is at an empty line, before a keyword of a statement, and where two operands would stand side by side."""
+    match = _NEXT.match(text, at)
+    if match is None or match[3] is not None:
+        return True
+    word = (match[1] or "").lower()
+    if word in _BEGINNERS:
+        return True
+    if (match[1] is None and match[2] is None) or word in _BETWEEN:
+        return False
+    last = _LAST.search(text[max(start, end - _LONGEST_WORD) : end].rstrip())
+    return last is not None and (last[1] or "").lower() not in _BETWEEN
 
 
 def _piece(
