@@ -6,14 +6,20 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context, Pass, names_in
+from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.explicit import explicit_to_modal
 from rpl.passes.legalise.interrupts import interrupts
+from rpl.passes.legalise.logic import decide_logic
 from rpl.passes.legalise.lookahead import stop_blends
+from rpl.passes.legalise.loops import fit_loops
 from rpl.passes.legalise.modal import modal_to_explicit
+from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.prelude import link_prelude
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.signals import name_signals, number_signals
+from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.triggers import triggers
+from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.typing import normalise
 
 # First what asks for the source language's own rules (its prelude, its look-ahead), then control, data, motion.
@@ -27,6 +33,13 @@ PASSES: tuple[Pass, ...] = (
     explicit_to_modal,
     name_signals,
     number_signals,
+    # control: each may make what a later one rewrites (errors make Repeat, switches make cor)
+    fit_parameters,
+    check_errors,
+    fit_waits,
+    unroll_switches,
+    decide_logic,
+    fit_loops,
 )
 
 
