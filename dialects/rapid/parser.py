@@ -78,7 +78,11 @@ class RapidParser(ShapeParser):
             tree: Tree[Token] = self._grammar.parse(shape)
         except UnexpectedInput as error:
             raise self._refusal(error, text) from None
-        # A reserved word where only a name can stand is read as one, but it was not taken out of the shape.
+        for token in tree.scan_values(lambda value: isinstance(value, Token) and value.type == "NAME"):
+            if str(token) in RESERVED and tree.data != "module_head":
+                found = re.search(rf"\b{token}\b", text, re.IGNORECASE)
+                raise StatementError(f"{token} is a reserved word", found.start() if found else 0)
+        # A module named like a reserved word is read; the name was not taken out of the shape.
         tokens = list(tree.scan_values(lambda value: isinstance(value, Token) and _taken_out(value)))
         order = {id(token): index for index, token in enumerate(sorted(tokens, key=lambda token: token.start_pos or 0))}
         return _with_slots(tree, order)

@@ -14,12 +14,14 @@ from rpl.registry import ReadResult
 from rpl.source import Origin, Source
 
 from .blocks import Blocks, part
+from .instructions import INSTRUCTIONS
 from .parser import RapidParser
 from .prelude import PREDEFINED_NAMES
 from .project import Project, survey
 from .recognise import encoded
 from .splitter import split
 from .statements import Statements
+from .vendor import EFFECTS
 
 ENCODED = code(
     "encoded-module",
@@ -55,7 +57,7 @@ def _read_file(
 ) -> tuple[list[ir.Module], FileReport]:
     statements = Statements(project, source.path, diagnostics)
     blocks = Blocks(diagnostics)
-    pieces = split(source, parser)
+    pieces = split(source, parser, statement_names(project))
     assembly = assemble(source, "rapid", pieces, parser, statements.lower, blocks.build, diagnostics)
     task = _TASK_FOLDER.search(source.path)
     parts = _parts(assembly.items, source, diagnostics)
@@ -72,6 +74,11 @@ def _read_file(
         for found in parts
     ]
     return modules, assembly.report
+
+
+def statement_names(project: Project) -> frozenset[str]:
+    """Names that begin a statement: installed instructions and the project's procedures."""
+    return (frozenset(INSTRUCTIONS) | EFFECTS.keys() | project.routines) - project.declared
 
 
 def _parts(items: tuple[Item, ...], source: Source, diagnostics: Diagnostics) -> list[ModulePart]:

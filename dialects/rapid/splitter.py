@@ -7,15 +7,17 @@ begin a statement, or, when it does not parse, at a line break behind which one 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
+from dataclasses import replace
 
-from rpl.reading.pieces import COMMENT, STATEMENT, Piece
+from rpl.reading.pieces import COMMENT, LAYOUT, STATEMENT, Piece
 from rpl.source import Source
 
 from .parser import RapidParser
 from .words import PLACEHOLDERS, words
 
 _BLANKS = re.compile(r"[\s\ufeff\x00]+")
+_JUNK = re.compile(r"[\ufeff\x00]")  # a byte order mark and zeros belong to what follows
 _COMMENT = re.compile(r"!([^\r\n]*)")
 _BEHIND = re.compile(r"[ \t]*!([^\r\n]*)")
 _HEADER = re.compile(r"%%%(?:[^%]*)%%%")
@@ -30,7 +32,10 @@ _MODULE = re.compile(r"MODULE\s+[^\s(;!]+(?:\s*\([^()]*\))?", re.IGNORECASE)
 _TRAP_OR_RECORD = re.compile(r"(?:LOCAL\s+)?(?:TRAP|RECORD)[ \t]+[^\s;!]+", re.IGNORECASE)
 _ROUTINE = re.compile(r"(?:LOCAL\s+)?(?:PROC|FUNC)\b[^();!\r\n]*\(", re.IGNORECASE)
 _PLACEHOLDER = re.compile(r"<(?:SMT|EIT|DDN|RDN|TDN|CSE)>\s*;?", re.IGNORECASE)
-_DECLARING = re.compile(r"(?:LOCAL|TASK)?\s*(?:CONST|VAR|PERS|ALIAS)\b", re.IGNORECASE)
+# Behind these a line break says nothing: a compact IF may put its statement there.
+_MAY_GO_ON = re.compile(r"(?:IF|LOCAL|TASK|CONST|VAR|PERS|ALIAS|PROC|FUNC)\b", re.IGNORECASE)
+_INSTRUCTION = re.compile(r"[^\W\d]\w*+(?!\s*[(.{:+])")  # not a function or a variable in an expression
+_ASSIGNMENT = re.compile(r"[^\W\d]\w*\s*:=")
 
 # Words that can only begin a statement or end a block. Inside another statement they prove that its end is missing.
 _STARTERS = (
@@ -41,20 +46,24 @@ _SIGNS = rf"{_STRING}|!|;|<SMT>|(?<![\w\\.])(?:THEN|DO|{_STARTERS})\b"
 _STATEMENT_END = re.compile(_SIGNS, re.IGNORECASE)
 _CASE_END = re.compile(rf"{_SIGNS}|:(?!=)", re.IGNORECASE)
 _PARENTHESES = re.compile(r'[()]|!|;|"(?:[^"\r\n]|"")*"')
-_SUSPICIOUS = re.compile(rf"{_STRING}|[\[({{]|[\])}}]|(?<=[\w\])}}\"])[ \t]*(?:\r\n|\r|\n)\s*(?=[^\W\d])")
+_SUSPICIOUS = re.compile(rf"{_STRING}|[\[({{]|[\])}}]|[ \t]*(?:\r\n|\r|\n)\s*(?=[^\W\d])")
+_COMPLETE = re.compile(r"[\w\])}\"]")
 _HEADS = {"IF": "THEN", "ELSEIF": "THEN", "FOR": "DO", "WHILE": "DO"}
 _PLACEHOLDER_WORDS = frozenset(f"<{word}>" for word in PLACEHOLDERS)
 
 
-def split(source: Source, parser: RapidParser) -> Iterator[Piece]:
-    """All pieces of a source in order. Comments inside a statement go behind it."""
-    return _Splitter(source.text, parser).pieces()
+def split(source: Source, parser: RapidParser, instructions: Container[str] = ()) -> Iterator[Piece]:
+    """All pieces of a source in order. Comments inside a statement go behind it.
+
+    instructions: names (lower case) that begin a statement when they begin a line."""
+    return _Splitter(source.text, parser, instructions).pieces()
 
 
 class _Splitter:
-    def __init__(self, text: str, parser: RapidParser) -> None:
+    def __init__(self, text: str, parser: RapidParser, instructions: Container[str]) -> None:
         self.text = text
         self.parser = parser
+        self.instructions = instructions
         self.remarks: list[tuple[int, int, str]] = []
 
     def pieces(self) -> Iterator[Piece]:
@@ -62,20 +71,25 @@ class _Splitter:
         while True:
             blank = _BLANKS.match(text, at)
             if blank:
+                lead = at if _JUNK.search(text, at, blank.end()) else blank.end()
                 at = blank.end()
+            else:
+                lead = at
             if at >= length:
+                if lead < at:
+                    yield Piece(LAYOUT, lead, at, "")
                 return
             if text[at] == "!":
                 comment = _COMMENT.match(text, at)
                 end = comment.end() if comment else length
-                yield Piece(COMMENT, at, end, text[at + 1 : end].rstrip())
+                yield Piece(COMMENT, lead, end, text[at + 1 : end].rstrip())
                 at = end
                 continue
             self.remarks = []
             end = max(self.end_of(at), at + 1)
             for start, stop in self.mended(at, end):
                 piece = self.statement(start, stop)
-                yield piece
+                yield replace(piece, start=lead) if lead < start == at else piece
                 at = piece.end
 
     def statement(self, start: int, end: int) -> Piece:
@@ -229,9 +243,19 @@ class _Splitter:
         if "\n" not in text[start:end] and "\r" not in text[start:end]:
             return [(start, end)]
         breaks = self.suspicious_breaks(start, end)
-        if not breaks or self.parser.reads(self.statement(start, end).text):
+        if not breaks:
             return [(start, end)]
         spans, at = [], start
+        certain = [place for place in breaks if self.begins_another(start, place)]
+        if certain:
+            for stop, further in certain:
+                spans.append((at, stop))
+                at = further
+            return [*spans, *self.mended(at, end)]
+        whole = self.statement(start, end).text
+        breaks = [place for place in breaks if _COMPLETE.match(whole, place[0] - start - 1)]
+        if not breaks or self.parser.reads(whole):
+            return [(start, end)]
         for stop, further in breaks:
             rest = self.statement(further, end).text
             spans.append((at, stop))
@@ -241,8 +265,20 @@ class _Splitter:
         spans.append((at, end))
         return spans
 
+    def begins_another(self, start: int, place: tuple[int, int]) -> bool:
+        """Does another statement certainly begin behind this line break? `Stop` and `n:=1;` on the next line would
+        read as a call with a named argument."""
+        first = _WORD.match(self.text, start)
+        if first is None or _MAY_GO_ON.match(self.text, start):
+            return False
+        word = _INSTRUCTION.match(self.text, place[1])
+        if word is not None and word.group().lower() in self.instructions:
+            return True
+        installed = first.group().lower() in self.instructions
+        return (first.end() == place[0] or installed) and _ASSIGNMENT.match(self.text, place[1]) is not None
+
     def suspicious_breaks(self, start: int, end: int) -> list[tuple[int, int]]:
-        """Line breaks outside of brackets between two words: a statement that lacks its end may stop there."""
+        """Line breaks outside of brackets before a word: a statement that lacks its end may stop there."""
         depth, found = 0, []
         for match in _SUSPICIOUS.finditer(self.statement(start, end).text):
             sign = match.group()
