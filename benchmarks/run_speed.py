@@ -1,6 +1,6 @@
 """How fast programs run on the emulated robot: simulated seconds per second, for samples or any program.
 
-    python benchmarks/run_speed.py [PATH...] [--robot R]
+python benchmarks/run_speed.py [PATH...] [--robot R]
 """
 
 from __future__ import annotations
