@@ -25,7 +25,13 @@ from .split import SHAPE, SLOTS, split
 OUTSIDE = code(
     "krl-outside-routine", Severity.WARNING, "instructions outside of DEF ... END", "they are read as routine {name}"
 )
-DATA_ALONE = code("krl-two-data-lists", Severity.WARNING, "a second data list named {name}; both are read")
+TWICE = code("krl-two-data-lists", Severity.INFO, "a second data list named {name}; both are read")
+IMPORTED = code(
+    "krl-import",
+    Severity.WARNING,
+    "{name} stands for {target} of another module; it is not connected to it here",
+    "use the same name in both modules",
+)
 
 _ROUTINE = re.compile(
     r"^[ \t]*(?:GLOBAL[ \t]+)?DEF(?:FCT[ \t]+[\w$]+[ \t]*(?:\[[^\]\n]*\])?)?[ \t]+([\w$]+)",
@@ -37,8 +43,10 @@ _TYPED = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 _DECLARED_NAME = re.compile(r"([A-Za-z_$][\w$]*)[ \t]*(?:\[[^\]]*\])?[ \t]*(?:,|$)")
+_IMPORT = re.compile(
+    r"IMPORT\s+[\w$]+\s+([\w$]+)\s*(?:\[[^\]]*\])?\s+IS\s+(?:/\w+)*/([\w$]+)\s*\.\.\s*([\w$]+)", re.IGNORECASE
+)
 _CONFIG = "$config"
-_STATEMENTS = ir.Statement
 
 
 @cache
@@ -86,6 +94,7 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
         _sort_items(source, done.items, modules, diagnostics)
     order = {source.path: position for position, source in enumerate(sources)}
     reports.sort(key=lambda report: order[report.path])
+    _connect_imports(list(modules.values()), diagnostics)
     built = tuple(_module(parts) for parts in modules.values())
     tasks = tuple(
         ir.Task(parts.name.lower(), parts.routines[0].name, "background", modules=(parts.name,))
@@ -162,7 +171,7 @@ def _parts_for(
     if key in modules:
         key = f"{key}#{len(modules)}"
         if is_list:
-            diagnostics.report(DATA_ALONE, lists[0].origin, name=wanted)
+            diagnostics.report(TWICE, lists[0].origin, name=wanted)
     origin = (lists[0] if is_list else routines[0]).origin if (lists or routines) else Origin(source)
     parts = modules[key] = _Parts(wanted, origin=replace(origin, comments=()))
     return parts
@@ -188,6 +197,31 @@ def _visible(part: ModulePart, public: bool) -> Iterable[ir.Declaration]:
                 yield replace(declaration, scope="global")
             case _:
                 yield declaration
+
+
+def _connect_imports(modules: list[_Parts], diagnostics: Diagnostics) -> None:
+    """`IMPORT INT X IS /R1/OTHER..X`: the datum of a PUBLIC list becomes visible everywhere under its own name."""
+    lists = {parts.name.lower(): parts for parts in modules if parts.has_data}
+    for parts in modules:
+        every = [*parts.declarations, *(item for routine in parts.routines for item in routine.declarations)]
+        for declaration in every:
+            if not isinstance(declaration, ir.ExternalDeclaration):
+                continue
+            found = _IMPORT.match(declaration.text)
+            if found is None:
+                continue
+            name, module, target = found.groups()
+            home = lists.get(module.lower())
+            if home is None or name.lower() != target.lower():
+                diagnostics.report(IMPORTED, declaration.origin, name=name, target=f"{module}..{target}")
+                continue
+            home.declarations = [_made_global(item, target.lower()) for item in home.declarations]
+
+
+def _made_global(declaration: ir.Declaration, name: str) -> ir.Declaration:
+    if isinstance(declaration, ir.Variable) and declaration.name.lower() == name:
+        return replace(declaration, scope="global")
+    return declaration
 
 
 def _module(parts: _Parts) -> ir.Module:

@@ -129,6 +129,19 @@ def test_a_damaged_line_costs_itself_alone(damage: str) -> None:
     assert without_comments(mended) == without_comments(whole.modules[0].routines[0].body)
 
 
+def test_an_imported_datum_is_seen_under_its_name() -> None:
+    program, diagnostics = read(
+        {
+            "a.src": "DEF A()\nIMPORT INT SHARED IS /R1/OTHER..SHARED\nIMPORT REAL X IS /R1/OTHER..Y\nSHARED=1\nEND\n",
+            "other.dat": "DEFDAT OTHER PUBLIC\nDECL INT SHARED=0\nDECL REAL Y=0.0\nENDDAT\n",
+        }
+    )
+    shared, private = program.modules[1].declarations
+    assert isinstance(shared, ir.Variable) and shared.scope == "global"
+    assert isinstance(private, ir.Variable) and private.scope == "module"
+    assert [item.code.name for item in diagnostics] == ["krl-import"]
+
+
 def test_missing_and_stray_ends() -> None:
     program, diagnostics = read("DEF P()\nIF TRUE THEN\nX=1\nEND\nDEF Q()\nENDLOOP\nEND\n", normal=False)
     assert [routine.name for routine in program.modules[0].routines] == ["P", "Q"]
