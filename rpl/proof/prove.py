@@ -88,6 +88,15 @@ def prove_programs(
     )
 
 
+def load_cell(path: str | None) -> Cell | None:
+    """The surroundings described by a cell file; None without a path."""
+    if path is None:
+        return None
+    from rpl.cell import load_cell
+
+    return load_cell(path)
+
+
 def _model(robot: str | RobotModel | None) -> RobotModel | None:
     if isinstance(robot, str):
         from rpl.emulator.model import load_robot

@@ -6,30 +6,17 @@ program may know them; see `signal_names`.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from rpl.runtime.signals import usual_key
 from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.emulator.rotations import FloatArray
 
 Value = bool | int | float | str | None
-
-# How people name signals by number, whatever the language: word -> kind. `do3`, `DO_3`, `$OUT[3]`, `out3`, `DOUT[3]`.
-_WORDS = {
-    "digital_out": ("out", "do", "dout", "output", "digitalout", "digout", "q"),
-    "digital_in": ("in", "di", "din", "input", "digitalin", "digin", "i"),
-    "analog_out": ("ao", "anout", "aout", "analogout"),
-    "analog_in": ("ai", "anin", "ain", "analogin"),
-    "group_out": ("go", "gout", "groupout"),
-    "group_in": ("gi", "gin", "groupin"),
-    "flag": ("flag", "flg"),
-}
-_KIND_OF_WORD = {word: kind for kind, words in _WORDS.items() for word in words}
-_NUMBERED = re.compile(r"\$?([A-Za-z_]+?)_?\s*[\[(]?\s*0*(\d+)\s*[\])]?$")
 
 
 def signal_names(
@@ -44,11 +31,8 @@ def signal_names(
     if index is not None and kind:
         keys.add(f"{kind}:{index}" if last is None or last == index else f"{kind}:{index}-{last}")
         return frozenset(keys)
-    for name in list(keys):
-        match = _NUMBERED.fullmatch(name)
-        if match and match[1].replace("_", "") in _KIND_OF_WORD:
-            keys.add(f"{_KIND_OF_WORD[match[1].replace('_', '')]}:{int(match[2])}")
-    return frozenset(keys)
+    usual = [found for name in keys if (found := usual_key(name)) is not None]
+    return frozenset(keys | {f"{word}:{number}" for word, number in usual})
 
 
 @dataclass(frozen=True, slots=True)
