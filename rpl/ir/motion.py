@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from rpl.ir.actions import Assign, CallRoutine, Nothing, Opaque
+from rpl.ir.actions import Assign, CallRoutine, Nothing, Opaque, Vendor
 from rpl.ir.expressions import Expression
 from rpl.source import NOWHERE, Origin
 
@@ -156,7 +156,7 @@ class Spline:
     """A spline block: its moves and triggers form one path. kind: path (SPLINE) or joint (PTP_SPLINE)."""
 
     kind: str
-    body: tuple[Move | Trigger | Assign | CallRoutine | Nothing | Opaque, ...]
+    body: tuple[Move | Trigger | Assign | CallRoutine | Vendor | Nothing | Opaque, ...]
     blend: Blend | None = None
     settings: tuple[tuple[Expression, Expression], ...] = ()
     origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
