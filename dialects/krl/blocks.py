@@ -23,6 +23,7 @@ NOT_IN_SWITCH = code(
     "krl-before-first-case", Severity.WARNING, "instructions between SWITCH and the first CASE are never executed"
 )
 
+_InSpline = ir.Move | ir.Trigger | ir.Assign | ir.CallRoutine | ir.Vendor | ir.Nothing | ir.Opaque
 _DECLARATIONS = get_args(ir.Declaration)
 _STATEMENTS = get_args(ir.Statement)
 
@@ -94,9 +95,9 @@ class Builder:
         origin = block.open.origin
         if block.close and isinstance(block.close.data, tuple):
             words = words + block.close.data
-        kept: list[ir.Move | ir.Trigger | ir.Assign | ir.CallRoutine | ir.Nothing | ir.Opaque] = []
+        kept: list[_InSpline] = []
         for statement in body:
-            if isinstance(statement, ir.Move | ir.Trigger | ir.Assign | ir.CallRoutine | ir.Nothing | ir.Opaque):
+            if isinstance(statement, _InSpline):
                 kept.append(statement)
             else:
                 self.diagnostics.report(MISPLACED, statement.origin, what="this statement in a spline block")

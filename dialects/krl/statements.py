@@ -285,6 +285,11 @@ class Statements(Declarations):
             priority(pieces, origin), condition(pieces, origin), action(pieces, origin), everywhere, origin=origin
         )
 
+    def on_controller_only(self, tree: SyntaxTree) -> Build:
+        """Conditions, times and constant speeds of spline blocks, asynchronous axes."""
+        text = str(tree.children[0]).rstrip()
+        return lambda pieces, origin: ir.Vendor("krl", text, "unknown", origin=origin)
+
     def on_cyclic(self, tree: SyntaxTree) -> Build:
         """Cyclic analog signals: only the controller's own cycle can follow the value."""
         return lambda pieces, origin: ir.Vendor("krl", code_text(origin), "unknown", origin=origin)

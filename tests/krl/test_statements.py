@@ -102,6 +102,11 @@ STATEMENTS = [
     ("ON_ERROR_PROCEED", ir.Vendor),
     ("ANOUT ON X = 3.5 * $VEL.CP DELAY = 0.1 MAXIMUM=1.0", ir.Vendor),
     ("PTP !", ir.Vendor),
+    ("STOP WHEN PATH = 50 IF $IN[10]==FALSE", ir.Vendor),
+    ("TIME_BLOCK PART = 12.5", ir.Vendor),
+    ("CONST_VEL START = 50 ONSTART", ir.Vendor),
+    ("ASYPTP {E1 10}", ir.Vendor),
+    ("STOP = 3", ir.Assign),
     ("UNKNOWN_ROUTINE(1,2)", ir.CallRoutine),
     ("$OUT_C[4]=TRUE", ir.Trigger),
 ]
@@ -153,6 +158,7 @@ LOOP
 ENDLOOP
 SPLINE WITH $VEL.CP=0.1
   SPL P1
+  STOP WHEN PATH = 50 IF $IN[10]==FALSE
   SLIN P2
 ENDSPLINE C_DIS
 """
@@ -169,4 +175,4 @@ def test_blocks() -> None:
     assert [type(item).__name__ for item in choice.otherwise] == ["Assign"]
     assert isinstance(switch, ir.Switch) and len(switch.cases[0].values) == 2 and switch.default
     assert isinstance(loop, ir.For) and loop.counter == "I" and shown(loop.step or ir.Name("")) == "(- 1)"
-    assert isinstance(spline, ir.Spline) and len(spline.body) == 2 and spline.blend == _MODAL_DISTANCE
+    assert isinstance(spline, ir.Spline) and len(spline.body) == 3 and spline.blend == _MODAL_DISTANCE
