@@ -27,6 +27,7 @@ class Tolerance:
     above and far below anything that a robot repeats.
 
     place_mm: where on a moving path an output may switch. wait_s: of a timed wait. time_share: of a whole run's time.
+    polling_share: of the time since the start, by which two polling loops may differ (other accelerations before them).
     """
 
     path_mm: float = 0.01
@@ -36,6 +37,7 @@ class Tolerance:
     wait_s: float = 0.002
     time_s: float = 0.01
     time_share: float = 0.01
+    polling_share: float = 0.05
     number: float = 1e-6
 
 
@@ -136,11 +138,19 @@ def same_event(a: Happening, b: Happening, tolerance: Tolerance) -> bool:
         case "output":
             return bool(a.names & b.names) and same_value(a.value, b.value, tolerance.number)
         case "wait":
-            return same_value(a.value, b.value, tolerance.wait_s)
+            return same_value(a.value, b.value, tolerance.wait_s) or _same_polling(a, b, tolerance)
         case "message" | "dialog":
             return " ".join(str(a.value).split()) == " ".join(str(b.value).split())
         case _:
             return a.value == b.value
+
+
+def _same_polling(a: Happening, b: Happening, tolerance: Tolerance) -> bool:
+    """A polling loop may end as much earlier or later as it began later or earlier."""
+    if a.times == b.times or not isinstance(a.value, int | float) or not isinstance(b.value, int | float):
+        return False
+    slack = max(2.0 * max(a.longest_s, b.longest_s), tolerance.polling_share * max(a.t + a.value, b.t + b.value))
+    return abs(a.value - b.value) <= slack
 
 
 def same_value(a: Value, b: Value, slack: float) -> bool:

@@ -65,6 +65,7 @@ class Happening:
 
     value: the output's value, the message's text, the seconds of a timed wait (None: on a condition), the fault's code,
     the status at the end. `along` is how far the tool had travelled on its whole path, mm; `moving` whether it moved.
+    Timed waits in a row are one wait for their sum: so many `times`, the longest of them `longest_s`.
     """
 
     kind: str
@@ -74,6 +75,8 @@ class Happening:
     place: Place = field(default_factory=Place)
     along: float = 0.0
     moving: bool = False
+    times: int = 1
+    longest_s: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)

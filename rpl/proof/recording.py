@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,6 +24,7 @@ _STEP_MM, _STEP_DEG = 1.0, 1.0
 _FEWEST, _MOST = 9, 600
 # Waits shorter than this make nobody wait.
 _SHORTEST_WAIT_S = 1e-4
+_STANDING_MM = 1e-3
 
 
 def record_of(result: RunResult, program: ir.Program, robot: RobotModel | None = None) -> Record:
@@ -31,7 +33,7 @@ def record_of(result: RunResult, program: ir.Program, robot: RobotModel | None =
     tasks = {}
     for task, way in ways.items():
         counted = [_happening(event, way) for event in way.events]
-        tasks[task] = tuple(happening for happening in counted if happening is not None)
+        tasks[task] = tuple(_without_polling([happening for happening in counted if happening is not None]))
     motion = {task: way.stretches() for task, way in ways.items() if way.moves}
     language = next((module.dialect for module in program.modules), "")
     return Record(result.status, result.time_s, tasks, motion, robot.name if robot else "", language)
@@ -62,17 +64,42 @@ def _happening(event: Event, way: _Way) -> Happening | None:
             text = str(event.data.get("text", ""))
             return Happening("message", event.t, text, place=place, along=along, moving=moving) if text else None
         case "wait":
-            seconds = event.data.get("duration")
-            if isinstance(seconds, int | float) and seconds < _SHORTEST_WAIT_S:
+            seconds = event.data.get("seconds")
+            if not isinstance(seconds, int | float):
+                return Happening("wait", event.t, None, place=place, along=along, moving=moving)
+            if seconds < _SHORTEST_WAIT_S:
                 return None
-            timed = _plain(seconds) if not event.data.get("condition") else None
-            return Happening("wait", event.t, timed, place=place, along=along, moving=moving)
+            value = float(seconds)
+            return Happening("wait", event.t, value, place=place, along=along, moving=moving, longest_s=value)
         case "fault":
             return Happening("fault", event.t, _plain(event.data.get("code")), place=place, along=along)
         case "end":
             return Happening("end", event.t, _plain(event.data.get("status")), place=place, along=along)
         case _:
             return None
+
+
+def _without_polling(happenings: Sequence[Happening]) -> Iterator[Happening]:
+    """Timed waits in a row, without motion between them, are one wait for their sum: a loop, its statements written
+    out, and a polling loop whose number of looks depends on when it began."""
+    last: Happening | None = None
+    for happening in happenings:
+        if last is not None and _in_a_row(last, happening):
+            longest = max(last.longest_s, happening.longest_s)
+            total = float(last.value or 0.0) + float(happening.value or 0.0)
+            last = replace(last, times=last.times + 1, longest_s=longest, value=total)
+            continue
+        if last is not None:
+            yield last
+        last = happening
+    if last is not None:
+        yield last
+
+
+def _in_a_row(first: Happening, second: Happening) -> bool:
+    if not first.kind == second.kind == "wait" or first.value is None or second.value is None:
+        return False
+    return abs(first.along - second.along) < _STANDING_MM
 
 
 def _plain(value: object) -> Value:

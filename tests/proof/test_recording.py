@@ -75,8 +75,22 @@ def test_a_millimetre_is_found() -> None:
 def test_what_does_not_count() -> None:
     events = (
         Event(0.0, "main", "call", {"routine": "sub"}),
-        Event(0.1, "main", "wait", {"duration": 0.0}),
+        Event(0.1, "main", "wait", {"seconds": 0.0}),
         Event(0.2, "main", "input", {"signal": "di1", "value": True}),
         Event(0.3, "main", "message", {"text": "hello"}),
     )
     assert [happening.kind for happening in record(*events).tasks["main"]] == ["message", "end"]
+
+
+def test_polling_is_one_wait() -> None:
+    polls = tuple(Event(0.1 * number, "main", "wait", {"seconds": 0.1}) for number in range(7))
+    more = tuple(Event(0.1 * number, "main", "wait", {"seconds": 0.1}) for number in range(8))
+    wait, _ = record(*polls).tasks["main"]
+    assert (wait.times, wait.value, wait.longest_s) == (7, pytest.approx(0.7), 0.1)
+    once = Event(0.0, "main", "wait", {"seconds": 0.7})
+    assert compare(record(*polls), record(once), Tolerance()).level != "none"
+    verdict = compare(record(*polls), record(*more), Tolerance())
+    assert verdict.difference is None or verdict.difference.level == "time"
+    many = tuple(Event(0.1 * number, "main", "wait", {"seconds": 0.1}) for number in range(30))
+    found = compare(record(*polls), record(*many), Tolerance()).difference
+    assert found is not None and found.kind == "wait"
