@@ -46,4 +46,7 @@ CAPABILITIES = Capabilities(
     named_aggregates=True,
     partial_aggregates=True,
     constant_aggregates=True,
+    relative_moves=True,
+    partial_targets=True,
+    data_lists=True,
 )

@@ -70,3 +70,6 @@ class Capabilities:
     constant_aggregates: bool = False
     format_state: Type | None = None
     carries_rules: bool = False
+    relative_moves: bool = False
+    partial_targets: bool = False
+    data_lists: bool = False

@@ -30,11 +30,18 @@ MM_S_PER_PERCENT = 50.0
 # A joint blend in percent (of 90 degrees on KUKA) as a zone radius; zones are capped at half the move like the blend.
 ZONE_MM_PER_PERCENT = 4.0
 _STANDARD_EXTERNAL = (ir.RealLiteral(5000.0), ir.RealLiteral(1000.0))
+# Values with which a dropped setting says what the target does anyway.
+_USUAL = {
+    "orientation_mode": "variable",
+    "circle_orientation": "base",
+    "path_limit_rule": "constant",
+    "interpolation": "base",
+}
 _DROPPED = frozenset(
     {
         *("path_acceleration", "swivel_acceleration", "twist_acceleration", "joint_acceleration", "path_jerk"),
         *("external_speed", "external_acceleration", "blend_rotation", "blend_speed", "orientation_mode"),
-        *("circle_orientation", "singular_rule", "path_limit_rule", "advance", "load"),
+        *("circle_orientation", "singular_rule", "path_limit_rule", "advance", "load", "interpolation"),
     }
 )
 
@@ -48,6 +55,7 @@ class _State:
     """Names of the generated data, and which of them are needed."""
 
     names: dict[str, str] = field(default_factory=dict)
+    read: set[str] = field(default_factory=set)
     reported: set[tuple[Code, str]] = field(default_factory=set)
 
 
@@ -83,7 +91,7 @@ def modal_to_explicit(program: ir.Program, context: Context) -> ir.Program:
         )
         for module in program.modules
     )
-    program = replace(program, modules=modules)
+    program = worker.without_dead_settings(replace(program, modules=modules))
     declarations = worker.declarations()
     if declarations:
         task = next((module.task for module in program.modules), "")
@@ -105,10 +113,41 @@ class _Explicit:
 
     # ---- generated data
 
-    def name(self, kind: str) -> ir.Expression:
+    def name(self, kind: str, written: bool = False) -> ir.Expression:
         if kind not in self.state.names:
             self.state.names[kind] = self.context.fresh(f"rpl_{kind}")
+        if not written:
+            self.state.read.add(kind)
         return ir.Name(self.state.names[kind])
+
+    def without_dead_settings(self, program: ir.Program) -> ir.Program:
+        """Data that no move reads, because every move names constants, is neither set nor declared."""
+        dead = {name for kind, name in self.state.names.items() if kind not in self.state.read}
+        self.state.names = {kind: name for kind, name in self.state.names.items() if name not in dead}
+
+        def body(statements: ir.Body) -> ir.Body:
+            done: list[ir.Statement] = []
+            for statement in statements:
+                match statement:
+                    case ir.Assign(target=ir.Field(base=ir.Name(id=name))) if name in dead:
+                        if statement.origin.comments:
+                            done.append(ir.Nothing(origin=statement.origin))
+                    case _:
+                        done.append(rewrite_parts(statement, lambda expression: expression, body))
+            return tuple(done)
+
+        modules = []
+        for module in program.modules:
+            routines = tuple(
+                replace(
+                    routine,
+                    body=body(routine.body),
+                    handlers=tuple(replace(handler, body=body(handler.body)) for handler in routine.handlers),
+                )
+                for routine in module.routines
+            )
+            modules.append(replace(module, routines=routines))
+        return replace(program, modules=tuple(modules)) if dead else program
 
     def default(self, name: str, fallback: float) -> float:
         value = self.defaults.get(name, fallback)
@@ -204,6 +243,10 @@ class _Explicit:
         assert isinstance(target, ir.System)
         name, value = target.name, self.expression(statement.value)
         if name in _DROPPED:
+            if _says(value, _USUAL.get(name, "")):
+                return [ir.Nothing(origin=statement.origin)]
+            if name == "interpolation":  # a tool fixed in the room is another motion: the writer stops there
+                return [statement]
             self.report_once(DROPPED, statement, name, name=name.replace("_", " "))
             return [ir.Nothing(origin=statement.origin)]
         plain = _number(value)
@@ -212,13 +255,13 @@ class _Explicit:
         else:
             known.pop(name, None)
         kind, component = _MODAL[name]
-        place = ir.Field(self.name(kind), component)
+        place = ir.Field(self.name(kind, written=True), component)
         made = [ir.Assign(place, _scaled(value, _FACTOR.get(name, 1.0)), origin=statement.origin)]
         if component == "path" and kind.endswith("zone"):
             later = replace(statement.origin, comments=())
             for other, factor in _ZONE_PROPORTIONS[1:]:
                 scaled = _scaled(value, _FACTOR.get(name, 1.0) * factor)
-                made.append(ir.Assign(ir.Field(self.name(kind), other), scaled, origin=later))
+                made.append(ir.Assign(ir.Field(self.name(kind, written=True), other), scaled, origin=later))
         return list(made)
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
@@ -322,6 +365,17 @@ def _set_inside(statement: ir.Statement, usage: Usage) -> set[str]:
 
     look((statement,))
     return found
+
+
+def _says(value: ir.Expression, word: str) -> bool:
+    """Is it this mode word?"""
+    return isinstance(value, ir.EnumLiteral | ir.TextLiteral | ir.Name) and word == _word(value)
+
+
+def _word(value: ir.EnumLiteral | ir.TextLiteral | ir.Name) -> str:
+    match value:
+        case ir.EnumLiteral(member=word) | ir.TextLiteral(value=word) | ir.Name(id=word):
+            return word.lower()
 
 
 def _keep_common(known: Environment, ends: list[Environment]) -> None:

@@ -5,9 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.context import Context, Pass, names_in
+from rpl.passes.legalise.datalists import set_data_at_start
+from rpl.passes.legalise.enums import enums_to_constants
 from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.explicit import explicit_to_modal
+from rpl.passes.legalise.geometry import geometry
 from rpl.passes.legalise.interrupts import interrupts
 from rpl.passes.legalise.logic import decide_logic
 from rpl.passes.legalise.lookahead import stop_blends
@@ -18,28 +22,34 @@ from rpl.passes.legalise.prelude import link_prelude
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.signals import name_signals, number_signals
 from rpl.passes.legalise.switches import unroll_switches
+from rpl.passes.legalise.targets import whole_targets
 from rpl.passes.legalise.triggers import triggers
 from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.typing import normalise
 
-# First what asks for the source language's own rules (its prelude, its look-ahead), then control, data, motion.
+# First what asks for the source language's own rules (its prelude, its look-ahead), then signals and control (each may
+# make what a later one rewrites: errors make Repeat, switches make cor), then data and motion, geometry last.
 PASSES: tuple[Pass, ...] = (
     searches,
     link_prelude,
     stop_blends,
     triggers,
     interrupts,
-    modal_to_explicit,
-    explicit_to_modal,
+    whole_targets,
+    set_data_at_start,
     name_signals,
     number_signals,
-    # control: each may make what a later one rewrites (errors make Repeat, switches make cor)
     fit_parameters,
     check_errors,
     fit_waits,
     unroll_switches,
     decide_logic,
     fit_loops,
+    enums_to_constants,
+    configurations,
+    modal_to_explicit,
+    explicit_to_modal,
+    geometry,
 )
 
 
@@ -53,5 +63,44 @@ def legalise(program: ir.Program, context: Context) -> ir.Program:
         return program
     for one in PASSES:
         program = one(program, context)
-    program = replace(program, modules=tuple(replace(module, dialect=context.target) for module in program.modules))
-    return normalise(program, context.diagnostics)
+    return normalise(_governed(program, context), context.diagnostics)
+
+
+def _governed(program: ir.Program, context: Context) -> ir.Program:
+    """The program under the target's rules; targets that passes have added take its notation."""
+    old, new = ir.TargetType(context.source), ir.TargetType(context.capabilities.notation)
+
+    def retyped(type: ir.Type) -> ir.Type:
+        match type:
+            case ir.TargetType() if type.notation == old.notation:
+                return replace(type, notation=new.notation)
+            case ir.ArrayType(element=element):
+                return replace(type, element=retyped(element))
+        return type
+
+    def declared(declaration: ir.Declaration) -> ir.Declaration:
+        match declaration:
+            case ir.Variable():
+                return replace(declaration, type=retyped(declaration.type))
+            case ir.RecordDeclaration(fields=fields):
+                return replace(declaration, fields=tuple((name, retyped(type)) for name, type in fields))
+        return declaration
+
+    def routine(one: ir.Routine) -> ir.Routine:
+        return replace(
+            one,
+            parameters=tuple(replace(parameter, type=retyped(parameter.type)) for parameter in one.parameters),
+            returns=None if one.returns is None else retyped(one.returns),
+            declarations=tuple(map(declared, one.declarations)),
+        )
+
+    modules = tuple(
+        replace(
+            module,
+            dialect=context.target,
+            declarations=tuple(map(declared, module.declarations)),
+            routines=tuple(map(routine, module.routines)),
+        )
+        for module in program.modules
+    )
+    return replace(program, modules=modules)

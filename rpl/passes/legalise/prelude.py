@@ -10,10 +10,13 @@ from dataclasses import replace
 
 from rpl import ir, registry
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.usage import usage_of
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.typing import normalise
 
 _LONGEST_INLINED = 40
+_LONGEST_LOOP = 6
+_DEEPEST = 4
 
 
 def link_prelude(program: ir.Program, context: Context) -> ir.Program:
@@ -24,11 +27,29 @@ def link_prelude(program: ir.Program, context: Context) -> ir.Program:
         if prelude is None:
             continue
         prelude = normalise(ir.Program((replace(prelude, dialect=dialect),)), context.diagnostics).modules[0]
-        modules = [_inlined(module, prelude) if module.dialect == dialect else module for module in modules]
+        modules = _inlined(modules, prelude, usage_of(program).assigned)
         linked = _used_part(prelude, [module for module in modules if module.dialect == dialect], context)
         if linked is not None:
             modules.append(linked)
     return replace(program, modules=tuple(modules))
+
+
+def _inlined(modules: list[ir.Module], prelude: ir.Module, assigned: set[str]) -> list[ir.Module]:
+    """The modules of the prelude's dialect with calls of its small routines replaced."""
+    own: set[str] = set()
+    for module in modules:
+        for declaration in module.declarations:
+            own.update(_keys(declaration))
+        own.update(routine.name.lower() for routine in module.routines)
+    inliner = _Inliner(prelude, own, assigned)
+    return [
+        replace(
+            module, routines=tuple(replace(routine, body=inliner.body(routine.body)) for routine in module.routines)
+        )
+        if module.dialect == prelude.dialect
+        else module
+        for module in modules
+    ]
 
 
 # ---- what is used
@@ -159,63 +180,87 @@ def _shared(declaration: ir.Declaration) -> ir.Declaration:
 # ---- inlining of system routines with a constant selector
 
 
-def _inlined(module: ir.Module, prelude: ir.Module) -> ir.Module:
-    routines = {routine.name.lower(): routine for routine in prelude.routines}
-    own = {routine.name.lower() for routine in module.routines}
+class _Inliner:
+    """Replaces calls of small system routines by what they do: a Switch over a constant parameter is decided, a loop
+    over the axes is written out, and defaults that nothing changes are written as their values."""
 
-    def body(statements: ir.Body) -> ir.Body:
+    def __init__(self, prelude: ir.Module, shadowed: set[str], assigned: set[str]) -> None:
+        self.routines = {r.name.lower(): r for r in prelude.routines if r.name.lower() not in shadowed}
+        self.defaults: dict[str, ir.Expression] = {}
+        for declaration in prelude.declarations:
+            if isinstance(declaration, ir.Variable) and declaration.initial is not None:
+                name = declaration.name.lower()
+                if name not in shadowed and name not in assigned and _is_number(declaration.initial):
+                    self.defaults[name] = declaration.initial
+
+    def body(self, statements: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
         for statement in statements:
-            if isinstance(statement, ir.CallRoutine) and statement.name.lower() not in own:
-                routine = routines.get(statement.name.lower())
-                chosen = _specialised(routine, statement) if routine else None
-                if chosen is not None:
-                    done.extend(body(chosen))
-                    continue
-            done.append(rewrite_parts(statement, lambda expression: expression, body))
+            inlined = self.call(statement, _DEEPEST) if isinstance(statement, ir.CallRoutine) else None
+            if inlined is None:
+                done.append(rewrite_parts(statement, lambda expression: expression, self.body))
+            else:
+                done.extend(inlined)
         return tuple(done)
 
-    return replace(module, routines=tuple(replace(routine, body=body(routine.body)) for routine in module.routines))
-
-
-def _specialised(routine: ir.Routine, call: ir.CallRoutine) -> ir.Body | None:
-    """The statements the call stands for, when the routine is one Switch over a parameter given as a constant."""
-    if routine.declarations or routine.handlers or len(call.arguments) > len(routine.parameters):
-        return None
-    given: dict[str, ir.Expression] = {}
-    for parameter, argument in zip(routine.parameters, call.arguments, strict=False):
-        if argument.value is None or argument.name or not _repeatable(argument.value):
+    def call(self, call: ir.CallRoutine, depth: int) -> ir.Body | None:
+        """What the call does, as statements without locals; None when it has to stay a call."""
+        routine = self.routines.get(call.name.lower())
+        if routine is None or depth == 0 or routine.handlers or len(call.arguments) > len(routine.parameters):
             return None
-        given[parameter.name.lower()] = argument.value
-    statements = [statement for statement in routine.body if not isinstance(statement, ir.Nothing)]
-    if len(statements) != 1 or not isinstance(statements[0], ir.Switch):
-        return None
-    switch = statements[0]
-    if not isinstance(switch.selector, ir.Name):
-        return None
-    selector = given.get(switch.selector.id.lower())
-    if not isinstance(selector, ir.EnumLiteral | ir.IntLiteral):
-        return None
-    chosen: ir.Body | None = switch.default
+        given = dict(self.defaults)
+        for parameter, argument in zip(routine.parameters, call.arguments, strict=False):
+            if argument.value is None or argument.name or not _repeatable(argument.value):
+                return None
+            given[parameter.name.lower()] = argument.value
+        missing = {parameter.name.lower() for parameter in routine.parameters[len(call.arguments) :]}
+        done: list[ir.Statement] = []
+        for statement in self.decided(routine.body, given):
+            inner = self.call(statement, depth - 1) if isinstance(statement, ir.CallRoutine) else (statement,)
+            if inner is None:
+                return None
+            done.extend(inner)
+        uses = _Uses()
+        uses.body(tuple(done))
+        local = {d.name.lower() for d in routine.declarations if isinstance(d, ir.Variable)}
+        if uses.names & (missing | local) or len(done) > _LONGEST_INLINED or _jumps(tuple(done)):
+            return None
+        if not done:
+            return (ir.Nothing(origin=call.origin),)
+        later = replace(call.origin, comments=())
+        return tuple(replace(statement, origin=later if at else call.origin) for at, statement in enumerate(done))
+
+    def decided(self, body: ir.Body, given: dict[str, ir.Expression]) -> ir.Body:
+        """The body with parameters replaced, constant switches decided and short loops written out."""
+        done: list[ir.Statement] = []
+        for statement in body:
+            match statement:
+                case ir.Nothing():
+                    continue
+                case ir.Switch(selector=ir.Name(id=name)) if isinstance(
+                    given.get(name.lower()), ir.EnumLiteral | ir.IntLiteral
+                ):
+                    done.extend(self.decided(_chosen(statement, given[name.lower()]), given))
+                case ir.For(start=ir.IntLiteral(value=first), stop=ir.IntLiteral(value=last), step=None) if (
+                    last - first < _LONGEST_LOOP and all(isinstance(s, ir.Assign) for s in statement.body)
+                ):
+                    for number in range(first, last + 1):
+                        counted = {**given, statement.counter.lower(): ir.IntLiteral(number)}
+                        done.extend(self.decided(statement.body, counted))
+                case _:
+                    done.extend(_Substitute(given).body((statement,)))
+        return tuple(done)
+
+
+def _chosen(switch: ir.Switch, selector: ir.Expression) -> ir.Body:
     for case in switch.cases:
         if any(_same_constant(value, selector) for value in case.values):
-            chosen = case.body
-            break
-    if chosen is None:
-        chosen = ()
-    missing = {parameter.name.lower() for parameter in routine.parameters} - set(given)
-    uses = _Uses()
-    uses.body(chosen)
-    if uses.names & missing or len(chosen) > _LONGEST_INLINED or _jumps(chosen):
-        return None
-    replaced = _Substitute(given).body(chosen)
-    if not replaced:
-        return (ir.Nothing(origin=call.origin),)
-    origin = call.origin
-    return tuple(
-        replace(statement, origin=origin if at == 0 else replace(origin, comments=()))
-        for at, statement in enumerate(replaced)
-    )
+            return case.body
+    return switch.default or ()
+
+
+def _is_number(value: ir.Expression) -> bool:
+    return isinstance(value, ir.IntLiteral | ir.RealLiteral)
 
 
 def _repeatable(value: ir.Expression) -> bool:

@@ -1,0 +1,88 @@
+"""Assignments outside of routines (KRL data lists), for targets that know none: a routine that runs first makes them.
+
+Values that a controller keeps in its data list between runs are set anew at each start of the program.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.usage import bodies, each_expression, each_statement
+from rpl.source import NOWHERE
+
+SET_AT_START = code(
+    "data-set-at-start",
+    Severity.INFO,
+    "data that the source keeps in its data list is set by {name} at each start of the program",
+)
+
+
+def set_data_at_start(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets whose data cannot be set outside of routines."""
+    if context.capabilities.data_lists:
+        return program
+    assigns: list[ir.Statement] = []
+    modules = []
+    for module in program.modules:
+        kept = []
+        for declaration in module.declarations:
+            if isinstance(declaration, ir.Initialise):
+                assigns.append(declaration.assign)
+            else:
+                kept.append(_reachable(declaration) if any(_is_data(d) for d in module.declarations) else declaration)
+        modules.append(replace(module, declarations=tuple(kept)))
+    if not assigns:
+        return program
+    name = context.fresh("rpl_initialise")
+    context.diagnostics.report(SET_AT_START, NOWHERE, name=name)
+    entries = _never_called(program)
+    call = ir.CallRoutine(name)
+    for at, module in enumerate(modules):
+        routines = tuple(
+            replace(routine, body=(call, *routine.body)) if routine.name.lower() in entries else routine
+            for routine in module.routines
+        )
+        modules[at] = replace(module, routines=routines)
+    routine = ir.Routine(name, body=tuple(assigns), scope="global")
+    home = ir.Module(context.fresh("rpl_data"), modules[0].dialect, (), (routine,), task=modules[0].task)
+    return replace(program, modules=(*modules, home))
+
+
+def _is_data(declaration: ir.Declaration) -> bool:
+    return isinstance(declaration, ir.Initialise)
+
+
+def _reachable(declaration: ir.Declaration) -> ir.Declaration:
+    """What the generated routine sets must be visible to it."""
+    if isinstance(declaration, ir.Variable) and declaration.scope == "module":
+        return replace(declaration, scope="task")
+    return declaration
+
+
+def _never_called(program: ir.Program) -> set[str]:
+    """Procedures without parameters that nothing calls: any of them may be where a program starts."""
+    called: set[str] = set()
+
+    def look(statement: ir.Statement) -> None:
+        match statement:
+            case ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name):
+                called.add(name.lower())
+            case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)) | ir.Trigger(action=ir.CallRoutine(name=name)):
+                called.add(name.lower())
+        each_expression(statement, call)
+
+    def call(expression: ir.Expression) -> None:
+        if isinstance(expression, ir.Call):
+            called.add(expression.name.lower())
+
+    found = []
+    for module in program.modules:
+        for routine in module.routines:
+            if routine.kind == "procedure" and not routine.parameters and routine.scope != "module":
+                found.append(routine.name.lower())
+            for body in bodies(routine):
+                each_statement(body, look)
+    return {name for name in found if name not in called}

@@ -1,0 +1,147 @@
+"""Relative moves and targets with missing components, for targets whose moves want a whole target.
+
+Both start from where the last move ends. Where that is the move before in the same straight run of statements, its
+target is used; else the robot is asked where it stands, and the move before must not be blended.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import Scope
+from rpl.passes.typing import type_of
+
+STOPPED_FOR_POSITION = code(
+    "stopped-for-position",
+    Severity.WARNING,
+    "the next move starts from where the robot stands, so this move is no longer blended",
+)
+TURNED = code(
+    "relative-rotation", Severity.LOSS, "a relative move that also turns the tool is not carried over; teach its end"
+)
+
+_POSITION = ("x", "y", "z")
+_ANGLES = ("a", "b", "c")
+_AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
+
+
+def whole_targets(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets without relative moves or partial targets."""
+    capabilities = context.capabilities
+    if capabilities.relative_moves and capabilities.partial_targets:
+        return program
+    scopes = ProgramScope(program)
+    modules = []
+    for module in program.modules:
+        routines = []
+        for routine in module.routines:
+            worker = _Whole(context, scopes.routine(module, routine))
+            body = worker.body(routine.body)
+            declarations = (*routine.declarations, *worker.declared)
+            routines.append(replace(routine, body=body, declarations=declarations))
+        modules.append(replace(module, routines=tuple(routines)))
+    return replace(program, modules=tuple(modules))
+
+
+class _Whole:
+    def __init__(self, context: Context, scope: Scope) -> None:
+        self.context, self.scope = context, scope
+        self.declared: list[ir.Declaration] = []
+
+    def body(self, body: ir.Body) -> ir.Body:
+        done: list[ir.Statement] = []
+        for statement in body:
+            if isinstance(statement, ir.Move) and self.needs_work(statement):
+                done.extend(self.whole(statement, done))
+            else:
+                done.append(rewrite_parts(statement, lambda expression: expression, self.body))
+        return tuple(done)
+
+    def needs_work(self, move: ir.Move) -> bool:
+        if move.relative is not None:
+            return not self.context.capabilities.relative_moves
+        return not self.context.capabilities.partial_targets and self.missing(move.target)
+
+    def missing(self, target: ir.Expression) -> bool:
+        """Is it written with some of its components only? Flags and external axes may always be left out."""
+        if not isinstance(target, ir.Aggregate):
+            return False
+        named = {name for name, _ in target.entries}
+        if None in named or named & {"trans", "robax"}:
+            return False
+        wanted = _AXES if target.type_name == "joints" else (*_POSITION, *_ANGLES)
+        return not set(wanted) <= named
+
+    def whole(self, move: ir.Move, done: list[ir.Statement]) -> list[ir.Statement]:
+        if isinstance(move.target, ir.Aggregate) and move.target.type_name == "joints":
+            return self.from_here(move, move.target, ir.JointsType(), done)
+        if not isinstance(move.target, ir.Aggregate):
+            return [move]
+        if move.relative is not None:
+            return self.offset(move, move.target, done)
+        return self.from_here(move, move.target, ir.TargetType(self.scope.rules.name), done)
+
+    def from_here(
+        self, move: ir.Move, target: ir.Aggregate, type: ir.Type, done: list[ir.Statement]
+    ) -> list[ir.Statement]:
+        """A temporary takes the robot's place; the components given are set or added."""
+        name = self.context.fresh("rpl_here")
+        self.declared.append(ir.Variable(name, type, scope="routine"))
+        self.stop_before(done)
+        joints = isinstance(type, ir.JointsType)
+        place = ir.System("actual_joints" if joints else "actual_pose")
+        later = replace(move.origin, comments=())
+        steps: list[ir.Statement] = [ir.Assign(ir.Name(name), place, origin=move.origin)]
+        for component, value in target.entries:
+            assert component is not None
+            part = ir.Field(ir.Name(name), component)
+            new = ir.Binary("+", part, value) if move.relative is not None else value
+            steps.append(ir.Assign(part, new, origin=later))
+        return [*steps, replace(move, target=ir.Name(name), relative=None, origin=later)]
+
+    def offset(self, move: ir.Move, target: ir.Aggregate, done: list[ir.Statement]) -> list[ir.Statement]:
+        values = {name: value for name, value in target.entries if name is not None}
+        if any(name in values and not _is_zero(values[name]) for name in _ANGLES):
+            self.context.diagnostics.report(TURNED, move.origin)
+            return [move]
+        start = self.last_target(done, move)
+        if start is None:
+            self.stop_before(done)
+            start = ir.System("actual_pose")
+        function = "tool_offset" if move.relative == "tool" else "offset"
+        steps = tuple(values.get(name, ir.RealLiteral(0.0)) for name in _POSITION)
+        return [replace(move, target=ir.Builtin(function, (start, *steps)), relative=None)]
+
+    def last_target(self, done: list[ir.Statement], move: ir.Move) -> ir.Expression | None:
+        """The target of the move before, when nothing in between can have moved the robot or changed the frame."""
+        for statement in reversed(done):
+            match statement:
+                case ir.Move(target=target, relative=None, search=None):
+                    same = statement.tool == move.tool and statement.frame == move.frame and not statement.settings
+                    if not same or isinstance(type_of(target, self.scope), ir.JointsType | None):
+                        return None
+                    return target if isinstance(target, ir.Aggregate | ir.Name | ir.Builtin) else None
+                case ir.Assign(target=ir.Signal()) | ir.Nothing() | ir.Wait() | ir.WaitUntil() | ir.LookAhead():
+                    continue
+                case ir.Assign(target=ir.System(name=name)) if name not in ("tool", "base"):
+                    continue
+            return None
+        return None
+
+    def stop_before(self, done: list[ir.Statement]) -> None:
+        """The move before must end where it says, or the robot is asked on its way."""
+        for at in range(len(done) - 1, -1, -1):
+            statement = done[at]
+            if isinstance(statement, ir.Move):
+                if statement.blend not in (None, ir.BlendStop()):
+                    self.context.diagnostics.report(STOPPED_FOR_POSITION, statement.origin)
+                    done[at] = replace(statement, blend=ir.BlendStop())
+                return
+
+
+def _is_zero(value: ir.Expression) -> bool:
+    return isinstance(value, ir.IntLiteral | ir.RealLiteral) and value.value == 0
