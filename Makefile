@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 ROBOT ?= kuka_kr6r900sixx
-TO_ROBOT ?= abb_irb120_3_58
+TO_ROBOT ?= abb_irb1200_5_90
 WORKERS ?= 2
 
 .PHONY: demo test lint types clean

@@ -28,6 +28,7 @@ class Tolerance:
 
     place_mm: where on a moving path an output may switch. wait_s: of a timed wait. time_share: of a whole run's time.
     polling_share: of the time since the start, by which two polling loops may differ (other accelerations before them).
+    look_s: a single wait up to this long may be one look of a polling loop.
     """
 
     path_mm: float = 0.01
@@ -38,6 +39,7 @@ class Tolerance:
     time_s: float = 0.01
     time_share: float = 0.01
     polling_share: float = 0.05
+    look_s: float = 0.1
     number: float = 1e-6
 
 
@@ -146,7 +148,11 @@ def same_event(a: Happening, b: Happening, tolerance: Tolerance) -> bool:
 
 
 def _same_polling(a: Happening, b: Happening, tolerance: Tolerance) -> bool:
-    """A polling loop may end as much earlier or later as it began later or earlier."""
+    """A polling loop may end as much earlier or later as it began later or earlier; and where one language waits for a
+    condition with a time-out, another has to look again and again."""
+    if (a.value is None) != (b.value is None):
+        polling = b if a.value is None else a
+        return polling.times > 1 or polling.longest_s <= tolerance.look_s
     if a.times == b.times or not isinstance(a.value, int | float) or not isinstance(b.value, int | float):
         return False
     slack = max(2.0 * max(a.longest_s, b.longest_s), tolerance.polling_share * max(a.t + a.value, b.t + b.value))
