@@ -121,7 +121,8 @@ class Handler:
 
 @dataclass(frozen=True, slots=True)
 class Routine:
-    """kind: procedure, function, trap. scope: module (local), task, global."""
+    """kind: procedure, function, trap. scope: module (local), task, global. `open_ended`: a controller's own routine
+    that is not described here; it takes any arguments."""
 
     name: str
     kind: str = "procedure"
@@ -133,6 +134,7 @@ class Routine:
     undo: Body = ()
     backward: Body = ()
     scope: str = "task"
+    open_ended: bool = field(default=False, kw_only=True)
     origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
 
 

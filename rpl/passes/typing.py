@@ -506,7 +506,7 @@ class Typer:
         done = []
         for argument in given:
             parameter = by_name.get(self.scope.fold(argument.name)) if argument.name else next(positional, None)
-            if routine and parameter is None and argument.value is not None:
+            if routine and not routine.open_ended and parameter is None and argument.value is not None:
                 self.report(TOO_MANY, origin, name=name, count=len(parameters), given=len(given))
             if argument.value is None:
                 done.append(argument)
