@@ -13,7 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.modal import DROPPED, JOINT_BLEND, MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
-from rpl.passes.legalise.usage import base_name, usage_of
+from rpl.passes.legalise.usage import base_name, each_expression, each_statement, usage_of
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typing import component_names, type_of
@@ -111,7 +111,10 @@ class _Modal:
                 return [statement]
             case ir.If() | ir.Switch():
                 choice = rewrite_parts(statement, lambda e: e, lambda inner: self.body(inner, dict(known)))
-                known.clear()
+                if _leaves_modal_state(statement):
+                    each_statement((statement,), lambda inner: self.changed(_assigned(inner), known))
+                else:
+                    known.clear()
                 return [choice]
         new = rewrite_parts(statement, lambda e: e, lambda inner: self.body(inner, {}))
         if new is not statement:
@@ -227,6 +230,29 @@ class _Modal:
             return ir.BlendPercent(ir.System("blend_joint"))
         wanted["blend_distance"] = _quantity(size, "mm")
         return ir.BlendDistance(ir.System("blend_distance"))
+
+
+def _leaves_modal_state(statement: ir.Statement) -> bool:
+    """Can nothing inside change what was set: no move, no call, no setting, no label to jump to?"""
+    quiet = True
+
+    def look(inner: ir.Statement) -> None:
+        nonlocal quiet
+        match inner:
+            case ir.Move() | ir.Spline() | ir.CallRoutine() | ir.Do() | ir.Label() | ir.Assign(target=ir.System()):
+                quiet = False
+        each_expression(inner, call)
+
+    def call(expression: ir.Expression) -> None:
+        nonlocal quiet
+        quiet = quiet and not isinstance(expression, ir.Call)
+
+    each_statement((statement,), look)
+    return quiet
+
+
+def _assigned(statement: ir.Statement) -> str | None:
+    return base_name(statement.target) if isinstance(statement, ir.Assign) else None
 
 
 def _set(name: str, value: ir.Expression, origin: Origin) -> list[ir.Statement]:
