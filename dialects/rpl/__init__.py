@@ -33,7 +33,9 @@ def _rules() -> Rules:
 
 
 def _prelude() -> Module | None:
-    return None
+    from .rules import prelude
+
+    return prelude()
 
 
 DIALECT = Dialect(

@@ -7,8 +7,32 @@ statement begins; behind a move with a blend the program goes on when the robot 
 
 from __future__ import annotations
 
+from rpl import ir
 from rpl.ir.rules import AdvanceRules, Rules
 from rpl.ir.words import NATIVE
+
+# Names that a handler or a WAIT ... ERROR may use. The numbers lie above those that programs raise themselves.
+_ERROR_NAMES = (
+    "timeout",
+    "dialog_timeout",
+    "division_by_zero",
+    "out_of_range",
+    "not_present",
+    "unknown_routine",
+    "unknown_data",
+    "negative_argument",
+    "overflow",
+    "text_too_long",
+    "search_missed",
+    "search_already",
+    "unreachable",
+    "not_whole",
+    "already_connected",
+    "unknown_interrupt",
+    "path_not_stored",
+    "bad_raise",
+)
+_FIRST_ERROR = 1001
 
 RULES = Rules(
     name=NATIVE,
@@ -21,14 +45,30 @@ RULES = Rules(
         "twist_speed": 90.0,
         "swivel_acceleration": 360.0,
         "twist_acceleration": 360.0,
+        "joint_speed": 100.0,
+        "joint_acceleration": 100.0,
+        "external_speed": 100.0,
+        "external_acceleration": 100.0,
         "blend_distance": 0.0,
         "blend_rotation": 0.0,
+        "blend_speed": 0.0,
+        "blend_joint": 0.0,
         "override": 100.0,
-        "speed_percent": 100.0,
-        "acceleration_percent": 100.0,
         "orientation_mode": "variable",
         "circle_orientation": "base",
         "held_work": False,
     },
-    errors={"timeout": 1, "division_by_zero": 2, "out_of_range": 3, "unreachable": 4},
+    errors={name: _FIRST_ERROR + position for position, name in enumerate(_ERROR_NAMES)},
 )
+
+
+def prelude() -> ir.Module:
+    """What every RPL program knows: the numbers of the errors by their names."""
+    return ir.Module(
+        "prelude",
+        NATIVE,
+        tuple(
+            ir.Variable(name, ir.IntType(), ir.IntLiteral(number), "constant", "global")
+            for name, number in RULES.errors.items()
+        ),
+    )

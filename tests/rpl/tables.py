@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
-from rpl import ir
+from rpl import ir, registry
 from rpl.ir import words
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "rpl.md"
@@ -98,6 +98,12 @@ def _words() -> str:
     )
 
 
+def _errors() -> str:
+    names = registry.dialect("rpl").rules().errors
+    rows = [f"| `{name}` | {number} |" for name, number in names.items()]
+    return "\n".join(["| error | number |", "|---|---|", *rows])
+
+
 def _cell(text: str) -> str:
     return text.replace("|", "\\|")
 
@@ -108,6 +114,7 @@ TABLES = {
     "functions": _functions,
     "procedures": _procedures,
     "system": _system,
+    "errors": _errors,
 }
 
 
