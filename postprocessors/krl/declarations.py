@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from rpl import ir
 from rpl.passes.scope import Scope
 
@@ -56,13 +58,36 @@ def variable_line(variable: ir.Variable, scope: Scope, in_data: bool) -> str:
     if variable.storage == "constant" and in_data:
         words.append("CONST")
     text = f"{' '.join(words)} {word} {variable.name}{brackets}"
-    if variable.initial is not None and in_data:
-        if isinstance(type, ir.ArrayType):
-            raise CannotSayError("KRL initialises an array element by element")
+    if variable.initial is not None and in_data and not isinstance(type, ir.ArrayType):
         if not _constant(variable.initial):
             raise CannotSayError("a data list takes constants only")
         text += f"={expressions.stored(variable.initial)}"
     return text
+
+
+def first_values(variable: ir.Variable, in_data: bool) -> list[ir.Assign]:
+    """What a declaration leaves to be assigned: an array's elements one by one; in a routine any first value."""
+    if variable.initial is None:
+        return []
+    name = ir.Name(variable.name)
+    if isinstance(variable.type, ir.ArrayType):
+        elements = list(_elements(name, (), variable.initial, len(variable.type.dimensions)))
+        if in_data and not all(_constant(element.value) for element in elements):
+            raise CannotSayError("a data list takes constants only")
+        return elements
+    return [] if in_data else [ir.Assign(name, variable.initial)]
+
+
+def _elements(
+    name: ir.Name, indices: tuple[ir.Expression, ...], value: ir.Expression, depth: int
+) -> Iterator[ir.Assign]:
+    if not depth:
+        yield ir.Assign(ir.Index(name, indices), value)
+        return
+    if not isinstance(value, ir.Aggregate):
+        raise CannotSayError("KRL initialises an array element by element")
+    for number, (_, part) in enumerate(value.entries, 1):
+        yield from _elements(name, (*indices, ir.IntLiteral(number)), part, depth - 1)
 
 
 def _constant(value: ir.Expression) -> bool:

@@ -14,7 +14,7 @@ from rpl.writing.ledger import EmissionLedger
 from rpl.writing.target import OutputFile, WriteContext
 
 from . import tables
-from .declarations import enum_line, header_line, parameter_line, record_line, signal_line, variable_line
+from .declarations import enum_line, first_values, header_line, parameter_line, record_line, signal_line, variable_line
 from .expressions import CannotSayError
 from .statements import Printer, assignment
 
@@ -138,7 +138,10 @@ class _Module:
         try:
             match declaration:
                 case ir.Variable():
+                    values = first_values(declaration, in_data)
                     printer.line(variable_line(declaration, scope, in_data), origin)
+                    for value in values if in_data else ():
+                        printer.line(assignment(value, printer.expressions))
                 case ir.RecordDeclaration():
                     printer.line(record_line(declaration, scope), origin)
                 case ir.EnumDeclaration():
@@ -197,15 +200,14 @@ class _Module:
     def initial_values(self, routine: ir.Routine, printer: Printer) -> None:
         """A routine's variables are declared bare; their first values are assignments."""
         for declaration in routine.declarations:
-            if isinstance(declaration, ir.Variable) and declaration.initial is not None:
-                target = ir.Name(declaration.name)
-                try:
-                    printer.line(assignment(ir.Assign(target, declaration.initial), printer.expressions))
-                except CannotSayError as error:
-                    self.diagnostics.report(
-                        LOST_DECLARATION, declaration.origin, name=declaration.name, reason=str(error)
-                    )
-                    printer.line("HALT")
+            if not isinstance(declaration, ir.Variable):
+                continue
+            try:
+                for value in first_values(declaration, in_data=False):
+                    printer.line(assignment(value, printer.expressions))
+            except CannotSayError as error:
+                self.diagnostics.report(LOST_DECLARATION, declaration.origin, name=declaration.name, reason=str(error))
+                printer.line("HALT")
 
     def handlers(self, routine: ir.Routine) -> None:
         """What a KRL routine has no place for. The passes before carry over what they can."""

@@ -213,6 +213,16 @@ def test_what_krl_cannot_say_stops_the_program(statement: ir.Statement, word: st
     assert loss.severity == Severity.LOSS and word in loss.message
 
 
+def test_an_array_is_initialised_element_by_element() -> None:
+    rows = tuple((None, ir.Aggregate(((None, ir.IntLiteral(n)), (None, ir.IntLiteral(n + 1))))) for n in (1, 3))
+    grid = ir.ArrayType(ir.IntType(), (ir.IntLiteral(2), ir.IntLiteral(2)))
+    module = ir.Module("D", "krl", (ir.Variable("GRID", grid, ir.Aggregate(rows)),))
+    (file,), diagnostics = written(ir.Program((module,)))
+    assert not list(diagnostics)
+    lines = file.data.decode().split("\r\n")
+    assert lines[1:6] == ["DECL INT GRID[2,2]", "GRID[1,1]=1", "GRID[1,2]=2", "GRID[2,1]=3", "GRID[2,2]=4"]
+
+
 def test_the_first_routine_is_named_like_the_file() -> None:
     routine = ir.Routine("main", body=(), scope="task")
     program = ir.Program((ir.Module("MainModule", "krl", routines=(routine,)),))
