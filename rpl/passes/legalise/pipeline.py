@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.configurations import configurations
+from rpl.passes.legalise.calls import rewrite_calls
 from rpl.passes.legalise.context import Context, Pass, names_in
 from rpl.passes.legalise.datalists import set_data_at_start
 from rpl.passes.legalise.enums import enums_to_constants
@@ -44,6 +45,7 @@ PASSES: tuple[Pass, ...] = (
     fit_waits,
     unroll_switches,
     decide_logic,
+    rewrite_calls,
     fit_loops,
     enums_to_constants,
     configurations,

@@ -571,6 +571,12 @@ def _round(x: float, decimals: int = 0) -> float:
     return float(away(x * 10**decimals) / 10**decimals)
 
 
+def _message(template: str, *values: Any) -> str:
+    for at, value in enumerate(values):
+        template = template.replace(f"%{at + 1}", str(value))
+    return template
+
+
 def _trunc(x: float, decimals: int = 0) -> float:
     return int(x * 10**decimals) / 10**decimals
 
@@ -608,6 +614,8 @@ FUNCTIONS: dict[str, Any] = {
     "text_upper": str.upper,
     "text_lower": str.lower,
     "text_map": lambda s, a, b: s.translate(str.maketrans(a, b)),
+    "message_text": _message,
+    "value_text": str,
     "number_text": lambda x, n: f"{x:.{n}f}",
     "character_code": lambda c: ord(c[0]),
     "from_code": chr,

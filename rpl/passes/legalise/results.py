@@ -1,0 +1,52 @@
+"""Functions that give a text, for targets whose functions cannot: procedures that write their first parameter."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.effects import blocks
+from rpl.passes.rewrite import rewrite_parts
+
+
+def results_as_parameters(program: ir.Program, context: Context) -> ir.Program:
+    """The program with no function that gives a text."""
+    names: dict[str, str] = {}
+    for module in program.modules:
+        for routine in module.routines:
+            if routine.kind == "function" and isinstance(routine.returns, ir.StringType):
+                names[routine.name.lower()] = context.fresh("result")
+    if not names:
+        return program
+
+    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        def rule(expression: ir.Expression) -> Lowered | None:
+            if not isinstance(expression, ir.Call) or expression.name.lower() not in names:
+                return None
+            text = editor.temporary("text", ir.StringType())
+            arguments = (ir.Argument(text), *expression.arguments)
+            return (ir.CallRoutine(expression.name, arguments),), text
+
+        done = edit_bodies(routine, Hoister(editor, rule).body)
+        result = names.get(routine.name.lower())
+        if result is None or routine.kind != "function":
+            return done
+        parameter = ir.Parameter(result, ir.StringType(), "reference")
+        done = edit_bodies(done, lambda body: _assigned(body, result))
+        return replace(done, kind="procedure", returns=None, parameters=(parameter, *done.parameters))
+
+    return edit_routines(program, context, work)
+
+
+def _assigned(body: ir.Body, result: str) -> ir.Body:
+    def change(statement: ir.Statement) -> ir.Body:
+        if isinstance(statement, ir.Return) and statement.value is not None:
+            give = ir.Assign(ir.Name(result), statement.value)
+            return expansion(statement.origin, (give, replace(statement, value=None)))
+        if blocks(statement):
+            return (rewrite_parts(statement, lambda part: part, lambda inner: map_body(inner, change)),)
+        return (statement,)
+
+    return map_body(body, change)

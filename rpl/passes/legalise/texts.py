@@ -1,0 +1,267 @@
+"""Texts for targets that build them by procedures: concatenations and formatted numbers in front of the statement.
+
+`"part " & number_text(n, 0)` becomes one formatted write into a text variable; pure texts are copied and appended.
+Where a target has text operators, templates (C-like formats, messages with %1) are taken apart instead.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from rpl import ir
+from rpl.passes.legalise.editing import Editor, Hoister, Lowered, Rule, expansion
+from rpl.passes.legalise.effects import everything
+from rpl.passes.legalise.helpers import Helpers
+from rpl.passes.legalise.usage import base_name
+
+_SPECIFICATION = re.compile(r"%(?:(%)|(?:\.(\d+))?l?([diufgsc]))")  # a width would need padding
+_PARAMETER = re.compile(r"%([1-9])")
+_DEFAULT_DECIMALS = 6
+# Functions with a text as result, as procedures of the helper module that write their first parameter.
+_WRITERS = {
+    "text_part": "rpl_text_part",
+    "text_upper": "rpl_text_upper",
+    "text_lower": "rpl_text_lower",
+    "text_map": "rpl_text_map",
+}
+_READERS = {
+    "text_find_any": "rpl_text_find_any",
+    "text_match": "rpl_text_match",
+    "text_member": "rpl_text_member",
+}
+_NUMBERS = ("number_text", "value_text")
+
+
+class TextHoister(Hoister):
+    """Hoists what a target's expressions cannot say of texts."""
+
+    def __init__(self, editor: Editor, rule: Rule, helpers: Helpers) -> None:
+        super().__init__(editor, rule)
+        self.helpers = helpers
+        self.builds = "&" not in editor.capabilities.operators
+
+    # ---- concatenation
+
+    def lower(self, expression: ir.Expression, lvalue: bool = False) -> Lowered:
+        if self.composed(expression):
+            before, pieces = self.pieces(expression)
+            text = self.editor.temporary("text", ir.StringType())
+            written = self.written(text, pieces)
+            if written is not None:
+                return (*before, *written), text
+        return super().lower(expression, lvalue)
+
+    def statement(self, statement: ir.Statement) -> ir.Body:
+        """An assignment builds its text in place where the pieces do not mention it."""
+        match statement:
+            case ir.Assign(target=ir.Name() as target, value=value) if self.composed(value):
+                before, pieces = self.pieces(value)
+                appended = bool(pieces) and pieces[0] == target
+                rest = pieces[1:] if appended else pieces
+                key = base_name(target)
+                if not any(isinstance(one, ir.Name) and one.id.lower() == key for p in rest for one in everything(p)):
+                    written = self.appended(target, rest) if appended else self.written(target, rest)
+                    if written is not None:
+                        return expansion(statement.origin, (*before, *written))
+        return super().statement(statement)
+
+    def composed(self, expression: ir.Expression) -> bool:
+        """Is it a text that this target can only build by statements?"""
+        if not self.builds:
+            return False
+        match expression:
+            case ir.Binary(op="&"):
+                return True
+            case ir.Builtin(function=function) if function in _NUMBERS:
+                return function not in self.editor.capabilities.functions
+        return False
+
+    def pieces(self, expression: ir.Expression) -> tuple[ir.Body, list[ir.Expression]]:
+        """The parts of a concatenation in order, their own operands done."""
+        parts = list(_flat(expression))
+        inner = [
+            part.arguments[0] if isinstance(part, ir.Builtin) and self._formatted(part) else part for part in parts
+        ]
+        before, values = self.several(inner, [False] * len(inner))
+        done: list[ir.Expression] = []
+        for part, value in zip(parts, values, strict=True):
+            if isinstance(part, ir.Builtin) and self._formatted(part):
+                done.append(replace(part, arguments=(value, *part.arguments[1:])))
+            else:
+                done.append(value)
+        return before, done
+
+    def _formatted(self, part: ir.Expression) -> bool:
+        return isinstance(part, ir.Builtin) and part.function in _NUMBERS and self.template((part,)) is not None
+
+    def written(self, target: ir.Name, pieces: Sequence[ir.Expression]) -> ir.Body | None:
+        """Statements that put the pieces into a text."""
+        if any(isinstance(piece, ir.Builtin) and piece.function in _NUMBERS for piece in pieces):
+            return self.printed(target, pieces)
+        if not pieces:
+            return (ir.Assign(target, ir.TextLiteral("")),)
+        first = pieces[0]
+        start: ir.Statement = ir.Assign(target, first)
+        if isinstance(self.editor.type_of(first), ir.CharType):
+            start = ir.Assign(target, ir.TextLiteral(""))
+            return (start, *(self.append(target, piece) for piece in pieces))
+        return (start, *(self.append(target, piece) for piece in pieces[1:]))
+
+    def appended(self, target: ir.Name, pieces: Sequence[ir.Expression]) -> ir.Body | None:
+        if any(isinstance(piece, ir.Builtin) and piece.function in _NUMBERS for piece in pieces):
+            text = self.editor.temporary("text", ir.StringType())
+            written = self.printed(text, pieces)
+            return None if written is None else (*written, self.append(target, text))
+        return tuple(self.append(target, piece) for piece in pieces)
+
+    def append(self, target: ir.Name, piece: ir.Expression) -> ir.Statement:
+        return ir.Do("text_append", (target, piece))
+
+    def printed(self, target: ir.Name, pieces: Sequence[ir.Expression]) -> ir.Body | None:
+        """One formatted write."""
+        if "format_into" not in self.editor.capabilities.procedures:
+            return None
+        made = self.template(pieces)
+        if made is None:
+            return None
+        template, values = made
+        state_type = self.editor.capabilities.format_state
+        state = self.editor.temporary("state", state_type) if state_type is not None else None
+        offset = self.editor.temporary("offset", ir.IntType())
+        call = ir.Do("format_into", (target, state, offset, ir.TextLiteral(template), *values))
+        return (ir.Assign(target, ir.TextLiteral("")), ir.Assign(offset, ir.IntLiteral(0)), call)
+
+    def template(self, pieces: Sequence[ir.Expression]) -> tuple[str, list[ir.Expression]] | None:
+        """A format and its values; None when a piece has no format."""
+        template, values = "", []
+        for piece in pieces:
+            match piece:
+                case ir.TextLiteral(value=text):
+                    template += text.replace("%", "%%")
+                    continue
+                case ir.Builtin(function="number_text", arguments=(number, ir.IntLiteral(value=decimals))):
+                    whole = isinstance(self.editor.type_of(number), ir.IntType)
+                    template += "%d" if whole and not decimals else f"%.{decimals}f"
+                    values.append(number)
+                case ir.Builtin(function="value_text", arguments=(number,)):
+                    type = self.editor.type_of(number)
+                    if not isinstance(type, ir.NUMBER_TYPES):
+                        return None
+                    template += "%d" if isinstance(type, ir.IntType) else "%g"
+                    values.append(number)
+                case ir.Builtin(function="number_text"):
+                    return None
+                case _:
+                    template += "%c" if isinstance(self.editor.type_of(piece), ir.CharType) else "%s"
+                    values.append(piece)
+        return template, values
+
+    # ---- other functions of texts
+
+    def text_statements(self, expression: ir.Expression) -> Lowered | None:
+        """A function of texts as a helper: its texts are variables, also the one that it gives."""
+        if not isinstance(expression, ir.Builtin) or expression.function in self.editor.capabilities.functions:
+            return None
+        if expression.function in _READERS:
+            before, values = self.variables(expression.arguments)
+            return before, self.helpers.call(_READERS[expression.function], *values)
+        helper = _WRITERS.get(expression.function)
+        if helper is None or self.editor.capabilities.text_results:
+            return None
+        before, values = self.variables(expression.arguments)
+        text = self.editor.temporary("text", ir.StringType())
+        arguments = tuple(ir.Argument(value) for value in (text, *values))
+        return (*before, ir.CallRoutine(self.helpers.name(helper), arguments)), text
+
+    def variables(self, values: Sequence[ir.Expression]) -> tuple[ir.Body, list[ir.Expression]]:
+        """Texts that are passed by reference have to be variables."""
+        before: list[ir.Statement] = []
+        done: list[ir.Expression] = []
+        for value in values:
+            if not isinstance(value, ir.TextLiteral):
+                done.append(value)
+                continue
+            kept = self.editor.temporary("text", ir.StringType())
+            before.append(ir.Assign(kept, value))
+            done.append(kept)
+        return tuple(before), done
+
+    def text_function(self, expression: ir.Builtin) -> ir.Expression | None:
+        """A function of texts in terms of others."""
+        arguments = expression.arguments
+        match expression.function, arguments:
+            case "text_find", (text, start, wanted) if "text_match" in self.editor.capabilities.functions:
+                # the other function says length + 1 where this one says 0
+                found = ir.Builtin("text_match", (text, start, wanted))
+                beyond = ir.Binary("+", ir.Builtin("text_length", (text,)), ir.IntLiteral(1))
+                return ir.Binary("mod", found, beyond) if "mod" in self.editor.capabilities.operators else None
+            case "message_text", (ir.TextLiteral(value=template), *values) if not self.builds:
+                return self.message(template, values)
+            case "format", (ir.TextLiteral(value=template), *values) if not self.builds:
+                return self.from_template(template, values)
+        return None
+
+    def message(self, template: str, values: Sequence[ir.Expression]) -> ir.Expression:
+        """`%1` in a message is the text of the first value."""
+        pieces: list[ir.Expression] = []
+        at = 0
+        for found in _PARAMETER.finditer(template):
+            number = int(found[1]) - 1
+            if number < len(values):
+                pieces.append(ir.TextLiteral(template[at : found.start()]))
+                pieces.append(self.text_of(values[number]))
+                at = found.end()
+        pieces.append(ir.TextLiteral(template[at:]))
+        return _joined(pieces)
+
+    def text_of(self, value: ir.Expression) -> ir.Expression:
+        if isinstance(self.editor.type_of(value), ir.StringType | ir.CharType):
+            return value
+        return ir.Builtin("value_text", (value,))
+
+    def from_template(self, template: str, values: Sequence[ir.Expression]) -> ir.Expression | None:
+        """A C-like format as a concatenation; None when it has more than plain specifications."""
+        pieces: list[ir.Expression] = []
+        rest = list(values)
+        at = 0
+        for found in _SPECIFICATION.finditer(template):
+            if "%" in template[at : found.start()]:
+                return None
+            pieces.append(ir.TextLiteral(template[at : found.start()]))
+            at = found.end()
+            if found[1]:
+                pieces.append(ir.TextLiteral("%"))
+                continue
+            if not rest:
+                return None
+            value = rest.pop(0)
+            match found[3]:
+                case "d" | "i" | "u":
+                    pieces.append(ir.Builtin("number_text", (value, ir.IntLiteral(0))))
+                case "f":
+                    decimals = int(found[2]) if found[2] else _DEFAULT_DECIMALS
+                    pieces.append(ir.Builtin("number_text", (value, ir.IntLiteral(decimals))))
+                case "g":
+                    pieces.append(ir.Builtin("value_text", (value,)))
+                case _:
+                    pieces.append(value)
+        if "%" in template[at:]:
+            return None
+        pieces.append(ir.TextLiteral(template[at:]))
+        return _joined(pieces)
+
+
+def _flat(expression: ir.Expression) -> Sequence[ir.Expression]:
+    if isinstance(expression, ir.Binary) and expression.op == "&":
+        return [*_flat(expression.left), *_flat(expression.right)]
+    return [expression]
+
+
+def _joined(pieces: Sequence[ir.Expression]) -> ir.Expression:
+    kept = [piece for piece in pieces if piece != ir.TextLiteral("")]
+    done: ir.Expression = kept[0] if kept else ir.TextLiteral("")
+    for piece in kept[1:]:
+        done = ir.Binary("&", done, piece)
+    return done
