@@ -84,7 +84,7 @@ class Diagnostic:
         origin = self.origin
         place = f"{origin.file}:{origin.line}:{origin.column}: " if origin.source else ""
         text = f"{place}{self.severity.word} {self.code.name} {self.message}"
-        return f"{text} ({self.code.help})" if self.code.help else text
+        return f"{text} ({self.code.help.format(**dict(self.arguments))})" if self.code.help else text
 
 
 @dataclass(slots=True)
