@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.calls import rewrite_calls
+from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.context import Context, Pass, names_in
 from rpl.passes.legalise.datalists import set_data_at_start
 from rpl.passes.legalise.enums import enums_to_constants
