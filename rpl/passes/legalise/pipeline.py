@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.legalise.aggregates import aggregates
 from rpl.passes.legalise.calls import rewrite_calls
 from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.context import Context, Pass, names_in
@@ -18,6 +19,7 @@ from rpl.passes.legalise.logic import decide_logic
 from rpl.passes.legalise.lookahead import stop_blends
 from rpl.passes.legalise.loops import fit_loops
 from rpl.passes.legalise.modal import modal_to_explicit
+from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.prelude import link_prelude
 from rpl.passes.legalise.searches import searches
@@ -40,6 +42,7 @@ PASSES: tuple[Pass, ...] = (
     set_data_at_start,
     name_signals,
     number_signals,
+    numbers,
     fit_parameters,
     check_errors,
     fit_waits,
@@ -51,6 +54,7 @@ PASSES: tuple[Pass, ...] = (
     configurations,
     modal_to_explicit,
     explicit_to_modal,
+    aggregates,
     geometry,
 )
 
