@@ -212,7 +212,10 @@ class _Assembler:
         frame.next_section(None)
         opened = frame.open
         end = close.origin.end if close else (self.ledger.claims[-1][1] if self.ledger.claims else opened.origin.end)
+        if depth > DEEPEST_BLOCK + 1:
+            return  # inside of a block that is kept as text as a whole
         if depth > DEEPEST_BLOCK:
+            self.unread.append(self.source.text[opened.origin.start : end])
             self.diagnostics.report(TOO_DEEP, opened.origin, limit=DEEPEST_BLOCK)
             text = self.source.text[opened.origin.start : end]
             built: Item | tuple[Item, ...] = ir.Opaque(text, origin=replace(opened.origin, end=end))
