@@ -207,7 +207,7 @@ def _functions() -> tuple[ir.Routine, ...]:
     made = []
     for name, result in FUNCTION_RESULTS.items():
         body = (ir.Vendor("rapid", f"{name}(...)", "unknown"),)
-        made.append(ir.Routine(name, "function", (), TYPES[result], (), body, scope="global"))
+        made.append(ir.Routine(name, "function", (), TYPES[result], (), body, scope="global", open_ended=True))
     return tuple(made)
 
 

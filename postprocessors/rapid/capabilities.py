@@ -16,7 +16,7 @@ _STATEMENTS = words(
 CAPABILITIES = Capabilities(
     statements=_STATEMENTS,
     functions=frozenset(FUNCTIONS),
-    procedures=frozenset(("increment", "decrement", "clear", "parse_value")),
+    procedures=words("increment decrement clear parse_value parse_number text_append text_copy text_clear"),
     system_variables=frozenset(
         (
             *("speed_percent", "speed_limit", "acceleration_percent", "acceleration_ramp", "deceleration_percent"),

@@ -39,10 +39,11 @@ class UnsayableError(RplError):
 class Expressions:
     """Prints the expressions of one scope."""
 
-    def __init__(self, scope: Scope) -> None:
+    def __init__(self, scope: Scope, long_texts: list[str] | None = None) -> None:
+        """long_texts: where texts that had to be cut are listed."""
         self.scope = scope
         self.printer = ExpressionPrinter(OPERATOR_TABLE, self.hook)
-        self.long_texts: list[str] = []
+        self.long_texts: list[str] = [] if long_texts is None else long_texts
 
     def text(self, expression: ir.Expression) -> str:
         return self.printer.text(expression)
@@ -67,8 +68,6 @@ class Expressions:
                 return self.field(expression)
             case ir.Unary(op="not", operand=operand):
                 return self.negation(operand)
-            case ir.Unary(op="bnot", operand=operand):
-                return f"BitNeg({self.text(operand)})"
             case ir.Binary():
                 return self.operation(expression)
             case ir.Call(name=name, arguments=arguments):

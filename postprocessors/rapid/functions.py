@@ -55,6 +55,7 @@ FUNCTIONS: dict[str, dict[int, str]] = {
     "text_find_any": {3: "StrFind({0},{1},{2})"},
     "text_match": {3: "StrMatch({0},{1},{2})"},
     "text_member": {3: "StrMemb({0},{1},{2})"},
+    "text_equal": {2: "({0}={1})"},
     "text_map": {3: "StrMap({0},{1},{2})"},
     "text_order": {3: "StrOrder({0},{1},{2})"},
     "text_upper": {1: "StrMap({0},STR_LOWER,STR_UPPER)"},

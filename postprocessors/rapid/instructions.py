@@ -221,17 +221,17 @@ class Instructions:
     # ---- operator and numbers
 
     def message(self, message: ir.Message) -> str:
-        text = self.print(message.text)
         sender = None if message.sender is None else self.print(message.sender)
         match message.kind:
             case "clear":
                 return "TPErase;"
             case "quit":
-                return f"UIMsgBox {text};" if sender is None else f"UIMsgBox\\Header:={sender},{text};"
+                head = " " if sender is None else f"\\Header:={sender},"
+                return f"UIMsgBox{head}{self.print(message.text)};"
             case "error":
-                return f"ErrWrite {sender or NO_HEADLINE},{text};"
+                return f"ErrWrite {sender or NO_HEADLINE},{self.print(message.text)};"
             case "notify" if sender is not None:
-                return f"ErrWrite\\I,{sender},{text};"
+                return f"ErrWrite\\I,{sender},{self.print(message.text)};"
         return self.written(message)
 
     def written(self, message: ir.Message) -> str:
@@ -270,6 +270,12 @@ class Instructions:
                 return f"Add {printed[0]},{self.print(ir.Unary('-', arguments[1]))};"
             case "clear", 1:
                 return f"Clear {printed[0]};"
+            case "text_append", 2:
+                return f"{printed[0]}:={printed[0]}+{printed[1]};"
+            case "text_copy", 2:
+                return f"{printed[0]}:={printed[1]};"
+            case "text_clear", 1:
+                return f'{printed[0]}:="";'
             case "parse_value" | "parse_number", 2:
                 return f"IF StrToVal({printed[0]},{printed[1]}) THEN\nENDIF"
         raise UnsayableError(f"there is no instruction for {do.procedure.replace('_', ' ')}")

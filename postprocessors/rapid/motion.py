@@ -194,24 +194,28 @@ def define_trigger(statement: ir.DefineTrigger, expressions: Expressions) -> str
             written = output_value(kind, value, expressions)
         case _:
             raise UnsayableError("a path event writes an output")
-    if trigger.distance is None or trigger.delay is None:
+    if switch == "\\Time" or trigger.delay is None:
         return f"TriggIO {target},{place}{switch}{option},{written}"
     lag = negative_of(trigger.delay)
-    if lag is not None:
-        return f"TriggEquip {target},{place}{switch},{expressions.text(lag)}{option},{written}"
-    return f"TriggIO {target},{place}{switch}{option},{written}\\DODelay:={expressions.text(trigger.delay)}"
+    if lag is None and isinstance(trigger.delay, ir.IntLiteral | ir.RealLiteral):
+        return f"TriggIO {target},{place}{switch}{option},{written}\\DODelay:={expressions.text(trigger.delay)}"
+    # A computed delay may have either sign, which only the lag of an equipment may have.
+    lag = lag if lag is not None else ir.Unary("-", trigger.delay)
+    return f"TriggEquip {target},{place}{switch},{expressions.text(lag)}{option},{written}"
 
 
 def _place(trigger: ir.Trigger, expressions: Expressions) -> tuple[str, str]:
-    match trigger.reference, trigger.distance, trigger.delay:
-        case "start", distance, _ if distance is not None:
-            return expressions.text(distance), "\\Start"
-        case "end", None, delay if delay is not None:
-            before = negative_of(delay)
-            if before is not None:
-                return expressions.text(before), "\\Time"
-        case "end", distance, _ if distance is not None:
+    """The distance or time and its switch. A delay stands elsewhere unless it is all there is before the end."""
+    match trigger.reference, trigger.distance:
+        case "start", distance:
+            return ("0" if distance is None else expressions.text(distance)), "\\Start"
+        case "end" | "middle", None:  # at a fly-by point the end counts in the middle of the corner path
+            before = None if trigger.delay is None else negative_of(trigger.delay)
+            return ("0", "") if before is None else (expressions.text(before), "\\Time")
+        case "end" | "middle", distance if distance is not None:
             before = negative_of(distance)
+            if before is None and isinstance(distance, ir.IntLiteral | ir.RealLiteral):
+                raise UnsayableError("a path event cannot lie behind the end of its move")
             return expressions.text(before if before is not None else ir.Unary("-", distance)), ""
     raise UnsayableError("there is no path event at this place")
 

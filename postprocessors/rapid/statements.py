@@ -149,8 +149,10 @@ class Statements:
         if not (loop.at_least_once and loop.scoped) or loop.automatic != (loop.step is None):
             raise UnsayableError("FOR counts by its own rule")
         head = [self.text(loop.start), self.text(loop.stop), "" if loop.step is None else self.text(loop.step)]
+        scope = self.expressions.scope.with_value(ir.Variable(loop.counter, ir.RealType()))
+        inner = Expressions(scope, self.expressions.long_texts)
         inside = Statements(
-            Expressions(self.expressions.scope.with_value(ir.Variable(loop.counter, ir.RealType()))),
+            inner,
             self.diagnostics,
             self.ledger,
         )
