@@ -24,7 +24,7 @@ def line(start: tuple[float, ...], end: tuple[float, ...], count: int = 20, **mo
 
 OUT = Happening("output", 1.0, True, signal_names("digital_out", ["grip"], 3), Place("a.src", 4, "$OUT[3]=TRUE"), 100.0)
 NOTE = Happening("message", 1.1, "part  ready", place=Place("a.src", 5, 'MSG("part ready")'), along=100.0)
-WAIT = Happening("wait", 1.2, 0.5, place=Place("a.src", 6, "WAIT SEC 0.5"), along=100.0)
+WAIT = Happening("wait", 1.2, 0.5, longest_s=0.5, place=Place("a.src", 6, "WAIT SEC 0.5"), along=100.0)
 END = Happening("end", 2.0, "finished", place=Place("a.src", 7, "END"), along=100.0)
 MOTION = (line((0, 0, 0), (100, 0, 0)), line((100, 0, 0), (100, 50, 0)))
 RUN = Record("finished", 2.0, {"main": (OUT, NOTE, WAIT, END)}, {"main": MOTION}, "arm", "krl")
