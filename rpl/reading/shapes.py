@@ -20,7 +20,7 @@ from typing import NoReturn
 
 from lark import Lark, Token, Tree
 from lark import __version__ as lark_version
-from lark.exceptions import UnexpectedInput
+from lark.exceptions import UnexpectedInput, UnexpectedToken
 
 from rpl.errors import RplError
 
@@ -156,6 +156,8 @@ def _check_tree(tree: Tree[Token]) -> None:
 
 
 def _refuse(error: UnexpectedInput, text: str) -> NoReturn:
+    if isinstance(error, UnexpectedToken) and error.token.type == "$END":
+        raise StatementError("the statement ends too early", len(text)) from None
     offset = error.pos_in_stream if error.pos_in_stream is not None and error.pos_in_stream >= 0 else len(text)
     offset = min(offset, len(text))
     word = re.match(r"\s*(\w+|\S)?", text[offset:])
