@@ -35,6 +35,8 @@ OPERATORS = {
     "and": "and", "or": "or", "exor": "xor", "b_and": "band", "b_or": "bor", "b_exor": "bxor",
     "not": "not", "b_not": "bnot",
 }  # fmt: skip
+_LARGEST_REAL = 3.5e38  # single precision, with room for rounding
+_INT_DIGITS = 10
 _LOGIC = ("and", "or", "xor")
 _TRUE, _FALSE = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
@@ -351,7 +353,7 @@ def _numbers_only(entries: list[_Plain]) -> Make:
         for name, index, real, minus in entries:
             spelling = pieces[index]
             value: ir.Expression = (
-                real_literal(float(spelling), spelling) if real else int_literal(int(spelling), spelling)
+                real_literal(real_value(spelling), spelling) if real else int_literal(whole_value(spelling), spelling)
             )
             done.append((name, unary("-", value, origin=origin) if minus else value))
         return ir.Aggregate(tuple(done), origin=origin)
@@ -369,10 +371,25 @@ def _slot(child: object) -> int:
     return child.index
 
 
+def real_value(spelling: str) -> float:
+    """A real number. Raises StatementError when it is beyond what a controller could hold."""
+    value = float(spelling)
+    if value > _LARGEST_REAL:
+        raise StatementError(f"the number {spelling} is too large", 0)
+    return value
+
+
+def whole_value(spelling: str) -> int:
+    """A whole number. Raises StatementError when it has more than 32 bits."""
+    if len(spelling) > _INT_DIGITS and (len(spelling.lstrip("0")) > _INT_DIGITS):
+        raise StatementError(f"the number {spelling[:20]} has more than 32 bits", 0)
+    return int(spelling)
+
+
 def _real(index: int) -> Make:
     def make(pieces: Pieces, origin: Origin) -> ir.Expression:
         spelling = pieces[index]
-        return ir.RealLiteral(float(spelling), spelling)
+        return ir.RealLiteral(real_value(spelling), spelling)
 
     return make
 
@@ -380,7 +397,7 @@ def _real(index: int) -> Make:
 def _integer(index: int) -> Make:
     def make(pieces: Pieces, origin: Origin) -> ir.Expression:
         spelling = pieces[index]
-        return ir.IntLiteral(int(spelling), spelling)
+        return ir.IntLiteral(whole_value(spelling), spelling)
 
     return make
 

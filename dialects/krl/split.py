@@ -28,6 +28,7 @@ SLOTS = {"real": ("REAL", "0.5"), "int": ("INT", "0"), "name": ("NAME", "n0"), "
 
 _LINE = re.compile(r"[^\r\n]+")
 _CODE = re.compile(r'(?:[^;"]|"[^"]*(?:"|$))*')
+_MARKS = re.compile("[\ufeff\x1a\x00]")
 _BLANKS = " \t\f\ufeff\u00a0\x1a\x00"
 
 
@@ -46,8 +47,10 @@ def split(source: Source) -> Iterator[Piece]:
             if line.strip():
                 yield Piece(LAYOUT, start, match.end(), "")
             continue
-        at = start if line[0] == "\ufeff" else start + line.index(body[0])
-        end = start + line.index(body[0]) + len(body)
+        at = start + line.index(body[0])
+        end = at + len(body)
+        if _MARKS.search(line):  # a byte order mark, the end sign of old editors: part of the line they stand on
+            at, end = start, match.end()
         if body[0] == ";":
             fold = body[1:].lstrip()[:7].upper()
             kind = LAYOUT if fold.startswith(("FOLD", "ENDFOLD")) else COMMENT

@@ -159,6 +159,38 @@ def test_instructions_without_a_frame_are_a_routine() -> None:
     assert [item.code.name for item in diagnostics] == ["krl-outside-routine"]
 
 
+ODD = [
+    "X=" + "9" * 6000,
+    "X=1E999",
+    "X='B2'",
+    "X='HFFFFFFFFFF'",
+    "X=" + "NOT " * 3000 + "A",
+    "X=A" + "[1]" * 3000,
+    "X=" + "(" * 1000 + "A" + ")" * 1000,
+    "X=\x01",
+]
+
+
+@pytest.mark.parametrize("line", ODD, ids=range(len(ODD)))
+def test_odd_statements_are_reported_with_their_place(line: str) -> None:
+    _, diagnostics = read(f"DEF P()\n{line}\nEND\n")
+    assert [(item.code.name, item.origin.line) for item in diagnostics] == [("unreadable-statement", 2)]
+
+
+def test_a_statement_that_ends_too_early_says_so() -> None:
+    _, diagnostics = read("DEF P()\nIF A\nEND\n", normal=False)
+    assert "ends too early" in next(iter(diagnostics)).message
+
+
+@pytest.mark.parametrize(
+    "text", ["\ufeffDEF P()\nEND\x1a", "DEF P()\rX=1\rEND\r", "DEF P()\r\nEND\r\n\x1a", "DEF P()\nEND"]
+)
+def test_marks_and_line_ends_of_old_editors(text: str) -> None:
+    program, diagnostics = read(text, normal=False)
+    assert [routine.name for routine in program.modules[0].routines] == ["P"]
+    assert not [item.as_text() for item in diagnostics]
+
+
 LINES = st.lists(
     st.sampled_from(
         [
