@@ -20,6 +20,8 @@ from rpl.passes.scope import ProgramScope
 
 _LONGEST_PRODUCT = 4
 _HELPER_OPERATORS = {"band": "rpl_band", "bor": "rpl_bor", "bxor": "rpl_bxor"}
+# Procedures whose result is TRUE where texts have room enough.
+_ALWAYS_WORK = frozenset(("text_append", "text_copy", "text_clear", "format_into"))
 _HELPER_FUNCTIONS = {
     "floor": "rpl_floor",
     "ceil": "rpl_ceil",
@@ -126,7 +128,7 @@ class _Calls(TextHoister):
         """The rule for one expression whose operands are done."""
         done: ir.Expression | None = None
         match expression:
-            case ir.Builtin(function=name) if name in ir.PROCEDURES and name not in self.capabilities.procedures:
+            case ir.Builtin(function=name) if name in ir.PROCEDURES:
                 return self.procedure_as_function(expression)
             case ir.Builtin(function=name):
                 if name not in self.capabilities.functions:
@@ -142,10 +144,14 @@ class _Calls(TextHoister):
         return (), done if done.origin is expression.origin else replace(done, origin=expression.origin)
 
     def procedure_as_function(self, expression: ir.Builtin) -> Lowered | None:
-        """`ok = StrAdd(a[], b[])`: done, and then it has worked."""
-        call = ir.Do(expression.function, expression.arguments)
-        done = self.procedure(call)
-        if done is None:
+        """`ok = StrAdd(a[], b[])` where procedures give no value: done, and then it has worked."""
+        name = expression.function
+        has = name in self.capabilities.procedures
+        if name in self.capabilities.functions or (has and self.builds):
+            return None
+        call = ir.Do(name, expression.arguments)
+        done = (call,) if has else self.procedure(call)
+        if done is None or name not in _ALWAYS_WORK:
             return None
         return tuple(inner for one in done for inner in super(_Calls, self).statement(one)), ir.BoolLiteral(True)
 

@@ -269,19 +269,31 @@ class _Handling(_Passing):
 
     def unit(self, steps: ir.Body) -> ir.Body:
         """One statement of the source: its steps, then the handler when one of them raised."""
-        handler = self.handler()
-        match steps:
-            case (ir.Raise(code=number),) if not self.retries:
-                set_number = () if number is None else (ir.Assign(self.names.number, number),)
-                return (*set_number, *handler)
-        quiet = ir.Assign(self.names.raised, ir.BoolLiteral(False))
-        caught = ir.If(((self.names.raised, (quiet, *handler)),))
-        core = (*self.guarded(steps), caught)
+        core = self.core(steps)
         if not self.retries:
             return core
         again = self.variable("retry")
         start = ir.Assign(again, ir.BoolLiteral(False))
         return (ir.Repeat(ir.Unary("not", again), (start, *core)),)
+
+    def core(self, steps: ir.Body) -> ir.Body:
+        raising = [at for at, step in enumerate(steps) if self.raises(step)]
+        first = raising[0] if raising else 0
+        head, step, rest = steps[:first], steps[first], steps[first + 1 :]
+        match step:
+            case ir.Raise():
+                return (*head, *self.caught_here(step))
+            case ir.If(branches=((condition, (ir.Raise() as raised,)),), otherwise=()) if len(raising) == 1:
+                return (*head, ir.If(((condition, self.caught_here(raised)),), rest))
+        quiet = ir.Assign(self.names.raised, ir.BoolLiteral(False))
+        if len(raising) == 1 and not isinstance(step, ir.If):
+            return (*head, step, ir.If(((self.names.raised, (quiet, *self.handler())),), rest))
+        return (*self.guarded(steps), ir.If(((self.names.raised, (quiet, *self.handler())),)))
+
+    def caught_here(self, raised: ir.Raise) -> ir.Body:
+        """An error that is raised beside its handler needs no flag."""
+        number = () if raised.code is None else (ir.Assign(self.names.number, raised.code),)
+        return (*number, *self.handler())
 
     def guarded(self, steps: ir.Body) -> ir.Body:
         """Steps behind one that raised are left out."""

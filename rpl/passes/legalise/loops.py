@@ -24,7 +24,7 @@ from rpl.passes.legalise.editing import (
     passes_on,
     written_arguments,
 )
-from rpl.passes.legalise.effects import everything, is_constant, root, statements_in
+from rpl.passes.legalise.effects import children, everything, is_constant, root, statements_in
 from rpl.passes.legalise.usage import base_name, each_expression
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
@@ -58,6 +58,7 @@ class _Loops:
             variable.name.lower(): variable for variable in routine.declarations if isinstance(variable, ir.Variable)
         }
         self.outside = _used_outside_loops(routine)
+        self.overwritten = set() if _jumps_about(routine) else _overwritten(routine)
         self.counters: dict[str, tuple[ir.Name, ir.Type]] = {}
         self.active: list[str] = []
         self.implicit: set[str] = set()
@@ -204,7 +205,9 @@ class _Loops:
         if "For" not in self.has or not rule.step or rule.passes is False:
             return None
         key = loop.counter.lower()
-        if not loop.scoped and (key not in self.local or key in self.outside or self.written(key, loop.body)):
+        if not loop.scoped and (key not in self.local or self.written(key, loop.body)):
+            return None
+        if not loop.scoped and key in self.outside and id(loop) not in self.overwritten:
             return None
         step = None if abs(rule.step) == 1.0 else loop.step
         if step is None and abs(rule.step) != 1.0:
@@ -363,7 +366,7 @@ class _Loops:
             for declaration in routine.declarations
             if not (
                 isinstance(declaration, ir.Variable)
-                and declaration.name.lower() in self.implicit
+                and declaration.name.lower() in self.implicit - self.outside
                 and not declaration.origin.comments
                 and not _declared_loops(routine, declaration.name.lower())
             )
@@ -458,6 +461,46 @@ def _used_outside_loops(routine: ir.Routine) -> set[str]:
         if isinstance(declaration, ir.Variable) and declaration.initial is not None:
             names(declaration.initial, frozenset())
     return found
+
+
+def _jumps_about(routine: ir.Routine) -> bool:
+    return any(isinstance(statement, ir.Goto) for statement in statements_in(routine.body))
+
+
+def _overwritten(routine: ir.Routine) -> set[int]:
+    """Loops on the routine's own level whose counter gets another value behind them before anything reads it."""
+    found = set()
+    for at, loop in enumerate(routine.body):
+        if not isinstance(loop, ir.For):
+            continue
+        key = loop.counter.lower()
+        for following in routine.body[at + 1 :]:
+            read = {one.id.lower() for one in _all_expressions(following) if isinstance(one, ir.Name)}
+            match following:
+                case ir.For(counter=counter) if counter.lower() == key:
+                    bounds = [following.start, following.stop] + ([following.step] if following.step else [])
+                    if not any(
+                        isinstance(one, ir.Name) and one.id.lower() == key for b in bounds for one in everything(b)
+                    ):
+                        found.add(id(loop))
+                    break
+                case ir.Assign(target=ir.Name(id=name), value=value) if name.lower() == key:
+                    if not any(isinstance(one, ir.Name) and one.id.lower() == key for one in everything(value)):
+                        found.add(id(loop))
+                    break
+            if key in read or _counts(following, key):
+                break
+        else:
+            found.add(id(loop))
+    return found
+
+
+def _counts(statement: ir.Statement, key: str) -> bool:
+    return any(isinstance(one, ir.For) and one.counter.lower() == key for one in statements_in((statement,)))
+
+
+def _all_expressions(statement: ir.Statement) -> list[ir.Expression]:
+    return [one for inner in statements_in((statement,)) for child in children(inner) for one in everything(child)]
 
 
 def _looking(

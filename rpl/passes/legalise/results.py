@@ -6,8 +6,8 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion, map_body
-from rpl.passes.legalise.effects import blocks
+from rpl.passes.legalise.editing import Editor, Hoister, Lowered, Rule, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.effects import blocks, children, everything
 from rpl.passes.rewrite import rewrite_parts
 
 
@@ -29,7 +29,7 @@ def results_as_parameters(program: ir.Program, context: Context) -> ir.Program:
             arguments = (ir.Argument(text), *expression.arguments)
             return (ir.CallRoutine(expression.name, arguments),), text
 
-        done = edit_bodies(routine, Hoister(editor, rule).body)
+        done = edit_bodies(routine, _Direct(editor, rule, frozenset(names)).body)
         result = names.get(routine.name.lower())
         if result is None or routine.kind != "function":
             return done
@@ -38,6 +38,29 @@ def results_as_parameters(program: ir.Program, context: Context) -> ir.Program:
         return replace(done, kind="procedure", returns=None, parameters=(parameter, *done.parameters))
 
     return edit_routines(program, context, work)
+
+
+class _Direct(Hoister):
+    """`t = f(x)` lets the procedure write `t` itself where its arguments do not mention `t`."""
+
+    def __init__(self, editor: Editor, rule: Rule, names: frozenset[str]) -> None:
+        super().__init__(editor, rule)
+        self.names = names
+
+    def statement(self, statement: ir.Statement) -> ir.Body:
+        match statement:
+            case ir.Assign(target=ir.Name(id=name) as target, value=ir.Call() as call) if self.private(name):
+                others = [one for child in children(call) for one in everything(child)]
+                used = any(isinstance(one, ir.Name) and one.id.lower() == name.lower() for one in others)
+                if call.name.lower() in self.names and not used:
+                    arguments = (ir.Argument(target), *call.arguments)
+                    return super().statement(ir.CallRoutine(call.name, arguments, origin=statement.origin))
+        return super().statement(statement)
+
+    def private(self, name: str) -> bool:
+        """A variable of the routine, which the called one cannot see."""
+        symbol = self.editor.scope.value(name)
+        return symbol is not None and symbol.routine is not None and isinstance(symbol.declaration, ir.Variable)
 
 
 def _assigned(body: ir.Body, result: str) -> ir.Body:

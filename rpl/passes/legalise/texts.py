@@ -40,6 +40,7 @@ class TextHoister(Hoister):
     def __init__(self, editor: Editor, rule: Rule, helpers: Helpers) -> None:
         super().__init__(editor, rule)
         self.helpers = helpers
+        self._shared: dict[str, ir.Name] = {}
         self.builds = "&" not in editor.capabilities.operators
 
     # ---- concatenation
@@ -128,10 +129,16 @@ class TextHoister(Hoister):
             return None
         template, values = made
         state_type = self.editor.capabilities.format_state
-        state = self.editor.temporary("state", state_type) if state_type is not None else None
-        offset = self.editor.temporary("offset", ir.IntType())
+        state = self.shared("state", state_type) if state_type is not None else None
+        offset = self.shared("offset", ir.IntType())
         call = ir.Do("format_into", (target, state, offset, ir.TextLiteral(template), *values))
         return (ir.Assign(target, ir.TextLiteral("")), ir.Assign(offset, ir.IntLiteral(0)), call)
+
+    def shared(self, stem: str, type: ir.Type) -> ir.Name:
+        """A variable that all formatted writes of the routine use, each for itself."""
+        if stem not in self._shared:
+            self._shared[stem] = self.editor.temporary(stem, type)
+        return self._shared[stem]
 
     def template(self, pieces: Sequence[ir.Expression]) -> tuple[str, list[ir.Expression]] | None:
         """A format and its values; None when a piece has no format."""

@@ -146,7 +146,9 @@ class _Waits:
             self._none_left(statement, "this wait")
             return (statement,)
         index = ir.IntLiteral(number)
-        late = ir.Binary(">", _timer(index), ir.IntLiteral(0))
+        late: ir.Expression = ir.Binary(">", _timer(index), ir.IntLiteral(0))
+        if "timer_positive" in self.capabilities.system_variables:
+            late = ir.System("timer_positive", (index,))
         condition = statement.condition
         wait = replace(statement, condition=ir.Binary("or", condition, late), timeout=None, timed_out=None, error=None)
         return expansion(
