@@ -11,7 +11,7 @@ import numpy as np
 
 from rpl import ir
 from rpl.proof.paths import length_mm, turn_deg
-from rpl.proof.record import Happening, Record, Stretch, Value, place_of, signal_names
+from rpl.proof.record import Happening, Place, Record, Stretch, Value, place_of, signal_names
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
@@ -31,8 +31,9 @@ def record_of(result: RunResult, program: ir.Program, robot: RobotModel | None =
     """The record of a run of that program."""
     ways = {task: _Way(events) for task, events in _by_task(result.trace).items()}
     tasks = {}
+    stuck = place_of(result.fault.origin) if result.fault else Place()
     for task, way in ways.items():
-        counted = [_happening(event, way) for event in way.events]
+        counted = [_happening(event, way, stuck) for event in way.events]
         tasks[task] = tuple(_without_polling([happening for happening in counted if happening is not None]))
     motion = {task: way.stretches() for task, way in ways.items() if way.moves}
     language = next((module.dialect for module in program.modules), "")
@@ -42,12 +43,13 @@ def record_of(result: RunResult, program: ir.Program, robot: RobotModel | None =
 def _by_task(trace: Sequence[Event]) -> dict[str, list[Event]]:
     found: dict[str, list[Event]] = {}
     for event in trace:
-        found.setdefault(event.task, []).append(event)
+        if event.kind != "input":  # the surroundings are the same for both; they belong to no task
+            found.setdefault(event.task, []).append(event)
     return found
 
 
-def _happening(event: Event, way: _Way) -> Happening | None:
-    """The event as a happening; None when it does not count."""
+def _happening(event: Event, way: _Way, stuck: Place) -> Happening | None:
+    """The event as a happening; None when it does not count. `stuck`: where the run could not go on, if so."""
     along, moving = way.at(event.t)
     place = place_of(event.origin)
     match event.kind:
@@ -61,8 +63,10 @@ def _happening(event: Event, way: _Way) -> Happening | None:
             )
             return Happening("output", event.t, _plain(event.data.get("value")), names, place, along, moving)
         case "message":
+            if event.data.get("type") == "clear":
+                return None
             text = str(event.data.get("text", ""))
-            return Happening("message", event.t, text, place=place, along=along, moving=moving) if text else None
+            return Happening("message", event.t, text, place=place, along=along, moving=moving)
         case "wait":
             seconds = event.data.get("seconds")
             if not isinstance(seconds, int | float):
@@ -74,7 +78,7 @@ def _happening(event: Event, way: _Way) -> Happening | None:
         case "fault":
             return Happening("fault", event.t, _plain(event.data.get("code")), place=place, along=along)
         case "end":
-            return Happening("end", event.t, _plain(event.data.get("status")), place=place, along=along)
+            return Happening("end", event.t, _plain(event.data.get("status")), place=stuck, along=along)
         case _:
             return None
 
