@@ -282,7 +282,11 @@ class Statements(Declarations):
         priority, condition = (self.expression(_tree(child)) for child in tree.children[:2])
         action = self.action(_tree(tree.children[2]))
         return lambda pieces, origin: ir.DeclareInterrupt(
-            priority(pieces, origin), condition(pieces, origin), action(pieces, origin), everywhere, origin=origin
+            priority(pieces, origin),
+            _plain(condition(pieces, origin)),
+            action(pieces, origin),
+            everywhere,
+            origin=origin,
         )
 
     def on_controller_only(self, tree: SyntaxTree) -> Build:
@@ -306,6 +310,16 @@ class Statements(Declarations):
 
     def on_end_data(self, tree: SyntaxTree) -> Build:
         return _closing("data")
+
+
+def _plain(condition: ir.Expression) -> ir.Expression:
+    """`$IN[1]==TRUE` as the signal itself: other controllers' interrupts watch a signal, not a comparison."""
+    match condition:
+        case ir.Binary(op="=", left=left, right=ir.BoolLiteral(value=True)):
+            return left
+        case ir.Binary(op="=", left=left, right=ir.BoolLiteral(value=False), origin=origin):
+            return ir.Unary("not", left, origin=origin)
+    return condition
 
 
 def mode_assignment(variable: str, value: ir.Expression, origin: Origin) -> ir.Statement:

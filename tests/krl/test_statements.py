@@ -119,6 +119,16 @@ def test_statements(text: str, kind: type) -> None:
     assert isinstance(found[0], kind)
 
 
+@pytest.mark.parametrize(
+    ("condition", "wanted"),
+    [("$IN[1]==TRUE", "digital_in:1"), ("$IN[1]==FALSE", "(not digital_in:1)"), ("A>3", "(A > 3)")],
+)
+def test_an_interrupt_watches_the_signal_itself(condition: str, wanted: str) -> None:
+    found = statement(f"INTERRUPT DECL 5 WHEN {condition} DO X()")
+    assert isinstance(found, ir.DeclareInterrupt)
+    assert shown(found.condition) == wanted
+
+
 def test_a_routine_of_the_project_hides_a_built_in() -> None:
     program, _ = read(
         "DEF P()\nPULSE(1)\nX=ABS(2)\nEND\nDEF PULSE(N:IN)\nDECL INT N\nEND\n"
