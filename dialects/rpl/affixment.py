@@ -1,6 +1,7 @@
 """Frames that hang on other frames: `FRAME part = {...} ON table`.
 
-The variable keeps its offset; wherever it is used, it stands for `table : part`. So it follows when the table moves.
+The variable keeps its offset, and its components are those of the offset; wherever the frame itself is used, it stands
+for `table : part`. So it follows when the table moves.
 """
 
 from __future__ import annotations
@@ -43,6 +44,8 @@ def _replaced(node: object, frames: dict[str, ir.Expression]) -> object:
     match node:
         case ir.Name(id=name) if name.lower() in frames:
             return ir.Binary(":", frames[name.lower()], node, origin=node.origin)
+        case ir.Field(base=ir.Name()):
+            return node
         case ir.Assign(target=target, value=value):
             # Assigning sets the offset itself; only indices on the left are uses.
             return replace(node, target=_place(target, frames), value=_used(value, frames))

@@ -179,6 +179,18 @@ def moves(draw: st.DrawFn) -> ir.Move:
 
 # ---- statements
 
+BARE: tuple[ir.Statement, ...] = (
+    ir.ExitLoop(),
+    ir.NextPass(),
+    ir.WaitForMotion(),
+    ir.LookAhead(),
+    ir.StartMotion(),
+    ir.ClearMotion(),
+    ir.ResumeLevel(),
+    ir.Retry(),
+    ir.TryNext(),
+    ir.Nothing(),
+)
 simple: st.SearchStrategy[ir.Statement] = st.one_of(
     assignments,
     calls,
@@ -187,20 +199,7 @@ simple: st.SearchStrategy[ir.Statement] = st.one_of(
     st.builds(ir.MoveExternal, small, st.one_of(st.none(), speeds), st.one_of(st.none(), blends)),
     triggers,
     st.builds(ir.DefineTrigger, lvalues, triggers, maybe),
-    st.sampled_from(
-        (
-            ir.ExitLoop(),
-            ir.NextPass(),
-            ir.WaitForMotion(),
-            ir.LookAhead(),
-            ir.StartMotion(),
-            ir.ClearMotion(),
-            ir.ResumeLevel(),
-            ir.Retry(),
-            ir.TryNext(),
-            ir.Nothing(),
-        )
-    ),
+    st.sampled_from(BARE),
     st.builds(ir.Label, names),
     st.builds(ir.Goto, names),
     st.builds(ir.Return, maybe),
@@ -280,7 +279,8 @@ bodies = st.lists(statements, max_size=3).map(tuple)
 
 # ---- types and declarations
 
-_plain_types = st.sampled_from((*words.TYPE_WORDS.values(), ir.JointsType(external=False)))
+PLAIN_TYPES: tuple[ir.Type, ...] = (*words.TYPE_WORDS.values(), ir.JointsType(external=False))
+_plain_types = st.sampled_from(PLAIN_TYPES)
 _types: st.SearchStrategy[ir.Type] = st.one_of(
     _plain_types,
     st.builds(ir.NamedType, names),

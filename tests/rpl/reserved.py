@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 
 from lark.lexer import TerminalDef
 
@@ -50,6 +51,7 @@ class _None:
 _NONE = _None()
 
 
+@cache
 def _takes(terminal: TerminalDef, word: str) -> bool:
     pattern = re.compile(terminal.pattern.to_regexp())
     for probe in _PROBES:
@@ -61,16 +63,20 @@ def _takes(terminal: TerminalDef, word: str) -> bool:
 
 def _pairs(terminals: dict[str, TerminalDef], names: list[str], words: frozenset[str]) -> set[tuple[str, str]]:
     """Two-word beginnings of the terminals accepted."""
-    found = set()
-    for name in names:
-        value = terminals[name].pattern.value
-        if r"\s" not in value:
-            continue
-        pattern = re.compile(terminals[name].pattern.to_regexp())
-        bare = set(_WORD.findall(re.sub(r"\\.|\(\?[=!:]", " ", value))) & words
-        tails = [" ".join(tail) for tail in ([], *([w] for w in bare), *([v, w] for v in bare for w in bare))]
-        for first in bare:
-            for second in bare:
-                if any(pattern.fullmatch(f"{first} {second} {tail}".strip()) for tail in tails):
-                    found.add((first, second))
-    return found
+    return {pair for name in names for pair in _pairs_of(terminals[name], words)}
+
+
+@cache
+def _pairs_of(terminal: TerminalDef, words: frozenset[str]) -> frozenset[tuple[str, str]]:
+    value = terminal.pattern.value
+    if r"\s" not in value:
+        return frozenset()
+    pattern = re.compile(terminal.pattern.to_regexp())
+    bare = set(_WORD.findall(re.sub(r"\\.|\(\?[=!:]", " ", value))) & words
+    tails = [" ".join(tail) for tail in ([], *([w] for w in bare), *([v, w] for v in bare for w in bare))]
+    return frozenset(
+        (first, second)
+        for first in bare
+        for second in bare
+        if any(pattern.fullmatch(f"{first} {second} {tail}".strip()) for tail in tails)
+    )

@@ -160,7 +160,7 @@ def test_gripper_and_frames() -> None:
     program, codes, _ = read(
         "GRIPPER hand = do[4] OPEN ON CLOSE OFF TIME 0.1 s\n"
         "FRAME table = {x: 1}\nFRAME part = {x: 2} ON table\nFRAME hole = {x: 3} ON part\n"
-        "MOVE TO hole\npart.x = 5\nCLOSE hand\n"
+        "MOVE TO hole\npart.x = part.x + 5\nCLOSE hand\n"
         "PROCEDURE other(part: POSE)\nMOVE TO part\nEND PROCEDURE\n"
     )
     assert codes == []
@@ -168,7 +168,7 @@ def test_gripper_and_frames() -> None:
     table, part, hole = ir.Name("table"), ir.Name("part"), ir.Name("hole")
     assert main.body == (
         ir.Move("joint", ir.Binary(":", ir.Binary(":", table, part), hole)),
-        ir.Assign(ir.Field(part, "x"), ir.IntLiteral(5)),
+        ir.Assign(ir.Field(part, "x"), ir.Binary("+", ir.Field(part, "x"), ir.IntLiteral(5))),
         ir.CallRoutine("close_hand"),
     )
     assert opened.body == (
@@ -182,7 +182,7 @@ def test_gripper_and_frames() -> None:
 def test_program_with_tasks() -> None:
     text = (
         "ENTRY main\nTASK watch ENTRY guard BACKGROUND CYCLIC MODULES m, n\n\n"
-        "MODULE m USING krl TASK watch PUBLIC\n    ATTRIBUTE \"access\" \"RVP\"\n    GLOBAL VAR x: INT\n\n"
+        'MODULE m USING krl TASK watch PUBLIC\n    ATTRIBUTE "access" "RVP"\n    GLOBAL VAR x: INT\n\n'
         "    GLOBAL PROCEDURE guard()\n    END PROCEDURE\nEND MODULE\n"
     )
     program, codes, _ = read(text)

@@ -79,12 +79,12 @@ def test_programs(program: ir.Program) -> None:
 def test_strategies_reach_every_node() -> None:
     """A node that is added to the IR and not to the strategies would never be tried."""
     wanted = {*get_args(ir.Statement), *get_args(ir.Expression), *get_args(ir.Declaration), *get_args(ir.Type)}
-    seen: set[type] = set()
+    seen: set[type] = {type(node) for node in (*make.BARE, *make.PLAIN_TYPES)}
 
-    @settings(max_examples=500, deadline=None, suppress_health_check=SLOW, derandomize=True, database=None)
+    @settings(max_examples=600, deadline=None, suppress_health_check=SLOW, derandomize=True, database=None)
     @given(st.tuples(make.simple, make.simple, make.types, make.declarations, make.statements))
     def look(nodes: tuple[object, ...]) -> None:
         seen.update(type(part) for part in walk(nodes))
 
     look()
-    assert {node.__name__ for node in wanted - seen} == set()
+    assert sorted(node.__name__ for node in wanted - seen) == []
