@@ -57,7 +57,7 @@ def _read_file(
 ) -> tuple[list[ir.Module], FileReport]:
     statements = Statements(project, source.path, diagnostics)
     blocks = Blocks(diagnostics)
-    pieces = split(source, parser, statement_names(project))
+    pieces = split(source, parser, statement_names(project, source.path))
     assembly = assemble(source, "rapid", pieces, parser, statements.lower, blocks.build, diagnostics)
     task = _TASK_FOLDER.search(source.path)
     parts = _parts(assembly.items, source, diagnostics)
@@ -76,9 +76,10 @@ def _read_file(
     return modules, assembly.report
 
 
-def statement_names(project: Project) -> frozenset[str]:
-    """Names that begin a statement: installed instructions and the project's procedures."""
-    return (frozenset(INSTRUCTIONS) | EFFECTS.keys() | project.routines) - project.declared
+def statement_names(project: Project, path: str) -> frozenset[str]:
+    """Names that begin a statement: installed instructions and the project's procedures as this file sees them."""
+    own = project.routines | project.local_routines.get(path, set())
+    return (frozenset(INSTRUCTIONS) | EFFECTS.keys() | own) - project.declared
 
 
 def _parts(items: tuple[Item, ...], source: Source, diagnostics: Diagnostics) -> list[ModulePart]:

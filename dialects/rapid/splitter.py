@@ -253,9 +253,9 @@ class _Splitter:
                 at = further
             return [*spans, *self.mended(at, end)]
         whole = self.statement(start, end).text
-        breaks = [place for place in breaks if _COMPLETE.match(whole, place[0] - start - 1)]
-        if not breaks or self.parser.reads(whole):
+        if self.parser.reads(whole):
             return [(start, end)]
+        breaks = [place for place in breaks if _COMPLETE.match(whole, place[0] - start - 1)] or breaks
         for stop, further in breaks:
             rest = self.statement(further, end).text
             spans.append((at, stop))
