@@ -59,7 +59,7 @@ def variable_line(variable: ir.Variable, scope: Scope, in_data: bool) -> str:
         words.append("CONST")
     text = f"{' '.join(words)} {word} {variable.name}{brackets}"
     if variable.initial is not None and in_data and not isinstance(type, ir.ArrayType):
-        if not _constant(variable.initial):
+        if not constant(variable.initial):
             raise CannotSayError("a data list takes constants only")
         text += f"={expressions.stored(variable.initial)}"
     return text
@@ -71,15 +71,15 @@ def first_values(variable: ir.Variable, in_data: bool) -> list[ir.Assign]:
         return []
     name = ir.Name(variable.name)
     if isinstance(variable.type, ir.ArrayType):
-        elements = list(_elements(name, (), variable.initial, len(variable.type.dimensions)))
-        if in_data and not all(_constant(element.value) for element in elements):
+        values = list(elements(name, (), variable.initial, len(variable.type.dimensions)))
+        if in_data and not all(constant(one.value) for one in values):
             raise CannotSayError("a data list takes constants only")
-        return elements
+        return values
     return [] if in_data else [ir.Assign(name, variable.initial)]
 
 
-def _elements(
-    name: ir.Name, indices: tuple[ir.Expression, ...], value: ir.Expression, depth: int
+def elements(
+    name: ir.Expression, indices: tuple[ir.Expression, ...], value: ir.Expression, depth: int
 ) -> Iterator[ir.Assign]:
     if not depth:
         yield ir.Assign(ir.Index(name, indices), value)
@@ -87,15 +87,15 @@ def _elements(
     if not isinstance(value, ir.Aggregate):
         raise CannotSayError("KRL initialises an array element by element")
     for number, (_, part) in enumerate(value.entries, 1):
-        yield from _elements(name, (*indices, ir.IntLiteral(number)), part, depth - 1)
+        yield from elements(name, (*indices, ir.IntLiteral(number)), part, depth - 1)
 
 
-def _constant(value: ir.Expression) -> bool:
+def constant(value: ir.Expression) -> bool:
     match value:
         case ir.Unary(op="-" | "+", operand=operand) | ir.Convert(operand=operand):
-            return _constant(operand)
+            return constant(operand)
         case ir.Aggregate(entries=entries):
-            return all(_constant(part) for _, part in entries)
+            return all(constant(part) for _, part in entries)
         case ir.System(name="null_frame" | "world"):
             return True
     return isinstance(value, _LITERALS)

@@ -188,11 +188,24 @@ class Expressions:
                 return f"StrFind({self.listed((start, text, wanted))},#CASE_SENS)"
             case "is_uninitialised", (ir.Name(id=variable),):
                 return f'(VARSTATE("{variable}")<>#INITIALIZED)'
+            case "dimension", (array, ir.IntLiteral(value=number)):
+                return self.bound(array, number)
+            case "length", (array,) if isinstance(self.type(array), ir.ArrayType):
+                return self.bound(array, 1)
             case "compose", (first, second):
                 return f"({self.printer.atom(first)}:{self.printer.atom(second)})"
         if name in tables.PROCEDURES:
             return self.procedure(name, values)
         raise CannotSayError(f"KRL has no function {name}")
+
+    def bound(self, array: ir.Expression, number: int) -> str:
+        """A declared array's size is known while writing; a parameter's is not."""
+        type = self.type(array)
+        bounds = type.dimensions if isinstance(type, ir.ArrayType) else ()
+        found = bounds[number - 1] if 0 < number <= len(bounds) else None
+        if found is None:
+            raise CannotSayError("KRL cannot ask an array for its size")
+        return self.printer.atom(found)
 
     def procedure(self, name: str, values: tuple[ir.Expression | None, ...]) -> str:
         spelled = tables.PROCEDURES[name]

@@ -11,6 +11,7 @@ from rpl.source import Comment, Origin
 from rpl.writing.ledger import EmissionLedger
 
 from . import tables
+from .declarations import constant, elements
 from .expressions import CannotSayError, Expressions
 from .motion import Motion
 from .settings import whole_structure
@@ -128,6 +129,8 @@ class Printer:
                 self.comments_only(origin)
             case ir.If() | ir.Switch() | ir.For() | ir.While() | ir.Repeat() | ir.Loop() | ir.Spline():
                 self.block(statement)
+            case ir.Assign(target=target, value=ir.Aggregate() as value) if self.is_array(target):
+                self.whole_array(statement, target, value)
             case ir.Opaque(text=text):
                 raise CannotSayError(f"it was not read ({text.strip()[:40]})")
             case ir.Vendor(dialect=dialect, text=text):
@@ -136,6 +139,18 @@ class Printer:
                 self.line(text, statement.origin)
             case _:
                 self.line(self.simple(statement), statement.origin)
+
+    def is_array(self, target: ir.Expression) -> bool:
+        return isinstance(self.expressions.type(target), ir.ArrayType)
+
+    def whole_array(self, statement: ir.Statement, target: ir.Expression, value: ir.Aggregate) -> None:
+        """An array filled at once: element by element, when the order cannot matter."""
+        type = self.expressions.type(target)
+        assert isinstance(type, ir.ArrayType)
+        if not constant(value):
+            raise CannotSayError("an array filled at once with computed values")
+        for number, one in enumerate(elements(target, (), value, len(type.dimensions))):
+            self.line(assignment(one, self.expressions), statement.origin if number == 0 else None)
 
     # ---- blocks
 
