@@ -71,11 +71,11 @@ class _Enums(Rewriter):
     def __init__(self, program: ir.Program, context: Context, numbering: _Numbering, names: dict[str, str]) -> None:
         super().__init__(program, context)
         self.numbering, self.names = numbering, names
-        self.made: set[str] = set()
+        self.used: set[str] = set()
 
     def program(self) -> ir.Program:
         done = super().program()
-        shared = [key for key in self.numbering.shared if key in self.names]
+        shared = [key for key in self.numbering.shared if key in self.used]
         if not shared:
             return done
         first = done.modules[0]
@@ -94,6 +94,7 @@ class _Enums(Rewriter):
         match expression:
             case ir.EnumLiteral(member=member):
                 name = self.names.get(member.lower())
+                self.used.add(member.lower())
                 return expression if name is None else ir.Name(name, origin=expression.origin)
             case ir.Binary(left=left, right=right) if isinstance(left, ir.System) or isinstance(right, ir.System):
                 # A mode of the controller is compared in neutral words.

@@ -10,6 +10,7 @@ from rpl.passes.legalise.calls import rewrite_calls
 from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.context import Context, Pass, names_in
 from rpl.passes.legalise.datalists import set_data_at_start
+from rpl.passes.legalise.defaults import starting_values
 from rpl.passes.legalise.enums import enums_to_constants
 from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.explicit import explicit_to_modal
@@ -27,6 +28,7 @@ from rpl.passes.legalise.signals import name_signals, number_signals
 from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
 from rpl.passes.legalise.triggers import triggers
+from rpl.passes.legalise.unused import drop_unused
 from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.typing import normalise
 
@@ -35,6 +37,7 @@ from rpl.passes.typing import normalise
 PASSES: tuple[Pass, ...] = (
     searches,
     link_prelude,
+    configurations,
     stop_blends,
     triggers,
     interrupts,
@@ -43,6 +46,7 @@ PASSES: tuple[Pass, ...] = (
     name_signals,
     number_signals,
     numbers,
+    starting_values,
     fit_parameters,
     check_errors,
     fit_waits,
@@ -51,11 +55,11 @@ PASSES: tuple[Pass, ...] = (
     rewrite_calls,
     fit_loops,
     enums_to_constants,
-    configurations,
     modal_to_explicit,
     explicit_to_modal,
     aggregates,
     geometry,
+    drop_unused,
 )
 
 

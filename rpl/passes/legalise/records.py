@@ -21,6 +21,9 @@ RECORDS: dict[type, str] = {
 }
 
 
+_TEXT = 32  # characters of a name inside of a record
+
+
 @dataclass(slots=True)
 class Records:
     """The records asked for so far."""
@@ -45,6 +48,8 @@ class Records:
     def inner(self, type: ir.Type) -> ir.Type:
         if isinstance(type, ir.VectorType | ir.RotationType):
             return ir.PoseType()
+        if isinstance(type, ir.StringType):
+            return ir.StringType(ir.IntLiteral(_TEXT))
         return self.type(type) if type.__class__ in RECORDS else type
 
     def word(self, type: ir.Type) -> str | None:

@@ -71,7 +71,8 @@ def test_a_taken_name_is_avoided_and_the_pass_is_idempotent() -> None:
 
 
 def test_shared_members_that_collide_are_numbered_through() -> None:
-    text = "DEF t()\nEND\n====\nDEFDAT t\nENUM A X,Y\nENUM B Z,X\nENUM D Z,Y\nENUM E Y,Z,X\nENDDAT\n"
+    text = "DEF t()\nEND\n====\nDEFDAT t\nENUM A X,Y\nENUM B Z,X\nENUM D Z,Y\nENUM E Y,Z,X\n"
+    text += "DECL E p=#X\nDECL E q=#Y\nDECL E r=#Z\nENDDAT\n"
     program = read(text, "krl")
     done = enums_to_constants(program, context(program, "krl"))
     numbers = [variable(done, name).initial for name in "XYZ"]

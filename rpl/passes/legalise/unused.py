@@ -1,0 +1,124 @@
+"""Drop what the source's prelude brought along, and generated records, where nothing uses them after all passes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.passes.legalise.context import Context
+from rpl.passes.rewrite import rewrite_parts
+
+_BUILT_IN = frozenset(("tool", "workobject", "load", "speed", "zone", "pose", "vector", "rotation", "joints", "axes"))
+
+
+def drop_unused(program: ir.Program, context: Context) -> ir.Program:
+    """The program without unused data, types and routines of linked preludes."""
+    parts: list[ir.Declaration | ir.Routine] = []
+    own = []
+    for module in program.modules:
+        mine = tuple(one for one in module.declarations if not _is_generated(one, module, context))
+        routines = () if _is_linked(module, context) else module.routines
+        own.append(replace(module, declarations=mine, routines=routines))
+        parts.extend(one for one in module.declarations if _is_generated(one, module, context))
+        parts.extend(one for one in module.routines if _is_linked(module, context))
+    if not parts:
+        return program
+    used = _names(replace(program, modules=tuple(own)))
+    used |= {program.entry.lower()} | {task.entry.lower() for task in program.tasks}
+    kept: set[int] = set()
+    size = -1
+    while size != len(kept):
+        size = len(kept)
+        for one in parts:
+            if id(one) not in kept and _declares(one) & used:
+                kept.add(id(one))
+                used |= _names(one)
+    modules = []
+    for module in program.modules:
+        gone = {id(one) for one in parts} - kept
+        declarations = tuple(one for one in module.declarations if id(one) not in gone)
+        routines = tuple(one for one in module.routines if id(one) not in gone)
+        if declarations or routines or not _is_linked(module, context):
+            modules.append(replace(module, declarations=declarations, routines=routines))
+    return replace(program, modules=tuple(modules))
+
+
+def _is_generated(one: ir.Declaration, module: ir.Module, context: Context) -> bool:
+    """Part of a linked prelude, or a record that stands for a built-in type."""
+    record = isinstance(one, ir.RecordDeclaration) and one.name.startswith("rpl_")
+    return record or _is_linked(module, context)
+
+
+def _is_linked(module: ir.Module, context: Context) -> bool:
+    return module.name.lower().startswith(f"{context.source}_base")
+
+
+def _declares(one: ir.Declaration | ir.Routine) -> set[str]:
+    match one:
+        case ir.EnumDeclaration(name=name, members=members):
+            return {name.lower(), *(member.lower() for member in members)}
+        case ir.Initialise(assign=ir.Assign(target=target)):
+            base = target
+            while isinstance(base, ir.Index | ir.Field):
+                base = base.base
+            return {base.id.lower()} if isinstance(base, ir.Name) else set()
+        case ir.Unread():
+            return set()
+    return {one.name.lower()}
+
+
+def _names(node: ir.Program | ir.Declaration | ir.Routine) -> set[str]:
+    """Every name that the node mentions, folded: of values, routines, types and members."""
+    found: set[str] = set()
+
+    def types(type: ir.Type | None) -> None:
+        match type:
+            case ir.NamedType(name=name):
+                found.add(name.lower())
+            case ir.ArrayType(element=element):
+                types(element)
+
+    def expression(one: ir.Expression) -> ir.Expression:
+        match one:
+            case ir.Name(id=name) | ir.Call(name=name) | ir.EnumLiteral(member=name):
+                found.add(name.lower())
+            case ir.Aggregate(type_name=word) if word and word not in _BUILT_IN:
+                found.add(word.lower())
+        return rewrite_parts(one, expression)
+
+    def body(statements: ir.Body) -> ir.Body:
+        for one in statements:
+            match one:
+                case ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name) | ir.For(counter=name):
+                    found.add(name.lower())
+            rewrite_parts(one, expression, body)
+        return statements
+
+    def declaration(one: ir.Declaration) -> None:
+        match one:
+            case ir.Variable(type=type) | ir.AliasDeclaration(type=type):
+                types(type)
+            case ir.RecordDeclaration(fields=fields):
+                for _, type in fields:
+                    types(type)
+
+    def routine(one: ir.Routine) -> None:
+        types(one.returns)
+        for parameter in one.parameters:
+            types(parameter.type)
+        for inner in one.declarations:
+            declaration(inner)
+
+    match node:
+        case ir.Program(modules=modules):
+            for module in modules:
+                for one in module.declarations:
+                    declaration(one)
+                for each in module.routines:
+                    routine(each)
+        case ir.Routine():
+            routine(node)
+        case _:
+            declaration(node)
+    rewrite_parts(node, expression, body)
+    return found

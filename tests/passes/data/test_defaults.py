@@ -1,0 +1,73 @@
+"""Starting values, and what a linked prelude leaves behind."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.passes.legalise.defaults import starting_values
+from rpl.passes.legalise.prelude import link_prelude
+from rpl.passes.legalise.unused import drop_unused
+
+from .helpers import context, lines, read, show, variable
+
+PROGRAM = """MODULE t
+  RECORD size
+    num long;
+    string name;
+  ENDRECORD
+  VAR num count;
+  VAR size box;
+  VAR pos row{2};
+  VAR bool big{40};
+  VAR robtarget goal;
+  PROC t()
+    VAR num first;
+    VAR num later;
+    VAR num many{40};
+    VAR num looped;
+    first:=1;
+    IF first=1 THEN
+      later:=2;
+    ENDIF
+    looped:=later+many{1};
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_data_that_starts_at_zero_is_written_out() -> None:
+    program = read(PROGRAM, "rapid")
+    done = starting_values(program, context(program, "rapid"))
+    texts = {name: show(variable(done, name).initial or ir.Name("-")) for name in ("count", "box", "row", "goal")}
+    assert texts == {
+        "count": "0.0",
+        "box": "{long 0.0, name ''}",
+        "row": "{{x 0.0, y 0.0, z 0.0}, {x 0.0, y 0.0, z 0.0}}",
+        "goal": "{x 0.0, y 0.0, z 0.0, a 0.0, b 0.0, c 0.0}",
+    }
+
+
+def test_only_what_may_be_read_first_gets_a_value_in_a_routine() -> None:
+    program = read(PROGRAM, "rapid")
+    done = starting_values(program, context(program, "rapid"))
+    given = {name: variable(done, name).initial is not None for name in ("first", "later", "looped")}
+    assert given == {"first": False, "later": True, "looped": False}
+    assert lines(done)[:2] == ["for element = 1 to 40", "  many[element] := 0.0"]
+    assert starting_values(done, context(done, "rapid")) == done or lines(done)[0].startswith("for")
+
+
+def test_languages_that_agree_need_nothing() -> None:
+    program = read("DEF t()\nDECL INT n\nn=n+1\nEND\n", "krl")
+    assert starting_values(program, context(program, "krl")) is program
+
+
+def test_the_unused_part_of_a_prelude_goes() -> None:
+    program = read("MODULE t\nVAR speeddata v:=v100;\nPROC t()\nv:=v200;\nENDPROC\nENDMODULE\n", "rapid")
+    surroundings = context(program, "rapid")
+    linked = link_prelude(program, surroundings)
+    body = (ir.Return(),)
+    quiet = replace(linked.modules[0], routines=tuple(replace(r, body=body) for r in linked.modules[0].routines))
+    done = drop_unused(replace(linked, modules=(quiet, *linked.modules[1:])), surroundings)
+    names = [d.name for m in done.modules[1:] for d in m.declarations if isinstance(d, ir.Variable)]
+    assert names == ["v100"]
