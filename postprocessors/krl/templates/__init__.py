@@ -1,1 +1,1 @@
-"""Templates of this target; a package so that they are part of every installation."""
+"""Frames of KRL files; a package so that the wheel holds them."""
