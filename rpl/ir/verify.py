@@ -79,7 +79,7 @@ _WORDS: dict[type, dict[str, tuple[str, ...]]] = {
     Magnitude: {"unit": tuple(UNITS)},
     Signal: {"kind": SIGNAL_KINDS},
     SignalType: {"kind": SIGNAL_KINDS},
-    Builtin: {"function": tuple(FUNCTIONS)},
+    Builtin: {"function": (*FUNCTIONS, *PROCEDURES)},  # a built-in procedure may be asked for its result
     Do: {"procedure": tuple(PROCEDURES)},
     System: {"name": tuple(SYSTEM_VARIABLES)},
     Halt: {"kind": ("stop", "exit", "cycle")},
@@ -211,6 +211,8 @@ class _Checker:
                             self.word(node, field, allowed, at)
                 case Builtin(function=name, arguments=given) if name in FUNCTIONS:
                     self.count(name, FUNCTIONS[name].parameters, len(given), at)
+                case Builtin(function=name, arguments=given) if name in PROCEDURES:
+                    self.count(name, PROCEDURES[name].parameters, len(given), at)
                 case Do(procedure=name, arguments=values) if name in PROCEDURES:
                     self.count(name, PROCEDURES[name].parameters, len(values), at)
                 case Assign(target=target) if not isinstance(target, _PLACES):

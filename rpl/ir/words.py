@@ -55,7 +55,8 @@ CONVERSION_WORDS: dict[str, str] = {
 }
 PRESENT_WORD = "present"
 # Words that mean something else than a user's function when they stand before an opening bracket.
-FUNCTION_WORDS = frozenset((*FUNCTIONS, *CONVERSION_WORDS, *SIGNAL_WORDS, PRESENT_WORD))
+# A built-in procedure gives a result too, so its name is one of these words.
+FUNCTION_WORDS = frozenset((*FUNCTIONS, *PROCEDURES, *CONVERSION_WORDS, *SIGNAL_WORDS, PRESENT_WORD))
 PROCEDURE_WORDS = frozenset(PROCEDURES)
 UNIT_WORDS: dict[str, str] = {**{unit: unit for unit in UNITS if unit != "percent"}, "%": "percent"}
 
