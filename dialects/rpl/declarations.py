@@ -109,7 +109,15 @@ def routine_head(tree: SyntaxTree, at: Reading) -> ir.Routine:
         _refuse_builtin(token.lower(), kind)
     returns = next((type_of(next(trees(part)), at) for part in trees(tree) if part.data == "returns"), None)
     parameters = tuple(_parameter(part, at) for part in trees(tree) if part.data == "parameter")
-    return ir.Routine(name_of(token), kind, parameters, returns, scope=scope_of(tree) or "task", origin=at.origin)
+    return ir.Routine(
+        name_of(token),
+        kind,
+        parameters,
+        returns,
+        scope=scope_of(tree) or "task",
+        open_ended=next(tokens(tree, "ELLIPSIS"), None) is not None,
+        origin=at.origin,
+    )
 
 
 def _refuse_builtin(word: str, kind: str) -> None:

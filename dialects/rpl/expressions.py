@@ -240,7 +240,7 @@ def _invoke(tree: SyntaxTree, at: Reading) -> ir.Expression:
     if word not in words.FUNCTION_WORDS:
         return ir.Call(name_of(token), given, origin=at.origin)
     values = plain_values(given, word)
-    if word in ir.FUNCTIONS:
+    if word in ir.FUNCTIONS or word in ir.PROCEDURES:
         return ir.Builtin(word, values, origin=at.origin)
     if len(values) != 1:
         raise StatementError(f"{word} takes one argument", 0)

@@ -126,7 +126,7 @@ def routine_head(routine: ir.Routine) -> str:
     """The first line of a routine."""
     scope = "" if routine.scope == "task" else _SCOPES[routine.scope]
     name = procedure_name(routine.name) if routine.kind == "procedure" else function_name(routine.name)
-    parameters = ", ".join(_parameter(parameter) for parameter in routine.parameters)
+    parameters = ", ".join([*map(_parameter, routine.parameters), *(["..."] if routine.open_ended else [])])
     returns = "" if routine.returns is None else f": {type_text(routine.returns)}"
     return f"{scope}{routine.kind.upper()} {name}({parameters}){returns}"
 

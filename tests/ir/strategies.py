@@ -41,6 +41,7 @@ reals = st.builds(ir.RealLiteral, st.floats(allow_nan=False, allow_infinity=Fals
 _leaf_system = st.sampled_from(sorted(name for name, row in ir.SYSTEM_VARIABLES.items() if not row.indexed))
 _indexed_system = st.sampled_from(sorted(name for name, row in ir.SYSTEM_VARIABLES.items() if row.indexed))
 signal_kinds = st.sampled_from(ir.SIGNAL_KINDS)
+_functions = st.sampled_from(sorted({*ir.FUNCTIONS, *ir.PROCEDURES}))
 units = st.sampled_from(sorted(ir.UNITS))
 
 leaves: st.SearchStrategy[ir.Expression] = st.one_of(
@@ -97,7 +98,7 @@ def _larger(inner: st.SearchStrategy[ir.Expression]) -> st.SearchStrategy[ir.Exp
         st.builds(ir.Binary, st.sampled_from(ir.BINARY_OPERATORS), inner, inner),
         st.builds(ir.Unary, st.sampled_from(ir.UNARY_OPERATORS), inner),
         st.builds(ir.Call, names, arguments(inner)),
-        st.builds(ir.Builtin, st.sampled_from(sorted(ir.FUNCTIONS)), st.lists(inner, max_size=3).map(tuple)),
+        st.builds(ir.Builtin, _functions, st.lists(inner, max_size=3).map(tuple)),
         st.builds(ir.Convert, st.sampled_from(ir.CONVERSIONS), inner),
         st.builds(ir.Quantity, inner, units),
         st.builds(ir.Magnitude, inner, units),
@@ -191,6 +192,7 @@ BARE: tuple[ir.Statement, ...] = (
     ir.TryNext(),
     ir.Nothing(),
 )
+IN_SPLINE = (ir.Nothing(), ir.Vendor("krl", "TIME_BLOCK START", "time"), ir.Opaque("?"))
 simple: st.SearchStrategy[ir.Statement] = st.one_of(
     assignments,
     calls,
@@ -266,7 +268,7 @@ def _blocks(inner: st.SearchStrategy[ir.Statement]) -> st.SearchStrategy[ir.Stat
         st.builds(
             ir.Spline,
             st.sampled_from(("path", "joint")),
-            st.lists(st.one_of(moves(), triggers, assignments, st.just(ir.Nothing())), max_size=2).map(tuple),
+            st.lists(st.one_of(moves(), triggers, assignments, st.sampled_from(IN_SPLINE)), max_size=2).map(tuple),
             st.one_of(st.none(), blends),
             bindings,
         ),
@@ -332,6 +334,7 @@ def routines(draw: st.DrawFn) -> ir.Routine:
         draw(st.one_of(st.just(()), bodies)),
         draw(st.one_of(st.just(()), bodies)),
         draw(st.sampled_from(("module", "task", "global"))),
+        open_ended=draw(st.booleans()),
     )
 
 
