@@ -10,8 +10,8 @@ from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.reading.pieces import Attribute, Block, Item, ModulePart, Section
 from rpl.source import Origin
 
+from .project import Project
 from .statements import ForHead, HandlerHead, ModuleHead, RecordHead, RoutineHead
-from .types import type_named
 
 MISPLACED = code("misplaced-declaration", Severity.WARNING, "a declaration stands where the controller takes none")
 MISPLACED_STATEMENT = code(
@@ -34,7 +34,8 @@ class Handlers:
 class Blocks:
     """The `build` function of the assembler for one file."""
 
-    def __init__(self, diagnostics: Diagnostics) -> None:
+    def __init__(self, project: Project, diagnostics: Diagnostics) -> None:
+        self.type_named = project.type_named
         self.diagnostics = diagnostics
 
     def build(self, block: Block) -> Item | tuple[Item, ...]:
@@ -152,12 +153,12 @@ class Blocks:
             for item in section.items:
                 match item:
                     case ir.CallRoutine(name=type_name, arguments=(ir.Argument(value=ir.Name(id=field), name=None),)):
-                        fields.append((field, type_named(type_name)))
+                        fields.append((field, self.type_named(type_name)))
                     case ir.CallRoutine(
                         name=type_name,
                         arguments=(ir.Argument(value=ir.Index(base=ir.Name(id=field), indices=sizes), name=None),),
                     ):
-                        fields.append((field, ir.ArrayType(type_named(type_name), sizes)))
+                        fields.append((field, ir.ArrayType(self.type_named(type_name), sizes)))
                     case ir.Nothing():
                         continue
                     case _:

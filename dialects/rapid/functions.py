@@ -53,7 +53,7 @@ def _binary(op: str) -> Make:
 def _same(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
     """NumToDnum and DnumToNum: num and dnum are one type here."""
     value = arguments.need(1)[0]
-    return None if arguments.options else value
+    return None if set(arguments.options) - {"integer"} else value
 
 
 def _signal_value(kind: str) -> Make:

@@ -142,6 +142,9 @@ _NUMBERS: dict[str, float] = {
     "EVENT_RESTART": 5,
     "EVENT_RESET": 6,
     "EVENT_STEP": 7,
+    "inpos": 1,
+    "stoptime": 2,
+    "fllwtime": 3,
     "HANDLER_NONE": 0,
     "HANDLER_BWD": 1,
     "HANDLER_ERR": 2,
@@ -156,6 +159,34 @@ _TEXTS = {
     "STR_WHITE": " ",
     "diskhome": "HOME:",
 }
+
+
+_TEXT = ir.StringType()
+_RECORDS: dict[str, tuple[tuple[str, ir.Type], ...]] = {
+    "tasks": (("taskname", _TEXT),),
+    "listitem": (("image", _TEXT), ("text", _TEXT)),
+    "inposdata": (("position", NUM), ("speed", NUM), ("mintime", NUM), ("maxtime", NUM)),
+    "stoppointdata": (
+        ("type", NUM),
+        ("progsynch", ir.BoolType()),
+        ("inpos", ir.NamedType("inposdata")),
+        ("stoptime", NUM),
+        ("followtime", NUM),
+        ("signal", _TEXT),
+        ("relation", NUM),
+        ("checkvalue", NUM),
+    ),
+}
+_STOP_POINTS = (
+    "inpos20",
+    "inpos50",
+    "inpos100",
+    "stoptime0_5",
+    "stoptime1_0",
+    "stoptime1_5",
+    "fllwtime0_5",
+    "fllwtime1_0",
+)
 
 
 def _literal(number: float) -> ir.Expression:
@@ -221,7 +252,8 @@ def prelude() -> ir.Module:
         *(_constant(name, NUM, _literal(value)) for name, value in _NUMBERS.items()),
         *(_constant(name, ir.StringType(), ir.TextLiteral(text)) for name, text in _TEXTS.items()),
         *(_constant(name, NUM, ir.IntLiteral(number)) for name, number in ERRORS.items()),
-        ir.RecordDeclaration("tasks", (("taskname", ir.StringType()),), "global"),
+        *(ir.RecordDeclaration(name, fields, "global") for name, fields in _RECORDS.items()),
+        *(ir.Variable(name, ir.NamedType("stoppointdata"), None, "constant", "global") for name in _STOP_POINTS),
     )
     return ir.Module("rapid_prelude", "rapid", declarations, _functions())
 

@@ -10,9 +10,10 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+from rpl import ir
 from rpl.source import Source
 
-from .types import SIGNALS
+from .types import SIGNALS, TYPES
 
 _NOISE = re.compile(r'"(?:[^"\r\n]|"")*"|![^\r\n]*')
 _ROUTINE = re.compile(r"(\bLOCAL\s+)?\b(?:PROC|FUNC\s+\w+|TRAP)\s+(\w+)(?:\s*\(([^()]*)\))?", re.IGNORECASE)
@@ -52,6 +53,13 @@ class Project:
     types: set[str] = field(default_factory=set)
     signal_arguments: dict[str, dict[int | str, str]] = field(default_factory=dict)
     booked_errors: dict[str, int] = field(default_factory=dict)
+
+    def type_named(self, word: str) -> ir.Type:
+        """The type of a type name: a record or alias of the project before an installed type."""
+        lower = word.lower()
+        if lower in self.types:
+            return ir.NamedType(word)
+        return TYPES.get(lower) or ir.NamedType(word)
 
     def signal_kind(self, name: str) -> str | None:
         """The kind of signal an undeclared name must be, or None when nothing says that it is one."""

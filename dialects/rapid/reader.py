@@ -56,7 +56,7 @@ def _read_file(
     source: Source, project: Project, parser: RapidParser, diagnostics: Diagnostics
 ) -> tuple[list[ir.Module], FileReport]:
     statements = Statements(project, source.path, diagnostics)
-    blocks = Blocks(diagnostics)
+    blocks = Blocks(project, diagnostics)
     pieces = split(source, parser, statement_names(project, source.path))
     assembly = assemble(source, "rapid", pieces, parser, statements.lower, blocks.build, diagnostics)
     task = _TASK_FOLDER.search(source.path)

@@ -17,7 +17,6 @@ from rpl.source import Origin
 from .expressions import Arguments, Children, Expressions, Values, leaf, word_of
 from .instructions import INSTRUCTIONS
 from .project import Project
-from .types import type_named
 from .vendor import EFFECTS
 
 PLACEHOLDER = code(
@@ -79,6 +78,7 @@ class Statements:
     def __init__(self, project: Project, path: str, diagnostics: Diagnostics) -> None:
         self.expressions = Expressions(project, path)
         self.value = self.expressions.lower
+        self.type_named = project.type_named
         self.diagnostics = diagnostics
         self.simple: dict[str, Callable[[Children, Values, Origin], ir.Statement | tuple[ir.Statement, ...]]] = {
             "assign": self.assign,
@@ -151,7 +151,7 @@ class Statements:
         storage = _STORAGE[word_of(children[at])]
         if not scope:
             scope = "global" if storage == "persistent" else "task"
-        type = type_named(leaf(children[at + 1], values))
+        type = self.type_named(leaf(children[at + 1], values))
         name = leaf(children[at + 2], values)
         initial: ir.Expression | None = None
         for child in children[at + 3 :]:
@@ -171,7 +171,7 @@ class Statements:
     def alias(self, children: Children, values: Values, origin: Origin) -> ir.AliasDeclaration:
         scope = "module" if isinstance(children[0], Tree) else "task"
         old, new = (leaf(child, values) for child in children[-2:])
-        return ir.AliasDeclaration(new, type_named(old), scope, origin=origin)
+        return ir.AliasDeclaration(new, self.type_named(old), scope, origin=origin)
 
     def module_head(self, children: Children, values: Values, origin: Origin) -> Open:
         attributes: tuple[tuple[str, str], ...] = ()
@@ -193,7 +193,7 @@ class Statements:
         if isinstance(rest[0], Tree) and rest[0].data == "local":
             scope = "module"
             rest.pop(0)
-        returns = type_named(leaf(rest.pop(0), values)) if kind == "function" else None
+        returns = self.type_named(leaf(rest.pop(0), values)) if kind == "function" else None
         name = leaf(rest.pop(0), values)
         parameters = self.parameters(rest[0], values) if rest else ()
         return Open("routine", RoutineHead(kind, name, parameters, returns, scope), origin)
@@ -225,7 +225,7 @@ class Statements:
             children.pop(0)
             mode = "reference"
         word = leaf(children[0], values)
-        type: ir.Type = type_named(word)
+        type: ir.Type = self.type_named(word)
         if len(children) > 2 and isinstance(children[2], Tree):
             type = self.array(type, children[2], values)
         switch = word.lower() == "switch"

@@ -20,12 +20,11 @@ _NUMBERS = words(
     """num dnum byte errnum errtype errdomain btnres icondata buttondata tpnum opnum symnum iounit_state tunetype
     paridnum paridvalidnum loadidnum handler_type sensorstate triggmode busstate switchtype opmode runmode dionum"""
 )
+# Types without components. An installed record that is not described here stays a reference to something unknown.
 _VENDOR = words(
-    """socketdev socketstatus iodev rawbytes datapos taskid syncident identno wztemporary wzstationary shapedata mecunit
-    motsetdata progdisp stoppointdata trapdata listitem aiotrigg triggios triggiosdnum triggstrgo corrdescr dir egmident
-    egm_minmax egmframetype egmstopmode cameradev cameratarget speedlimdata restartdata errstr sensor sensorvardata
-    welddata seamdata weavedata arcdata trackdata spotdata gundata simdata inttypes loadsession visiondata rmqheader
-    rmqmessage rmqslot confsupdata fcforcevector fcspeedvector itmtgt selectdata sourcedata cfgdomain"""
+    """socketdev socketstatus iodev rawbytes taskid syncident identno wztemporary wzstationary shapedata mecunit
+    trapdata aiotrigg triggios triggiosdnum triggstrgo corrdescr dir egmident cameradev sensor loadsession rmqmessage
+    rmqslot speedlimdata"""
 )
 
 TYPES: dict[str, ir.Type] = {
@@ -52,8 +51,3 @@ TYPES: dict[str, ir.Type] = {
     "intnum": ir.InterruptType(),
     "triggdata": ir.TriggerType(),
 }
-
-
-def type_named(word: str) -> ir.Type:
-    """The IR type of a type name; a name that is not installed stays a reference."""
-    return TYPES.get(word.lower()) or ir.NamedType(word)

@@ -32,7 +32,7 @@ _UNKNOWN = words(
     InvertDO Load MakeDir ManLoadIdProc MoveAbsJ MoveC MoveJ MoveL Open OpenDir PDispOn PDispSet PackDNHeader
     PackRawBytes PathRecMoveBwd PathRecMoveFwd ProcerrRecovery PrxActivRecord PulseDO RMQFindSlot RMQGetMessage
     RMQGetMsgData RMQGetMsgHeader RMQReadWait RMQSendWait RaiseToUser ReadAnyBin ReadBlock ReadCfgData
-    ReadErrData ReadRawBytes ReadVarArr RemoveDir RemoveFile RenameFile SearchC SearchExtJ SearchL SetAO
+    ReadErrData ReadRawBytes ReadVarArr RemoveDir RemoveFile RenameFile SCWrite SearchC SearchExtJ SearchL SetAO
     SetAllDataVal SetDO SetDataSearch SetDataVal SetGO SetSysData SingArea SocketAccept SocketBind SocketClose
     SocketConnect SocketCreate SocketListen SocketReceive SocketReceiveFrom SpeedLimAxis SpeedLimCheckPoint
     SpeedRefresh SpotJ SpotL SpotMJ SpotML StartLoad StartMove StepBwdPath StopMove StopMoveReset StorePath
@@ -41,7 +41,7 @@ _UNKNOWN = words(
     TriggIO TriggInt TriggJ TriggJIOs TriggL TriggLIOs TriggRampAO TriggSpeed TriggStopProc TryInt UIMsgBox
     UIMsgWrite UIMsgWriteAbort UnLoad UnpackRawBytes VelSet WZBoxDef WZCylDef WZDOSet WZDisable WZEnable WZFree
     WZHomeJointDef WZLimJointDef WZLimSup WZSphDef WaitAI WaitAO WaitDI WaitDO WaitGI WaitGO WaitSensor
-    WaitSyncTask WaitTime WaitUntil WaitWObj WarmStart WriteBlock WriteVar WriteVarArr"""
+    WaitSyncTask WaitTestAndSet WaitTime WaitUntil WaitWObj WarmStart WriteBlock WriteVar WriteVarArr"""
 )
 
 EFFECTS: dict[str, str] = {
@@ -51,21 +51,25 @@ EFFECTS: dict[str, str] = {
 }
 
 # Functions without a neutral built-in, by the type of their result.
+# Some have a neutral built-in too, but an option of theirs has none.
 _FUNCTIONS = {
-    "bool": """BitCheck BitCheckDnum IndInpos IndSpeed IsCyclicBool IsFile IsMechUnitActive IsPers IsStopMoveAct
-        IsStopStateEvent IsSyncMoveOn IsSysId IsVar PFRestart PathRecValidBwd PathRecValidFwd RobOS StrDigCmp
-        TaskRunMec TaskRunRob TestAndSet TextTabFreeToUse TriggDataValid UIClientExist ValidIO""",
-    "num": """EventType ExecHandler ExecLevel FSSize FileSize GetModalPayLoadMode GetTime IOUnitState MaxRobSpeed
-        MotionPlannerNo OpMode ParIdPosValid ParIdRobValid ProgMemFree RawBytesLen ReadBin ReadMotor ReadNum
-        RunMode SocketGetStatus SocketPeek TestSignRead TextTabGet UIListView UIMessageBox UINumEntry UINumTune
-        BitLSh BitNeg CSpeedOverride CamNumberOfResults GetMotorTorque GetTaskNo""",
+    "bool": """GetNextSym BitCheck BitCheckDnum IndInpos IndSpeed IsCyclicBool IsFile IsMechUnitActive IsPers
+        IsStopMoveAct IsStopStateEvent IsSyncMoveOn IsSysId IsVar PFRestart PathRecValidBwd PathRecValidFwd
+        RobOS StrDigCmp TaskRunMec TaskRunRob TestAndSet TextTabFreeToUse TriggDataValid UIClientExist
+        ValidIO""",
+    "num": """ClkRead Round Trunc EventType ExecHandler ExecLevel FSSize FileSize GetModalPayLoadMode GetTime
+        IOUnitState MaxRobSpeed MotionPlannerNo OpMode ParIdPosValid ParIdRobValid ProgMemFree RawBytesLen
+        ReadBin ReadMotor ReadNum RunMode SocketGetStatus SocketPeek TestSignRead TextTabGet UIListView
+        UIMessageBox UINumEntry UINumTune BitLSh BitNeg CSpeedOverride CamNumberOfResults GetMotorTorque
+        GetTaskNo""",
     "dnum": "BitLShDnum BitNegDnum BitRShDnum ReadDnum StrToDnum UIDnumEntry UIDnumTune",
     "byte": "StrToByte",
-    "string": """ArgName ByteToStr CamGetLoadedJob CamGetName DecToHex EventName GetMecUnitName GetServiceInfo
-        GetSysInfo GetTaskName HexToDec ReadDir ReadStr ReadStrBin RMQGetSlotName StrDigCalc StrFormat TextGet
-        UIAlphaEntry""",
-    "robtarget": "MirPos ORobT",
+    "string": """ArgName ByteToStr CDate CTime NumToStr ValToStr CamGetLoadedJob CamGetName DecToHex EventName
+        GetMecUnitName GetServiceInfo GetSysInfo GetTaskName HexToDec ReadDir ReadStr ReadStrBin RMQGetSlotName
+        StrDigCalc StrFormat TextGet UIAlphaEntry""",
+    "robtarget": "CRobT MirPos ORobT",
+    "jointtarget": "CJointT CalcJointT",
     "pose": "DefAccFrame",
-    "pos": "CorrRead",
+    "pos": "CPos CorrRead",
 }
 FUNCTION_RESULTS: dict[str, str] = {name: result for result, names in _FUNCTIONS.items() for name in names.split()}

@@ -144,8 +144,9 @@ def ledger_of(text: str) -> tuple[str, str]:
     from rpl.dialects.rapid.statements import Statements
 
     source, diagnostics, parser = source_from_text("m.mod", text), Diagnostics(), RapidParser()
-    lowering = Statements(survey([source], ()), "m.mod", diagnostics)
-    building = Blocks(diagnostics)
+    project = survey([source], ())
+    lowering = Statements(project, "m.mod", diagnostics)
+    building = Blocks(project, diagnostics)
     assembly = assemble(source, "rapid", split(source, parser), parser, lowering.lower, building.build, diagnostics)
     assert not assembly.ledger.gaps()
     return source.text, assembly.ledger.rebuilt()
