@@ -43,11 +43,14 @@ _CHECKS = ("joint_configuration_check", "path_configuration_check")
 
 def configurations(program: ir.Program, context: Context) -> ir.Program:
     """Types, flags of constant targets and, for another arm, constant joint targets."""
-    trial = _Configurations(program, replace(context, diagnostics=Diagnostics()))
-    if not trial.foreign and not trial.other_arm:
+    worker = _Configurations(program, context)
+    if not worker.foreign and not worker.other_arm:
         return program
-    trial.program()  # what is refused must be known before the moves that go there
-    return _Configurations(program, context, trial).program()
+    done = worker.program()
+    if not (worker.exact and worker.nearest):
+        return done
+    # Some moves have known flags and some have not: again, now that it is known which.
+    return _Configurations(program, replace(context, diagnostics=Diagnostics()), worker).program()
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,7 +213,7 @@ class _Configurations(Rewriter):
                 self.before.append(ir.Opaque(expression.origin.text or name, origin=expression.origin))
                 return ir.IntLiteral(0)
             case ir.Aggregate():
-                type = self.type_of(expression)
+                type = self.type_of(expression) if _may_be_point(expression) else None
                 if isinstance(type, ir.TargetType):
                     return self.target(expression, type)
                 if isinstance(type, ir.JointsType) and self.other_arm:
@@ -358,6 +361,11 @@ class _Configurations(Rewriter):
             return super().expression(expression)
         new = {name: real(float(value)) for name, value in zip(_AXES, found, strict=False)}
         return _with_joints(expression, new, self.named(expression, ir.JointsType()))
+
+
+def _may_be_point(expression: ir.Aggregate) -> bool:
+    word = expression.type_name
+    return word is None or word.startswith(("target", "joints"))
 
 
 def _check(name: str, value: bool) -> ir.Assign:

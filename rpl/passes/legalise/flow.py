@@ -52,6 +52,7 @@ class ModalFlow:
     def __init__(self, program: ir.Program, scopes: ProgramScope) -> None:
         self.scopes, self.unchanged = scopes, unchanged_in(program)
         self.frames: dict[int, Frames] = {}
+        self.known: dict[tuple[int, str], rigid.Pose | None] = {}
         self.relevant = _relevant(program)
         self.entries: dict[int, State] = {}
         self.calls: dict[int, State] = {}
@@ -188,7 +189,17 @@ class ModalFlow:
     def part(self, given: ir.Expression | None, name: str, state: State, scope: Scope) -> rigid.Pose | None:
         if given is None:
             return pose_of(state.get(f"${name}"))
-        value = constant(given, scope, self.unchanged, state)
+        fixed = isinstance(given, ir.Name) and given.id.lower() not in self.relevant
+        key = (id(scope), given.id) if fixed and isinstance(given, ir.Name) else None
+        if key is not None and key in self.known:
+            return self.known[key]
+        found = self.frame_of(constant(given, scope, self.unchanged, state), name)
+        if key is not None:
+            self.known[key] = found
+        return found
+
+    def frame_of(self, value: Value | None, name: str) -> rigid.Pose | None:
+        """The pose of a tool, work object or pose."""
         if isinstance(value, Record):
             if value.part("held") is (name == "base"):
                 return None  # the robot holds the part; the tool stands in the room

@@ -15,7 +15,7 @@ from rpl.passes.fold import Unchanged
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.usage import base_name, usage_of
 from rpl.passes.rewrite import rewrite_parts
-from rpl.passes.typing import counter_type, type_of
+from rpl.passes.typing import counter_type, type_of, word_type
 
 EARLY = code(
     "condition-read-once",
@@ -71,6 +71,16 @@ class Rewriter:
 
     def type_of(self, expression: ir.Expression) -> ir.Type | None:
         """The type of an expression in its old form."""
+        match expression:  # the common cases without a walk through the expression
+            case ir.Aggregate(type_name=word) if word:
+                return word_type(word, self.scope)
+            case ir.Name(id=name):
+                symbol = self.scope.value(name)
+                return self.scope.resolve(symbol.type) if symbol is not None else None
+            case ir.IntLiteral():
+                return ir.IntType()
+            case ir.RealLiteral():
+                return ir.RealType()
         return type_of(expression, self.scope)
 
     def temporary(self, type: ir.Type, stem: str = "tmp") -> ir.Name:
