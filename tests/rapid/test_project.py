@@ -79,7 +79,8 @@ def test_a_fragment_is_read_with_a_warning() -> None:
 
 def test_names_beyond_ascii() -> None:
     one = module(
-        "MODULE m\nCONST jointtarget Klosställage;\nPROC main()\nMoveAbsJ Klosställage,v50,fine,tool0;\nENDPROC\nENDMODULE"
+        "MODULE m\nCONST jointtarget Klosställage;\n"
+        "PROC main()\nMoveAbsJ Klosställage,v50,fine,tool0;\nENDPROC\nENDMODULE"
     )
     assert isinstance(one.declarations[0], ir.Variable) and one.declarations[0].name == "Klosställage"
 
@@ -141,7 +142,8 @@ def test_the_normal_form_knows_the_components_of_all_installed_records() -> None
 
 
 def test_vendor_functions_take_any_arguments() -> None:
-    text = 'MODULE m\nPROC main()\nVAR num n;\nn:=UINumEntry(\\Header:="h"\\Message:="m"\\MaxValue:=5);\nENDPROC\nENDMODULE'
+    call = 'n:=UINumEntry(\\Header:="h"\\Message:="m"\\MaxValue:=5);'
+    text = f"MODULE m\nPROC main()\nVAR num n;\n{call}\nENDPROC\nENDMODULE"
     result, diagnostics = read(text)
     normalise(result.program, diagnostics)
     assert not diagnostics.items
