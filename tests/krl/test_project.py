@@ -241,6 +241,20 @@ def test_twenty_thousand_points_read_in_about_a_second() -> None:
     assert time.process_time() - start < 4
 
 
+@pytest.mark.parametrize(
+    "call", ["BAS(#INITMOV,0)", "BAS(#PTP_DAT)", "BAS(#FRAMES)", "BAS(#PTP_PARAMS,30)", "BAS(#CP_DAT)"]
+)
+def test_commands_of_the_basis_package_use_a_value_only_where_it_is_given(call: str) -> None:
+    prelude = registry.dialect("krl").prelude()
+    assert prelude is not None
+    switch = next(r for r in prelude.routines if r.name == "BAS").body[-1]
+    assert isinstance(switch, ir.Switch)
+    command = call.split("#")[1].split(",")[0].rstrip(")")
+    (case,) = [case for case in switch.cases if ir.EnumLiteral(command) in case.values]
+    values = [a.value for s in case.body if isinstance(s, ir.CallRoutine) for a in s.arguments]
+    assert (ir.Name("VALUE") in values) == ("PARAMS" in command)
+
+
 def test_the_prelude_is_clean() -> None:
     from rpl.passes.typing import normalise
 
