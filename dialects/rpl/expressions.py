@@ -44,13 +44,9 @@ class Reading:
         return str(child)
 
 
-def children(tree: SyntaxTree) -> list[Child]:
-    return tree.children
-
-
 def trees(tree: SyntaxTree) -> Iterator[SyntaxTree]:
     """The sub-trees among the children."""
-    return (child for child in tree.children if isinstance(child, Tree))
+    return iter([child for child in tree.children if isinstance(child, Tree)])
 
 
 def tokens(tree: SyntaxTree, *kinds: str) -> Iterator[Token]:
@@ -84,13 +80,17 @@ def expression(tree: SyntaxTree, at: Reading) -> ir.Expression:
 
 def first(tree: SyntaxTree, at: Reading) -> ir.Expression:
     """The first sub-tree as an expression."""
-    return expression(next(trees(tree)), at)
+    for child in tree.children:
+        if isinstance(child, Tree):
+            return _EXPRESSIONS[child.data](child, at)
+    raise StatementError("an expression is needed here", 0)
 
 
 def _int(tree: SyntaxTree, at: Reading) -> ir.Expression:
     text = at.spelling(tree.children[0])
-    value = at.integer(tree.children[0])
-    return ir.IntLiteral(value, "" if text.isdigit() else text, origin=at.origin)
+    if text.isdecimal():
+        return ir.IntLiteral(int(text), origin=at.origin)
+    return ir.IntLiteral(int(text, 0), text, origin=at.origin)
 
 
 def _real(tree: SyntaxTree, at: Reading) -> ir.Expression:
@@ -211,9 +211,11 @@ def _aggregate(tree: SyntaxTree, at: Reading) -> ir.Expression:
 def entries(tree: SyntaxTree, at: Reading) -> tuple[tuple[str | None, ir.Expression], ...]:
     """The entries of an aggregate."""
     done: list[tuple[str | None, ir.Expression]] = []
-    for entry in trees(tree):
+    for entry in tree.children:
+        if not isinstance(entry, Tree):
+            continue
         if entry.data == "keyed":
-            key = _token(entry).rstrip()[:-1].rstrip()
+            key = _token(entry)[:-1].rstrip()
             done.append((words.disclose(key) if key.startswith("`") else key, first(entry, at)))
         elif entry.data == "unkeyed":
             done.append((None, first(entry, at)))
