@@ -105,7 +105,11 @@ def same_run(
     after, _ = legalised(program, capabilities, *passes)
     # A rewritten program says itself that nobody handles an error; a controller does that for the original.
     shown = [one for one in run(after, entry, inputs) if "is not handled" not in str(one)]
-    assert shown == run(program, entry, inputs)
+    wanted = run(program, entry, inputs)
+    if ("end", "limit") in (shown[-1], wanted[-1]):  # an endless program was cut off, not at the same place
+        common = min(len(shown), len(wanted)) - 1
+        shown, wanted = shown[:common], wanted[:common]
+    assert shown == wanted
     return after
 
 

@@ -16,7 +16,7 @@ from rpl.passes.fold import constant
 from rpl.passes.legalise.context import rules_of
 from rpl.passes.scope import ProgramScope
 
-STEPS = 20000
+STEPS = 6000
 
 
 class Left(Exception):
