@@ -222,6 +222,10 @@ class Expressions:
         if expression.function.startswith("current_") and arguments[:1] == [ir.Builtin("current_tool", ())]:
             pattern = "C" + {"current_target": "RobT", "current_position": "Pos"}[expression.function]
             return f"{pattern}(\\WObj:={self.text(arguments[1])})"
+        if expression.function == "text_equal" and isinstance(arguments[-1], ir.BoolLiteral):
+            ignore_case = arguments.pop()
+            if ignore_case == ir.BoolLiteral(True):
+                arguments = [ir.Builtin("text_upper", (argument,)) for argument in arguments]
         found = patterns.get(len(arguments))
         if found is None:
             raise UnsayableError(f"{expression.function} is not known with {len(arguments)} arguments")
