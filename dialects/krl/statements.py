@@ -162,6 +162,8 @@ class Statements(Declarations):
                 case ir.Pulse(signal=ir.Signal(kind="digital_out", index=index)) if index is not None:
                     arguments = (index, done.value, done.duration)
                     return ir.CallRoutine("PULSE_OUT", tuple(map(ir.Argument, arguments)), origin=origin)
+                case ir.StopMotion(hard=hard):
+                    return ir.CallRoutine("BRAKE_HARD" if hard else "BRAKE_SOFT", origin=origin)
             raise StatementError("only an assignment or a call can stand behind DO", 0)
 
         return make

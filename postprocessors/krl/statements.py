@@ -25,6 +25,7 @@ GUARDED = code(
 LONG_LINE = code("krl-long-line", Severity.WARNING, "a line of {length} characters; controllers read at most {most}")
 
 _STEP = "  "
+_BRAKES = {"BRAKE_SOFT": "BRAKE", "BRAKE_HARD": "BRAKE F"}  # routines of the reader's prelude
 _LARGEST_STRUCTURE = 4
 
 
@@ -316,7 +317,7 @@ class Printer:
             if number is not None and value is not None and time is not None:
                 text = self.expressions.text
                 return f"PULSE($OUT[{text(number)}],{text(value)},{text(time)})"
-        return call(action, self.expressions)
+        return _BRAKES.get(action.name.upper()) or call(action, self.expressions)
 
     # ---- messages
 

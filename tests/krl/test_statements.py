@@ -81,6 +81,9 @@ def test_triggers(text: str, wanted: tuple[object, ...]) -> None:
 
 STATEMENTS = [
     ("GLOBAL INTERRUPT DECL 3 WHEN $STOPMESS==TRUE DO IR_STOPM ( )", ir.DeclareInterrupt),
+    ("INTERRUPT DECL 3 WHEN $IN[2]==FALSE DO BRAKE", ir.DeclareInterrupt),
+    ("INTERRUPT DECL 3 WHEN $IN[2] DO $OUT[1]=TRUE", ir.DeclareInterrupt),
+    ("Wait for StrClear($LOOP_MSG[])", ir.WaitUntil),
     ("INTERRUPT ON 3", ir.ControlInterrupt),
     ("INTERRUPT OFF", ir.ControlInterrupt),
     ("BRAKE", ir.StopMotion),
