@@ -474,12 +474,17 @@ class Typer:
 
     def builtin(self, expression: ir.Builtin) -> Typed:
         arguments, types = [], []
-        for argument in expression.arguments:
-            done, type = self.infer(argument)
+        function = ir.FUNCTIONS.get(expression.function)
+        kinds = function.parameters.replace("?", "") if function else ""
+        for position, argument in enumerate(expression.arguments):
+            wanted = None
+            if isinstance(argument, ir.Aggregate) and not argument.type_name and position < len(kinds):
+                wanted = self.written_kind(kinds[position], argument)
+            done, type = self.infer(argument, wanted)
             arguments.append(done)
             types.append(type)
         result: ir.Type | None
-        kind = ir.FUNCTIONS[expression.function].result if expression.function in ir.FUNCTIONS else "x"
+        kind = function.result if function else "x"
         if kind.isdigit():
             result = types[int(kind)] if int(kind) < len(types) else None
         elif kind == "p":
@@ -487,6 +492,15 @@ class Typer:
         else:
             result = _RESULT_KINDS.get(kind)
         return replace(expression, arguments=tuple(arguments)), result
+
+    def written_kind(self, kind: str, argument: ir.Aggregate) -> ir.Type | None:
+        """The type of an aggregate written as an argument of a built-in function."""
+        if kind != "p":
+            return _RESULT_KINDS.get(kind)
+        whole = len(argument.entries) == len(ir.POSITIONAL[ir.TargetType])
+        named = any(name is not None for name, _ in argument.entries)
+        pose = self.is_pose(argument) if named else not whole
+        return ir.PoseType() if pose else ir.TargetType(self.rules.name)
 
     def system_type(self, name: str) -> ir.Type | None:
         row = ir.SYSTEM_VARIABLES.get(name)
