@@ -7,8 +7,11 @@ from typing import TYPE_CHECKING
 
 from rpl.registry import Dialect, ReadResult
 
+from .words import POSTURE_FLAGS
+
 if TYPE_CHECKING:
     from rpl.diagnostics import Diagnostics
+    from rpl.emulator.configuration import Notation
     from rpl.ir import Module
     from rpl.ir.rules import Rules
     from rpl.source import Source
@@ -38,6 +41,12 @@ def _prelude() -> Module | None:
     return prelude()
 
 
+def _notation() -> Notation:
+    from .configuration import NOTATION
+
+    return NOTATION
+
+
 DIALECT = Dialect(
     name="rpl",
     title="RPL, the universal robot programming language",
@@ -46,4 +55,6 @@ DIALECT = Dialect(
     read=_read,
     rules=_rules,
     prelude=_prelude,
+    notation=_notation,
+    notation_fields=POSTURE_FLAGS,
 )
