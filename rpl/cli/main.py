@@ -112,8 +112,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
         _say(f"rpl: the input is too large or too deeply nested ({type(error).__name__})")
         return NO
     except ModuleNotFoundError as error:
-        if error.name is None or error.name.startswith("rpl"):
-            raise
+        if error.name is None or error.name.startswith("rpl."):
+            _say(f"rpl: this installation is incomplete: {error}")
+            return USAGE
         _say(f"rpl: this needs the package {error.name}: pip install 'robot-rpl[kinematics]'")
         return USAGE
 
