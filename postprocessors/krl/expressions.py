@@ -210,8 +210,11 @@ class Expressions:
     def procedure(self, name: str, values: tuple[ir.Expression | None, ...]) -> str:
         spelled = tables.PROCEDURES[name]
         target = values[1] if len(values) > 1 else None
-        if name == "parse_number" and target is not None and isinstance(self.type(target), ir.IntType):
-            spelled = "StrToInt"
+        if name in ("parse_number", "parse_value") and target is not None:
+            found = tables.PARSERS.get(self.type(target).__class__)
+            if found is None:
+                raise CannotSayError("KRL reads INT, REAL and BOOL from a text, nothing else")
+            spelled = found
         if any(value is None for value in values):
             raise CannotSayError(f"KRL's {spelled} needs all its arguments")
         return f"{spelled}({self.listed(tuple(value for value in values if value is not None))})"

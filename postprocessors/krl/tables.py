@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rpl.ir import BoolType, IntType, RealType
 from rpl.writing.precedence import Operator, OperatorTable
 
 RESERVED = frozenset(
@@ -122,6 +123,8 @@ FUNCTIONS = {
     "text_capacity": "StrDeclLen",
     "random": "FRAND",
 }
+# A text is read by the function of the variable's type.
+PARSERS = {IntType: "StrToInt", RealType: "StrToReal", BoolType: "StrToBool"}
 PROCEDURES = {
     "text_append": "StrAdd",
     "text_copy": "StrCopy",

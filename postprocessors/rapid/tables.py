@@ -126,7 +126,8 @@ OPERATOR_TABLE = OperatorTable(
     {"-": Operator("-", _SUM, spaced=False), "+": Operator("+", _SUM, spaced=False)},
     mixed=(frozenset(_BINARY),),
 )
-OPERATORS = frozenset((*_BINARY, ":", "band", "bor", "bxor", "**", "not"))
+# BitAnd and its kin take bytes only, so operations on whole numbers are not among them.
+OPERATORS = frozenset((*_BINARY, ":", "**", "not"))
 
 RESERVED = words(
     """alias and backward case connect const default div do else elseif endfor endfunc endif endmodule endproc
