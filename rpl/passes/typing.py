@@ -73,6 +73,8 @@ _WORD_TYPES: dict[str, ir.Type] = {
     "speed": ir.SpeedType(),
     "zone": ir.ZoneType(),
 }
+# Types of arguments that may be written out as aggregates, by the kind letter of the parameter.
+_WRITTEN_OUT: dict[str, ir.Type] = {"v": ir.VectorType(), "r": ir.RotationType(), "j": ir.JointsType()}
 _ORDERED = frozenset(("=", "<>", "<", ">", "<=", ">="))
 _LOGIC = frozenset(("and", "or", "xor", "cand", "cor"))
 _BITS = frozenset(("band", "bor", "bxor", "div", "mod"))
@@ -146,9 +148,9 @@ def type_of(expression: ir.Expression, scope: Scope) -> ir.Type | None:
 
 
 def counter_type(loop: ir.For, scope: Scope) -> ir.Type:
-    """Type of a loop's own counter: whole where the language tells numbers apart and the loop starts at a whole one."""
-    whole = scope.rules.real_to_int and isinstance(type_of(loop.start, scope), ir.IntType)
-    return _INT if whole else _REAL
+    """Type of a loop's own counter: whole where it starts at a whole number and steps by whole ones."""
+    parts = [loop.start] if loop.step is None else [loop.start, loop.step]
+    return _INT if all(isinstance(type_of(part, scope), ir.IntType) for part in parts) else _REAL
 
 
 def normalise(program: ir.Program, diagnostics: Diagnostics) -> ir.Program:
