@@ -31,6 +31,9 @@ _LAST = re.compile(r"([^\W\d]\w*)$|[\w\")\]}`]$")
 _BEGINNERS = words.RESERVED - frozenset(
     ("true", "false", "not", "bnot", "on", "off", "switch", "array", "signal", "vendor", "plain")
 ) | {"end"}
+_ASSIGNMENT = re.compile(
+    r"[ \t\f]*\$?(?:[^\W\d]\w*|`(?:[^`\\\n\r]|\\[^\n\r])*`)(?:\.[^\W\d]\w*|\[[^\]\n\r]*\])*[ \t]*="
+)
 # Words between operands: a line may end or begin with them.
 _BETWEEN = frozenset(("and", "or", "xor", "then", "else", "not", "bnot", "div", "mod", "quo", "band", "bor", "bxor"))
 _BETWEEN |= {"as", "to", "of", "from", "if", "switch"}
@@ -81,9 +84,10 @@ def _statement(text: str, start: int) -> tuple[list[Piece], int]:
 
 def _begins_anew(text: str, start: int, end: int, at: int) -> bool:
     """Is a bracket that is open at the end of the line `start:end` a mistake, because a new statement begins at `at`?
-    So it is at an empty line, before a keyword of a statement, and where two operands would stand side by side."""
+    So it is at an empty line, before an assignment or a keyword of a statement, and where two operands would stand side
+    by side."""
     match = _NEXT.match(text, at)
-    if match is None or match[3] is not None:
+    if match is None or match[3] is not None or _ASSIGNMENT.match(text, at):
         return True
     word = (match[1] or "").lower()
     if word in _BEGINNERS:
@@ -102,11 +106,14 @@ def _piece(
     for a, b in remarks:
         code = code[: a - start] + " " * (b - a) + code[b - start :]
     stripped = code.strip(_BLANKS)
+    # The piece covers a byte order mark or an end-of-file sign around its text, too.
+    first = start + len(code) - len(code.lstrip())
+    last = max(start + len(code.rstrip()), remarks[-1][1] if remarks else 0, until)
     if stripped:
-        first = start + code.index(stripped[0])
-        last = max(first + len(stripped), remarks[-1][1] if remarks else 0, until)
         comment = " ".join(text[a + 2 : b].strip() for a, b in remarks) if remarks else None
         return [Piece(STATEMENT, first, last, stripped, comment)]
     if remarks:
         return [Piece(COMMENT, a, b, text[a + 2 : b].strip()) for a, b in remarks]
+    if code.strip():
+        return [Piece(STATEMENT, first, last, "NOTHING")]
     return [Piece(BLANK, start, end, "")] if ended_by_line else [Piece(STATEMENT, end, until, "NOTHING")]
