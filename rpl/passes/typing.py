@@ -73,8 +73,6 @@ _WORD_TYPES: dict[str, ir.Type] = {
     "speed": ir.SpeedType(),
     "zone": ir.ZoneType(),
 }
-# Types of arguments that may be written out as aggregates, by the kind letter of the parameter.
-_WRITTEN_OUT: dict[str, ir.Type] = {"v": ir.VectorType(), "r": ir.RotationType(), "j": ir.JointsType()}
 _ORDERED = frozenset(("=", "<>", "<", ">", "<=", ">="))
 _LOGIC = frozenset(("and", "or", "xor", "cand", "cor"))
 _BITS = frozenset(("band", "bor", "bxor", "div", "mod"))
@@ -388,6 +386,10 @@ class Typer:
         wanted = ir.PoseType() if op == ":" else None
         left, left_type = self.infer(expression.left, wanted if self.is_pose(expression.left) else None)
         right, right_type = self.infer(expression.right, wanted if self.is_pose(expression.right) else None)
+        if left_type is None and isinstance(left, ir.Aggregate) and _has_components(right_type):
+            left, left_type = self.infer(expression.left, right_type)  # written out: of the other side's type
+        elif right_type is None and isinstance(right, ir.Aggregate) and _has_components(left_type):
+            right, right_type = self.infer(expression.right, left_type)
         if op in _ORDERED:
             left, right = self.comparable(left, left_type, right, right_type)
             return replace(expression, left=left, right=right), _BOOL
@@ -568,6 +570,10 @@ def _pose_result(function: str, types: list[ir.Type | None], notation: str) -> i
     if function == "compose":
         return types[-1] if types else None
     return ir.PoseType()
+
+
+def _has_components(type: ir.Type | None) -> bool:
+    return isinstance(type, ir.NamedType | ir.ArrayType) or type.__class__ in ir.POSITIONAL
 
 
 def _clash(wanted: ir.Type, found: ir.Type) -> bool:
