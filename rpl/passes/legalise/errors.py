@@ -30,7 +30,7 @@ CAUGHT_PARTLY = code(
     Severity.WARNING,
     "{routine}: errors that the controller itself raises stop the program instead of coming to this handler",
 )
-_DIVISION = "err_divzero"
+_DIVISION, _BOUND = "err_divzero", "err_outofbnd"
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +131,7 @@ class _Passing(Hoister):
     # ---- what raises
 
     def raises(self, statement: ir.Statement) -> bool:
-        return self.facts.statement(statement)
+        return self.facts.statement(statement, hoisted=True)
 
     def hoisted(self, expression: ir.Expression) -> Lowered | None:
         """Calls that may raise stand alone, so that what follows them can be left out."""
@@ -154,7 +154,37 @@ class _Passing(Hoister):
                     before.append(ir.Assign(divisor, right))
                 before.append(ir.If(((ir.Binary("=", divisor, ir.IntLiteral(0)), (ir.Raise(number),)),)))
                 return tuple(before), replace(expression, right=divisor)
+            case ir.Index():
+                return self.bounded(expression)
         return None
+
+    def lower(self, expression: ir.Expression, lvalue: bool = False) -> Lowered:
+        before, done = super().lower(expression, lvalue)
+        if lvalue and isinstance(done, ir.Index):
+            checked = self.bounded(done)
+            if checked is not None:
+                return (*before, *checked[0]), checked[1]
+        return before, done
+
+    def bounded(self, index: ir.Index) -> Lowered | None:
+        """An element behind a check of its subscripts, where the program looks for that error."""
+        number = self.facts.caught.get(_BOUND)
+        type = self.editor.type_of(index.base)
+        if number is None or not isinstance(type, ir.ArrayType) or all(map(is_constant, index.indices)):
+            return None
+        before: list[ir.Statement] = []
+        subscripts = []
+        for at, size in zip(index.indices, type.dimensions, strict=False):
+            if size is not None and not is_constant(at):
+                if not isinstance(at, ir.Name):
+                    kept = self.editor.temporary("subscript", self.editor.type_of(at) or ir.IntType())
+                    before.append(ir.Assign(kept, at))
+                    at = kept
+                low, high = ir.Binary("<", at, ir.IntLiteral(type.base)), ir.Binary(">", at, size)
+                before.append(ir.If(((ir.Binary("or", low, high), (ir.Raise(number),)),)))
+            subscripts.append(at)
+        subscripts.extend(index.indices[len(subscripts) :])
+        return (tuple(before), replace(index, indices=tuple(subscripts))) if before else None
 
     def explicit(self, statement: ir.Statement) -> ir.Body:
         """A timeout that raises, as a flag and a Raise."""

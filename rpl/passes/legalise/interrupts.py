@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.usage import base_name, each_statement
+from rpl.passes.legalise.usage import base_name, called_names, each_statement, exposed
 from rpl.passes.rewrite import rewrite_parts
 
 _FIRST_PRIORITY = 10  # KRL allows 1..39 and 81..128; the lower ones are left to the user
@@ -101,7 +101,10 @@ class _Traps:
         home = ir.Module(
             self.context.fresh("rpl_traps"), first.dialect, declarations, tuple(self.made), task=first.task
         )
-        return replace(program, modules=(*program.modules, home)) if self.traps else program
+        if not self.traps:
+            return program
+        program = exposed(program, called_names(self.made))
+        return replace(program, modules=(*program.modules, home))
 
     def add(self, priority: int, declared: ir.DeclareInterrupt) -> None:
         trap = _Trap(
@@ -201,11 +204,13 @@ class _Priorities:
                 for routine in module.routines
             )
             modules.append(replace(module, declarations=declarations, routines=routines))
-        if self.made:
-            first = modules[0]
-            home = ir.Module(self.context.fresh("rpl_traps"), first.dialect, (), tuple(self.made), task=first.task)
-            modules.append(home)
-        return replace(program, modules=tuple(modules))
+        program = replace(program, modules=tuple(modules))
+        if not self.made:
+            return program
+        first = modules[0]
+        home = ir.Module(self.context.fresh("rpl_traps"), first.dialect, (), tuple(self.made), task=first.task)
+        program = exposed(program, called_names(self.made))
+        return replace(program, modules=(*program.modules, home))
 
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []

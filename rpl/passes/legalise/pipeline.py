@@ -23,10 +23,12 @@ from rpl.passes.legalise.modal import modal_to_explicit
 from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.prelude import link_prelude
+from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.signals import name_signals, number_signals
 from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
+from rpl.passes.legalise.timers import timers_to_clocks
 from rpl.passes.legalise.triggers import triggers
 from rpl.passes.legalise.unused import drop_unused
 from rpl.passes.legalise.waits import fit_waits
@@ -40,9 +42,11 @@ PASSES: tuple[Pass, ...] = (
     configurations,
     stop_blends,
     triggers,
+    resumes,
     interrupts,
     whole_targets,
     set_data_at_start,
+    timers_to_clocks,
     name_signals,
     number_signals,
     numbers,

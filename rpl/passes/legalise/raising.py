@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 
 from rpl import ir
 from rpl.passes.legalise.context import rules_of
-from rpl.passes.legalise.effects import blocks, children, everything, statements_in
+from rpl.passes.legalise.effects import blocks, children, everything, is_constant, statements_in
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 
-_WAIT, _DIALOG, _DIVISION = "err_wait_maxtime", "err_tp_maxtime", "err_divzero"
-_SEEN = frozenset((_WAIT, _DIALOG, _DIVISION))
+_WAIT, _DIALOG, _DIVISION, _BOUND = "err_wait_maxtime", "err_tp_maxtime", "err_divzero", "err_outofbnd"
+_SEEN = frozenset((_WAIT, _DIALOG, _DIVISION, _BOUND))
 _UNKNOWN_ERROR = 1
 
 
@@ -32,8 +32,10 @@ class Raising:
         """May an error come out of a routine of that name?"""
         return name.lower() in self._out
 
-    def statement(self, statement: ir.Statement) -> bool:
-        """May the statement itself (not the blocks in it) raise? An If is asked for what its blocks do."""
+    def statement(self, statement: ir.Statement, hoisted: bool = False) -> bool:
+        """May the statement itself (not the blocks in it) raise? An If is asked for what its blocks do.
+
+        hoisted: operations that may fail have a check in front of them already."""
         match statement:
             case ir.Raise():
                 return True
@@ -44,26 +46,25 @@ class Raising:
                 if self.raises(name) if dynamic is None else bool(self._out):
                     return True
             case ir.If():
-                if any(self.statement(inner) for body in blocks(statement) for inner in body):
+                if any(self.statement(inner, hoisted) for body in blocks(statement) for inner in body):
                     return True
             case ir.DeclareInterrupt() | ir.Trigger() | ir.DefineTrigger():
                 return False
-        return any(map(self.expression, children(statement)))
-
-    def expression(self, expression: ir.Expression) -> bool:
-        for one in everything(expression):
-            if isinstance(one, ir.Call) and self.raises(one.name):
-                return True
-            if self._divides(one):
-                return True
+        for child in children(statement):
+            for one in everything(child):
+                if isinstance(one, ir.Call) and self.raises(one.name):
+                    return True
+                if not hoisted and self._risky(one):
+                    return True
         return False
 
-    def _divides(self, expression: ir.Expression) -> bool:
-        if _DIVISION not in self.caught:
-            return False
+    def _risky(self, expression: ir.Expression) -> bool:
+        """An operation whose failure the program looks for."""
         match expression:
             case ir.Binary(op="/" | "div" | "mod", right=right):
-                return not isinstance(right, ir.IntLiteral | ir.RealLiteral)
+                return _DIVISION in self.caught and not is_constant(right)
+            case ir.Index(indices=indices):
+                return _BOUND in self.caught and not all(map(is_constant, indices))
         return False
 
     def body_raises(self, routine: ir.Routine) -> bool:

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.usage import base_name, bodies, each_statement
+from rpl.passes.legalise.usage import base_name, bodies, called_names, each_statement, exposed
 from rpl.passes.rewrite import rewrite_parts
 
 
@@ -43,7 +43,8 @@ class _Stored:
                 tuple(self.routines),
                 task=first.task,
             )
-            program = replace(program, modules=(*modules, home))
+            program = exposed(program, called_names(self.routines))
+            program = replace(program, modules=(*program.modules, home))
         return program
 
     def body(self, body: ir.Body) -> ir.Body:

@@ -5,8 +5,8 @@ Conservative and by name: a name that is assigned in one scope counts as assigne
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.passes.rewrite import rewrite_parts
@@ -155,3 +155,29 @@ def _close(sets: dict[str, set[str]], calls: dict[str, set[str]]) -> None:
             for callee in callees:
                 sets[key] |= sets.get(callee, set())
             changed = changed or len(sets[key]) != before
+
+
+def exposed(program: ir.Program, names: set[str]) -> ir.Program:
+    """The program with these routines (folded names) visible outside of their modules, for generated code to call."""
+    if not names:
+        return program
+
+    def visible(routine: ir.Routine) -> ir.Routine:
+        hidden = routine.name.lower() in names and routine.scope == "module"
+        return replace(routine, scope="task") if hidden else routine
+
+    modules = tuple(replace(module, routines=tuple(map(visible, module.routines))) for module in program.modules)
+    return replace(program, modules=modules)
+
+
+def called_names(routines: Iterable[ir.Routine]) -> set[str]:
+    """Routines that these call as statements, folded."""
+    found: set[str] = set()
+
+    def look(statement: ir.Statement) -> None:
+        if isinstance(statement, ir.CallRoutine):
+            found.add(statement.name.lower())
+
+    for routine in routines:
+        each_statement(routine.body, look)
+    return found

@@ -1,0 +1,157 @@
+"""Resume from an interrupt (KRL), for targets whose traps always return to where they came from.
+
+The interrupt routine drops the motion and raises a flag. Every routine that runs below the level of the declaration
+asks for the flag behind each statement that takes time, and returns; the declaring routine lowers it behind the call.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.usage import each_expression, each_statement
+from rpl.passes.rewrite import rewrite_parts
+from rpl.source import Origin
+
+
+def resumes(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets that cannot resume at the level of a declaration but can clear the path."""
+    statements = context.capabilities.statements
+    if "ResumeLevel" in statements or not {"ClearMotion", "StartMotion"} <= statements:
+        return program
+    facts = _Facts()
+    for module in program.modules:
+        for routine in module.routines:
+            facts.routine(routine)
+    resuming = facts.closure({name for name, one in facts.has_resume.items() if one})
+    if not resuming:
+        return program
+    worker = _Resumes(context.fresh("rpl_resumed"), facts, resuming)
+    modules = [
+        replace(module, routines=tuple(worker.routine(routine) for routine in module.routines))
+        for module in program.modules
+    ]
+    first = modules[0]
+    flag = ir.Variable(worker.flag, ir.BoolType(), ir.BoolLiteral(False), scope="global")
+    modules.append(ir.Module(context.fresh("rpl_resume"), first.dialect, (flag,), task=first.task, public=True))
+    return replace(program, modules=tuple(modules))
+
+
+@dataclass(slots=True)
+class _Facts:
+    """Who calls whom, who resumes, and who declares which interrupt routine."""
+
+    calls: dict[str, set[str]] = field(default_factory=dict)
+    has_resume: dict[str, bool] = field(default_factory=dict)
+    declares: dict[str, set[str]] = field(default_factory=dict)
+
+    def routine(self, routine: ir.Routine) -> None:
+        key = routine.name.lower()
+        calls, declared = self.calls.setdefault(key, set()), self.declares.setdefault(key, set())
+        self.has_resume.setdefault(key, False)
+        actions: set[int] = set()  # what an interrupt or trigger runs is not called from here
+
+        def look(statement: ir.Statement) -> None:
+            match statement:
+                case ir.CallRoutine(name=name) if id(statement) not in actions:
+                    calls.add(name.lower())
+                case ir.DeclareInterrupt(action=ir.CallRoutine(name=name) as action):
+                    declared.add(name.lower())
+                    actions.add(id(action))
+                case ir.Trigger(action=action):
+                    actions.add(id(action))
+                case ir.ResumeLevel():
+                    self.has_resume[key] = True
+            each_expression(statement, call)
+
+        def call(expression: ir.Expression) -> None:
+            if isinstance(expression, ir.Call):
+                calls.add(expression.name.lower())
+
+        each_statement(routine.body, look)
+
+    def closure(self, names: set[str]) -> set[str]:
+        """The routines that call one of these, directly or not, and these."""
+        found = set(names)
+        grown = True
+        while grown:
+            grown = False
+            for caller, callees in self.calls.items():
+                if caller not in found and callees & found:
+                    found.add(caller)
+                    grown = True
+        return found
+
+    def below(self, name: str) -> set[str]:
+        """The routines that this one calls, directly or not."""
+        found: set[str] = set()
+        waiting = list(self.calls.get(name, ()))
+        while waiting:
+            callee = waiting.pop()
+            if callee not in found:
+                found.add(callee)
+                waiting.extend(self.calls.get(callee, ()))
+        return found
+
+
+class _Resumes:
+    def __init__(self, flag: str, facts: _Facts, resuming: set[str]) -> None:
+        self.flag = flag
+        self.handlers = resuming
+        self.declaring = {name for name, declared in facts.declares.items() if declared & resuming}
+        self.watched: set[str] = set()
+        for name in self.declaring:
+            self.watched |= facts.below(name)
+        self.watched -= resuming
+
+    def routine(self, routine: ir.Routine) -> ir.Routine:
+        key = routine.name.lower()
+        if key in self.handlers:
+            return replace(routine, body=self.handler(routine.body))
+        if key in self.declaring:
+            return replace(routine, body=self.level(routine.body))
+        if key in self.watched and routine.kind == "procedure":
+            return replace(routine, body=self.interruptible(routine.body))
+        return routine
+
+    def handler(self, body: ir.Body) -> ir.Body:
+        done: list[ir.Statement] = []
+        for statement in body:
+            if isinstance(statement, ir.ResumeLevel):
+                later = replace(statement.origin, comments=())
+                done += [
+                    ir.Assign(ir.Name(self.flag), ir.BoolLiteral(True), origin=statement.origin),
+                    ir.ClearMotion(origin=later),
+                    ir.Return(origin=later),
+                ]
+            else:
+                done.append(rewrite_parts(statement, lambda expression: expression, self.handler))
+        return tuple(done)
+
+    def level(self, body: ir.Body) -> ir.Body:
+        """In the declaring routine the flag is lowered behind calls."""
+        done: list[ir.Statement] = []
+        for statement in body:
+            done.append(rewrite_parts(statement, lambda expression: expression, self.level))
+            if isinstance(statement, ir.CallRoutine) and statement.name.lower() in self.watched:
+                done.append(ir.Assign(ir.Name(self.flag), ir.BoolLiteral(False), origin=_later(statement)))
+        return tuple(done)
+
+    def interruptible(self, body: ir.Body) -> ir.Body:
+        """Below it every statement that takes time is followed by the question whether to leave."""
+        done: list[ir.Statement] = []
+        for statement in body:
+            if isinstance(statement, ir.WaitUntil):
+                either = ir.Binary("or", statement.condition, ir.Name(self.flag))
+                statement = replace(statement, condition=either)
+            done.append(rewrite_parts(statement, lambda expression: expression, self.interruptible))
+            takes_time = isinstance(statement, ir.Move | ir.Spline | ir.Wait | ir.WaitUntil | ir.WaitForMotion)
+            if takes_time or (isinstance(statement, ir.CallRoutine) and statement.name.lower() in self.watched):
+                leave = ir.Return(origin=_later(statement))
+                done.append(ir.If(((ir.Name(self.flag), (leave,)),), origin=_later(statement)))
+        return tuple(done)
+
+
+def _later(statement: ir.Statement) -> Origin:
+    return replace(statement.origin, comments=())

@@ -1,0 +1,114 @@
+"""Numbered timers that can be set and stopped (KRL) as stop watches (RAPID), for targets that have only these.
+
+A timer shows an offset plus its watch: setting it resets the watch and keeps the value as the offset.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.passes.legalise.context import Context
+from rpl.passes.rewrite import rewrite_parts
+
+_TIMERS = ("timer", "timer_stopped", "timer_positive")
+
+
+def timers_to_clocks(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets without numbered timers that have stop watches. Computed timer numbers stay for the writer."""
+    capabilities = context.capabilities
+    if capabilities.timers or "Clock" not in capabilities.statements:
+        return program
+    worker = _Clocks(context)
+    modules = tuple(
+        replace(
+            module,
+            routines=tuple(
+                replace(
+                    routine,
+                    body=worker.body(routine.body),
+                    handlers=tuple(replace(handler, body=worker.body(handler.body)) for handler in routine.handlers),
+                )
+                for routine in module.routines
+            ),
+        )
+        for module in program.modules
+    )
+    if not worker.watches:
+        return program
+    first = modules[0]
+    declarations = tuple(one for watch in worker.watches.values() for one in watch.declarations())
+    home = ir.Module(context.fresh("rpl_timers"), first.dialect, declarations, task=first.task, public=True)
+    return replace(program, modules=(*modules, home))
+
+
+@dataclass(frozen=True, slots=True)
+class _Watch:
+    clock: str
+    offset: str
+    running: str
+
+    def declarations(self) -> tuple[ir.Declaration, ...]:
+        return (
+            ir.Variable(self.clock, ir.ClockType(), scope="global"),
+            ir.Variable(self.offset, ir.RealType(), ir.RealLiteral(0.0), scope="global"),
+            ir.Variable(self.running, ir.BoolType(), ir.BoolLiteral(False), scope="global"),
+        )
+
+
+@dataclass(slots=True)
+class _Clocks:
+    context: Context
+    watches: dict[int, _Watch] = field(default_factory=dict)
+
+    def watch(self, place: ir.Expression) -> _Watch | None:
+        match place:
+            case ir.System(name=name, indices=(ir.IntLiteral(value=number),)) if name in _TIMERS:
+                if number not in self.watches:
+                    names = (f"rpl_timer_{number}", f"rpl_timer_{number}_offset", f"rpl_timer_{number}_on")
+                    self.watches[number] = _Watch(*map(self.context.fresh, names))
+                return self.watches[number]
+        return None
+
+    def body(self, body: ir.Body) -> ir.Body:
+        done: list[ir.Statement] = []
+        for statement in body:
+            watch = self.watch(statement.target) if isinstance(statement, ir.Assign) else None
+            if watch is None or not isinstance(statement, ir.Assign):
+                done.append(rewrite_parts(statement, self.expression, self.body))
+            else:
+                done.extend(self.setting(statement, watch))
+        return tuple(done)
+
+    def setting(self, statement: ir.Assign, watch: _Watch) -> list[ir.Statement]:
+        assert isinstance(statement.target, ir.System)
+        value = self.expression(statement.value)
+        clock, later = ir.Name(watch.clock), replace(statement.origin, comments=())
+        start: ir.Body = (ir.Clock("start", clock, origin=later),)
+        if statement.target.name == "timer":
+            return [
+                ir.Clock("reset", clock, origin=statement.origin),
+                ir.Assign(ir.Name(watch.offset), value, origin=later),
+                ir.If(((ir.Name(watch.running), start),), origin=later),
+            ]
+        stopped = ir.Assign(ir.Name(watch.running), ir.BoolLiteral(False), origin=later)
+        started = ir.Assign(ir.Name(watch.running), ir.BoolLiteral(True), origin=later)
+        stop: ir.Body = (ir.Clock("stop", clock, origin=later), stopped)
+        match value:
+            case ir.BoolLiteral(value=True):
+                return [replace(stop[0], origin=statement.origin), stopped]
+            case ir.BoolLiteral(value=False):
+                return [replace(start[0], origin=statement.origin), started]
+        return [ir.If(((value, stop),), (*start, started), origin=statement.origin)]
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        watch = self.watch(expression)
+        if watch is None or not isinstance(expression, ir.System):
+            return rewrite_parts(expression, self.expression)
+        if expression.name == "timer_stopped":
+            return ir.Unary("not", ir.Name(watch.running), origin=expression.origin)
+        elapsed = ir.Builtin("clock_seconds", (ir.Name(watch.clock),))
+        shown = ir.Binary("+", ir.Name(watch.offset), elapsed, origin=expression.origin)
+        if expression.name == "timer":
+            return shown
+        return ir.Binary(">", shown, ir.RealLiteral(0.0), origin=expression.origin)
