@@ -467,7 +467,7 @@ class Machine:
     def element(self, whole: Any, index: ir.Expression, frame: Frame) -> int:
         at = self.value(index, frame)
         if not 1 <= at <= len(whole):
-            raise Fault(f"index {at} of {len(whole)}")
+            raise Raised(rules_of("rapid").errors["ERR_OUTOFBND"])
         return int(at) - 1
 
     def value(self, e: ir.Expression, frame: Frame) -> Any:

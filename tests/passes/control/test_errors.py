@@ -15,6 +15,7 @@ _RAPID = """MODULE m
   CONST errnum ERR_MINE:=7;
   VAR num n:=0;
   VAR num e:=0;
+  VAR num list{2}:=[1,2];
   PROC show(num a) TPWrite NumToStr(a,0); ENDPROC
   PROC fails(num a) n:=n+1; IF n<3 RAISE a; show n; ENDPROC
   FUNC num value(num a) n:=n+1; IF n<3 RAISE ERR_MINE; RETURN a+n; ENDFUNC
@@ -78,6 +79,9 @@ ENDMODULE
         ("WaitUntil n=1\\MaxTime:=2; show 1;", ""),
         ("fails 5;", "ERROR IF n<2 THEN GOTO again; ENDIF show 9; RETURN; again: show 3; RETRY;"),
         ("fails 5; fails 6;", "ERROR IF n<2 THEN GOTO again; ENDIF show 9; TRYNEXT; again: show 3; TRYNEXT;"),
+        ("x:=list{n+3}+1; show x; show list{2};", "ERROR IF ERRNO=ERR_OUTOFBND THEN show 3; TRYNEXT; ENDIF RAISE;"),
+        ("n:=0; list{n}:=7; show list{1};", "ERROR IF ERRNO=ERR_OUTOFBND THEN n:=1; RETRY; ENDIF RAISE;"),
+        ("n:=2; list{n}:=7/n; show list{n};", "ERROR IF ERRNO=ERR_OUTOFBND OR ERRNO=ERR_DIVZERO RETURN; RAISE;"),
         ("fails 5;", "ERROR passes 6; RETRY;"),
         ("fails 5;", "ERROR stays; RETRY;"),
     ],
