@@ -92,9 +92,9 @@ def load_cell(path: str | None) -> Cell | None:
     """The surroundings described by a cell file; None without a path."""
     if path is None:
         return None
-    from rpl.cell import load_cell
+    from rpl.cell import read_cell
 
-    return load_cell(path)
+    return read_cell(path)
 
 
 def _model(robot: str | RobotModel | None) -> RobotModel | None:
