@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from rpl import ir
+from rpl.errors import InternalError
 from rpl.ir import words
 from rpl.writing.precedence import ExpressionPrinter, Operator, OperatorTable, Printed
 
@@ -132,7 +133,7 @@ def _called(node: ir.Expression, printer: ExpressionPrinter) -> str:
             return _signal(node, printer)
         case ir.Aggregate():
             return _aggregate(node, printer)
-    return ""
+    raise InternalError(f"RPL has no form for {node.__class__.__name__}")
 
 
 def _base(node: ir.Expression, printer: ExpressionPrinter) -> str:
