@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
+from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.support import with_support
 from rpl.passes.legalise.walk import Rewriter
@@ -107,6 +108,25 @@ class _Split(Rewriter):
         if self.wholes is not None and self.wholes.counts_whole(statement):
             return _INT
         return super().counter_type(statement)
+
+    def counting(self, statement: ir.For) -> list[ir.Statement]:
+        """A whole counter goes to a whole bound: the last one that it can reach."""
+        fractional = not self.is_int(statement.stop) and isinstance(self.type_of(statement.stop), ir.RealType)
+        if not fractional or not self.whole_counter(statement):
+            return super().counting(statement)
+        start, stop = self.expression(statement.start), self.expression(statement.stop)
+        step = None if statement.step is None else constant_number(statement.step, self.scope)
+        if statement.step is None and statement.automatic:
+            last: ir.Expression = self.library.call("bound", start, stop)
+        else:
+            last = self.library.call("ceil" if step is not None and step < 0 else "floor", stop)
+        done = super().counting(statement)
+        return [replace(one, stop=last) if isinstance(one, ir.For) else one for one in done]
+
+    def whole_counter(self, statement: ir.For) -> bool:
+        if statement.scoped:
+            return isinstance(self.counter_type(statement), ir.IntType)
+        return self.is_int(ir.Name(statement.counter))
 
     # ---- expressions
 
@@ -320,6 +340,15 @@ def _ceil(made: _Arithmetic) -> _Parts:
     return (("v", _REAL),), _INT, (("n", _INT),), body
 
 
+def _bound(made: _Arithmetic) -> _Parts:
+    """The whole number nearest to w on the side of v."""
+    first = ir.Assign(_I, ir.Convert("round_half_away", _W))
+    up = ir.Binary("and", _test(_W, ">=", _V), _test(_I, ">", _W))
+    down = ir.Binary("and", _test(_W, "<", _V), _test(_I, "<", _W))
+    body = (first, ir.If(((up, _moved("-")), (down, _moved("+")))), ir.Return(_I))
+    return (("v", _REAL), ("w", _REAL)), _INT, (("n", _INT),), body
+
+
 def _to_decimals(function: str) -> Callable[[_Arithmetic], _Parts]:
     def make(made: _Arithmetic) -> _Parts:
         k = ir.Name("k")
@@ -354,6 +383,7 @@ _FUNCTIONS: dict[str, Callable[[_Arithmetic], _Parts]] = {
     "trunc": _trunc,
     "floor": _floor,
     "ceil": _ceil,
+    "bound": _bound,
     "round_to": _to_decimals("round"),
     "trunc_to": _to_decimals("trunc"),
     "mod": _mod,

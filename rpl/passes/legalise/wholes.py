@@ -244,10 +244,11 @@ class _Collector:
             key, inner = id(counter), outer.with_value(counter)
         else:
             key, inner = place_key(ir.Name(loop.counter), outer), outer
-        for part in (loop.start, loop.stop, loop.step):
+        for part in (loop.start, loop.step):
             if part is not None:
                 self.flow(key, part)
                 self.expression(part)
+        self.expression(loop.stop)
         self.scope = inner
         self.body(loop.body)
         self.scope = outer

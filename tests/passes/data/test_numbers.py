@@ -99,6 +99,10 @@ STATEMENTS = {
     "i:=twice(j) MOD 3;": ["i := rpl_mod(twice(j), 3)"],
     "i:=Min(j,3);r:=Max(r,0.5);": ["i := rpl_min_whole(j, 3)", "r := rpl_max(r, 0.5)"],
     "r:=Pow(r,2)+ATan(0.5);": ["r := ((r * r) + atan2(0.5, 1.0))"],
+    "r:=0.5;FOR k FROM 1 TO r+2 DO i:=table{k}; ENDFOR": [
+        *("r := 0.5", "for k = 1 to rpl_bound(1, (r + 2))", "  i := table[k]"),
+    ],
+    "FOR k FROM 5 TO r/2 STEP -1 DO i:=i+k; ENDFOR": ["for k = 5 to rpl_ceil((r / 2))", "  i := (i + k)"],
     "TEST i CASE 1,2: j:=1; DEFAULT: j:=2; ENDTEST": [
         *("switch i", "case 1, 2", "  j := 1", "default", "  j := 2"),
     ],
