@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
 from rpl.passes.legalise.effects import blocks, children, everything, statements_in
 from rpl.passes.legalise.support import default_value
 from rpl.passes.legalise.usage import bodies
@@ -39,6 +39,9 @@ def fit_parameters(program: ir.Program, context: Context) -> ir.Program:
     if not context.capabilities.dynamic_calls:
         program = edit_routines(program, context, lambda editor, routine: edit_bodies(routine, _Dynamic(editor).body))
     facts = _facts(program)
+    if facts.left_out:
+        program = _asking_presence(program, facts)
+        facts = _facts(program)
     optional = any(p.optional or p.switch for m in program.modules for r in m.routines for p in r.parameters)
     if context.capabilities.optional_parameters:
         return _declared(program, facts) if facts.left_out else program
@@ -100,6 +103,33 @@ def _facts(program: ir.Program) -> _Facts:
                         elif isinstance(one, ir.Call):
                             _call(facts, here, one.name, one.arguments, scope)
     return facts
+
+
+def _asking_presence(program: ir.Program, facts: _Facts) -> ir.Program:
+    """`VARSTATE` of a parameter that calls leave out asks whether it was given."""
+
+    def asked(routine: ir.Routine) -> ir.Routine:
+        missing = {parameter for name, parameter in facts.left_out if name == routine.name.lower()}
+
+        def expression(node: ir.Expression) -> ir.Expression:
+            match node:
+                case ir.Builtin(function="is_uninitialised", arguments=(ir.Name(id=name),)) if name.lower() in missing:
+                    return ir.Unary("not", ir.Present(name, origin=node.origin), origin=node.origin)
+                case ir.Unary(op="not", operand=operand):
+                    return (
+                        negation(expression(operand))
+                        if isinstance(operand, ir.Builtin)
+                        else rewrite_parts(node, expression)
+                    )
+            return rewrite_parts(node, expression)
+
+        def body(statements: ir.Body) -> ir.Body:
+            return tuple(rewrite_parts(statement, expression, body) for statement in statements)
+
+        return edit_bodies(routine, body) if missing else routine
+
+    modules = tuple(replace(module, routines=tuple(map(asked, module.routines))) for module in program.modules)
+    return replace(program, modules=modules)
 
 
 def _actions(statement: ir.Statement) -> list[ir.CallRoutine]:

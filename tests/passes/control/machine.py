@@ -104,6 +104,8 @@ class Machine:
                 if isinstance(declaration, ir.Variable):
                     frame = Frame(module, ir.Routine(""))
                     self.globals[id(module), declaration.name.lower()] = [self.initial(declaration, frame)]
+                elif isinstance(declaration, ir.Initialise):
+                    self.leaf(declaration.assign, Frame(module, ir.Routine("")))
 
     def scope(self, frame: Frame) -> Any:
         return self.scopes.routine(frame.module, frame.routine)
@@ -503,6 +505,10 @@ class Machine:
                 return self.inputs[name or f"in{self.value(index, frame)}"](self.time)
             case ir.System(name="error_number"):
                 return self.errno
+            case ir.System(name="timer_positive", indices=(index,)):
+                return self.timer(self.value(index, frame)) > 0
+            case ir.Magnitude(value=inner, unit=unit):
+                return self.value(inner, frame) / ir.UNITS[unit]
             case ir.System(name="timer", indices=(index,)):
                 return self.timer(self.value(index, frame))
             case ir.Aggregate(entries=entries, type_name=word):
@@ -529,6 +535,8 @@ class Machine:
     def builtin(self, function: str, arguments: Any, frame: Frame) -> Any:
         if function in ir.PROCEDURES:
             return self.do(function, arguments, frame)
+        if function == "is_uninitialised":
+            return arguments[0].id.lower() not in frame.present
         values = [self.value(one, frame) for one in arguments]
         match function:
             case "clock_seconds":
