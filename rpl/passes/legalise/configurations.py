@@ -18,7 +18,7 @@ from rpl.passes.legalise.flow import Use, Uses
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.typing import component_names, type_word
-from rpl.passes.values import Record, Target, component
+from rpl.passes.values import Record, Target, component, moved
 
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
@@ -252,7 +252,8 @@ class _Configurations(Rewriter):
         self, entries: list[tuple[str, ir.Expression]], flags: dict[str, int] | None
     ) -> tuple[tuple[str | None, ir.Expression], ...]:
         """The entries with flags in their place: before the external axes. None: all zero."""
-        made = [(name, ir.IntLiteral((flags or {}).get(name, 0))) for name in self.fields]
+        names = tuple(name for name in self.fields if not self.flat or name in (flags or {}))
+        made = [(name, ir.IntLiteral((flags or {}).get(name, 0))) for name in names]
         extra: list[tuple[str | None, ir.Expression]] = list(made)
         if not self.flat:
             word = type_word(ir.ConfigType(self.target_notation))
@@ -287,23 +288,27 @@ class _Configurations(Rewriter):
             return _Refused("no move uses it")
         flags: dict[str, int] | None = None
         refused: _Refused | None = None
-        for use in sorted(uses, key=lambda one: not one.joint):
+        for use in sorted(uses, key=lambda one: (not one.joint, one.moved is not None)):
             found = self.for_use(value, use, had)
             if isinstance(found, _Refused):
-                if found.fatal or use.joint:
+                if found.fatal or (use.joint and use.moved is None):
                     return found
                 refused = found
-            elif flags is not None and use.joint and found != flags:
+            elif flags is None:
+                flags = found
+            elif use.joint and found != flags and self.flat:
+                # What differs is left out: the controller then takes the shortest way.
+                flags = {name: number for name, number in flags.items() if found.get(name) == number}
+            elif use.joint and found != flags and use.moved is None:
                 return _Refused("it is used with several tools or frames")
-            else:
-                flags = flags or found
         if not had:
             return _Refused("it has none")
-        return flags if flags is not None else refused or _Refused("no move uses it")
+        return flags if flags else refused or _Refused("it is used with several tools or frames")
 
     def for_use(self, target: Target, use: Use, had: bool) -> dict[str, int] | _Refused:
         assert self.arm is not None and self.to_arm is not None  # `converted` checked
-        flange = use.frames.flange(target.pose)
+        place = moved(use.moved[0], target, list(use.moved[1])) if use.moved else target
+        flange = use.frames.flange(place.pose) if isinstance(place, Target) else None
         if flange is None:
             which = "tool" if use.frames.tool is None else "frame"
             return _Refused(f"the {which} of its moves is not constant")

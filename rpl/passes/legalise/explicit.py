@@ -217,13 +217,21 @@ class _Modal:
             wanted["twist_speed"] = _quantity(rotation, "deg/s")
 
     def blend(self, move: ir.Move, wanted: dict[str, ir.Expression]) -> ir.Blend | None:
-        if not isinstance(move.blend, ir.BlendZone):
-            return move.blend
+        match move.blend:
+            case ir.BlendDistance(distance=size) if size is not None and not isinstance(size, ir.System):
+                return self.blend_of_size(move, size, wanted)
+            case ir.BlendZone():
+                pass
+            case _:
+                return move.blend
         zone = move.blend
         stop = self.component(zone.zone, "stop")
         if zone.distance is None and isinstance(stop, ir.BoolLiteral) and stop.value:
             return ir.BlendStop()
         size = zone.distance or self.component(zone.zone, "path")
+        return self.blend_of_size(move, size, wanted)
+
+    def blend_of_size(self, move: ir.Move, size: ir.Expression, wanted: dict[str, ir.Expression]) -> ir.Blend:
         if move.kind == "joint":
             self.report_once(JOINT_BLEND, move, size="the same radius where the move is long enough")
             wanted["blend_joint"] = _limited(_divided(size, ZONE_MM_PER_PERCENT))

@@ -40,10 +40,12 @@ class Frames:
 
 @dataclass(frozen=True, slots=True)
 class Use:
-    """One way a target is used. `joint`: its arm configuration chooses the posture."""
+    """One way a target is used. `joint`: its arm configuration chooses the posture. `moved`: name and numbers of the
+    function that moves it first (offset, tool_offset), when these are constant."""
 
     frames: Frames
     joint: bool
+    moved: tuple[str, tuple[float, ...]] | None = None
 
 
 class ModalFlow:
@@ -309,6 +311,16 @@ def _sets_frames(statement: ir.Statement) -> bool:
 # ---- targets to the moves they serve
 
 
+def _moved(place: ir.Expression, scope: Scope) -> tuple[str, tuple[float, ...]] | None:
+    """By which constant numbers a move's target is moved first."""
+    match place:
+        case ir.Builtin(function="offset" | "tool_offset" as function, arguments=(_, *rest)):
+            values = [constant(one, scope) for one in rest]
+            numbers = tuple(float(value) for value in values if isinstance(value, int | float))
+            return (function, numbers) if len(numbers) == len(values) and any(numbers) else None
+    return None
+
+
 @dataclass(slots=True)
 class Uses:
     """For each written target (an aggregate, by identity) how it is used."""
@@ -349,9 +361,9 @@ class Uses:
                 self.feed(id(routine), value, scope)
             case ir.Move(target=target, via=via, kind=kind):
                 frames = flow.frames.get(id(statement), Frames(None, None))
-                use = Use(frames, kind == "joint")
                 for place in (target, via):
                     if place is not None:
+                        use = Use(frames, kind == "joint", _moved(place, scope))
                         self.moves.extend((root, use) for root in self.roots(place, scope))
             case ir.CallRoutine(name=name, arguments=arguments, dynamic=None):
                 self.passed(name, arguments, scope)

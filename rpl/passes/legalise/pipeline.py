@@ -73,8 +73,9 @@ def legalise(program: ir.Program, context: Context) -> ir.Program:
     Same-language writing leaves it as it is.
     """
     context.taken |= names_in(program)
+    other_arm = context.robot is not None and context.to_robot is not None and context.robot is not context.to_robot
     if not context.foreign or context.capabilities.carries_rules:
-        return program
+        return configurations(program, context) if other_arm else program
     for one in PASSES:
         program = one(program, context)
     return normalise(_governed(program, context), context.diagnostics)
