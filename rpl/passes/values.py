@@ -350,11 +350,12 @@ def _geometric(function: str, values: list[Value], numbers: list[float]) -> Valu
         case "transform", [rigid.Pose() as pose, rigid.Vector() as vector]:
             return pose.place(vector)
         case (("offset" | "tool_offset"), [rigid.Pose() | Target() as one, *_]) if len(numbers) == len(values) - 1:
-            return _moved(function, one, numbers)
+            return moved(function, one, numbers)
     return None
 
 
-def _moved(function: str, value: rigid.Pose | Target, numbers: list[float]) -> Value | None:
+def moved(function: str, value: rigid.Pose | Target, numbers: list[float]) -> rigid.Pose | Target | None:
+    """The pose or target moved by `offset` (x, y, z of its frame) or `tool_offset` (x, y, z of its own, then turns)."""
     pose = value.pose if isinstance(value, Target) else value
     shift = rigid.Vector(*numbers[:3]) if len(numbers) >= 3 else None
     if shift is None:

@@ -9,8 +9,8 @@ from typing import Any
 from rpl import ir
 from rpl.passes import rigid
 from rpl.passes.scope import ProgramScope, Scope
-from rpl.passes.typing import component_names, type_of, word_type
-from rpl.passes.values import Target, binary, component, composed, converted, pose_of, pure, unary
+from rpl.passes.typing import component_names, component_type, type_of, word_type
+from rpl.passes.values import Member, Target, binary, component, composed, converted, pose_of, pure, unary
 
 ZERO: dict[type, Any] = {
     ir.IntType: 0,
@@ -92,7 +92,8 @@ class Frame:
                 return [self.zero(inner) for _ in range(int(self.value(first)))] if first is not None else []
             case ir.NamedType(name=name):
                 record = self.scope.type(name)
-                assert isinstance(record, ir.RecordDeclaration)
+                if not isinstance(record, ir.RecordDeclaration):
+                    return None
                 return {field.lower(): self.zero(self.scope.resolve(inner)) for field, inner in record.fields}
         return ZERO[type.__class__]
 
@@ -102,9 +103,13 @@ class Frame:
 
     def statement(self, statement: ir.Statement) -> None:
         match statement:
+            case ir.Assign(target=ir.System()):
+                return None  # how the controller moves is not the matter here
             case ir.Assign(target=target, value=value):
                 type = type_of(target, self.scope)
                 assert type is not None, target
+                if isinstance(value, ir.Aggregate) and isinstance(type, ir.PoseType | ir.TargetType | ir.NamedType):
+                    return self.partly(target, value, type)
                 self.store(target, fitted(self.value(value, type), type))
             case ir.If(branches=branches, otherwise=otherwise):
                 for condition, body in branches:
@@ -142,6 +147,23 @@ class Frame:
             case _:
                 raise AssertionError(statement)
         return None
+
+    def partly(self, target: ir.Expression, value: ir.Aggregate, type: ir.Type) -> None:
+        """Components that are left out keep their values."""
+        new = self.value(target)
+        names = component_names(type, self.scope)
+        whole = {name for name, _ in value.entries}
+        if isinstance(type, ir.PoseType | ir.TargetType) and whole >= {"a", "b", "c"}:
+            new = rigid.IDENTITY if isinstance(type, ir.PoseType) else new
+        for at, (name, one) in enumerate(value.entries):
+            key = (name or names[at]).lower()
+            inner = component_type(type, key, self.scope)
+            done = self.value(one, inner)
+            if isinstance(done, dict) and isinstance(new, dict):
+                done = {**new[key], **done}
+            if not isinstance(type, ir.TargetType) or key in ("trans", "rot", "x", "y", "z", "a", "b", "c"):
+                new = changed(new, key, done if inner is None else fitted(done, inner))
+        self.store(target, new)
 
     def counting(self, loop: ir.For) -> None:
         at, stop = self.value(loop.start), self.value(loop.stop)
@@ -213,6 +235,8 @@ class Frame:
                 return self.aggregate(expression, wanted)
             case ir.IntLiteral() | ir.RealLiteral() | ir.BoolLiteral() | ir.TextLiteral():
                 return expression.value
+            case ir.EnumLiteral(member=member):
+                return Member(member.lower())
         raise AssertionError(expression)
 
     def hint(self, function: str, at: int) -> ir.Type | None:

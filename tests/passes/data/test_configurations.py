@@ -189,3 +189,24 @@ def test_only_the_move_whose_flags_are_unknown_goes_unchecked(kuka: RobotModel) 
         *("$path_configuration_check := False", "joint P1"),
         *("$joint_configuration_check := False", "joint P2", "$joint_configuration_check := True"),
     ]
+
+
+def test_flags_that_an_offset_changes_are_left_out(abb: RobotModel) -> None:
+    """The offset leads across axis 1 = 0: the sign bit of T would be wrong at one of the two places."""
+    joints = [-1, 20, 10, 20, 50, 30]
+    text = f"""MODULE t
+  CONST robtarget p1:={rapid_target(abb, joints)};
+  PERS tooldata grip:=[TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+  PROC t()
+    MoveJ p1,v100,fine,grip;
+    %s Offs(p1,0,100,0),v100,fine,grip;
+  ENDPROC
+ENDMODULE
+"""
+    found = {}
+    for move in ("MoveJ", "MoveL"):
+        program = read(text % move, "rapid")
+        surroundings = context(program, "rapid", abb)
+        found[move] = sorted(set(flags(configurations(program, surroundings), "p1")) & {"s", "t"})
+        assert not surroundings.diagnostics.items
+    assert found == {"MoveJ": ["s"], "MoveL": ["s", "t"]}

@@ -13,6 +13,7 @@ from rpl.passes import rigid
 from rpl.passes.legalise.aggregates import aggregates
 from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.defaults import starting_values
+from rpl.passes.legalise.enums import enums_to_constants
 from rpl.passes.legalise.geometry import geometry
 from rpl.passes.legalise.numbers import numbers
 from rpl.passes.values import pose_of
@@ -106,6 +107,67 @@ def test_the_same_numbers(text: str) -> None:
         key: (value, after.get(key))
         for key, value in before.items()
         if key not in after or not close(value, after[key])
+    }
+    assert not different
+
+
+KRL = """DEF t()
+DECL E6POS p
+DECL FRAME f,g
+DECL INT i,k
+DECL REAL r
+DECL COLOR c
+DECL PART q
+p=XP1
+f={X 10,Y 20,Z 30,A 30,B 0,C 0}
+g={X 1,Y 2,Z 3,A 10,B 20,C 30}
+i=7
+k=0
+r=1.5
+c=#GREEN
+q={KIND 1,SIZE {LONG 2,WIDE 3}}
+%s
+END
+DEFFCT REAL twice(v:IN)
+DECL REAL v
+RETURN v*2
+ENDFCT
+====
+DEFDAT t
+ENUM COLOR RED,GREEN,BLUE
+STRUC SIZE REAL LONG,WIDE
+STRUC PART INT KIND,SIZE SIZE
+DECL E6POS XP1={X 400,Y 50,Z 300,A 90,B 20,C 180,S 2,T 35,E1 0,E2 0,E3 0,E4 0,E5 0,E6 0}
+DECL INT row[3]
+row[1]=4
+row[2]=5
+row[3]=6
+ENDDAT
+"""
+
+KRL_PROGRAMS = [
+    "k=i/2\nr=i/2.0\nk=r*i\nr=twice(i)/4",
+    "p.z=p.z+100\np.a=p.a+10\nr=p.b+p.c",
+    "p.a=10\np.b=20\np.c=30\nf.c=5\nf.a=r",
+    "g=f:g\nf=INV_POS(g):f\nf.x=f.y+p.x",
+    "f=p\np=g\nf=f:p",
+    "f={X 1,Y r,Z 3,A i,B 0,C 90}\ng={Z 5}\np={X 9,A 45}",
+    "q={KIND 5}\nq.SIZE={WIDE 9}\nr=q.SIZE.LONG+q.SIZE.WIDE",
+    "IF c==#GREEN THEN\n k=1\nENDIF\nSWITCH c\n CASE #RED\n  i=1\n CASE #GREEN,#BLUE\n  i=2\nENDSWITCH",
+    "FOR i=1 TO 3\n k=k+row[i]*i\nENDFOR\nk=row[2.4]+k",
+]
+
+
+@pytest.mark.parametrize("text", KRL_PROGRAMS)
+def test_the_same_numbers_from_two_number_types(text: str) -> None:
+    program = read(KRL % text, "krl")
+    surroundings = context(program, "krl")
+    done = program
+    for one in (configurations, numbers, enums_to_constants, aggregates, geometry):
+        done = one(done, surroundings)
+    before, after = results(program), results(done)
+    different = {
+        key: (value, after.get(key)) for key, value in before.items() if key != "c" and not close(value, after[key])
     }
     assert not different
 
