@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from functools import cache
 from importlib import resources
+from pathlib import Path
 
-from rpl import ir
+from rpl import __version__, ir
 from rpl.diagnostics import Diagnostics
 from rpl.errors import InternalError
+from rpl.reading.cache import kept, stamps
 from rpl.source import source_from_text
 
 _FILES = ("prelude.src", "prelude.dat")
@@ -15,7 +17,12 @@ _FILES = ("prelude.src", "prelude.dat")
 
 @cache
 def prelude() -> ir.Module:
-    """The prelude as one module."""
+    """The prelude as one module; kept between runs, because every check of a program asks for it."""
+    here = Path(__file__).parent
+    return kept("krl-prelude", (__version__, stamps((here, Path(ir.__file__).parent))), _read)
+
+
+def _read() -> ir.Module:
     from .project import read
 
     folder = resources.files(__package__ or "")

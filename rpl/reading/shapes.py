@@ -6,16 +6,11 @@ A statement's numbers are taken out, what remains is its shape; Lark parses the 
 
 from __future__ import annotations
 
-import hashlib
-import os
 import re
-import sys
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
-from pathlib import Path
 from typing import NoReturn
 
 from lark import Lark, Token, Tree
@@ -23,6 +18,7 @@ from lark import __version__ as lark_version
 from lark.exceptions import UnexpectedInput, UnexpectedToken
 
 from rpl.errors import RplError
+from rpl.reading.cache import kept
 
 # Texts and names are kept whole; only free-standing numbers are slots. Dialects may pass their own pattern with the
 # groups `real` and `int`; whatever else it matches stays in the shape.
@@ -169,31 +165,10 @@ def _refuse(error: UnexpectedInput, text: str) -> NoReturn:
 
 @cache
 def load_grammar(name: str) -> Lark:
-    """The LALR parser of a grammar file. Its tables are kept in the user's cache folder; without one they are built."""
+    """The LALR parser of a grammar file. Its tables are kept between runs, because building them takes a while."""
     text = resources.files("rpl.grammars").joinpath(name).read_text("utf-8")
-    key = hashlib.sha256(f"{text}{lark_version}{sys.version_info[:2]}".encode()).hexdigest()[:20]
-    file = _cache_folder() / f"{name}-{key}.tables"
-    if file.is_file():
-        try:
-            with file.open("rb") as stream:
-                return Lark.load(stream)
-        except (OSError, ValueError, KeyError, EOFError, AttributeError):
-            file.unlink(missing_ok=True)
-    parser = Lark(text, parser="lalr", lexer="contextual", start="statement", maybe_placeholders=False)
-    _store(parser, file)
-    return parser
 
+    def build() -> Lark:
+        return Lark(text, parser="lalr", lexer="contextual", start="statement", maybe_placeholders=False)
 
-def _store(parser: Lark, file: Path) -> None:
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(dir=file.parent, delete=False) as stream:
-            parser.save(stream)
-        os.replace(stream.name, file)  # noqa: PTH105 (atomic on every system)
-    except OSError:
-        return  # a read-only home is no reason to fail; the tables are built anew next time
-
-
-def _cache_folder() -> Path:
-    base = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA")
-    return (Path(base) if base else Path.home() / ".cache") / "robot-rpl"
+    return kept(name, (text, lark_version), build, Lark.load, Lark.save)
