@@ -18,6 +18,7 @@ from rpl.passes.legalise.editing import (
     Lowered,
     expansion,
     map_body,
+    negation,
 )
 from rpl.passes.legalise.effects import Effects, blocks, is_constant, statements_in
 from rpl.passes.legalise.raising import Raising, raising_of
@@ -83,7 +84,7 @@ def _rewritten(editor: Editor, routine: ir.Routine, facts: Raising, names: _Name
         where = routine.handlers[0].origin
         editor.context.diagnostics.report(CAUGHT_PARTLY, where, routine=routine.name)
     done = replace(routine, body=body, handlers=(), undo=())
-    if routine.kind == "trap" and facts.body_raises(routine):
+    if facts.interrupts(routine) and facts.body_raises(routine):
         done = _restoring(editor, done, names)
     return _numbered(done, names)
 
@@ -424,7 +425,13 @@ class _Handling(_Passing):
     def forked(self, statement: ir.If, rest: ir.Body) -> ir.Body:
         """What follows the If belongs to the branches that reach it."""
         branches = tuple((condition, self.tail((*body, *rest))) for condition, body in statement.branches)
-        return (replace(statement, branches=branches, otherwise=self.tail((*statement.otherwise, *rest))),)
+        otherwise = self.tail((*statement.otherwise, *rest))
+        match branches:
+            case ((condition, body),) if otherwise and all(
+                one == ir.Nothing() and not one.origin.comments for one in body
+            ):
+                return (replace(statement, branches=((negation(condition), otherwise),), otherwise=()),)
+        return (replace(statement, branches=branches, otherwise=otherwise),)
 
     def forked_switch(self, statement: ir.Switch, rest: ir.Body) -> ir.Body:
         cases = tuple(replace(case, body=self.tail((*case.body, *rest))) for case in statement.cases)

@@ -25,7 +25,7 @@ class Raising:
     whole_codes: bool = True
     _out: set[str] = field(default_factory=set)
     _called: set[str] = field(default_factory=set)
-    _entries: set[str] = field(default_factory=set)
+    _actions: set[str] = field(default_factory=set)
     _numbers: dict[str, int] = field(default_factory=dict)
 
     def raises(self, name: str) -> bool:
@@ -83,8 +83,11 @@ class Raising:
 
     def is_top(self, routine: ir.Routine) -> bool:
         """Nobody is there to hand an error to."""
-        name = routine.name.lower()
-        return routine.kind == "trap" or name not in self._called
+        return self.interrupts(routine) or routine.name.lower() not in self._called
+
+    def interrupts(self, routine: ir.Routine) -> bool:
+        """Does it run between the statements of others?"""
+        return routine.kind == "trap" or routine.name.lower() in self._actions
 
     def partly(self, routine: ir.Routine) -> bool:
         """Is some handler of the routine for errors that only the source's controller sees?"""
@@ -116,7 +119,6 @@ def _mentioned(handler: ir.Handler) -> Iterator[str]:
 def raising_of(program: ir.Program) -> Raising:
     """The facts about a program; `used` is False when it has no errors to speak of."""
     facts = Raising()
-    facts._entries = {program.entry.lower(), *(task.entry.lower() for task in program.tasks)}
     for module in program.modules:
         facts._numbers.update((name.lower(), number) for name, number in rules_of(module.dialect).errors.items())
     scopes = ProgramScope(program)
@@ -150,6 +152,8 @@ def _note(facts: Raising, statement: ir.Statement, scope: Scope) -> None:
             facts.used = facts.used or timeout is not None
         case ir.CallRoutine(name=name):
             facts._called.add(name.lower())
+        case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)) | ir.Trigger(action=ir.CallRoutine(name=name)):
+            facts._actions.add(name.lower())
     for child in children(statement):
         for one in everything(child):
             if isinstance(one, ir.Call):

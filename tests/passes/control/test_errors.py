@@ -122,3 +122,16 @@ def test_handlers_for_errors_of_the_controller_are_named(handler: str, told: boo
     _, context = legalised(read("rapid", _RAPID % ("fails 5;", handler)), PLAIN, check_errors)
     diagnostics: Diagnostics = context.diagnostics
     assert [item.code.name for item in diagnostics if "main" in item.message] == ["handler-caught-partly"] * told
+
+
+def test_an_interrupt_keeps_an_error_that_it_finds() -> None:
+    text = _RAPID % ("fails 5;", "ERROR RETRY;")
+    text = text.replace("  PROC main()", "  TRAP watch IF n>5 RETURN; fails 2; ENDTRAP\n  PROC main()")
+    after, _ = legalised(read("rapid", text), PLAIN, check_errors)
+    (trap,) = [routine for routine in after.modules[0].routines if routine.name == "watch"]
+    kept = ir.Name("kept_error")
+    assert trap.body[0] == ir.Assign(kept, ir.Name("error_raised"))
+    assert trap.body[-1] == ir.Assign(ir.Name("error_raised"), kept)
+    leave = trap.body[2]
+    assert isinstance(leave, ir.If)
+    assert leave.branches[0][1] == (ir.Assign(ir.Name("error_raised"), kept), ir.Return())
