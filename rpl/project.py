@@ -31,6 +31,7 @@ UNREADABLE_ARCHIVE = code("unreadable-archive", Severity.ERROR, "cannot open thi
 
 LARGEST_FILE = 256 * 1024 * 1024
 _SURE_ENOUGH = 30
+_CERTAIN = 95
 _ARCHIVES = (".zip", ".tar", ".tgz", ".tar.gz", ".tar.bz2", ".tar.xz")
 _TEXT_CONTROLS = frozenset(b"\t\n\r\x0c\x1a")
 
@@ -110,6 +111,8 @@ def recognise(source: Source) -> tuple[str | None, str]:
             score += 1  # the extension only decides between equals
         if score > best_score:
             best, best_score = name, score
+        if best_score >= _CERTAIN:
+            break
     if best is None or best_score < _SURE_ENOUGH:
         return None, "its content matches no language"
     return best, ""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from rpl.registry import Dialect, ReadResult
 
+from .recognise import recognise
 from .words import POSTURE_FLAGS
 
 if TYPE_CHECKING:
@@ -15,12 +16,6 @@ if TYPE_CHECKING:
     from rpl.ir import Module
     from rpl.ir.rules import Rules
     from rpl.source import Source
-
-
-def _recognise(path: str, text: str) -> int:
-    from .reader import recognise
-
-    return recognise(path, text)
 
 
 def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
@@ -51,7 +46,7 @@ DIALECT = Dialect(
     name="rpl",
     title="RPL, the universal robot programming language",
     extensions=(".rpl",),
-    recognise=_recognise,
+    recognise=recognise,
     read=_read,
     rules=_rules,
     prelude=_prelude,

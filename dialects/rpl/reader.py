@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -21,24 +20,6 @@ from .affixment import Affixment, affix
 from .blocks import Builder, lower, scoped
 from .expressions import Reading
 from .splitter import NUMBERS, split
-
-_SURE = re.compile(
-    r"^[ \t]*(?:END (?:PROCEDURE|MODULE)|MODULE[ \t]+\S+[ \t]+USING[ \t]+\w+)\b", re.IGNORECASE | re.MULTILINE
-)
-_LIKELY = re.compile(
-    r"^[ \t]*(?:MOVE(?: JOINT| LINEAR| CIRCULAR)? (?:TO|BY|VIA)\b|END (?:IF|FOR|WHILE|LOOP|SWITCH|FUNCTION)\b"
-    r"|(?:VAR|CONST|PERSISTENT)[ \t]+\w+[ \t]*:[ \t]*\w+|SET .+ TO (?:ON|OFF)\b|WAIT UNTIL\b|(?:OPEN|CLOSE) \w+[ \t]*$"
-    r"|WAIT [\d.]+ s\b|MESSAGE \"|FRAME \w+ = |GRIPPER \w+ = )",
-    re.IGNORECASE | re.MULTILINE,
-)
-
-
-def recognise(path: str, text: str) -> int:
-    """How sure it is that the text is RPL, from its own block ends and statements."""
-    if _SURE.search(text):
-        return 85
-    hits = sum(1 for _ in zip(_LIKELY.finditer(text), range(8), strict=False))
-    return 30 + 5 * hits if hits else 0
 
 
 def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
