@@ -349,9 +349,24 @@ def _geometric(function: str, values: list[Value], numbers: list[float]) -> Valu
             return _composition(one, other)
         case "transform", [rigid.Pose() as pose, rigid.Vector() as vector]:
             return pose.place(vector)
+        case "frame_from_points", [rigid.Vector() as one, rigid.Vector() as two, rigid.Vector() as three, *_]:
+            return _from_points(one, two, three, int(numbers[0]) if numbers else 1)
         case (("offset" | "tool_offset"), [rigid.Pose() | Target() as one, *_]) if len(numbers) == len(values) - 1:
             return moved(function, one, numbers)
     return None
+
+
+def _from_points(one: rigid.Vector, two: rigid.Vector, three: rigid.Vector, origin: int) -> rigid.Pose | None:
+    """x from the first to the second point, y towards the third. Origin: 1 first point, 2 second, 3 the point of
+    the line nearest to the third."""
+    along = two.plus(one, -1.0)
+    across = along.cross(three.plus(one, -1.0))
+    if along.length < 1e-9 or across.length < 1e-9:
+        return None
+    x, z = along.times(1.0 / along.length), across.times(1.0 / across.length)
+    y = z.cross(x)
+    place = {2: two, 3: one.plus(x, three.plus(one, -1.0).dot(x))}.get(origin, one)
+    return rigid.Pose(place, rigid.rotation_of_rows(((x.x, y.x, z.x), (x.y, y.y, z.y), (x.z, y.z, z.z))))
 
 
 def moved(function: str, value: rigid.Pose | Target, numbers: list[float]) -> rigid.Pose | Target | None:

@@ -470,6 +470,9 @@ class _ToAngles(Rewriter):
                 return self.whole((number(0),) * 3, self.angles(expression))
             case "normalise", (rotation,):
                 return self.expression(rotation)
+            case "frame_from_points", (one, two, three, *rest) if not can:
+                points = [self.expression(point) for point in (one, two, three)]
+                return self.library.call("from_points", *points, *(map(self.expression, rest or [ir.IntLiteral(1)])))
             case "current_position", _:
                 return self.whole(self.numbers(expression), (number(0),) * 3)
             case "current_target", _ if not can:
