@@ -42,6 +42,10 @@ class ReadResult:
     files: tuple[FileReport, ...]
 
 
+def _signal_name(kind: str, number: int) -> str:
+    return f"{kind}[{number}]"
+
+
 def _no_companions(path: str) -> tuple[str, ...]:
     return ()
 
@@ -53,7 +57,8 @@ class Dialect:
     recognise(path, text) -> 0..100: how sure the content is of this language (never from the extension alone).
     read(sources, diagnostics): all sources of one project together. rules(): the data of its meaning. prelude(): its
     predefined data and system routines as a module, or None. notation(): arm configuration flags, or None.
-    companions(path): files that belong to a named one where they exist (a data list).
+    companions(path): files that belong to a named one where they exist (a data list). signal_name(kind, number): how
+    the language spells a numbered signal.
     """
 
     name: str
@@ -66,6 +71,7 @@ class Dialect:
     notation: Callable[[], Notation] | None = None
     notation_fields: tuple[str, ...] = ()
     companions: Callable[[str], tuple[str, ...]] = _no_companions
+    signal_name: Callable[[str, int], str] = _signal_name
 
 
 @dataclass(frozen=True, slots=True)

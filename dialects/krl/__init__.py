@@ -78,6 +78,22 @@ def _notation() -> Notation:
     return NOTATION
 
 
+_SIGNALS = {
+    "digital_in": "$IN",
+    "digital_out": "$OUT",
+    "group_in": "$IN",
+    "group_out": "$OUT",
+    "analog_in": "$ANIN",
+    "analog_out": "$ANOUT",
+    "flag": "$FLAG",
+}
+
+
+def _signal_name(kind: str, number: int) -> str:
+    """How KRL spells a physical signal."""
+    return f"{_SIGNALS[kind]}[{number}]"
+
+
 DIALECT = Dialect(
     name="krl",
     title="KUKA KRL",
@@ -89,4 +105,5 @@ DIALECT = Dialect(
     notation=_notation,
     notation_fields=("s", "t"),
     companions=_companions,
+    signal_name=_signal_name,
 )
