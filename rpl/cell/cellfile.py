@@ -1,0 +1,228 @@
+"""Reads a `cell.toml`: inputs over time, reactions to outputs, initial data, the operator's answers, and what vendor
+statements stand for. Every error names the file and the key.
+
+    seed = 1                                             of random numbers
+    [[input]]     time = 1.5  signal = "di1"  value = true  [duration = 0.2]
+    [[reaction]]  when = "do1"  becomes = true  after = 0.4  signal = "di2"  value = true
+    [variables]   count = 3   "module.name" = [1, 2]   "data[1]" = { x = 10.0, y = 0.0 }
+    [system]      path_speed = 100.0   tool = { x = 0, y = 0, z = 100, a = 0, b = 0, c = 0 }
+    [[answer]]    answer = 2  [text = "regex"]  [after = 1.0]
+    [[vendor]]    match = "regex"  effect = "none|message|time"  [seconds = 1.0]  [value = 5]  [set = [["di3", true]]]
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from rpl import ir
+from rpl.errors import UsageError
+
+Value = Any  # what TOML can say: numbers, BOOLs, texts, lists, tables
+
+
+@dataclass(frozen=True, slots=True)
+class Input:
+    """A signal gets a value at a time."""
+
+    time_s: float
+    signal: str
+    value: Value
+
+
+@dataclass(frozen=True, slots=True)
+class Reaction:
+    """When `when` becomes `value`, `signal` becomes `result` after some seconds."""
+
+    when: str
+    value: Value
+    after_s: float
+    signal: str
+    result: Value
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """The operator's answer to a dialog: to the next one, or to each whose text matches."""
+
+    answer: Value
+    after_s: float = 0.0
+    text: re.Pattern[str] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class VendorMeaning:
+    """What a statement that only one controller has stands for. `value`: what a vendor function gives."""
+
+    match: re.Pattern[str]
+    effect: str = "none"
+    seconds: float = 0.0
+    message: str = ""
+    value: Value = None
+    set: tuple[tuple[str, Value], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """Everything a cell file says."""
+
+    inputs: tuple[Input, ...] = ()
+    reactions: tuple[Reaction, ...] = ()
+    variables: Mapping[str, Value] = field(default_factory=dict)
+    system: Mapping[str, Value] = field(default_factory=dict)
+    answers: tuple[Answer, ...] = ()
+    vendor: tuple[VendorMeaning, ...] = ()
+    seed: int = 1
+    path: str = ""
+
+
+def read_cell(path: str | Path) -> Cell:
+    """Read a cell file. Raises UsageError with file and key when it is wrong."""
+    try:
+        data = Path(path).read_bytes()
+    except OSError as error:
+        raise UsageError(f"{path}: cannot read the cell file: {error.strerror}") from None
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError:
+        raise UsageError(f"{path}: a cell file is UTF-8 text") from None
+    return parse_cell(text, str(path))
+
+
+def parse_cell(text: str, path: str = "cell") -> Cell:
+    """The cell that a text describes."""
+    try:
+        table = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise UsageError(f"{path}: {error}") from None
+    return _Reader(path).cell(table)
+
+
+_TOP = frozenset(("seed", "input", "reaction", "variables", "system", "answer", "answers", "vendor"))
+
+
+class _Reader:
+    def __init__(self, path: str) -> None:
+        self.path = path
+
+    def wrong(self, key: str, what: str) -> UsageError:
+        return UsageError(f"{self.path}: {key}: {what}")
+
+    def cell(self, table: dict[str, Value]) -> Cell:
+        for key in table:
+            if key not in _TOP:
+                raise self.wrong(key, f"unknown; there are {', '.join(sorted(_TOP))}")
+        inputs = [made for key, row in self.rows(table, "input") for made in self.input(key, row)]
+        inputs.sort(key=lambda item: item.time_s)
+        variables, system = table.get("variables", {}), table.get("system", {})
+        for key, value in (("variables", variables), ("system", system)):
+            if not isinstance(value, dict):
+                raise self.wrong(key, "must be a table of names and values")
+        for name in system:
+            row = ir.SYSTEM_VARIABLES.get(name.partition("[")[0])
+            if row is None or row.access != "rw":
+                raise self.wrong(f"system.{name}", "is no system variable that can be set")
+        seed = table.get("seed", 1)
+        if not isinstance(seed, int):
+            raise self.wrong("seed", "must be a whole number")
+        return Cell(
+            tuple(inputs),
+            tuple(self.reaction(key, row) for key, row in self.rows(table, "reaction")),
+            variables,
+            system,
+            self.answers(table),
+            tuple(self.vendor(key, row) for key, row in self.rows(table, "vendor")),
+            seed,
+            self.path,
+        )
+
+    def rows(self, table: dict[str, Value], name: str) -> Iterator[tuple[str, dict[str, Value]]]:
+        rows = table.get(name, [])
+        if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+            raise self.wrong(name, f"must be written as [[{name}]] tables")
+        for number, row in enumerate(rows, 1):
+            yield f"{name}[{number}]", row
+
+    def known(self, key: str, row: dict[str, Value], needed: tuple[str, ...], more: tuple[str, ...] = ()) -> None:
+        for name in needed:
+            if name not in row:
+                raise self.wrong(f"{key}.{name}", "is missing")
+        for name in row:
+            if name not in needed and name not in more:
+                raise self.wrong(f"{key}.{name}", f"unknown; there are {', '.join((*needed, *more))}")
+
+    def seconds(self, key: str, row: dict[str, Value], name: str, default: float = 0.0) -> float:
+        value = row.get(name, default)
+        if isinstance(value, bool) or not isinstance(value, int | float) or value < 0:
+            raise self.wrong(f"{key}.{name}", f"must be a time in s, not {value!r}")
+        return float(value)
+
+    def text(self, key: str, row: dict[str, Value], name: str) -> str:
+        value = row.get(name, "")
+        if not isinstance(value, str):
+            raise self.wrong(f"{key}.{name}", f"must be a text, not {value!r}")
+        return value
+
+    def signal(self, key: str, row: dict[str, Value], name: str) -> Value:
+        value = row[name]
+        if not isinstance(value, bool | int | float):
+            raise self.wrong(f"{key}.{name}", f"must be true, false or a number, not {value!r}")
+        return value
+
+    def pattern(self, key: str, row: dict[str, Value], name: str) -> re.Pattern[str]:
+        try:
+            return re.compile(self.text(key, row, name), re.IGNORECASE)
+        except re.error as error:
+            raise self.wrong(f"{key}.{name}", f"is no regular expression: {error}") from None
+
+    def input(self, key: str, row: dict[str, Value]) -> Iterator[Input]:
+        self.known(key, row, ("time", "signal", "value"), ("duration",))
+        time, signal = self.seconds(key, row, "time"), self.text(key, row, "signal")
+        value = self.signal(key, row, "value")
+        yield Input(time, signal, value)
+        if "duration" in row:
+            back: Value = not value if isinstance(value, bool) else 0
+            yield Input(time + self.seconds(key, row, "duration"), signal, back)
+
+    def reaction(self, key: str, row: dict[str, Value]) -> Reaction:
+        self.known(key, row, ("when", "signal", "value"), ("becomes", "after"))
+        becomes = self.signal(key, row, "becomes") if "becomes" in row else True
+        return Reaction(
+            self.text(key, row, "when"),
+            becomes,
+            self.seconds(key, row, "after"),
+            self.text(key, row, "signal"),
+            self.signal(key, row, "value"),
+        )
+
+    def answers(self, table: dict[str, Value]) -> tuple[Answer, ...]:
+        plain = table.get("answers", [])
+        if not isinstance(plain, list) or not all(isinstance(each, int | float | str) for each in plain):
+            raise self.wrong("answers", "must be a list of numbers or texts")
+        made = []
+        for key, row in self.rows(table, "answer"):
+            self.known(key, row, ("answer",), ("text", "after"))
+            text = self.pattern(key, row, "text") if "text" in row else None
+            made.append(Answer(row["answer"], self.seconds(key, row, "after"), text))
+        return (*(Answer(each) for each in plain), *made)
+
+    def vendor(self, key: str, row: dict[str, Value]) -> VendorMeaning:
+        self.known(key, row, ("match",), ("effect", "seconds", "message", "value", "set"))
+        effect = row.get("effect", "none")
+        if effect not in ("none", "message", "time"):
+            raise self.wrong(f"{key}.effect", f"must be none, message or time, not {effect!r}")
+        pairs = row.get("set", [])
+        if not isinstance(pairs, list) or not all(isinstance(p, list) and len(p) == 2 for p in pairs):
+            raise self.wrong(f"{key}.set", "must be a list of [signal, value] pairs")
+        return VendorMeaning(
+            self.pattern(key, row, "match"),
+            effect,
+            self.seconds(key, row, "seconds"),
+            self.text(key, row, "message"),
+            row.get("value"),
+            tuple((str(signal), value) for signal, value in pairs),
+        )

@@ -1,0 +1,363 @@
+"""Instructions of the statements that wait, talk, interrupt, stop, raise and handle."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rpl import ir
+from rpl.ir.walk import children
+from rpl.linking import interrupts
+from rpl.linking.places import writer
+from rpl.runtime import functions, system
+from rpl.runtime.code import SWITCHED, Instruction, Read, Values, Write
+from rpl.runtime.faults import ProgramError
+from rpl.runtime.texts import value_text
+from rpl.runtime.values import StopWatch, Value
+
+if TYPE_CHECKING:
+    from rpl.linking.assembler import Make
+    from rpl.linking.routine import RoutineLinker
+
+
+def action(statement: ir.Statement, linker: RoutineLinker) -> Make | None:
+    """The instruction of a statement without inner structure; None when it is of another kind."""
+    match statement:
+        case ir.Wait():
+            return _wait(statement, linker)
+        case ir.WaitUntil():
+            return _wait_until(statement, linker)
+        case ir.WaitForMotion():
+            return wait_for_robot
+        case ir.LookAhead():
+            return _look_ahead
+        case ir.Pulse() | ir.SetAfter():
+            return _timed_output(statement, linker)
+        case ir.Message():
+            return _message(statement, linker)
+        case ir.Dialog():
+            return _dialog(statement, linker)
+        case ir.Clock():
+            return _clock(statement, linker)
+        case ir.Vendor(text=text, effect=effect):
+            return _vendor(text, effect)
+        case ir.Opaque(text=text):
+            return _failing("opaque", f"this statement could not be read: {text.strip()[:80]}")
+        case ir.TaskControl():
+            return _task_control(statement)
+    return interrupts.action(statement, linker) or _control(statement, linker)
+
+
+def _control(statement: ir.Statement, linker: RoutineLinker) -> Make | None:
+    match statement:
+        case ir.Halt(kind=kind):
+            return _halt(kind)
+        case ir.StopMotion(hard=hard):
+            return _stop_motion(hard)
+        case ir.StartMotion():
+            return _robot("start")
+        case ir.ClearMotion():
+            return _robot("clear")
+        case ir.StoreMotion(restore=restore):
+            return _robot("restore" if restore else "store")
+        case ir.ResumeLevel():
+            return lambda here, next: lambda f: f[0].resume_level()
+        case ir.Raise(code=code):
+            return _raise(linker.compiler.value(code) if code is not None else None)
+        case ir.Retry():
+            return lambda here, next: lambda f: f[0].handled(f[0].handling().retry)
+        case ir.TryNext():
+            return lambda here, next: lambda f: f[0].handled(f[0].handling().next)
+    return None
+
+
+def _failing(error: str, message: str) -> Make:
+    def make(here: int, next: int) -> Instruction:
+        def fail(f: Values) -> int:
+            raise ProgramError(error, message)
+
+        return fail
+
+    return make
+
+
+# ---- waiting
+
+
+def wait_for_robot(here: int, next: int) -> Instruction:
+    """Wait until everything commanded is driven."""
+
+    def wait(f: Values) -> int:
+        task = f[0]
+        done: int = next if not task.busy else task.wait_for("idle", here, next)
+        return done
+
+    return wait
+
+
+def _standing(in_position: bool, f: Values, here: int) -> int | None:
+    """With `in_position` the wait begins when the robot stands: come back then."""
+    task = f[0]
+    if in_position and task.busy:
+        answer: int = task.wait_for("idle", here, here)
+        return answer
+    return None
+
+
+def _wait(statement: ir.Wait, linker: RoutineLinker) -> Make:
+    seconds, in_position = linker.compiler.value(statement.time), statement.in_position
+
+    def make(here: int, next: int) -> Instruction:
+        def wait(f: Values) -> int:
+            first = _standing(in_position, f, here)
+            if first is not None:
+                return first
+            done: int = f[0].sleep(seconds(f), here, next)
+            return done
+
+        return wait
+
+    return make
+
+
+def depends_on_time(condition: ir.Expression) -> bool:
+    """Can the condition become true without anybody doing anything?"""
+    stack: list[object] = [condition]
+    while stack:
+        node = stack.pop()
+        match node:
+            case ir.System(name=name) if name in system.TIME_DEPENDENT:
+                return True
+            case ir.Builtin(function=function) if function in functions.TIME_DEPENDENT:
+                return True
+        stack.extend(children(node))
+    return False
+
+
+def timed_out(statement: ir.WaitUntil, linker: RoutineLinker) -> Write | None:
+    """What writes whether the wait has timed out."""
+    if statement.timed_out is None:
+        return None
+    return writer(linker.compiler, statement.timed_out, statement.origin)
+
+
+def _wait_until(statement: ir.WaitUntil, linker: RoutineLinker) -> Make:
+    condition, polls = linker.compiler.value(statement.condition), depends_on_time(statement.condition)
+    timeout = linker.compiler.value(statement.timeout) if statement.timeout is not None else None
+    late, error, in_position = timed_out(statement, linker), statement.error, statement.in_position
+    subject = statement.origin.text.strip()[:80]
+
+    def make(here: int, next: int) -> Instruction:
+        def wait(f: Values) -> int:
+            first = _standing(in_position, f, here)
+            if first is not None:
+                return first
+            if condition(f):
+                if late is not None:
+                    late(f, False)
+                return next
+            limit = timeout(f) if timeout is not None else None
+            blocked: int = f[0].wait_until(condition, f, here, next, polls, limit, late, error, subject)
+            return blocked
+
+        return wait
+
+    return make
+
+
+def _look_ahead(here: int, next: int) -> Instruction:
+    def look_ahead(f: Values) -> int:
+        f[0].look_ahead = next
+        return next
+
+    return look_ahead
+
+
+# ---- outputs over time
+
+
+def _timed_output(statement: ir.Pulse | ir.SetAfter, linker: RoutineLinker) -> Make:
+    compiler = linker.compiler
+    signal = statement.signal
+    if isinstance(signal, ir.Convert):
+        signal = signal.operand
+    if isinstance(signal, ir.Name):
+        found = compiler.place_of(signal.id)
+        if isinstance(found, ir.SignalDeclaration):
+            signal = found.signal
+        else:
+            signal = ir.Signal("digital_out", name=signal.id)
+    if not isinstance(signal, ir.Signal):
+        return _failing("wrong_kind", "only a signal can be switched for a time")
+    port, write = compiler.port(signal), writer(compiler, signal, statement.origin)
+    value = compiler.value(statement.value)
+    seconds = compiler.value(statement.duration if isinstance(statement, ir.Pulse) else statement.delay)
+    pulse = isinstance(statement, ir.Pulse)
+
+    def make(here: int, next: int) -> Instruction:
+        def switch(f: Values) -> int:
+            task, level = f[0], value(f)
+            physical = port(f) if callable(port) else port
+            if pulse:
+                write(f, level)
+            later = (not level) if pulse else level
+            task.machine.output_later(task, physical, later, seconds(f), task.frame.code, here)
+            return next if not task.interrupts.pending else task.attention(next)
+
+        return switch
+
+    return make
+
+
+# ---- operator
+
+
+def _shown(value: Value) -> str:
+    return value if isinstance(value, str) else value_text(value)
+
+
+def _message(statement: ir.Message, linker: RoutineLinker) -> Make:
+    text, kind = linker.compiler.value(statement.text), statement.kind
+    sender = linker.compiler.value(statement.sender) if statement.sender is not None else None
+
+    def make(here: int, next: int) -> Instruction:
+        def show(f: Values) -> int:
+            task = f[0]
+            more = {"sender": _shown(sender(f))} if sender is not None else {}
+            task.machine.message(task, kind, _shown(text(f)), task.frame.code.origin(here), **more)
+            return next
+
+        return show
+
+    return make
+
+
+def _dialog(statement: ir.Dialog, linker: RoutineLinker) -> Make:
+    compiler, origin = linker.compiler, statement.origin
+    text, answer = compiler.value(statement.text), writer(compiler, statement.answer, origin)
+    keys = [compiler.value(key) if key is not None else None for key in statement.keys]
+    timeout = compiler.value(statement.timeout) if statement.timeout is not None else None
+    late = writer(compiler, statement.timed_out, origin) if statement.timed_out is not None else None
+    kind = statement.kind
+
+    def make(here: int, next: int) -> Instruction:
+        def ask(f: Values) -> int:
+            task = f[0]
+            names = [_shown(key(f)) if key is not None else None for key in keys]
+            limit = timeout(f) if timeout is not None else None
+            done: int = task.machine.ask(task, f, _shown(text(f)), names, kind, answer, limit, late, here, next)
+            return done
+
+        return ask
+
+    return make
+
+
+def _clock(statement: ir.Clock, linker: RoutineLinker) -> Make:
+    read, op = linker.compiler.raw(statement.clock), statement.op
+
+    def make(here: int, next: int) -> Instruction:
+        def turn(f: Values) -> int:
+            clock, now = read(f), f[0].machine.now
+            if not isinstance(clock, StopWatch):
+                raise ProgramError("wrong_kind", "a clock is needed")
+            if op == "reset":
+                clock.counted, clock.running = 0.0, False
+            elif op == "start" and not clock.running:
+                clock.since, clock.running = now, True
+            elif op == "stop" and clock.running:
+                clock.counted, clock.running = clock.seconds(now), False
+            return next
+
+        return turn
+
+    return make
+
+
+# ---- what only one controller has
+
+
+def _vendor(text: str, effect: str) -> Make:
+    def make(here: int, next: int) -> Instruction:
+        def run(f: Values) -> int:
+            task = f[0]
+            seconds: float = task.machine.vendor(task, text, effect, task.frame.code.origin(here))
+            done: int = task.sleep(seconds, here, next)
+            return done
+
+        return run
+
+    return make
+
+
+# ---- stops and tasks
+
+
+def _halt(kind: str) -> Make:
+    def make(here: int, next: int) -> Instruction:
+        def halt(f: Values) -> int:
+            task = f[0]
+            if kind == "cycle":
+                task.restart()
+                return SWITCHED
+            task.machine.halt(task)
+            return SWITCHED
+
+        return halt
+
+    return make
+
+
+def _stop_motion(hard: bool) -> Make:
+    def make(here: int, next: int) -> Instruction:
+        def stop(f: Values) -> int:
+            task = f[0]
+            if task.robot is None:
+                return next
+            task.robot.halt(hard)
+            done: int = task.wait_for("standing", here, next)
+            return done
+
+        return stop
+
+    return make
+
+
+def _robot(what: str) -> Make:
+    def make(here: int, next: int) -> Instruction:
+        def command(f: Values) -> int:
+            task = f[0]
+            if task.robot is not None:
+                getattr(task.robot, what)()
+            return next
+
+        return command
+
+    return make
+
+
+def _raise(code: Read | None) -> Make:
+    def make(here: int, next: int) -> Instruction:
+        def raise_(f: Values) -> int:
+            task = f[0]
+            if code is None:
+                passed: int = task.pass_on()
+                return passed
+            number = code(f)
+            raise ProgramError("raised", f"the program raises error {_shown(number)}", number)
+
+        return raise_
+
+    return make
+
+
+def _task_control(statement: ir.TaskControl) -> Make:
+    op, name = statement.op, statement.task
+
+    def make(here: int, next: int) -> Instruction:
+        def control(f: Values) -> int:
+            f[0].machine.control_task(f[0], op, name)
+            return next
+
+        return control
+
+    return make

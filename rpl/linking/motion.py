@@ -1,0 +1,328 @@
+"""Motion statements to instructions: everything a move says is evaluated when the program pointer reaches it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from rpl import ir
+from rpl.linking.places import writer
+from rpl.runtime.code import Instruction, Read, Values
+from rpl.runtime.faults import ProgramError
+from rpl.runtime.orders import BlendOrder, Order, SearchOrder, SpeedOrder, TriggerOrder
+from rpl.runtime.system import modal_key
+from rpl.runtime.values import Record, Value, whole
+
+if TYPE_CHECKING:
+    from rpl.linking.assembler import Make
+    from rpl.linking.routine import RoutineLinker
+
+MakeTrigger = Callable[[Values], TriggerOrder]
+Overlay = Callable[[Values], dict[str, Value]]
+
+
+class MotionStatements:
+    """Compiles moves, spline blocks and path triggers of one routine."""
+
+    def __init__(self, linker: RoutineLinker) -> None:
+        self.linker = linker
+
+    def value(self, expression: ir.Expression) -> Read:
+        return self.linker.compiler.value(expression)
+
+    def optional(self, expression: ir.Expression | None) -> Read | None:
+        return self.value(expression) if expression is not None else None
+
+    def target(self, expression: ir.Expression) -> Read:
+        """A motion target: components without a value are no fault here, they stay as they are."""
+        return self.linker.compiler.raw(expression)
+
+    def statement(self, statement: ir.Statement) -> None:
+        emit = self.linker.assembler.emit
+        match statement:
+            case ir.Move():
+                emit(self.move(statement))
+            case ir.MoveExternal():
+                emit(self.external(statement))
+            case ir.Spline():
+                self.spline(statement)
+            case ir.Trigger():
+                emit(self.path_trigger(statement))
+            case ir.DefineTrigger():
+                emit(self.define(statement))
+
+    # ---- moves
+
+    def move(self, move: ir.Move, more: tuple[tuple[ir.Expression, ir.Expression], ...] = ()) -> Make:
+        target, via = self.target(move.target), self.target(move.via) if move.via is not None else None
+        options: dict[str, Read | None] = {
+            "swept": self.optional(move.swept),
+            "tool": self.optional(move.tool),
+            "frame": self.optional(move.frame),
+            "acceleration": self.optional(move.acceleration),
+        }
+        speed, blend = self.speed(move.speed), self.blend(move.blend)
+        triggers = [self.trigger_of(trigger) for trigger in move.triggers]
+        search = self.search(move.search, move) if move.search is not None else None
+        overlay = self.overlay((*more, *move.settings))
+        fixed: dict[str, Any] = {
+            "relative": move.relative,
+            "orientation": move.orientation,
+            "circle_orientation": move.circle_orientation,
+            "configuration": move.configuration,
+            "concurrent": move.concurrent,
+        }
+        kind = move.kind
+        rules = self.linker.compiler.scope.rules
+        load = self.optional(move.load)
+
+        def make(here: int, next: int) -> Instruction:
+            def drive(f: Values) -> int:
+                task = f[0]
+                order = Order(kind, target(f), task.frame.code, here, rules)
+                over = overlay(f)
+                order.modal = over
+                with_overlay = _Overlaid(task, over) if over else None
+                if via is not None:
+                    order.via = via(f)
+                for name, read in options.items():
+                    if read is not None:
+                        setattr(order, name, read(f))
+                for name, value in fixed.items():
+                    setattr(order, name, value)
+                order.speed, order.blend = speed(f), blend(f)
+                if with_overlay is not None:
+                    with_overlay.restore()
+                order.triggers = [trigger(f) for trigger in triggers] + task.take_triggers()
+                order.search = search(f) if search is not None else None
+                if load is not None:
+                    task.modal["load"] = load(f)
+                return _submit(task, order, here, next)
+
+            return drive
+
+        return make
+
+    def overlay(self, settings: tuple[tuple[ir.Expression, ir.Expression], ...]) -> Overlay:
+        """System variables that have another value for this move only."""
+        made: list[tuple[str, Read | None, Read]] = []
+        for place, value in settings:
+            target, given = place, value
+            if isinstance(target, ir.Magnitude):
+                target, given = target.value, ir.Quantity(given, place.unit) if isinstance(place, ir.Magnitude) else given
+            if isinstance(target, ir.System):
+                index = self.value(target.indices[0]) if target.indices else None
+                made.append((target.name, index, self.value(given)))
+        if not made:
+            return lambda f: {}
+        return lambda f: {modal_key(name, index(f) if index is not None else None): read(f) for name, index, read in made}
+
+    def speed(self, speed: ir.Speed | None) -> Callable[[Values], SpeedOrder]:
+        if speed is None:
+            return lambda f: SpeedOrder()
+        profile = self.optional(speed.profile)
+        parts = {
+            "path": self.optional(speed.path),
+            "rotation": self.optional(speed.rotation),
+            "joint": self.optional(speed.joint),
+            "duration": self.optional(speed.duration),
+        }
+
+        def make(f: Values) -> SpeedOrder:
+            given = profile(f) if profile is not None else None
+            if given is not None and not isinstance(given, Record):
+                raise ProgramError("wrong_kind", "a speed is needed")
+            order = SpeedOrder(given)
+            for name, read in parts.items():
+                if read is not None:
+                    setattr(order, name, float(read(f)))
+            return order
+
+        return make
+
+    def blend(self, blend: ir.Blend | None) -> Callable[[Values], BlendOrder]:
+        match blend:
+            case ir.BlendDistance(distance=distance, rotation=rotation):
+                way, turn = self.optional(distance), self.optional(rotation)
+                return lambda f: BlendOrder(
+                    "distance",
+                    float(way(f)) if way is not None else None,
+                    float(turn(f)) if turn is not None else None,
+                )
+            case ir.BlendPercent(percent=percent, path=path):
+                share, inner = self.value(percent), self.blend(path) if path is not None else None
+                return lambda f: BlendOrder(
+                    "percent", percent=float(share(f)), path=inner(f) if inner is not None else None
+                )
+            case ir.BlendSpeed(percent=percent):
+                part = self.value(percent)
+                return lambda f: BlendOrder("speed", percent=float(part(f)))
+            case ir.BlendZone(zone=zone, distance=distance):
+                value, radius = self.value(zone), self.optional(distance)
+                return lambda f: _zone(value(f), float(radius(f)) if radius is not None else None)
+        return lambda f: BlendOrder("stop")
+
+    def search(self, search: ir.Search, move: ir.Move) -> Callable[[Values], SearchOrder]:
+        condition, write = self.value(search.condition), writer(self.linker.compiler, search.found, move.origin)
+        stop, edge = search.stop, search.edge
+        return lambda f: SearchOrder(condition, write, f, stop, edge)
+
+    def external(self, move: ir.MoveExternal) -> Make:
+        target, speed, blend = self.target(move.target), self.speed(move.speed), self.blend(move.blend)
+        rules = self.linker.compiler.scope.rules
+
+        def make(here: int, next: int) -> Instruction:
+            def drive(f: Values) -> int:
+                task = f[0]
+                order = Order("joint", target(f), task.frame.code, here, rules)
+                order.speed, order.blend, order.external_only = speed(f), blend(f), True
+                return _submit(task, order, here, next)
+
+            return drive
+
+        return make
+
+    def spline(self, spline: ir.Spline) -> None:
+        """A spline block as its segments, one behind the other. Points of a spline are joined by straight lines: the
+        emulator has no spline path of its own yet."""
+        emit = self.linker.assembler.emit
+        moves = [item for item in spline.body if isinstance(item, ir.Move)]
+        for item in spline.body:
+            match item:
+                case ir.Move():
+                    last = item is moves[-1]
+                    blend = spline.blend if last else None
+                    kind = "joint" if spline.kind == "joint" else "linear" if item.kind == "spline" else item.kind
+                    segment = ir.Move(
+                        kind,
+                        item.target,
+                        via=item.via,
+                        swept=item.swept,
+                        relative=item.relative,
+                        blend=blend,
+                        settings=item.settings,
+                        motion_class="spline",
+                        origin=item.origin,
+                    )
+                    outer = self.linker.assembler.begin(item.origin)
+                    emit(self.move(segment, spline.settings))
+                    self.linker.assembler.end(outer)
+                case _:
+                    self.linker.statements.statement(item)
+
+    # ---- triggers
+
+    def trigger(self, trigger: ir.Trigger, frozen: bool) -> MakeTrigger:
+        """A trigger; with `frozen` its action is evaluated when it is stored."""
+        distance, delay = self.optional(trigger.distance), self.optional(trigger.delay)
+        reference, action = trigger.reference, trigger.action
+        act: Instruction | None = None
+        routine = None
+        freeze = None
+        if isinstance(action, ir.Assign):
+            value = self.linker.compiler.copy_of(action.value)
+            write = writer(self.linker.compiler, action.target, trigger.origin)
+            if frozen:
+                freeze = (value, write)
+            else:
+
+                def act_now(f: Values) -> int:
+                    write(f, value(f))
+                    return 0
+
+                act = act_now
+        elif action.name or action.dynamic is not None:
+            routine = self.linker.action(action, "trigger")
+
+        def make(f: Values) -> TriggerOrder:
+            act_here = act if freeze is None else _frozen(freeze[0](f), freeze[1])
+            way = float(distance(f)) if distance is not None else None
+            return TriggerOrder(reference, way, float(delay(f)) if delay is not None else 0.0, f, act_here, routine)
+
+        return make
+
+    def trigger_of(self, given: ir.Expression | ir.Trigger) -> MakeTrigger:
+        """A move's own trigger, or a stored one."""
+        if isinstance(given, ir.Trigger):
+            return self.trigger(given, True)
+        read = self.linker.compiler.raw(given)
+
+        def make(f: Values) -> TriggerOrder:
+            stored = read(f)
+            if not isinstance(stored, TriggerOrder):
+                raise ProgramError("no_value", "the path event was not defined")
+            return stored.copy()
+
+        return make
+
+    def path_trigger(self, trigger: ir.Trigger) -> Make:
+        """A trigger as a statement belongs to the next move."""
+        made = self.trigger(trigger, False)
+
+        def make(here: int, next: int) -> Instruction:
+            def set_trigger(f: Values) -> int:
+                f[0].next_triggers.append(made(f))
+                return next
+
+            return set_trigger
+
+        return make
+
+    def define(self, statement: ir.DefineTrigger) -> Make:
+        made = self.trigger(statement.trigger, True)
+        write = writer(self.linker.compiler, statement.target, statement.origin)
+        interrupt = self.optional(statement.interrupt)
+
+        def make(here: int, next: int) -> Instruction:
+            def define(f: Values) -> int:
+                order = made(f)
+                if interrupt is not None:
+                    order.interrupt = whole(interrupt(f))
+                write(f, order)
+                return next
+
+            return define
+
+        return make
+
+
+def _frozen(value: Value, write: Callable[[Values, Value], None]) -> Instruction:
+    def act(f: Values) -> int:
+        write(f, value)
+        return 0
+
+    return act
+
+
+def _zone(zone: Value, distance: float | None) -> BlendOrder:
+    if not isinstance(zone, Record):
+        raise ProgramError("wrong_kind", "a zone is needed")
+    return BlendOrder("zone", distance, zone=zone)
+
+
+def _submit(task: Any, order: Order, here: int, next: int) -> int:
+    """Hand the move over; wait first when the program pointer is too far ahead."""
+    robot = task.robot
+    if robot is None:
+        raise ProgramError("motion", f"task {task.name} has no robot to move")
+    if not robot.has_room() and order.rules.advance.runs_ahead_of != "fly_by":
+        task.next_triggers = [t for t in order.triggers if not t.fired]
+        waiting: int = task.wait_for("room", here, here)
+        return waiting
+    done: int = robot.submit(order, next)
+    return done
+
+
+class _Overlaid:
+    """A move's own settings stand in the task's table while the move's speed and blend are evaluated."""
+
+    __slots__ = ("before", "task")
+
+    def __init__(self, task: Any, over: dict[str, Value]) -> None:
+        self.task = task
+        self.before = dict(task.modal)
+        task.modal.update(over)
+
+    def restore(self) -> None:
+        self.task.modal.clear()
+        self.task.modal.update(self.before)

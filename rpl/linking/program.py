@@ -1,0 +1,311 @@
+"""A whole program for running: its routines as code (made when first called), its global data, its signals' names.
+
+What is made here never changes while a program runs and is shared by all snapshots of all its runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from rpl import ir, registry
+from rpl.diagnostics import Diagnostics
+from rpl.errors import UsageError
+from rpl.linking.types import Types
+from rpl.passes.scope import Fold, ProgramScope, Scope, rules_of
+from rpl.passes.typing import normalise
+from rpl.runtime.code import Code, Read, Values
+from rpl.runtime.signals import Key, group_bits, is_bit_group, key_of
+from rpl.runtime.values import SignalRef
+
+if TYPE_CHECKING:
+    from rpl.emulator.configuration import Notation
+    from rpl.runtime.machine import Machine
+
+
+class GlobalSlot:
+    """One global variable: its declaration, and how its first value is made."""
+
+    __slots__ = ("assigns", "initial", "name", "needs", "qualified", "watched")
+
+    def __init__(self, name: str, qualified: str) -> None:
+        self.name = name
+        self.qualified = qualified
+        self.initial: Read | None = None
+        self.assigns: list[Read] = []
+        self.needs: set[int] = set()
+        self.watched = False
+
+
+class LinkedProgram:
+    """Symbols of a program and the code of its routines."""
+
+    def __init__(self, program: ir.Program) -> None:
+        self.program = program
+        self.scopes = ProgramScope(program)
+        self.slots: list[GlobalSlot] = []
+        self._slot_of: dict[object, int] = {}
+        self._codes: dict[int, Code] = {}
+        self._homes: dict[int, tuple[ir.Module, ir.Routine]] = {}
+        self._keep: list[object] = []  # what ids above refer to stays alive
+        self._preludes: dict[str, ir.Module] = {}
+        self._predefined: dict[str, dict[str, ir.Variable]] = {}
+        self._notations: dict[str, Notation | None] = {}
+        self._initialise: dict[tuple[int, str], list[ir.Assign]] = {}
+        self._aliases: dict[str, SignalRef] = {}
+        self._names_of: dict[Key, list[str]] = {}
+        self.watched = frozenset(_watched_names(program))
+        for module in program.modules:
+            self._enter(module)
+
+    def __deepcopy__(self, memo: object) -> LinkedProgram:
+        return self
+
+    def _enter(self, module: ir.Module) -> None:
+        for routine in module.routines:
+            self._homes[id(routine)] = (module, routine)
+        fold = self.scopes.module(module).fold
+        for declaration in module.declarations:
+            match declaration:
+                case ir.Initialise(assign=assign):
+                    root = _root(assign.target)
+                    if root is not None:
+                        self._initialise.setdefault((id(module), fold(root)), []).append(assign)
+                case ir.SignalDeclaration():
+                    self.declare_signal(declaration)
+
+    # ---- routines
+
+    def code_of(self, routine: ir.Routine) -> Code:
+        """The code of a routine, made when it is first needed."""
+        found = self._codes.get(id(routine))
+        if found is None:
+            from rpl.linking.routine import link_routine
+
+            module = self._homes[id(routine)][0]
+            found = link_routine(self, module, routine)
+            self._codes[id(routine)] = found
+        return found
+
+    def routine(self, scope: Scope, name: str) -> ir.Routine | None:
+        """The routine that a call in this scope means; a prelude's is entered when it is met."""
+        found = scope.routine(name)
+        if found is None or id(found) in self._homes:
+            return found
+        fold = scope.fold
+        for routine in self.prelude(scope.module.dialect).routines:
+            if fold(routine.name) == fold(name):
+                return routine
+        return None
+
+    def prelude(self, dialect: str) -> ir.Module:
+        """The dialect's predefined data and routines, in normal form like any program."""
+        if dialect not in self._preludes:
+            found = _prelude(dialect)
+            self._preludes[dialect] = found
+            self._enter(found)
+            self._predefined[dialect] = {
+                rules_fold(dialect)(declaration.name): declaration
+                for declaration in found.declarations
+                if isinstance(declaration, ir.Variable)
+            }
+        return self._preludes[dialect]
+
+    def home_of(self, declaration: ir.Variable, module: ir.Module | None, dialect: str) -> tuple[ir.Variable, ir.Module]:
+        """A global variable with its module; one of the prelude in its normal form."""
+        if module is not None:
+            return declaration, module
+        prelude = self.prelude(dialect)
+        return self._predefined[dialect].get(rules_fold(dialect)(declaration.name), declaration), prelude
+
+    def find_routine(self, name: str) -> tuple[ir.Module, ir.Routine] | None:
+        """A routine of the program by name, in any module."""
+        for module in self.program.modules:
+            fold = self.scopes.module(module).fold
+            for routine in module.routines:
+                if fold(routine.name) == fold(name):
+                    return module, routine
+        return None
+
+    # ---- global data
+
+    def slot(self, declaration: ir.Variable, module: ir.Module) -> int:
+        """The place of a global variable; persistent data of one name is one for all tasks."""
+        fold = self.scopes.module(module).fold
+        shared = declaration.storage == "persistent" and declaration.scope == "global"
+        key: object = ("persistent", fold(declaration.name)) if shared else id(declaration)
+        found = self._slot_of.get(key)
+        if found is not None:
+            return found
+        number = len(self.slots)
+        self._slot_of[key] = number
+        self._keep.append(declaration)
+        entry = GlobalSlot(fold(declaration.name), f"{fold(module.name)}.{fold(declaration.name)}")
+        entry.watched = declaration.name.lower() in self.watched
+        self.slots.append(entry)
+        from rpl.linking.routine import link_initial
+
+        link_initial(self, module, declaration, entry)
+        return number
+
+    def initial_assigns(self, module: ir.Module, name: str) -> list[ir.Assign]:
+        """Assignments of a data list to a variable and its parts."""
+        return self._initialise.get((id(module), name), [])
+
+    def initialise(self, values: Values, machine: Machine) -> None:
+        """Give first values to the global data that has none yet."""
+        from rpl.linking.initial import initialise
+
+        initialise(self, values, machine)
+
+    def variable_slot(self, name: str) -> int | None:
+        """The place of a program's global variable by `name` or `module.name`."""
+        wanted_module, _, plain = name.rpartition(".")
+        for module in self.program.modules:
+            scope = self.scopes.module(module)
+            if wanted_module and scope.fold(wanted_module) != scope.fold(module.name):
+                continue
+            symbol = scope.value(plain)
+            if symbol is not None and isinstance(symbol.declaration, ir.Variable):
+                return self.slot(*self.home_of(symbol.declaration, symbol.module, module.dialect))
+        return None
+
+    # ---- signals
+
+    def declare_signal(self, declaration: ir.SignalDeclaration) -> SignalRef | None:
+        """A name for a physical signal; None when its number is no constant."""
+        port = constant_port(declaration.signal, declaration.name)
+        if port is not None:
+            self._aliases.setdefault(declaration.name.lower(), port)
+            for key in group_bits(port) if is_bit_group(port) else [key_of(port)]:
+                names = self._names_of.setdefault(key, [])
+                if declaration.name not in names and not is_bit_group(port):
+                    names.append(declaration.name)
+        return port
+
+    def alias(self, name: str) -> SignalRef | None:
+        """The signal that a name in the cell file means, by declaration or by a language's own spelling."""
+        declared = self._aliases.get(name.strip().lower())
+        return declared if declared is not None else self._spelled(name.strip().lower())
+
+    def _spelled(self, name: str) -> SignalRef | None:
+        digits = "".join(character for character in name if character.isdigit())
+        if not digits:
+            return None
+        for dialect in {module.dialect for module in self.program.modules}:
+            spell = registry.dialect(dialect).signal_name
+            for kind in ir.SIGNAL_KINDS:
+                if spell(kind, int(digits)).lower() == name:
+                    return SignalRef(kind, int(digits))
+        return None
+
+    def alias_names(self, port: SignalRef) -> tuple[str, ...]:
+        """All declared names of a signal."""
+        if is_bit_group(port):
+            wanted = (port.index, port.last)
+            return tuple(n for n, p in self._aliases.items() if is_bit_group(p) and (p.index, p.last) == wanted)
+        return tuple(self._names_of.get(key_of(port), ()))
+
+    def signal_name(self, dialect: str, kind: str, number: int) -> str:
+        return registry.dialect(dialect).signal_name(kind, number)
+
+    # ---- dialects
+
+    def notation(self, dialect: str) -> Notation | None:
+        """How a dialect writes arm configurations; None when it has no way or none is known."""
+        if dialect not in self._notations:
+            make = registry.dialect(dialect).notation
+            self._notations[dialect] = make() if make is not None else None
+        return self._notations[dialect]
+
+    def types(self, scope: Scope) -> Types:
+        return Types(scope)
+
+
+def link(program: ir.Program) -> LinkedProgram:
+    """Prepare a normalised program for running."""
+    if not program.modules:
+        raise UsageError("there is nothing to run: no module was read")
+    return LinkedProgram(program)
+
+
+@cache
+def _prelude(dialect: str) -> ir.Module:
+    found = registry.dialect(dialect).prelude()
+    if found is None:
+        return ir.Module(dialect, dialect)
+    return normalise(ir.Program((found,)), Diagnostics()).modules[0]
+
+
+def rules_fold(dialect: str) -> Fold:
+    """Names as keys in a dialect."""
+    return Fold(rules_of(dialect).case_sensitive)
+
+
+def constant_port(signal: ir.Signal, name: str | None = None) -> SignalRef | None:
+    """The physical signal of an expression whose number is written out; `name`: the alias it is declared as."""
+    if signal.name is not None:
+        return SignalRef(signal.kind, name=signal.name)
+    first = _literal_number(signal.index)
+    if first is None:
+        return None
+    last = _literal_number(signal.last)
+    return SignalRef(signal.kind, first, last)
+
+
+def _literal_number(expression: ir.Expression | None) -> int | None:
+    return expression.value if isinstance(expression, ir.IntLiteral) else None
+
+
+def _root(target: ir.Expression) -> str | None:
+    while isinstance(target, ir.Index | ir.Field):
+        target = target.base
+    return target.id if isinstance(target, ir.Name) else None
+
+
+def _watched_names(program: ir.Program) -> Iterator[str]:
+    """Names of variables that some waiting condition, interrupt or search reads."""
+    for module in program.modules:
+        for routine in module.routines:
+            parts: list[Any] = [routine.body, *(handler.body for handler in routine.handlers), routine.undo]
+            for statement in _statements(parts):
+                conditions: list[ir.Expression | None] = []
+                match statement:
+                    case ir.WaitUntil(condition=condition) | ir.DeclareInterrupt(condition=condition):
+                        conditions.append(condition)
+                    case ir.OrderInterrupt(condition=condition):
+                        conditions.append(condition)
+                    case ir.Move(search=ir.Search(condition=condition)):
+                        conditions.append(condition)
+                for condition in conditions:
+                    if condition is not None:
+                        yield from (n.id.lower() for n in _names(condition))
+
+
+def _statements(bodies: list[Any]) -> Iterator[ir.Statement]:
+    stack: list[Any] = list(bodies)
+    while stack:
+        item = stack.pop()
+        if isinstance(item, tuple):
+            stack.extend(item)
+            continue
+        match item:
+            case ir.If(branches=branches, otherwise=otherwise):
+                stack.extend(body for _, body in branches)
+                stack.append(otherwise)
+            case ir.Switch(cases=cases, default=default):
+                stack.extend(case.body for case in cases)
+                stack.append(default or ())
+            case ir.For(body=body) | ir.While(body=body) | ir.Repeat(body=body) | ir.Loop(body=body):
+                stack.append(body)
+            case _:
+                yield item
+
+
+def _names(expression: ir.Expression) -> Iterator[ir.Name]:
+    from rpl.ir.walk import expressions
+
+    return (node for node in expressions(expression) if isinstance(node, ir.Name))
+
+

@@ -1,0 +1,378 @@
+"""From a programmed target to what the emulator plans: tool, work object, robot base, missing components, speeds.
+
+A target P is reached when  robot_root · FK(joints) · tool = frame · P.  With the part on the robot (a stationary tool)
+the roles change:  robot_root · FK(joints) · part · P = tool.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from rpl.passes import rigid
+from rpl.runtime.faults import ProgramError
+from rpl.runtime.orders import Modal, Order
+from rpl.runtime.values import (
+    AxesValue,
+    ConfigValue,
+    ExternalValue,
+    JointsValue,
+    PoseValue,
+    Record,
+    RotationValue,
+    TargetValue,
+    Value,
+    VectorValue,
+    pose_of,
+    used_axes,
+)
+
+if TYPE_CHECKING:
+    from rpl.emulator.configuration import Notation
+    from rpl.emulator.model import RobotModel
+    from rpl.emulator.planner import MoveRequest
+    from rpl.emulator.rotations import FloatArray
+    from rpl.ir.rules import Rules
+
+# What a controller that does not say otherwise does; base units.
+DEFAULTS: Modal = {
+    "path_speed": 250.0,
+    "path_acceleration": 5000.0,
+    "swivel_speed": 200.0,
+    "twist_speed": 200.0,
+    "swivel_acceleration": 1000.0,
+    "twist_acceleration": 1000.0,
+    "joint_speed": 100.0,
+    "joint_acceleration": 100.0,
+    "external_speed": 100.0,
+    "override": 100.0,
+    "speed_percent": 100.0,
+    "acceleration_percent": 100.0,
+    "path_limit_rule": "reduce",
+    "orientation_mode": "variable",
+    "circle_orientation": "base",
+    "singularity_mode": "off",
+}
+_ORIENTATIONS: dict[str, Literal["interpolated", "constant", "wrist_joints"]] = {
+    "variable": "interpolated",
+    "constant": "constant",
+    "wrist": "wrist_joints",
+}
+EXTERNAL_SPEED = 500.0  # mm/s or deg/s of an external axis at 100 percent, for want of its data
+
+
+def convention_of(rules: Rules) -> str:
+    """How a language writes rotations: zyx angles or a quaternion."""
+    return "zyx" if "a" in rules.components.get("TargetType", ()) else "quaternion"
+
+
+def matrix_of(pose: rigid.Pose) -> FloatArray:
+    import numpy as np
+
+    return np.array(pose.matrix)
+
+
+def pose_of_array(matrix: FloatArray) -> rigid.Pose:
+    return rigid.pose_of_matrix([[float(x) for x in row] for row in matrix])
+
+
+def setting(modal: Modal, over: Modal, name: str, index: int | None = None) -> Value:
+    """A system variable: of the move, else of the task, else the default. Indexed ones may be set per axis."""
+    keys = (name,) if index is None else (f"{name}[{index}]", name)
+    for table in (over, modal, DEFAULTS):
+        for key in keys:
+            value = table.get(key)
+            if value is not None:
+                return value
+    return None
+
+
+@dataclass(frozen=True, slots=True)
+class Frames:
+    """The frames of a move. Robot holds the tool: `tool` in the flange, `base` of the targets in the robot's base.
+    `stationary`: `tool` is the part in the flange, `base` the fixed tool in the robot's base."""
+
+    tool: rigid.Pose
+    base: rigid.Pose
+    stationary: bool
+
+    def target_in_robot(self, goal: rigid.Pose) -> tuple[rigid.Pose, rigid.Pose]:
+        """The pose to go to and the moving point in the flange that goes there."""
+        if self.stationary:
+            return self.base, self.tool.then(goal)
+        return self.base.then(goal), self.tool
+
+    def goal_of(self, flange: rigid.Pose) -> rigid.Pose:
+        """The target that the flange's pose means in these frames."""
+        if self.stationary:
+            return self.tool.inverse.then(flange.inverse).then(self.base)
+        return self.base.inverse.then(flange).then(self.tool)
+
+
+def frames_of(tool: Value, frame: Value, modal: Modal, over: Modal) -> Frames:
+    """Tool and frame as given at the move, else the modal ones."""
+    tool = tool if tool is not None else setting(modal, over, "tool")
+    frame = frame if frame is not None else setting(modal, over, "base")
+    held = not isinstance(tool, Record) or bool(tool.get("held"))
+    part_held = isinstance(frame, Record) and bool(frame.get("held"))
+    modal_stationary = setting(modal, over, "interpolation") == "tool" or bool(setting(modal, over, "held_work"))
+    root = _rigid(setting(modal, over, "robot_root"))
+    if isinstance(tool, Record) and isinstance(frame, Record) and held == part_held:
+        raise ProgramError("motion", "tool and work object must not both be held, or both stationary")
+    tool_pose, frame_pose = _tool_pose(tool), _frame_pose(frame)
+    if isinstance(tool, Record) and not held:
+        return Frames(frame_pose, root.inverse.then(tool_pose), True)
+    if modal_stationary and not isinstance(tool, Record):
+        return Frames(tool_pose, root.inverse.then(frame_pose), True)
+    return Frames(tool_pose, root.inverse.then(frame_pose), False)
+
+
+def _rigid(value: Value) -> rigid.Pose:
+    if value is None:
+        return rigid.IDENTITY
+    if isinstance(value, TargetValue):
+        value = value.pose
+    if isinstance(value, PoseValue):
+        return value.rigid()
+    raise ProgramError("wrong_kind", "a pose is needed here")
+
+
+def _tool_pose(value: Value) -> rigid.Pose:
+    return _rigid(value.get("frame") if isinstance(value, Record) else value)
+
+
+def _frame_pose(value: Value) -> rigid.Pose:
+    if isinstance(value, Record):
+        return _rigid(value.get("user_frame")).then(_rigid(value.get("object_frame")))
+    return _rigid(value)
+
+
+# ---- targets
+
+
+def filled(value: Value, before: rigid.Pose) -> rigid.Pose:
+    """The pose of a target; components that are left out stay as the last target has them."""
+    pose = value.pose if isinstance(value, TargetValue) else value
+    if isinstance(pose, VectorValue):
+        pose = PoseValue(pose, RotationValue("zyx", (None, None, None)))
+    if not isinstance(pose, PoseValue):
+        raise ProgramError("wrong_kind", "a motion needs a pose, a target or joints")
+    place = before.position
+    trans = (place.x, place.y, place.z)
+    xyz = [given if given is not None else old for given, old in zip(pose.trans, trans, strict=True)]
+    parts = pose.rot.parts
+    if all(part is None for part in parts):
+        rotation = before.rotation
+    elif None in parts:
+        old_parts = before.rotation.zyx if pose.rot.convention == "zyx" else before.rotation.quaternion
+        mixed = tuple(given if given is not None else old for given, old in zip(parts, old_parts, strict=True))
+        rotation = RotationValue(pose.rot.convention, mixed).rigid()
+    else:
+        rotation = pose.rot.rigid()
+    return rigid.Pose(rigid.Vector(*xyz), rotation)
+
+
+def shifted(value: Value, before: rigid.Pose, axes: str) -> rigid.Pose:
+    """A relative target: the given components moved and turned in the axes of the frame or of the tool."""
+    shift = filled(value, rigid.IDENTITY)
+    if axes == "tool":
+        return before.then(shift)
+    return rigid.Pose(before.position.plus(shift.position), shift.rotation.then(before.rotation))
+
+
+def joints_of(value: Value, before: Sequence[float], relative: bool) -> list[float]:
+    """Joint values; those left out stay, or are moved by the given amounts."""
+    axes = value.axes if isinstance(value, JointsValue) else value
+    given = axes.values[: len(before)] if isinstance(axes, AxesValue) else ()
+    joints = list(before)
+    for axis, number in enumerate(given):
+        if number is not None:
+            joints[axis] = joints[axis] + number if relative else float(number)
+    return joints
+
+
+def external_of(value: Value, before: tuple[float | None, ...], relative: bool) -> tuple[float | None, ...]:
+    """External axes after the move."""
+    if isinstance(value, JointsValue | TargetValue):
+        wanted = used_axes(value.ext.values)
+    elif isinstance(value, ExternalValue):
+        wanted = used_axes(value.values)
+    else:
+        return before
+    done: list[float | None] = []
+    for old, new in zip(before, wanted, strict=True):
+        done.append(old if new is None else (old or 0.0) + new if relative else new)
+    return tuple(done)
+
+
+def is_joints(value: Value) -> bool:
+    return isinstance(value, JointsValue | AxesValue)
+
+
+def current_target(
+    model: RobotModel, joints: FloatArray, external: tuple[float | None, ...], frames: Frames, rules: Rules,
+    notation: Notation | None,
+) -> TargetValue:  # fmt: skip
+    """Where the tool centre point is, as the language shows it."""
+    goal = frames.goal_of(pose_of_array(model.forward(joints)))
+    flags: tuple[tuple[str, Value], ...] = ()
+    if notation is not None:
+        flags = tuple(notation.encode(model, joints).items())
+    conf = ConfigValue(rules.name, flags)
+    return TargetValue(pose_of(goal, convention_of(rules)), conf, external_value(external, rules))
+
+
+def external_value(external: tuple[float | None, ...], rules: Rules) -> ExternalValue:
+    """External axes as the language shows those that are not there: 9E9, or zero where every axis has a value."""
+    absent = 0.0 if rules.undefined else 9e9
+    return ExternalValue(tuple(absent if value is None else value for value in external))
+
+
+def joints_value(joints: Sequence[float], external: tuple[float | None, ...], rules: Rules) -> JointsValue:
+    values = [float(joint) for joint in joints[:6]]
+    padded = tuple(values + [0.0] * (6 - len(values)))
+    return JointsValue(AxesValue(padded), external_value(external, rules))
+
+
+# ---- requests
+
+
+@dataclass(slots=True)
+class Planning:
+    """What is known when a move is planned: where the robot will be then."""
+
+    model: RobotModel
+    joints: FloatArray
+    external: tuple[float | None, ...]
+    modal: Modal
+    notation: Notation | None
+
+
+def request_of(order: Order, plan: Planning) -> tuple[MoveRequest, rigid.Pose, rigid.Pose, tuple[float | None, ...]]:
+    """The request, the moving point in the flange, the goal in the move's frame, the external axes after it."""
+    import numpy as np
+
+    frames = frames_of(order.tool, order.frame, plan.modal, order.modal)
+    before = frames.goal_of(pose_of_array(plan.model.forward(plan.joints)))
+    relative = order.relative is not None
+    external = external_of(order.target, plan.external, relative)
+    options = _common(order, plan, external)
+    if order.external_only:
+        options |= {"kind": "joint", "target_joints": plan.joints}
+        return _request(options), frames.tool, before, external
+    if is_joints(order.target):
+        joints = np.array(joints_of(order.target, [float(j) for j in plan.joints], relative))
+        goal = frames.goal_of(pose_of_array(plan.model.forward(joints)))
+        moving = frames.target_in_robot(goal)[1]
+        options |= {"target_joints": joints}
+    else:
+        goal = _goal(order.target, before, order.relative)
+        target, moving = frames.target_in_robot(goal)
+        options |= {"target_pose": matrix_of(target)}
+        options |= _configuration(order, plan)
+    options |= {"kind": order.kind if order.kind in ("joint", "linear", "circular") else "linear"}
+    options |= {"tool": matrix_of(moving)}
+    if order.kind == "circular":
+        via = filled(order.via, before) if order.relative is None else shifted(order.via, before, order.relative)
+        options |= {"via_pose": matrix_of(frames.target_in_robot(via)[0]), "swept_deg": order.swept}
+        if is_joints(order.target):
+            options |= {"target_pose": matrix_of(frames.target_in_robot(goal)[0])}
+    return _request(options), moving, goal, external
+
+
+def _goal(target: Value, before: rigid.Pose, relative: str | None) -> rigid.Pose:
+    return filled(target, before) if relative is None else shifted(target, before, relative)
+
+
+def _request(options: dict[str, Value]) -> MoveRequest:
+    from rpl.emulator.planner import MoveRequest
+
+    return MoveRequest(**options)
+
+
+def _configuration(order: Order, plan: Planning) -> dict[str, Value]:
+    """How the posture at the end is chosen or checked."""
+    notation, model = plan.notation, plan.model
+    if notation is None:
+        return {}
+    given = dict(order.target.conf.flags) if isinstance(order.target, TargetValue) else {}
+    flags = {name: None if value is None else int(value) for name, value in given.items()}
+    if order.kind == "joint":
+        exact = setting(plan.modal, order.modal, "joint_configuration_check") is not False
+        if order.configuration == "nearest" or (order.configuration is None and not exact):
+            flags = {}
+        return {"select": lambda flange, near: notation.select(model, flange, flags, near)}
+    checks = setting(plan.modal, order.modal, "path_configuration_check") is True
+    if order.configuration == "nearest" or not (checks or order.configuration == "exact") or not any(
+        value is not None for value in flags.values()
+    ):
+        return {}
+    return {"check_end": lambda joints: _mismatch(model, notation, flags, joints)}
+
+
+def _mismatch(
+    model: RobotModel, notation: Notation, flags: dict[str, int | None], joints: FloatArray
+) -> str | None:
+    shown = notation.encode(model, joints)
+    if all(value is None or shown.get(name) == value for name, value in flags.items()):
+        return None
+    found = notation.select(model, model.forward(joints), flags, joints)
+    if found.joints is not None and abs(found.joints - joints).max() < 0.01:
+        return None
+    asked = ", ".join(f"{name} {value}" for name, value in flags.items())
+    reached = ", ".join(f"{name} {value}" for name, value in shown.items())
+    return f"the path arrives with {reached}, programmed is {asked}"
+
+
+def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) -> dict[str, Value]:
+    """Speeds, accelerations, orientation."""
+    import numpy as np
+
+    speed, modal = order.speed, plan.modal
+
+    def value(name: str, index: int | None = None) -> Value:
+        return setting(modal, order.modal, name, index)
+
+    over = max(float(value("override")) / 100.0, 1e-3)
+    profile_share = over * float(value("speed_percent")) / 100.0
+    effort = max(float(value("acceleration_percent")) / 100.0, 0.01)
+    axes = range(1, plan.model.axes + 1)
+    options: dict[str, Value] = {}
+    if speed.profile is not None:
+        path = float(speed.path if speed.path is not None else speed.profile.get("path")) * profile_share
+        limit = value("speed_limit")
+        path = min(path, float(limit)) if limit is not None else path
+        rotation = float(speed.rotation if speed.rotation is not None else speed.profile.get("rotation"))
+        rotation *= profile_share
+        if order.kind == "joint" and path > 0.0:
+            options["tcp_speed_for_joint_move"] = path
+        joint_share = np.full(plan.model.axes, over)
+    else:
+        path = float(speed.path if speed.path is not None else value("path_speed")) * over
+        rotation = float(speed.rotation if speed.rotation is not None else value("swivel_speed")) * over
+        joint_share = np.array([float(value("joint_speed", axis)) / 100.0 * over for axis in axes])
+        if speed.path is not None and order.kind == "joint" and speed.joint is None:
+            options["tcp_speed_for_joint_move"] = path
+    if speed.joint is not None:
+        joint_share = np.full(plan.model.axes, float(speed.joint) / 100.0 * over)
+    acceleration = order.acceleration if order.acceleration is not None else value("path_acceleration")
+    mode = order.orientation or str(value("orientation_mode"))
+    if value("singularity_mode") == "wrist" and order.kind != "joint":
+        mode = "wrist"
+    used = [place for place, number in enumerate(external) if number is not None]
+    return options | {
+        "path_speed_mm_s": path if path > 0.0 else 1e-3,
+        "path_acc_mm_s2": float(acceleration) * effort,
+        "ori_speed_deg_s": rotation if rotation > 0.0 else 1e-3,
+        "ori_acc_deg_s2": float(value("swivel_acceleration")) * effort,
+        "joint_speed": joint_share,
+        "joint_acc": np.array([float(value("joint_acceleration", axis)) / 100.0 * effort for axis in axes]),
+        "duration_s": speed.duration,
+        "orientation": _ORIENTATIONS.get(mode, "interpolated"),
+        "circle_orientation": order.circle_orientation or str(value("circle_orientation")),
+        "reduce_speed_near_singularity": value("path_limit_rule") == "reduce",
+        "external_start": tuple(plan.external[place] or 0.0 for place in used),
+        "external_target": tuple(external[place] for place in used),
+        "external_speeds": tuple(EXTERNAL_SPEED * float(value("external_speed", place + 1)) / 100.0 for place in used),
+    }

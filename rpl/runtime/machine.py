@@ -1,0 +1,536 @@
+"""The machine that a program runs on: clock, agenda of events, signals, messages, trace, and how a run ends.
+
+The agenda is a heap ordered by (time, phase, priority, task, sequence): two runs of one program give equal events. All
+state is plain data; what never changes (linked program, robot model, cell) is shared between snapshots.
+"""
+
+from __future__ import annotations
+
+import copy
+import random
+from collections.abc import Callable
+from heapq import heappop, heappush
+from typing import TYPE_CHECKING, Any
+
+from rpl.errors import RunError
+from rpl.runtime.code import Code, Values, Write
+from rpl.runtime.faults import ProgramError
+from rpl.runtime.interrupts import Interrupt
+from rpl.runtime.motion import MotionQueue
+from rpl.runtime.signals import Key, bit_kind, group_bits, is_bit_group, key_of, keys_named, usual, usual_key, zero_of
+from rpl.runtime.task import ENDED, READY, WAITING, Task
+from rpl.runtime.trace import Event, Fault, RunResult
+from rpl.runtime.values import SignalRef, StopWatch, Value, whole
+from rpl.runtime.waits import Wait, poll_step
+from rpl.source import NOWHERE, Origin
+
+if TYPE_CHECKING:
+    from rpl.cell import Answer, Cell
+    from rpl.emulator.model import RobotModel
+    from rpl.linking.program import LinkedProgram
+
+# Phases of one moment, in order.
+INPUTS, ARRIVALS, TIMERS, TASKS, MOTION = range(5)
+Entry = tuple[float, int, int, int, int, str, tuple[Any, ...]]
+
+
+class Machine:
+    """Everything that changes while a program runs."""
+
+    def __init__(
+        self,
+        linked: LinkedProgram,
+        model: RobotModel | None,
+        cell: Cell,
+        max_time_s: float,
+        max_statements: int | None,
+        on_event: Callable[[Event], None] | None = None,
+    ) -> None:
+        self.linked = linked
+        self.model = model
+        self.cell = cell
+        self.max_time_s = max_time_s
+        self.max_statements = max_statements
+        self.on_event = on_event
+        self.now = 0.0
+        self.agenda: list[Entry] = []
+        self.sequence = 0
+        self.globals: Values = []
+        self.signals: dict[Key, Value] = {}
+        self.names: dict[Key, str] = {}
+        self.tasks: list[Task] = []
+        self.trace: list[Event] = []
+        self.outputs: list[tuple[float, str, Value]] = []
+        self.messages: list[str] = []
+        self.moves = 0
+        self.status = ""
+        self.end_fault: Fault | None = None
+        self.paused = False
+        self.stepping = False
+        self.timed_outputs = 0
+        self.tokens = 0
+        self.answered = 0
+        self.timers: dict[int, StopWatch] = {}
+        self.random = random.Random(cell.seed)
+        self.reactions = [(keys_named(r.when, linked.alias(r.when)), r) for r in cell.reactions]
+        for given in cell.inputs:
+            self.schedule(given.time_s, INPUTS, "input", 0, given.signal, given.value)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Machine:
+        for shared in (self.linked, self.model, self.cell, self.on_event):
+            memo[id(shared)] = shared
+        twin = self.__class__.__new__(self.__class__)
+        memo[id(self)] = twin
+        for name, value in self.__dict__.items():
+            setattr(twin, name, copy.deepcopy(value, memo))
+        return twin
+
+    # ---- agenda
+
+    def schedule(self, time: float, phase: int, kind: str, task: int, *data: Any, priority: int = 0) -> None:
+        """Put an event on the agenda."""
+        self.sequence += 1
+        heappush(self.agenda, (time, phase, priority, task, self.sequence, kind, data))
+
+    def token(self) -> int:
+        """A number that no other wait has."""
+        self.tokens += 1
+        return self.tokens
+
+    def has_future(self) -> bool:
+        """Is anything to come that the present task does not do itself?"""
+        return bool(self.agenda)
+
+    def ready(self, task: Task) -> None:
+        """Let the task run at this moment."""
+        self.schedule(self.now, TASKS, "run", task.index, priority=0 if task.kind == "motion" else 1)
+
+    def schedule_wait(self, task: Task, wait: Wait) -> None:
+        """Wake up for a deadline, or to look at a condition that time changes."""
+        if wait.deadline is not None:
+            self.schedule(wait.deadline, TIMERS, "wake", task.index, wait.token)
+        if wait.polls:
+            step = poll_step(self.now - wait.since, wait.poll_s)
+            self.schedule(self.now + step, TIMERS, "poll", task.index, wait.token)
+
+    def schedule_interrupt(self, task: Task, interrupt: Interrupt, seconds: float) -> None:
+        data = (interrupt.key, interrupt.token)
+        self.schedule(self.now + max(seconds, 0.001), TIMERS, "interrupt", task.index, *data)
+
+    def advance(self) -> bool:
+        """Take the next event off the agenda and let it happen; FALSE when the run is over."""
+        if self.status:
+            return False
+        if self._is_finished():
+            self.end("finished")
+            return False
+        if not self.agenda:
+            self._stuck()
+            return False
+        time, _, _, index, _, kind, data = heappop(self.agenda)
+        if time > self.now:
+            if time > self.max_time_s:
+                self.now = max(self.now, self.max_time_s)
+                self.end("limit")
+                return False
+            self.now = time
+        self._happen(kind, index, data)
+        if self.max_statements is not None and sum(task.statements for task in self.tasks) > self.max_statements:
+            self.end("limit")
+        return not self.status
+
+    def _happen(self, kind: str, index: int, data: tuple[Any, ...]) -> None:
+        match kind:
+            case "run":
+                task = self.tasks[index]
+                if task.state == READY:
+                    task.run()
+            case "wake":
+                self._wake(self.tasks[index], data[0])
+            case "poll":
+                self._poll(self.tasks[index], data[0])
+            case "interrupt":
+                self._interrupt_time(self.tasks[index], data[0], data[1])
+            case "input":
+                self.set_input(data[0], data[1])
+            case "output":
+                self.timed_outputs -= 1
+                self.set_output(self.tasks[index], data[0], data[1], data[2].origin(data[3]))
+            case "motion":
+                robot = self.tasks[index].robot
+                if robot is not None:
+                    robot.happen(*data)
+
+    def _is_finished(self) -> bool:
+        if any(task.state != ENDED for task in self.tasks if task.kind == "motion"):
+            return False
+        motion = any(task.kind == "motion" for task in self.tasks)
+        if not motion and any(task.state != ENDED for task in self.tasks):
+            return False
+        return self.timed_outputs == 0 and not any(task.busy for task in self.tasks)
+
+    # ---- waking tasks
+
+    def _wake(self, task: Task, token: int) -> None:
+        wait = task.wait
+        if wait is None or wait.token != token:
+            return
+        over = wait.kind == "condition" and self._is_over(task, wait)
+        if task.wait is wait:
+            task.awake(not over and wait.kind in ("condition", "answer"))
+        self.ready(task)
+
+    def _poll(self, task: Task, token: int) -> None:
+        wait = task.wait
+        if wait is None or wait.token != token:
+            return
+        if self._is_over(task, wait):
+            task.awake(False)
+            self.ready(task)
+        elif task.wait is wait:
+            step = poll_step(self.now - wait.since, wait.poll_s)
+            self.schedule(self.now + step, TIMERS, "poll", task.index, token)
+
+    def _is_over(self, task: Task, wait: Wait) -> bool:
+        """Is the wait over? A condition that cannot be evaluated lets its statement fail in its own place."""
+        try:
+            return wait.is_over(task)
+        except ProgramError as error:
+            task.fail(error, wait.at)
+            self.ready(task)
+            return False
+
+    def wait_again(self, task: Task, wait: Wait) -> None:
+        """An interrupt has ended: take its task's wait up again."""
+        if wait.deadline is not None and self.now >= wait.deadline:
+            over = wait.kind == "condition" and self._is_over(task, wait)
+            if task.wait is wait:
+                task.awake(not over and wait.kind in ("condition", "answer"))
+        elif self._is_over(task, wait):
+            task.awake(False)
+        elif task.wait is wait:
+            self.schedule_wait(task, wait)
+
+    def look_at(self, task: Task) -> None:
+        """Something changed: has the task's wait come to its end, or an interrupt come?"""
+        if task.state == ENDED:
+            return
+        if task.interrupts.known:
+            try:
+                task.interrupts.look()
+            except ProgramError as error:
+                self.fault(error.name.replace("_", "-"), f"condition of an interrupt: {error.message}", task, task.where())
+                return
+        if task.state != WAITING or task.wait is None:
+            return
+        if task.triggers or (
+            task.interrupts.pending and task.interrupts.urgent(task.running_priority()) is not None
+        ):
+            task.state = READY
+            self.ready(task)
+        elif task.wait.kind not in ("time", "tick", "answer") and self._is_over(task, task.wait):
+            task.awake(False)
+            self.ready(task)
+
+    def changed(self) -> None:
+        """A signal or a watched variable has another value: look who waited for that."""
+        for task in self.tasks:
+            if task.robot is not None:
+                task.robot.look_for_search()
+            self.look_at(task)
+
+    def _interrupt_time(self, task: Task, key: int, token: int) -> None:
+        interrupt = task.interrupts.known.get(key)
+        if interrupt is None or not interrupt.on or interrupt.token != token:
+            return
+        if interrupt.event == "timer":
+            task.interrupts.came(interrupt)
+            if interrupt.on:
+                self.schedule_interrupt(task, interrupt, interrupt.period)
+        else:
+            self.schedule_interrupt(task, interrupt, 0.012)
+        self.look_at(task)
+
+    def error_came(self, task: Task) -> None:
+        """Interrupts on errors."""
+        for interrupt in task.interrupts.known.values():
+            if interrupt.on and interrupt.event == "error":
+                task.interrupts.came(interrupt)
+
+    # ---- data
+
+    def provide(self, code: Code) -> None:
+        """Make sure that the global data which the code uses exists."""
+        if code.globals_needed > len(self.globals):
+            self.linked.initialise(self.globals, self)
+
+    # ---- signals
+
+    def read_unset(self, key: Key, kind: str) -> Value:
+        """The value of a signal that nothing has set: that of its usual number when it has such a name, else zero."""
+        if isinstance(key, str):
+            usual = usual_key(key)
+            value = self.signals.get(usual) if usual is not None else None
+            if value is not None:
+                return value
+        return zero_of(kind)
+
+    def read(self, port: SignalRef) -> Value:
+        """The value of a signal or a group of bits."""
+        if is_bit_group(port):
+            return sum(1 << place for place, key in enumerate(group_bits(port)) if self.signals.get(key))
+        value = self.signals.get(key_of(port))
+        return value if value is not None else self.read_unset(key_of(port), port.kind)
+
+    def set_output(self, task: Task, port: SignalRef, value: Value, origin: Origin) -> None:
+        """Write a signal; what it changes is shown and wakes who waits for it."""
+        if is_bit_group(port):
+            self._set_group(task, port, whole(value), origin)
+            return
+        key = key_of(port)
+        if port.kind.startswith(("digital", "flag")):
+            value = bool(value)
+        if self.read(port) == value:
+            self.signals[key] = value
+            return
+        self.signals[key] = value
+        if port.kind.endswith("_out"):
+            name = self.physical_name(key, port, task)
+            self.outputs.append((self.now, name, value))
+            self._show_output(task, port, name, value, origin, (key,))
+        self.changed()
+
+    def _set_group(self, task: Task, port: SignalRef, value: int, origin: Origin) -> None:
+        keys = group_bits(port)
+        if not 0 <= value < 1 << len(keys):
+            raise ProgramError("overflow", f"{value} does not fit into {len(keys)} bits")
+        if self.read(port) == value:
+            return
+        kind = bit_kind(port.kind)
+        for place, key in enumerate(keys):
+            bit = bool(value >> place & 1)
+            if bool(self.signals.get(key)) != bit:
+                self.signals[key] = bit
+                if kind.endswith("_out"):
+                    name = self.physical_name(key, SignalRef(kind, whole(key[1])), task)
+                    self.outputs.append((self.now, name, bit))
+        if kind.endswith("_out"):
+            first, last = (
+                self.physical_name(key, SignalRef(kind, whole(key[1])), task) for key in (keys[0], keys[-1])
+            )
+            group = port._replace(last=port.last if port.last is not None else port.index)
+            self._show_output(task, group, f"{first} TO {last}", value, origin, tuple(keys))
+        self.changed()
+
+    def _show_output(
+        self, task: Task, port: SignalRef, name: str, value: Value, origin: Origin, keys: tuple[Key, ...]
+    ) -> None:
+        names = (name, *self.linked.alias_names(port))
+        self.event("output", {"signal": name, "value": value}, task, origin, port=port, names=names)
+        for wanted, reaction in self.reactions:
+            if reaction.value == value and any(key in wanted or usual(key) in wanted for key in keys):
+                self.schedule(self.now + reaction.after_s, INPUTS, "input", 0, reaction.signal, reaction.result)
+
+    def physical_name(self, key: Key, port: SignalRef, task: Task) -> str:
+        """The one name of a signal: its own, or its number as its language spells it."""
+        name = self.names.get(key)
+        if name is None:
+            name = port.name or self.linked.signal_name(task.frame.code.rules.name, port.kind, port.index or 0)
+            self.names[key] = name
+        return name
+
+    def output_later(self, task: Task, port: SignalRef, value: Value, seconds: float, code: Code, at: int) -> None:
+        """Write a signal after a time, whatever the program does meanwhile."""
+        self.timed_outputs += 1
+        self.schedule(self.now + max(seconds, 0.0), INPUTS, "output", task.index, port, value, code, at)
+
+    def set_input(self, signal: str, value: Value) -> None:
+        """The cell switches a signal: by any of its names."""
+        alias = self.linked.alias(signal)
+        if alias is not None and is_bit_group(alias):
+            for place, key in enumerate(group_bits(alias)):
+                self.signals[key] = bool(whole(value) >> place & 1)
+        else:
+            for key in keys_named(signal, alias):
+                self.signals[key] = value
+        self.event("input", {"signal": signal, "value": value}, None, NOWHERE, port=alias)
+        self.changed()
+
+    # ---- what is shown
+
+    def event(
+        self,
+        kind: str,
+        data: dict[str, Value],
+        task: Task | None,
+        origin: Origin = NOWHERE,
+        **more: Any,
+    ) -> Event:
+        """Add an event to the trace."""
+        shown = Event(self.now, task.name if task is not None else "", kind, data, origin, **more)
+        self.trace.append(shown)
+        if self.on_event is not None:
+            self.on_event(shown)
+        return shown
+
+    def message(self, task: Task, kind: str, text: str, origin: Origin, **more: Value) -> None:
+        """A message to the operator."""
+        if kind != "clear":
+            self.messages.append(text)
+        self.event("message", {"text": text, "type": kind, **more}, task, origin)
+
+    # ---- operator and vendor statements
+
+    def ask(
+        self,
+        task: Task,
+        values: Values,
+        text: str,
+        keys: list[str | None],
+        kind: str,
+        write: Write,
+        timeout: float | None,
+        late: Write | None,
+        here: int,
+        next: int,
+    ) -> int:
+        """A dialog: the cell file answers, at once or later; without an answer the task waits."""
+        origin = task.frame.code.origin(here)
+        answer = self._answer(text)
+        if answer is None:
+            self.message(task, "dialog", text, origin, keys=keys)
+            deadline = None if timeout is None else self.now + timeout
+            wait = Wait("answer", here, next, self.token(), self.now, deadline, values=values)
+            wait.timed_out, wait.error, wait.subject = late, "dialog_timeout", text
+            return task.block(wait)
+        given = answer.answer
+        if kind == "keys" and isinstance(given, str):
+            names = [key.lower() if key is not None else None for key in keys]
+            if given.lower() not in names:
+                raise RunError(f"{self.cell.path}: the dialog {text!r} has no key {given!r}")
+            given = names.index(given.lower()) + 1
+        self.message(task, "dialog", text, origin, keys=keys, answer=given)
+        write(values, given)
+        if late is not None:
+            late(values, False)
+        if answer.after_s > 0.0:
+            return task.block(Wait("time", here, next, self.token(), self.now, self.now + answer.after_s))
+        return next
+
+    def _answer(self, text: str) -> Answer | None:
+        """The first answer for this text; else the next of those for any dialog."""
+        for answer in self.cell.answers:
+            if answer.text is not None and answer.text.search(text):
+                return answer
+        plain = [answer for answer in self.cell.answers if answer.text is None]
+        if self.answered < len(plain):
+            self.answered += 1
+            return plain[self.answered - 1]
+        return None
+
+    def vendor(self, task: Task, text: str, effect: str, origin: Origin) -> float:
+        """A statement that only one controller has; gives the seconds that it takes."""
+        for meaning in self.cell.vendor:
+            if meaning.match.search(text):
+                if meaning.effect == "message":
+                    self.message(task, "vendor", meaning.message or text, origin)
+                for signal, value in meaning.set:
+                    self.set_input(signal, value)
+                return meaning.seconds
+        if effect == "unknown":
+            raise ProgramError("vendor", f"nothing says what this stands for: {text[:80]} (see [[vendor]] of a cell file)")
+        if effect == "message":
+            self.message(task, "vendor", text, origin)
+        return 0.0
+
+    def vendor_value(self, text: str) -> Value:
+        """The value of a function that only one controller has."""
+        for meaning in self.cell.vendor:
+            if meaning.match.search(text) and meaning.value is not None:
+                return meaning.value
+        raise ProgramError("vendor", f"nothing says what {text[:80]} gives (see [[vendor]] of a cell file)")
+
+    def control_task(self, asking: Task, op: str, name: str) -> None:
+        """Start, stop or pause another task."""
+        found = next((task for task in self.tasks if task.name.lower() == name.lower()), None)
+        if found is None:
+            raise ProgramError("unknown_routine", f"there is no task {name}")
+        if op == "start" and found.state == ENDED:
+            found.restart()
+            found.state = READY
+            self.ready(found)
+        elif op in ("stop", "pause") and found is not asking:
+            found.state = ENDED
+
+    # ---- ends
+
+    def task_ended(self, task: Task) -> None:
+        """A task has come to its end; the run ends with the last motion task."""
+        if task.kind == "motion" and self._is_finished():
+            self.end("finished")
+
+    def halt(self, task: Task) -> None:
+        """The program's own stop."""
+        self.end("stopped")
+
+    def fault(self, code: str, message: str, task: Task, origin: Origin) -> None:
+        """The run ends here: the controller would stop with an error."""
+        if self.status:
+            return
+        self.end_fault = Fault(code, message, task.name, origin)
+        self.event("fault", {"code": code, "message": message}, task, origin)
+        self.end("fault")
+
+    def deadlock(self, task: Task, what: str) -> None:
+        """Nothing can go on any more."""
+        if self.status:
+            return
+        self.end_fault = Fault("deadlock", f"{task.name} waits for {what}", task.name, task.where())
+        self.end("deadlock")
+
+    def _stuck(self) -> None:
+        waiting = [task for task in self.tasks if task.state != ENDED]
+        parts = []
+        for task in waiting:
+            where = task.where()
+            place = f" at {where.file}:{where.line}" if where.source else ""
+            parts.append(f"{task.name} waits for {task.wait.describe() if task.wait else 'nothing'}{place}")
+        first = waiting[0] if waiting else self.tasks[0]
+        self.end_fault = Fault("deadlock", "; ".join(parts), first.name, first.where())
+        self.end("deadlock")
+
+    def end(self, status: str) -> None:
+        """Close the run."""
+        if self.status:
+            return
+        self.status = status
+        self.paused = True
+        for task in self.tasks:
+            if task.robot is not None:
+                task.robot.finish()
+        for task in self.tasks:
+            self.event("end", {"status": status}, task, NOWHERE)
+
+    def pauses_at(self, task: Task) -> bool:
+        """For debugging: does the run stop before the task's next instruction? (see Simulation)"""
+        return False
+
+    def result(self) -> RunResult:
+        """What the run has shown so far."""
+        robots = [task.robot for task in self.tasks if task.robot is not None]
+        joints = robots[0].joints_now() if robots else None
+        return RunResult(
+            status=self.status,
+            time_s=self.now,
+            moves=self.moves,
+            statements=sum(task.statements for task in self.tasks),
+            messages=tuple(self.messages),
+            outputs=tuple(self.outputs),
+            fault=self.end_fault,
+            trace=tuple(self.trace),
+            joints=joints,
+        )
+
+    def new_robot(self, task: Task) -> MotionQueue:
+        """The motion queue of a motion task. One arm: the first motion task's."""
+        return MotionQueue(self, task.index, self.model)

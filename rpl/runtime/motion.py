@@ -1,0 +1,624 @@
+"""The motion queue of one robot: the second process, behind which the program pointer runs ahead.
+
+Moves are planned when they are commanded, from where the move before them ends, and driven one after the other; a move
+that blends is joined with the next one as soon as that is known, from wherever the robot then is. A move that blends
+into a move not yet known is driven as if it would go on, until the program had its last chance to say how.
+Without a robot every move is made at once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from rpl.passes import rigid
+from rpl.runtime import pieces
+from rpl.runtime.chain import (
+    Frames,
+    Planning,
+    current_target,
+    frames_of,
+    is_joints,
+    joints_of,
+    joints_value,
+    pose_of_array,
+    request_of,
+    shifted,
+    filled,
+)
+from rpl.runtime.faults import ProgramError
+from rpl.runtime.orders import Drive, Order, TriggerOrder
+from rpl.runtime.pieces import Piece
+from rpl.runtime.trace import Leg
+from rpl.runtime.values import JointsValue, TargetValue, Value
+
+if TYPE_CHECKING:
+    from rpl.emulator.model import RobotModel
+    from rpl.emulator.planner import MotionFault
+    from rpl.emulator.rotations import FloatArray
+    from rpl.ir.rules import Rules
+    from rpl.runtime.machine import Machine
+    from rpl.runtime.task import Task
+
+ARRIVALS, MOTION = 1, 4  # phases of a moment, see machine
+MOST_CONCURRENT = 5
+
+
+@dataclass(slots=True, eq=False)
+class Stored:
+    """A path put aside: where it was interrupted and what was still to come."""
+
+    joints: FloatArray
+    piece: Piece | None
+    queue: list[Drive]
+
+
+class MotionQueue:
+    """Queue, robot state and what is driven now. `joints` (n,) and `external` are where it stands; `planned_...` where
+    it will stand when everything commanded is done."""
+
+    def __init__(self, machine: Machine, task_index: int, model: RobotModel | None) -> None:
+        self.machine = machine
+        self.task_index = task_index
+        self.model = model
+        self.joints: FloatArray | None = model.home.copy() if model is not None else None
+        self.planned_joints = self.joints
+        self.external: tuple[float | None, ...] = (None,) * 6
+        self.planned_external = self.external
+        self.queue: list[Drive] = []
+        self.piece: Piece | None = None
+        self.halted: Piece | None = None
+        self.stopped = False
+        self.stored: list[Stored] = []
+        self.failed: tuple[MotionFault, Order] | None = None
+        self.generation = 0
+        self.numbers = 0
+        self.asked = False
+        self.late: dict[int, TriggerOrder] = {}
+        self.imagined: rigid.Pose | None = None
+        self.imagined_joints: list[float] | None = None
+        self.interrupted: tuple[FloatArray, float] | None = None
+
+    @property
+    def task(self) -> Task:
+        return self.machine.tasks[self.task_index]
+
+    # ---- what the program asks
+
+    def submit(self, order: Order, next: int) -> int:
+        """Plan a move, queue it, and say how the program goes on."""
+        task = self.task
+        if order.tool is not None:
+            task.modal["tool_in_use"], task.modal["frame_in_use"] = order.tool, order.frame
+        if self.model is None:
+            return self._at_once(order, next)
+        if self.failed is not None:
+            return task.wait_for("idle", order.at, next)
+        assert self.planned_joints is not None  # with a model there are joints
+        notation = self.machine.linked.notation(order.rules.name)
+        plan = Planning(self.model, self.planned_joints, self.planned_external, task.modal, notation)
+        request, moving, goal, external = request_of(order, plan)
+        planned = pieces.plan(self.model, self.planned_joints, request)
+        if not pieces.is_planned(planned):
+            return self._refuse(planned, order, next)
+        self.numbers += 1
+        drive = Drive(self.numbers, order, planned, moving, goal, external)
+        drive.blending = not order.blend.stops and order.search is None
+        self.queue.append(drive)
+        self.planned_joints, self.planned_external = planned.end_joints, external
+        task.busy = True
+        self._ask()
+        return self._go_on(drive, next)
+
+    def _refuse(self, fault: MotionFault, order: Order, next: int) -> int:
+        """The controller drives what it has and then stops with the error."""
+        if not self.task.busy:
+            self._fault(fault, order)
+            return self.task.wait_for("released", order.at, next, -1)
+        self.failed = (fault, order)
+        return self.task.wait_for("idle", order.at, next)
+
+    def _fault(self, fault: MotionFault, order: Order) -> None:
+        self.machine.fault(fault.kind.replace("_", "-"), fault.message, self.task, order.code.origin(order.at))
+
+    def _go_on(self, drive: Drive, next: int) -> int:
+        task, order = self.task, drive.order
+        advance = order.rules.advance
+        if order.search is not None:
+            return task.wait_for("idle", order.at, next)
+        if order.concurrent:
+            return next if len(self.queue) <= MOST_CONCURRENT else task.wait_for("room", order.at, next)
+        if advance.runs_ahead_of == "fly_by":
+            if order.blend.stops:
+                return task.wait_for("idle", order.at, next)
+            return task.wait_for("released", order.at, next, drive.number)
+        if self.most_ahead() == 0 or task.running_priority() is not None:
+            return task.wait_for("idle", order.at, next)
+        return next
+
+    def most_ahead(self) -> int:
+        """How many moves the program pointer may be ahead."""
+        rules = self.task.frame.code.rules.advance
+        set_by_program = self.task.modal.get("advance")
+        return rules.moves if set_by_program is None else int(set_by_program)
+
+    def pending(self) -> int:
+        """Moves commanded and not yet done."""
+        return len(self.queue)
+
+    def has_room(self) -> bool:
+        """May another move be commanded?"""
+        return self.pending() <= max(self.most_ahead(), 0) or not self.task.busy
+
+    def has_released(self, number: int) -> bool:
+        """Does the move let the program go on?"""
+        if number < 0:
+            return False
+        for drive in self.queue:
+            if drive.number == number:
+                return drive.released
+        return True
+
+    def is_standing(self) -> bool:
+        return self.piece is None
+
+    # ---- driving
+
+    def _ask(self) -> None:
+        """Look at the queue when all tasks have done what they do at this moment."""
+        if not self.asked:
+            self.asked = True
+            self.machine.schedule(self.machine.now, MOTION, "motion", self.task_index, "consider", 0)
+
+    def happen(self, what: str, *data: int) -> None:
+        """An event of the agenda."""
+        match what:
+            case "consider":
+                self.asked = False
+                self._consider()
+            case "late":
+                self.machine.timed_outputs -= 1
+                self._fire(self.late.pop(data[0]))
+            case _ if data[0] != self.generation:
+                return  # of a plan that has been replaced
+            case "arrive":
+                self._arrived()
+            case "release":
+                self._release()
+            case "middle":
+                self._passed()
+            case "fire":
+                self._fire_number(data[1], data[2])
+
+    def _consider(self) -> None:
+        """Start what can start; join the present move with the next one, or let it come to rest."""
+        if self.stopped:
+            return
+        if self.piece is None:
+            if self.queue:
+                self._begin(self.queue[0])
+            return
+        piece = self.piece
+        if piece.corner is not None or piece.ahead is not None or not piece.drive.blending:
+            return
+        following = self._after(piece.drive)
+        if following is not None:
+            self._join(piece, following)
+        elif piece.open_end and piece.drive.released:
+            self._settle(piece)
+
+    def _after(self, drive: Drive) -> Drive | None:
+        place = self.queue.index(drive) + 1
+        return self.queue[place] if place < len(self.queue) else None
+
+    def _begin(self, drive: Drive) -> None:
+        """Start a move from rest."""
+        assert drive.plan is not None
+        drive.started_s = self.machine.now
+        self._watch_search(drive)
+        self._drive(Piece(drive, drive.plan, self.machine.now))
+        piece = self.piece
+        if piece is None or not drive.blending:
+            return
+        following = self._after(drive)
+        if following is not None:
+            self._join(piece, following)
+        elif drive.order.rules.advance.runs_ahead_of == "fly_by":
+            self._drive(pieces.open_ended(piece, self.machine.now))
+
+    def _join(self, piece: Piece, following: Drive) -> None:
+        """Make a corner out of the rest of this move and the next one, if they allow it."""
+        assert self.model is not None
+        joined = pieces.joined(self.model, piece, following, self.machine.now)
+        piece.drive.blending = False
+        if joined is None:
+            self._settle(piece)
+        else:
+            self._drive(joined)
+
+    def _settle(self, piece: Piece) -> None:
+        """Come to rest at the end of the move after all."""
+        piece.drive.blending = False
+        if piece.open_end:
+            self._drive(pieces.to_the_end(piece, self.machine.now))
+
+    def _drive(self, piece: Piece) -> None:
+        """From now on this piece is driven; schedule all that happens on it."""
+        now = self.machine.now
+        if self.piece is not None and self.piece.drive is piece.drive:
+            self._close_leg(self.piece, now)
+        self.piece = piece
+        self.generation += 1
+        self._schedule(piece.end_s, "arrive")
+        drive = piece.drive
+        lead = drive.order.rules.advance.lead_s
+        if drive.blending or piece.ahead is not None:
+            if not drive.released and drive.order.rules.advance.runs_ahead_of == "fly_by":
+                self._schedule(max(now, piece.end_s - lead), "release")
+        elif not drive.released and not drive.order.blend.stops:
+            self._schedule(max(now, piece.end_s - lead), "release")
+        if piece.corner is not None:
+            self._schedule(piece.start_s + piece.corner.t_middle_s, "middle")
+        for place, trigger in enumerate(drive.order.triggers):
+            if not trigger.fired:
+                trigger.due = pieces.time_of_trigger(piece, trigger)
+                if trigger.due is not None:
+                    self._schedule(max(now, trigger.due), "fire", drive.number, place)
+
+    def _schedule(self, time: float, what: str, *data: int) -> None:
+        self.machine.schedule(time, ARRIVALS, "motion", self.task_index, what, self.generation, *data)
+
+    def _close_leg(self, piece: Piece, now: float) -> None:
+        if now > piece.start_s or piece.plan.duration_s == 0.0:
+            piece.drive.legs.append(Leg(piece.plan, piece.start_s, min(now, piece.end_s) - piece.start_s))
+
+    def _arrived(self) -> None:
+        """The end of the piece that is driven."""
+        piece = self.piece
+        assert piece is not None
+        now = self.machine.now
+        self._close_leg(piece, now)
+        if piece.halting:
+            self._halted(piece)
+            return
+        if piece.ahead is not None:
+            self.piece = None
+            self._drive(pieces.corner_piece(piece, now))
+            return
+        if piece.corner is not None:
+            following, rest = piece.corner.following, piece.corner.rest
+            self._done(piece.drive, False)
+            following.started_s = now
+            self.piece = None
+            self._drive(Piece(following, rest, now))
+            self._after_corner(following)
+            return
+        if piece.open_end:
+            piece.drive.blending = False
+            self.piece = None
+            self._drive(pieces.to_the_end(piece, now))
+            return
+        self.joints, self.external = piece.plan.end_joints, piece.drive.external
+        self.piece = None
+        self._done(piece.drive, True)
+        if self.queue and not self.stopped:
+            self._ask()
+
+    def _after_corner(self, drive: Drive) -> None:
+        """The rest of a move after a corner: it may blend again."""
+        piece = self.piece
+        if piece is None or not drive.blending:
+            return
+        following = self._after(drive)
+        if following is not None:
+            self._join(piece, following)
+        elif drive.order.rules.advance.runs_ahead_of == "fly_by":
+            self._drive(pieces.open_ended(piece, self.machine.now))
+
+    def _release(self) -> None:
+        if self.piece is not None:
+            self.piece.drive.released = True
+            self._look()
+            self._ask()
+
+    def _passed(self) -> None:
+        """The middle of a corner: the move before it counts as made."""
+        piece = self.piece
+        if piece is not None and piece.drive in self.queue:
+            piece.drive.released = True
+            self.queue.remove(piece.drive)
+            self._look()
+
+    def _done(self, drive: Drive, stops: bool) -> None:
+        """A move is over: show it, fire what is left of its triggers, tell who waits."""
+        drive.released = True
+        if drive in self.queue:
+            self.queue.remove(drive)
+        self._show(drive, stops)
+        for trigger in drive.order.triggers:
+            if not trigger.fired:
+                due = trigger.due if trigger.due is not None else self.machine.now
+                self._fire_later(trigger, max(due, self.machine.now))
+        task = self.task
+        task.busy = bool(self.queue) or self.piece is not None
+        search = drive.order.search
+        if search is not None and stops and not search.found:
+            self._search_missed(drive)
+            return
+        if not task.busy and self.failed is not None:
+            self._fault(*self.failed)
+            return
+        self._look()
+
+    def _look(self) -> None:
+        self.machine.look_at(self.task)
+
+    def _show(self, drive: Drive, stops: bool, interrupted: bool = False) -> None:
+        plan = drive.plan
+        assert plan is not None
+        legs = tuple(leg for leg in drive.legs if isinstance(leg, Leg))
+        joints = self.joints if interrupted and self.joints is not None else plan.end_joints
+        pose = pose_of_array(self.model.forward(joints)).then(drive.tool) if self.model is not None else None
+        started = drive.started_s if drive.started_s is not None else self.machine.now
+        data: dict[str, Value] = {
+            "motion": drive.order.kind,
+            "joints": [round(float(joint), 6) for joint in joints],
+            **pieces.pose_data(pose),
+            "duration": round(self.machine.now - started, 6),
+        }
+        if interrupted:
+            data["interrupted"] = True
+        self.machine.moves += 1
+        origin = drive.order.code.origin(drive.order.at)
+        self.machine.event("move", data, self.task, origin, legs=legs, stops=stops)
+
+    # ---- triggers and searches
+
+    def _fire_number(self, number: int, place: int) -> None:
+        drives = list(self.queue)
+        if self.piece is not None and self.piece.drive not in drives:
+            drives.append(self.piece.drive)
+        for drive in drives:
+            if drive.number == number:
+                self._fire(drive.order.triggers[place])
+
+    def _fire_later(self, trigger: TriggerOrder, due: float) -> None:
+        if due <= self.machine.now:
+            self._fire(trigger)
+            return
+        self.numbers += 1
+        self.late[self.numbers] = trigger
+        self.machine.timed_outputs += 1
+        self.machine.schedule(due, ARRIVALS, "motion", self.task_index, "late", self.numbers)
+
+    def _fire(self, trigger: TriggerOrder) -> None:
+        if trigger.fired:
+            return
+        trigger.fired = True
+        task = self.task
+        if trigger.act is not None:
+            try:
+                trigger.act(trigger.values)
+            except ProgramError as error:
+                self.machine.fault(error.name.replace("_", "-"), f"trigger: {error.message}", task, task.where())
+        elif trigger.routine is not None:
+            task.trigger(trigger.routine, trigger.values)
+            self._look()
+        elif trigger.interrupt is not None:
+            known = task.interrupts.known.get(trigger.interrupt)
+            if known is not None and known.on:
+                task.interrupts.came(known)
+                self._look()
+
+    def _watch_search(self, drive: Drive) -> None:
+        search = drive.order.search
+        if search is None:
+            return
+        search.last = bool(search.condition(search.values))
+        if search.edge != "either" and search.last == (search.edge == "rising") and search.stop != "none":
+            self.queue.remove(drive)
+            self.task.busy = bool(self.queue)
+            self.planned_joints, self.planned_external = self.joints, self.external
+            at = drive.order.at
+            self.task.fail(ProgramError("search_already", "the searched signal is there before the search"), at)
+            self.machine.ready(self.task)
+
+    def look_for_search(self) -> None:
+        """Something changed: is it what the present move searches?"""
+        piece = self.piece
+        search = piece.drive.order.search if piece is not None else None
+        if piece is None or search is None or search.found:
+            return
+        now = bool(search.condition(search.values))
+        before, search.last = search.last, now
+        if now == before or (search.edge == "rising" and not now) or (search.edge == "falling" and now):
+            return
+        search.found = True
+        order = piece.drive.order
+        search.write(search.values, self.target_now(order.tool, order.frame, order.rules))
+        if search.stop != "none":
+            self.halt(search.stop == "stop", True)
+
+    def _search_missed(self, drive: Drive) -> None:
+        task = self.task
+        task.fail(ProgramError("search_missed", "the search has found nothing"), drive.order.at)
+        self.machine.ready(task)
+
+    # ---- stopping and going on
+
+    def halt(self, hard: bool, ends_move: bool = False) -> None:
+        """Brake on the path; `ends_move`: what is left of the move is dropped when the robot stands."""
+        self.stopped = not ends_move
+        piece = self.piece
+        if piece is None:
+            return
+        self._drive(pieces.braking(piece, self.machine.now, hard))
+        if self.piece is not None:
+            self.piece.halting, self.piece.ends_move = True, ends_move
+
+    def _halted(self, piece: Piece) -> None:
+        self.joints = piece.plan.joints_at(piece.end_s - piece.start_s)
+        self.piece = None
+        if piece.ends_move:
+            drive = piece.drive
+            self.planned_joints = self.joints
+            self.queue.remove(drive)
+            self._show(drive, True, True)
+            self.task.busy = bool(self.queue)
+        else:
+            self.halted = piece
+        self._look()
+
+    def start(self) -> None:
+        """Go on with a stopped motion."""
+        self.stopped = False
+        piece, self.halted = self.halted, None
+        if piece is not None and self.model is not None:
+            self._drive(pieces.taken_up(piece, self.machine.now))
+            self._after_corner(piece.drive)
+        self._ask()
+
+    def clear(self) -> None:
+        """Forget everything commanded; the robot stays where it is."""
+        if self.piece is not None:
+            self._close_leg(self.piece, self.machine.now)
+            self.joints = self.joints_array()
+        begun = self.piece or self.halted
+        self.piece = self.halted = None
+        self.generation += 1
+        if begun is not None:
+            self._show(begun.drive, True, True)
+        self.queue.clear()
+        self.planned_joints, self.planned_external = self.joints, self.external
+        self.stopped = False
+        self.failed = None
+        self.task.busy = False
+        self._look()
+
+    def store(self) -> None:
+        """Put the stopped path aside."""
+        if self.piece is not None:
+            raise ProgramError("path_not_stored", "the robot must stand before the path is stored")
+        if self.model is not None:
+            assert self.joints is not None
+            self.stored.append(Stored(self.joints, self.halted, self.queue[:]))
+        self.halted = None
+        self.queue.clear()
+        self.planned_joints, self.planned_external = self.joints, self.external
+        self.stopped = False
+        self.task.busy = False
+
+    def restore(self) -> None:
+        """Take the stored path up again: the robot goes back to where it left it, then waits for the start."""
+        if self.model is None:
+            return
+        if not self.stored:
+            raise ProgramError("path_not_stored", "no path is stored")
+        stored = self.stored.pop()
+        self.halted, self.queue = stored.piece, stored.queue
+        self.joints = stored.joints
+        last = self.queue[-1] if self.queue else None
+        self.planned_joints = last.plan.end_joints if last is not None and last.plan is not None else stored.joints
+        self.stopped = True
+        self.task.busy = bool(self.queue) or self.halted is not None
+
+    def mark_interrupted(self) -> None:
+        """An interrupt came: remember where the robot is."""
+        if self.model is not None:
+            self.interrupted = (self.joints_array(), self.machine.now)
+
+    def finish(self) -> None:
+        """The run ends: show the move that was cut off."""
+        if self.piece is not None and self.model is not None:
+            piece = self.piece
+            self._close_leg(piece, self.machine.now)
+            self.joints = self.joints_array()
+            self.piece = None
+            if piece.drive.legs:
+                self._show(piece.drive, False, True)
+
+    # ---- where the robot is
+
+    def joints_array(self) -> FloatArray:
+        """Joints (n,) at this moment."""
+        if self.joints is None:
+            raise ProgramError("motion", "the position is asked for, but the run has no robot")
+        if self.piece is not None:
+            return self.piece.joints_at(self.machine.now)
+        return self.joints
+
+    def joints_now(self) -> tuple[float, ...] | None:
+        if self.model is None:
+            return tuple(self.imagined_joints) if self.imagined_joints is not None else None
+        return tuple(float(joint) for joint in self.joints_array())
+
+    def joints_as_value(self, rules: Rules, joints: FloatArray | None = None) -> JointsValue:
+        """The joints as the language shows them."""
+        if self.model is None:
+            if self.imagined_joints is None:
+                raise ProgramError("motion", "the joints are asked for, but the run has no robot")
+            return joints_value(self.imagined_joints, self.external, rules)
+        here = self.joints_array() if joints is None else joints
+        return joints_value([float(joint) for joint in here], self.external, rules)
+
+    def target_now(self, tool: Value, frame: Value, rules: Rules, joints: FloatArray | None = None) -> TargetValue:
+        """Where the tool centre point is."""
+        modal = self.task.modal
+        if modal.get("tool") is None:
+            tool = tool if tool is not None else modal.get("tool_in_use")
+            frame = frame if frame is not None else modal.get("frame_in_use")
+        frames = frames_of(tool, frame, modal, {})
+        if self.model is None:
+            return self._imagined_target(frames, rules)
+        here = self.joints_array() if joints is None else joints
+        notation = self.machine.linked.notation(rules.name)
+        return current_target(self.model, here, self.external, frames, rules, notation)
+
+    # ---- without a robot
+
+    def _at_once(self, order: Order, next: int) -> int:
+        """Without a robot a move is made in no time; its triggers fire in their order."""
+        task = self.task
+        data: dict[str, Value] = {"motion": order.kind}
+        frames = frames_of(order.tool, order.frame, task.modal, order.modal)
+        if order.external_only:
+            pass
+        elif is_joints(order.target):
+            self.imagined_joints = joints_of(order.target, self.imagined_joints or [0.0] * 6, order.relative is not None)
+            self.imagined = None
+            data["joints"] = [round(joint, 6) for joint in self.imagined_joints]
+        else:
+            before = self._imagined_goal(frames)
+            goal = filled(order.target, before) if order.relative is None else shifted(order.target, before, order.relative)
+            place, moving = frames.target_in_robot(goal)
+            self.imagined = place if not frames.stationary else place.then(moving.inverse)
+            data |= pieces.pose_data(place)
+        data["duration"] = 0.0
+        self.machine.moves += 1
+        self.machine.event("move", data, task, order.code.origin(order.at))
+        for trigger in order.triggers:
+            self._fire(trigger)
+        if order.search is not None and not order.search.found:
+            if bool(order.search.condition(order.search.values)):
+                order.search.write(order.search.values, order.target)
+            else:
+                raise ProgramError("search_missed", "the search has found nothing")
+        return task.attention(next) if task.triggers else next
+
+    def _imagined_goal(self, frames: Frames) -> rigid.Pose:
+        if self.imagined is None:
+            return rigid.IDENTITY
+        if frames.stationary:
+            return frames.goal_of(self.imagined)
+        return frames.base.inverse.then(self.imagined)
+
+    def _imagined_target(self, frames: Frames, rules: Rules) -> TargetValue:
+        from rpl.runtime.chain import convention_of, external_value
+        from rpl.runtime.values import ConfigValue, pose_of
+
+        if self.imagined is None:
+            raise ProgramError("motion", "the position is asked for, but the run has no robot")
+        pose = pose_of(self._imagined_goal(frames), convention_of(rules))
+        return TargetValue(pose, ConfigValue(rules.name, ()), external_value(self.external, rules))
+
+

@@ -1,0 +1,121 @@
+"""A motion statement with everything evaluated: what the program pointer hands to the motion queue."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from rpl.runtime.code import Code, Instruction, Read, Values, Write
+from rpl.runtime.values import Record, Value
+
+if TYPE_CHECKING:
+    from rpl.emulator.planner import PlannedMove
+    from rpl.ir.rules import Rules
+    from rpl.passes import rigid
+
+Modal = dict[str, Value]
+
+
+@dataclass(slots=True, eq=False)
+class SpeedOrder:
+    """Base units: mm/s, deg/s, percent, s."""
+
+    profile: Record | None = None
+    path: float | None = None
+    rotation: float | None = None
+    joint: float | None = None
+    duration: float | None = None
+
+
+@dataclass(slots=True, eq=False)
+class BlendOrder:
+    """kind: stop, distance, percent, speed, zone."""
+
+    kind: str
+    distance: float | None = None
+    rotation: float | None = None
+    percent: float = 0.0
+    path: BlendOrder | None = None
+    zone: Record | None = None
+
+    @property
+    def stops(self) -> bool:
+        return self.kind == "stop" or (self.zone is not None and bool(self.zone.get("stop")))
+
+
+@dataclass(slots=True, eq=False)
+class TriggerOrder:
+    """What happens on the path: `act` writes something at once, `routine` runs in the task, `interrupt` is an
+    interrupt's identity. `due` is its time as far as it is known."""
+
+    reference: str
+    distance: float | None
+    delay: float
+    values: Values
+    act: Instruction | None = None
+    routine: Code | None = None
+    interrupt: int | None = None
+    due: float | None = None
+    fired: bool = False
+
+    def copy(self) -> TriggerOrder:
+        """A stored trigger is used by many moves: each has its own."""
+        return TriggerOrder(
+            self.reference, self.distance, self.delay, self.values, self.act, self.routine, self.interrupt
+        )
+
+
+@dataclass(slots=True, eq=False)
+class SearchOrder:
+    """`last`: the condition's value when looked at last; `found`: it has come."""
+
+    condition: Read
+    write: Write
+    values: Values
+    stop: str
+    edge: str
+    last: bool = False
+    found: bool = False
+
+
+@dataclass(slots=True, eq=False)
+class Order:
+    """One move as the program asks for it. `modal` overlays the task's system variables for this move."""
+
+    kind: str
+    target: Value
+    code: Code
+    at: int
+    rules: Rules
+    via: Value = None
+    swept: float | None = None
+    relative: str | None = None
+    tool: Value = None
+    frame: Value = None
+    speed: SpeedOrder = field(default_factory=SpeedOrder)
+    acceleration: float | None = None
+    blend: BlendOrder = field(default_factory=lambda: BlendOrder("stop"))
+    orientation: str | None = None
+    circle_orientation: str | None = None
+    configuration: str | None = None
+    triggers: list[TriggerOrder] = field(default_factory=list)
+    search: SearchOrder | None = None
+    modal: Modal = field(default_factory=dict)
+    concurrent: bool = False
+    external_only: bool = False
+
+
+@dataclass(slots=True, eq=False)
+class Drive:
+    """A planned move in the queue. `legs`: how it was driven so far; `goal`: the programmed target in its frame."""
+
+    number: int
+    order: Order
+    plan: PlannedMove | None
+    tool: rigid.Pose
+    goal: rigid.Pose | None
+    external: tuple[float | None, ...]
+    released: bool = False
+    blending: bool = False
+    legs: list[object] = field(default_factory=list)
+    started_s: float | None = None

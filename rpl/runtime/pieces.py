@@ -1,0 +1,290 @@
+"""Pieces of planned moves as the robot drives them, and the arithmetic of leaving, joining, braking and taking up.
+
+A piece is a part of a move's geometry with its own time law; replacing the piece that is driven by another one that
+starts at the same place with the same speed is how a plan changes while the robot moves.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, TypeGuard
+
+from rpl.passes import rigid
+from rpl.runtime.orders import BlendOrder, Drive, TriggerOrder
+from rpl.runtime.values import Value
+
+if TYPE_CHECKING:
+    from rpl.emulator.model import RobotModel
+    from rpl.emulator.planner import MotionFault, MoveRequest, PlannedMove
+    from rpl.emulator.rotations import FloatArray
+    from rpl.emulator.timelaw import TimeLaw
+
+# A joint blend of 100 percent begins this far before the target, measured on the axis that has the longest way.
+JOINT_BLEND_DEG = 90.0
+MOST = 0.5
+# Braking with the emergency ramp is this much stronger than the programmed acceleration.
+HARD = 2.0
+
+
+@dataclass(slots=True, eq=False)
+class Corner:
+    """A corner and what follows it: the rest of the next move."""
+
+    plan: PlannedMove
+    rest: PlannedMove
+    following: Drive
+    t_middle_s: float
+
+
+@dataclass(slots=True, eq=False)
+class Piece:
+    """What is driven from `start_s` on. `ahead`: a corner follows this piece; `corner`: this piece is that corner.
+    `open_end`: it ends where a corner should begin, the next move not being known yet."""
+
+    drive: Drive
+    plan: PlannedMove
+    start_s: float
+    ahead: Corner | None = None
+    corner: Corner | None = None
+    open_end: bool = False
+    halting: bool = False
+    ends_move: bool = False
+    frozen_s: float | None = None
+
+    @property
+    def end_s(self) -> float:
+        return self.start_s + (self.plan.duration_s if self.frozen_s is None else self.frozen_s)
+
+    def joints_at(self, now: float) -> FloatArray:
+        return self.plan.joints_at(min(max(now - self.start_s, 0.0), self.plan.duration_s))
+
+
+def plan(model: RobotModel, joints: FloatArray, request: MoveRequest) -> PlannedMove | MotionFault:
+    """Plan one move (the emulator is imported when the first move is made)."""
+    from rpl.emulator import planner
+
+    return planner.plan(model, joints, request)
+
+
+def is_planned(planned: PlannedMove | MotionFault) -> TypeGuard[PlannedMove]:
+    from rpl.emulator.planner import PlannedMove
+
+    return isinstance(planned, PlannedMove)
+
+
+def pose_data(pose: rigid.Pose | None) -> dict[str, Value]:
+    """A pose as the trace prints it."""
+    if pose is None:
+        return {}
+    place = pose.position
+    return {
+        "xyz_mm": [round(number + 0.0, 6) for number in (place.x, place.y, place.z)],
+        "quat_wxyz": [round(number + 0.0, 9) for number in pose.rotation.quaternion],
+    }
+
+
+# ---- where a piece is
+
+
+def place_of(piece: Piece, now: float) -> tuple[float, float]:
+    """Fraction of the whole move's geometry, and its speed in 1/s."""
+    begin, end = piece.plan.span
+    t = min(max(now - piece.start_s, 0.0), piece.plan.duration_s)
+    law = piece.plan.law
+    return begin + (end - begin) * float(law.at(t)), (end - begin) * float(law.speed_at(t))
+
+
+def part(move: PlannedMove, span: tuple[float, float], law: TimeLaw) -> PlannedMove:
+    """A part of a move with its own law."""
+    import numpy as np
+
+    ends = np.array(span)
+    joints, poses, distances = move.geometry.joints(ends), move.geometry.tcp(ends), move.geometry.distance(ends)
+    whole_start = joints[0] if span[0] > 0.0 else move.start_joints
+    whole_end = joints[1] if span[1] < 1.0 else move.end_joints
+    return replace(
+        move,
+        start_joints=whole_start,
+        end_joints=whole_end,
+        start_pose=poses[0],
+        end_pose=poses[1],
+        duration_s=law.duration,
+        length_mm=float(distances[1] - distances[0]),
+        law=law,
+        span=span,
+    )
+
+
+def rest_of(piece: Piece, now: float, end: float = 1.0, end_speed: float = 0.0) -> PlannedMove:
+    """From where the robot is now, with its speed, to a place further on."""
+    place, speed = place_of(piece, now)
+    place = min(place, end)
+    return part(piece.plan, (place, end), piece.plan.profile.law(place, end, speed, end_speed))
+
+
+def to_the_end(piece: Piece, now: float) -> Piece:
+    """The same move, now to its end and to rest there."""
+    return Piece(piece.drive, rest_of(piece, now), now)
+
+
+def open_ended(piece: Piece, now: float) -> Piece:
+    """Towards where the corner would begin, without slowing down for a stop."""
+    leave = _leave_alone(piece.plan, piece.drive.order.blend)
+    place, speed = place_of(piece, now)
+    if leave <= place + 1e-9:
+        return piece
+    profile = piece.plan.profile
+    end_speed = min(profile.speed, (speed * speed + 2.0 * profile.acceleration * (leave - place)) ** 0.5)
+    opened = part(piece.plan, (place, leave), profile.law(place, leave, speed, end_speed))
+    return Piece(piece.drive, opened, now, open_end=True)
+
+
+def braking(piece: Piece, now: float, hard: bool) -> Piece:
+    """Come to rest on the path as soon as the acceleration allows; in a corner at once."""
+    if piece.corner is not None:
+        return replace(piece, frozen_s=max(now - piece.start_s, 0.0))
+    place, speed = place_of(piece, now)
+    profile = piece.plan.profile
+    strength = profile.acceleration * (HARD if hard else 1.0)
+    end = min(place + speed * speed / (2.0 * strength), piece.plan.span[1]) if speed > 0.0 else place
+    if end - place < 1e-12:
+        return replace(piece, frozen_s=max(now - piece.start_s, 0.0))
+    law = replace(profile, acceleration=strength).law(place, end, speed, 0.0)
+    return Piece(piece.drive, part(piece.plan, (place, end), law), now)
+
+
+def taken_up(piece: Piece, now: float) -> Piece:
+    """Go on from where the robot was stopped."""
+    stood = piece.end_s
+    if piece.corner is not None:
+        done = stood - piece.start_s
+        return replace(piece, start_s=now - done, frozen_s=None, halting=False)
+    place, _ = place_of(piece, stood)
+    law = piece.plan.profile.law(place, 1.0, 0.0, 0.0)
+    return Piece(piece.drive, part(piece.plan, (place, 1.0), law), now)
+
+
+# ---- corners
+
+
+def joined(model: RobotModel, piece: Piece, following: Drive, now: float) -> Piece | None:
+    """The piece up to the corner with the next move, from where the robot is; None when there can be no corner."""
+    from rpl.emulator.blending import Corner as Blended
+    from rpl.emulator.blending import blend
+
+    first, second = piece.drive.plan, following.plan
+    assert first is not None and second is not None
+    distance, fraction = blend_size(piece.drive.order.blend, first, second)
+    if distance is None and fraction is None:
+        return None
+    made = blend(model, rest_of(piece, now), second, distance_mm=distance, fraction=fraction)
+    if not isinstance(made, Blended):
+        return None
+    corner = Corner(made.corner, made.second, following, made.t_middle_s)
+    return Piece(piece.drive, made.first, now, ahead=corner)
+
+
+def corner_piece(piece: Piece, now: float) -> Piece:
+    """The corner that this piece leads to."""
+    assert piece.ahead is not None
+    return Piece(piece.drive, piece.ahead.plan, now, corner=piece.ahead)
+
+
+def blend_size(
+    order: BlendOrder, first: PlannedMove, second: PlannedMove | None
+) -> tuple[float | None, float | None]:
+    """Distance in mm or share of the moves, by the measure that the program uses; none: no corner."""
+    both_joint = first.kind == "joint" and (second is None or second.kind == "joint")
+    match order.kind:
+        case "percent" if both_joint or order.path is None:
+            share = order.percent / 100.0 * JOINT_BLEND_DEG
+            ways = [float(abs(m.end_joints - m.start_joints).max()) for m in (first, second) if m is not None]
+            fraction = min([MOST, *(share / way for way in ways if way > 1e-9)])
+            return None, fraction if fraction > 0.0 else None
+        case "percent":
+            return blend_size(order.path, first, second) if order.path is not None else (None, None)
+        case "speed":
+            whole = first.length_mm
+            top, acceleration = first.profile.speed * whole, first.profile.acceleration * whole
+            way = (order.percent / 100.0 * top) ** 2 / (2.0 * acceleration) if acceleration > 0.0 else 0.0
+            return (way, None) if way > 0.0 else (None, None)
+        case "zone" if order.zone is not None:
+            distance = order.distance if order.distance is not None else order.zone.get("path")
+            if first.length_mm < 1e-6:
+                return None, _turn_share(order.zone.get("rotation"), first)
+            return (float(distance), None) if distance else (None, None)
+        case "distance":
+            sizes = [] if not order.distance else [order.distance]
+            share = _turn_share(order.rotation, first)
+            if share is not None:
+                sizes.append(share * first.length_mm)
+            return (min(sizes), None) if sizes and min(sizes) > 0.0 else (None, None)
+    return None, None
+
+
+def _turn_share(rotation: float | None, move: PlannedMove) -> float | None:
+    """Which share of the move turns the tool by that many degrees at its end."""
+    if not rotation:
+        return None
+    from rpl.emulator.rotations import rotation_angle
+
+    turn = 57.29577951308232 * float(rotation_angle(move.start_pose[:3, :3].T @ move.end_pose[:3, :3]))
+    return min(MOST, rotation / turn) if turn > 1e-9 else None
+
+
+def _leave_alone(move: PlannedMove, order: BlendOrder) -> float:
+    """Where the corner would begin as far as this move alone can tell."""
+    import numpy as np
+
+    distance, fraction = blend_size(order, move, None)
+    if fraction is not None:
+        return 1.0 - fraction
+    whole = float(move.geometry.distance(np.array([1.0]))[0])
+    if distance is None or whole <= 0.0:
+        return 1.0
+    return move.geometry.fraction_at(whole - min(distance, MOST * whole))
+
+
+# ---- triggers
+
+
+def time_of_trigger(piece: Piece, trigger: TriggerOrder) -> float | None:
+    """When the trigger is due on this piece; None when only a later piece of the move can tell."""
+    import numpy as np
+
+    if piece.corner is not None:
+        return _in_corner(piece, trigger)
+    begin, end = piece.plan.span
+    geometry = piece.plan.geometry
+    whole = float(geometry.distance(np.array([1.0]))[0])
+    distance = trigger.distance or 0.0
+    if trigger.reference == "start":
+        place = geometry.fraction_at(distance) if distance > 0.0 else 0.0
+    else:
+        place = geometry.fraction_at(whole + distance) if distance < 0.0 and whole > 0.0 else 1.0
+    if place > end + 1e-12:
+        if trigger.delay < 0.0 and piece.ahead is not None:
+            middle = piece.end_s + piece.ahead.t_middle_s * min((place - end) / max(1.0 - end, 1e-12), 1.0)
+            return middle + trigger.delay
+        return None
+    if place < begin:
+        return piece.start_s + trigger.delay
+    share = (place - begin) / (end - begin) if end > begin else 1.0
+    return piece.start_s + float(piece.plan.law.time_of(share)) + trigger.delay
+
+
+def _in_corner(piece: Piece, trigger: TriggerOrder) -> float | None:
+    """In the corner at a move's end: its first half stands for the rest of the move."""
+    import numpy as np
+
+    assert piece.corner is not None and piece.drive.plan is not None
+    if trigger.reference == "start" and not trigger.distance:
+        return None
+    geometry = piece.drive.plan.geometry
+    whole = float(geometry.distance(np.array([1.0]))[0])
+    distance = trigger.distance or 0.0
+    travelled = distance if trigger.reference == "start" else whole + distance
+    left = max(whole - travelled, 0.0)
+    size = 0.5 * piece.plan.length_mm
+    share = 1.0 - min(left / size, 1.0) if size > 0.0 else 1.0
+    return piece.start_s + piece.corner.t_middle_s * share + trigger.delay

@@ -1,0 +1,277 @@
+"""The entry: run a program in simulated time, or step through it.
+
+`run_program` runs to the end; `Simulation` can be stepped, stopped at lines, inspected and copied
+(`copy.deepcopy(simulation)` is a snapshot that goes on by itself).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+from rpl import ir
+from rpl.errors import RunError, UsageError
+from rpl.runtime.machine import Machine
+from rpl.runtime.task import ENDED, Task
+from rpl.runtime.trace import Event, RunResult
+from rpl.runtime.values import Member, Value
+
+if TYPE_CHECKING:
+    from rpl.cell import Cell
+    from rpl.emulator.model import RobotModel
+    from rpl.linking.program import LinkedProgram
+
+DEFAULT_MAX_TIME_S = 3600.0
+MAIN = "main"
+
+
+def run_program(
+    program: ir.Program,
+    robot: str | RobotModel | None = None,
+    cell: Cell | None = None,
+    entry: str | None = None,
+    max_time_s: float | None = DEFAULT_MAX_TIME_S,
+    max_statements: int | None = None,
+    on_event: Callable[[Event], None] | None = None,
+) -> RunResult:
+    """Run a normalised program. Without a robot its moves take no time.
+
+    Raises UsageError for an unknown robot or when the entry cannot be found (the candidates are listed), RunError when
+    the cell file does not fit the program. A fault inside the program is part of the result.
+    """
+    simulation = Simulation(program, robot, cell, entry, max_time_s, max_statements, on_event)
+    simulation.run()
+    return simulation.result()
+
+
+class Simulation(Machine):
+    """A program on its machine, under control. `breakpoints` are (file, line); a file may be given by its name alone."""
+
+    def __init__(
+        self,
+        program: ir.Program,
+        robot: str | RobotModel | None = None,
+        cell: Cell | None = None,
+        entry: str | None = None,
+        max_time_s: float | None = DEFAULT_MAX_TIME_S,
+        max_statements: int | None = None,
+        on_event: Callable[[Event], None] | None = None,
+    ) -> None:
+        from rpl.cell import Cell as NoCell
+        from rpl.linking import link
+
+        limit = DEFAULT_MAX_TIME_S if max_time_s is None else max_time_s
+        linked = link(program)
+        super().__init__(linked, _model(robot), cell if cell is not None else NoCell(), limit, max_statements, on_event)
+        self.breakpoints: set[tuple[str, int]] = set()
+        self.passed: tuple[int, int] | None = None
+        for declared, routine in _tasks(program, linked, entry):
+            self._add(declared, routine)
+        for task in self.tasks:
+            self.ready(task)
+
+    def _add(self, declared: ir.Task, routine: ir.Routine) -> None:
+        from rpl.linking.initial import shaped
+        from rpl.runtime.chain import DEFAULTS
+        from rpl.runtime.functions import identity
+
+        code = self.linked.code_of(routine)
+        self.provide(code)
+        task = Task(self, declared.name, len(self.tasks), declared.kind, code, declared.cyclic)
+        for name, value in code.rules.system_defaults.items():
+            task.modal[name] = Member(value) if isinstance(value, str) else value
+        for name, value in self.cell.system.items():
+            key = name.partition("[")[0]
+            pose = ir.SYSTEM_VARIABLES[key].type in ("P", "L")
+            old = identity(task) if pose else task.modal.get(key, DEFAULTS.get(key))
+            task.modal[name] = shaped(old, value, f"{self.cell.path}: system.{name}")
+        self.tasks.append(task)
+        if declared.kind == MOTION_TASK and not any(other.robot for other in self.tasks):
+            task.robot = self.new_robot(task)
+
+    # ---- control
+
+    def run(self) -> None:
+        """Run to the end (or to the next breakpoint when there are any)."""
+        self.run_until(None)
+
+    def run_until(self, time_s: float | None) -> bool:
+        """Run until that time, a breakpoint or the end; FALSE when the run is over."""
+        self.stepping = bool(self.breakpoints)
+        self._go_on()
+        while not self.status and not self.paused:
+            if time_s is not None and (not self.agenda or self.agenda[0][0] > time_s):
+                self.now = max(self.now, time_s)
+                return True
+            if not self.advance():
+                break
+        return not self.status
+
+    def step(self) -> bool:
+        """Execute one instruction of the task that is next; FALSE when the run is over."""
+        self.stepping = True
+        self.one_step = True
+        self._go_on()
+        while not self.status and not self.paused:
+            if not self.advance():
+                break
+        self.one_step = False
+        return not self.status
+
+    one_step = False
+
+    def _go_on(self) -> None:
+        """Leave a pause: the task that was stopped in the middle of its moment runs on."""
+        if self.paused and not self.status:
+            self.paused = False
+            for task in self.tasks:
+                if task.state == "ready" and self.passed is not None and task.index == self.passed[0]:
+                    task.run()
+
+    def pauses_at(self, task: Task) -> bool:
+        """Before each instruction while stepping: is this a place to stop?"""
+        place = (task.index, task.statements)
+        if self.passed == place:
+            return False
+        origin = task.frame.code.origin(task.frame.counter)
+        name = origin.file.rpartition("/")[2]
+        wanted = self.one_step or any(
+            line == origin.line and file in (origin.file, name) for file, line in self.breakpoints
+        )
+        if wanted and (self.one_step or self._starts_line(task)):
+            self.passed = place
+            self.paused = True
+        return self.paused
+
+    def _starts_line(self, task: Task) -> bool:
+        code, counter = task.frame.code, task.frame.counter
+        return code.statements[counter][0] == counter
+
+    # ---- inspection
+
+    def variable(self, name: str, task: Task | None = None) -> Value:
+        """The value of a variable: a local one of the task's present routine, else a global one (`module.name`)."""
+        chosen = task if task is not None else self.tasks[0]
+        for key, value in self.locals(chosen):
+            if key == name.lower():
+                return value
+        slot = self.linked.variable_slot(name)
+        if slot is None:
+            raise UsageError(f"there is no variable {name}")
+        if slot >= len(self.globals):
+            self.linked.initialise(self.globals, self)
+        return self.globals[slot]
+
+    def locals(self, task: Task) -> Iterator[tuple[str, Value]]:
+        """Names and values of the task's present routine."""
+        frame = task.frame
+        for name, (place, is_reference) in frame.code.places.items():
+            value = frame.values[place] if place < len(frame.values) else None
+            yield name.lower(), value.get() if is_reference and value is not None else value
+
+    def where(self, task: Task | None = None) -> tuple[str, int]:
+        """File and line of the statement that the task is at."""
+        chosen = task if task is not None else self.tasks[0]
+        origin = chosen.where()
+        return origin.file, origin.line
+
+    @property
+    def ended(self) -> bool:
+        return bool(self.status) or all(task.state == ENDED for task in self.tasks)
+
+
+MOTION_TASK = "motion"
+
+
+def _model(robot: str | RobotModel | None) -> RobotModel | None:
+    if isinstance(robot, str):
+        from rpl.emulator.model import load_robot
+
+        return load_robot(robot)
+    return robot
+
+
+def _tasks(program: ir.Program, linked: LinkedProgram, entry: str | None) -> Iterator[tuple[ir.Task, ir.Routine]]:
+    """The tasks to start: those of the program, or one from the entry."""
+    if program.tasks and entry is None:
+        for task in program.tasks:
+            found = _in_modules(program, linked, task)
+            if found is None:
+                raise UsageError(f"task {task.name}: there is no routine {task.entry}")
+            yield task, found
+        return
+    routine = find_entry(program, linked, entry)
+    yield ir.Task(MAIN, routine.name), routine
+
+
+def _in_modules(program: ir.Program, linked: LinkedProgram, task: ir.Task) -> ir.Routine | None:
+    for module in program.modules:
+        if task.modules and module.name not in task.modules:
+            continue
+        fold = linked.scopes.module(module).fold
+        for routine in module.routines:
+            if fold(routine.name) == fold(task.entry):
+                return routine
+    return None
+
+
+def find_entry(program: ir.Program, linked: LinkedProgram, entry: str | None) -> ir.Routine:
+    """The routine to start with: the one asked for, else `main`, else the one named like its file, else the only one
+    that nobody calls. Raises UsageError with the candidates."""
+    wanted = entry or program.entry
+    if wanted:
+        found = linked.find_routine(wanted)
+        if found is None:
+            raise UsageError(f"there is no routine {wanted}: {_listed(_startable(program))}")
+        return found[1]
+    main = linked.find_routine(MAIN)
+    if main is not None and _starts(main[1]):
+        return main[1]
+    uncalled = [(m, r) for m, r in _startable(program) if r.name.lower() not in _called(program, r)]
+    named = [(m, r) for m, r in _startable(program) if _like_its_file(m, r)]
+    for group in (named, [each for each in named if each in uncalled], uncalled):
+        if len(group) == 1:
+            return group[0][1]
+    candidates = uncalled or _startable(program)
+    raise UsageError(f"which routine is the program? {_listed(candidates)} (name one with --entry)")
+
+
+def _starts(routine: ir.Routine) -> bool:
+    return routine.kind == "procedure" and all(parameter.optional for parameter in routine.parameters)
+
+
+def _startable(program: ir.Program) -> list[tuple[ir.Module, ir.Routine]]:
+    return [(module, r) for module in program.modules for r in module.routines if _starts(r)]
+
+
+def _like_its_file(module: ir.Module, routine: ir.Routine) -> bool:
+    name = routine.name.lower()
+    source = routine.origin.source or module.origin.source
+    return name == module.name.lower() or (source is not None and name == source.name.lower())
+
+
+def _called(program: ir.Program, caller: ir.Routine) -> set[str]:
+    """Names that other routines call."""
+    from rpl.ir.walk import walk
+
+    names: set[str] = set()
+    for module in program.modules:
+        for routine in module.routines:
+            if routine is caller:
+                continue
+            for node in walk(routine.body, tuple(handler.body for handler in routine.handlers), routine.undo):
+                match node:
+                    case ir.CallRoutine(name=name) | ir.Call(name=name):
+                        names.add(name.lower())
+                    case ir.ConnectInterrupt(routine=name):
+                        names.add(name.lower())
+    return names
+
+
+def _listed(candidates: list[tuple[ir.Module, ir.Routine]]) -> str:
+    if not candidates:
+        return "there is none that can be started"
+    return "candidates are " + ", ".join(routine.name for _, routine in candidates)
+
+
+__all__ = ["RunError", "RunResult", "Simulation", "find_entry", "run_program"]

@@ -1,0 +1,204 @@
+"""The neutral system variables: what reading and writing each one does. `READ` and `WRITE` together cover
+`rpl.ir.SYSTEM_VARIABLES` (a test proves it); what is merely modal is kept in the task's table under its own name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from rpl import ir
+from rpl.runtime.faults import ProgramError
+from rpl.runtime.functions import identity
+from rpl.runtime.values import Member, StopWatch, Value, copied, whole
+from rpl.runtime.chain import DEFAULTS
+
+if TYPE_CHECKING:
+    from rpl.runtime.motion import MotionQueue
+    from rpl.runtime.task import Task
+
+Read = Callable[["Task", int], Value]
+Write = Callable[["Task", int, Value], None]
+
+
+def _robot(task: Task) -> MotionQueue:
+    task.looked = task.looked_at_time = True
+    if task.robot is None:
+        raise ProgramError("motion", f"task {task.name} has no robot")
+    return task.robot
+
+
+def _rules(task: Task) -> Value:
+    return task.frame.code.rules
+
+
+def _actual_joint(task: Task, index: int) -> Value:
+    joints = _robot(task).joints_as_value(_rules(task))
+    return joints.get(f"j{index}")
+
+
+def _end_pose(task: Task, index: int) -> Value:
+    robot = _robot(task)
+    return robot.target_now(None, None, _rules(task), robot.planned_joints if robot.piece is not None else None)
+
+
+def _start_pose(task: Task, index: int) -> Value:
+    robot = _robot(task)
+    piece = robot.piece
+    return robot.target_now(None, None, _rules(task), piece.plan.start_joints if piece is not None else None)
+
+
+def _interrupt_pose(task: Task, index: int) -> Value:
+    robot = _robot(task)
+    marked = robot.interrupted[0] if robot.interrupted is not None else None
+    return robot.target_now(None, None, _rules(task), marked)
+
+
+def _interrupt_joints(task: Task, index: int) -> Value:
+    robot = _robot(task)
+    return robot.joints_as_value(_rules(task), robot.interrupted[0] if robot.interrupted is not None else None)
+
+
+def _remaining(task: Task, index: int) -> Value:
+    piece = _robot(task).piece
+    if piece is None:
+        return 0.0
+    here = piece.plan.tcp_at(task.machine.now - piece.start_s)[:3, 3]
+    goal = piece.drive.plan.end_pose[:3, 3] if piece.drive.plan is not None else here
+    return float(sum((p - q) ** 2 for p, q in zip(here, goal, strict=True)) ** 0.5)
+
+
+def _speed(task: Task, index: int) -> Value:
+    piece = _robot(task).piece
+    if piece is None:
+        return 0.0
+    return piece.plan.length_mm * float(piece.plan.law.speed_at(task.machine.now - piece.start_s))
+
+
+def _timer(task: Task, index: int) -> StopWatch:
+    found = task.machine.timers.get(index)
+    if found is None:
+        found = task.machine.timers[index] = StopWatch()
+    return found
+
+
+def _read_timer(task: Task, index: int) -> Value:
+    task.looked = task.looked_at_time = True
+    return _timer(task, index).seconds(task.machine.now)
+
+
+def _write_timer(task: Task, index: int, value: Value) -> None:
+    timer = _timer(task, index)
+    timer.counted, timer.since = float(value), task.machine.now
+    task.machine.changed()
+
+
+def _write_timer_stopped(task: Task, index: int, value: Value) -> None:
+    timer, now = _timer(task, index), task.machine.now
+    timer.counted, timer.since, timer.running = timer.seconds(now), now, not value
+    task.machine.changed()
+
+
+def _read_flag(kind: str) -> Read:
+    def read(task: Task, index: int) -> Value:
+        task.looked = True
+        return bool(task.signals.get((kind, index)))
+
+    return read
+
+
+def _write_flag(kind: str) -> Write:
+    def write(task: Task, index: int, value: Value) -> None:
+        if bool(task.signals.get((kind, index))) != bool(value):
+            task.signals[kind, index] = bool(value)
+            task.machine.changed()
+
+    return write
+
+
+def _time(task: Task, index: int) -> Value:
+    task.looked = task.looked_at_time = True
+    return task.machine.now
+
+
+def _moving(task: Task, index: int) -> Value:
+    return _robot(task).piece is not None
+
+
+_SPECIAL: dict[str, Read] = {
+    "world": lambda task, index: identity(task),
+    "null_frame": lambda task, index: identity(task),
+    "actual_pose": lambda task, index: _robot(task).target_now(None, None, _rules(task)),
+    "actual_joints": lambda task, index: _robot(task).joints_as_value(_rules(task)),
+    "actual_joint": _actual_joint,
+    "start_pose": _start_pose,
+    "end_pose": _end_pose,
+    "interrupt_pose": _interrupt_pose,
+    "interrupt_joints": _interrupt_joints,
+    "remaining_distance": _remaining,
+    "path_speed_actual": _speed,
+    "timer": _read_timer,
+    "timer_stopped": lambda task, index: not _timer(task, index).running,
+    "timer_positive": lambda task, index: _read_timer(task, index) > 0.0,
+    "flag": _read_flag("flag"),
+    "cyclic_flag": _read_flag("cyclic_flag"),
+    "error_number": lambda task, index: task.error_number,
+    "interrupt_number": lambda task, index: task.interrupt_number,
+    "mode": lambda task, index: Member("automatic"),
+    "simulated": lambda task, index: True,
+    "time": _time,
+    "date": lambda task, index: task.machine.now,
+    "moving": _moving,
+}
+_SPECIAL_WRITE: dict[str, Write] = {
+    "timer": _write_timer,
+    "timer_stopped": _write_timer_stopped,
+    "flag": _write_flag("flag"),
+    "cyclic_flag": _write_flag("cyclic_flag"),
+}
+# A condition that reads one of these is looked at again and again.
+TIME_DEPENDENT = frozenset(
+    (
+        *("actual_pose", "actual_joints", "actual_joint", "remaining_distance", "path_speed_actual", "moving"),
+        *("timer", "timer_positive", "time", "date", "start_pose", "end_pose"),
+    )
+)
+
+
+def _modal_read(name: str, kind: str, indexed: bool) -> Read:
+    def read(task: Task, index: int) -> Value:
+        value = task.modal.get(f"{name}[{index}]") if indexed else None
+        if value is None:
+            value = task.modal.get(name)
+        if value is None:
+            value = DEFAULTS.get(name)
+        if value is None:
+            return identity(task) if kind == "P" else False if kind == "b" else 0.0
+        return Member(value) if kind == "x" and isinstance(value, str) else value
+
+    return read
+
+
+def _modal_write(name: str, indexed: bool) -> Write:
+    if indexed:
+        return lambda task, index, value: task.modal.__setitem__(f"{name}[{index}]", copied(value))
+    return lambda task, index, value: task.modal.__setitem__(name, copied(value))
+
+
+READ: dict[str, Read] = {
+    row.name: _SPECIAL.get(row.name) or _modal_read(row.name, row.type, row.indexed)
+    for row in ir.SYSTEM_VARIABLES.values()
+}
+WRITE: dict[str, Write] = {
+    row.name: _SPECIAL_WRITE.get(row.name) or _modal_write(row.name, row.indexed)
+    for row in ir.SYSTEM_VARIABLES.values()
+    if row.access == "rw"
+}
+
+
+def modal_key(name: str, index: Value) -> str:
+    """The name under which a move's own setting of a system variable is found."""
+    return name if index is None else f"{name}[{whole(index)}]"
+
+
+__all__ = ["READ", "TIME_DEPENDENT", "WRITE", "modal_key"]

@@ -1,0 +1,439 @@
+"""One task: its frames, the loop that executes instructions, calls and returns, errors and handlers, interrupts, waits.
+
+A task runs until it blocks. Everything it does to the outside (clock, signals, other tasks) goes through its machine.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rpl.runtime.code import ATTEND, BLOCKED, SWITCHED, Code, Frame, Handling, Read, Values, Write
+from rpl.runtime.faults import FATAL, ProgramError, name_of, number_of
+from rpl.runtime.interrupts import Interrupt, Interrupts
+from rpl.runtime.values import Value
+from rpl.runtime.waits import CYCLE_S, Wait, poll_step
+from rpl.source import NOWHERE, Origin
+
+if TYPE_CHECKING:
+    from rpl.ir.rules import Rules
+    from rpl.runtime.machine import Machine
+    from rpl.runtime.motion import MotionQueue
+    from rpl.runtime.orders import TriggerOrder
+    from rpl.runtime.signals import Key
+
+READY, WAITING, ENDED = "ready", "waiting", "ended"
+# Instructions that a task may execute at one moment before a loop that looks at the outside lets a cycle pass, and how
+# many it gets in each such cycle.
+SPIN, SPIN_AGAIN = 2000, 500
+# Instructions without time after which a loop that nothing can end is given up.
+MOST_WITHOUT_TIME = 1_000_000
+MOST_BLIND_POLLS = 200_000
+
+
+class Task:
+    """A task of the program. `busy`: its robot has moves to drive. `modal` are its system variables."""
+
+    def __init__(self, machine: Machine, name: str, index: int, kind: str, entry: Code, cyclic: bool = False) -> None:
+        self.machine = machine
+        self.name = name
+        self.index = index
+        self.kind = kind
+        self.cyclic = cyclic
+        self.entry = entry
+        self.g: Values = machine.globals
+        self.signals: dict[Key, Value] = machine.signals
+        self.modal: dict[str, Value] = {}
+        self.frames: list[Frame] = []
+        self.state = READY
+        self.wait: Wait | None = None
+        self.suspended: Wait | None = None
+        self.interrupts = Interrupts()
+        self.robot: MotionQueue | None = None
+        self.busy = False
+        self.looked = False
+        self.looked_at_time = False
+        self.look_ahead = -1
+        self.error_number: float = 0
+        self.interrupt_number: float = 0
+        self.statements = 0
+        self.spent = 0
+        self.spent_at = -1.0
+        self.spinning_since: float | None = None
+        self.triggers: list[Frame] = []
+        self.next_triggers: list[TriggerOrder] = []
+        self.last_error: tuple[ProgramError, Origin] | None = None
+        self.frame = self._start()
+
+    # ---- frames
+
+    def _start(self) -> Frame:
+        frame = self.new_frame(self.entry)
+        self.frames = [frame]
+        for prepare in frame.code.prepare:
+            prepare(frame.values)
+        return frame
+
+    def restart(self) -> None:
+        """Begin the entry routine again (end of a cyclic task's pass, end of cycle asked for)."""
+        self.interrupts = Interrupts()
+        self.frame = self._start()
+
+    def new_frame(self, code: Code, kind: str = "call") -> Frame:
+        """A frame with its own values; entering it initialises its local data."""
+        self.machine.provide(code)
+        values: Values = [None] * code.size
+        values[0] = self
+        return Frame(code, values, kind)
+
+    def call(self, frame: Frame, at: int, next: int, result: int | None = None) -> int:
+        """Enter a frame; the present one goes on at `next`."""
+        caller = self.frame
+        caller.at, caller.counter = at, next
+        frame.result = result
+        return self.enter(frame)
+
+    def enter(self, frame: Frame) -> int:
+        if len(self.frames) > frame.code.rules.call_depth * 10:
+            raise ProgramError("too_deep", f"more than {frame.code.rules.call_depth * 10} calls are nested")
+        self.frames.append(frame)
+        self.frame = frame
+        for prepare in frame.code.prepare:
+            prepare(frame.values)
+        return SWITCHED
+
+    def leave(self, at: int, value: Value = None) -> int:
+        """Return from the present frame. The entry routine ends when the robot has arrived."""
+        if len(self.frames) == 1 and self.busy:
+            return self.wait_for("idle", at, at)
+        frame = self.frames.pop()
+        if self.interrupts.known:
+            self.interrupts.drop_level(frame)
+        if not self.frames:
+            return self._ended()
+        self.frame = caller = self.frames[-1]
+        if frame.kind == "call":
+            if frame.result is not None:
+                caller.values[frame.result] = value
+            return SWITCHED
+        self.interrupt_number = 0
+        if frame.level is not None and self.robot is not None and self.robot.stopped:
+            self.robot.start()  # a motion braked in the interrupt goes on when that ends without RESUME
+        wait = frame.wait
+        if isinstance(wait, Wait):
+            self.wait = wait
+            if self.triggers or self.interrupts.urgent(self.running_priority()) is not None:
+                return ATTEND
+            self.state = WAITING
+            self.machine.wait_again(self, wait)
+            return BLOCKED if self.wait is not None else ATTEND
+        return ATTEND
+
+    def _ended(self) -> int:
+        if self.cyclic:
+            self.restart()
+            return self.sleep_tick(0)
+        self.state = ENDED
+        self.machine.task_ended(self)
+        return BLOCKED
+
+    # ---- the loop
+
+    def run(self) -> None:
+        """Execute until the task blocks or ends."""
+        if self.spent_at != self.machine.now:
+            self.spent, self.spent_at = 0, self.machine.now
+            self.looked = self.looked_at_time = False
+        if self.interrupts.pending or self.triggers:
+            self.attend()
+        while self.state == READY and not self.machine.paused:
+            frame = self.frame
+            values, instructions, counter = frame.values, frame.code.instructions, frame.counter
+            used = -1
+            try:
+                for used in range(self._budget()):
+                    counter = instructions[counter](values)
+                    if counter < 0:
+                        break
+                else:
+                    frame.counter = counter
+                    self._count(used + 1)
+                    self._spun()
+                    continue
+            except ProgramError as error:
+                self._count(used)
+                self.fail(error, counter)
+                continue
+            except (ArithmeticError, TypeError, AttributeError, KeyError, IndexError, ValueError) as error:
+                self._count(used)
+                self.fail(_as_program_error(error), counter)
+                continue
+            self._count(used + 1)
+            if counter == ATTEND:
+                self.attend()
+
+    def _budget(self) -> int:
+        if self.machine.stepping:
+            return 0 if self.machine.pauses_at(self) else 1
+        most = SPIN if self.spinning_since is None else SPIN_AGAIN
+        return most - self.spent if self.spent < most else SPIN
+
+    def _count(self, used: int) -> None:
+        self.spent += used
+        self.statements += used
+
+    def _spun(self) -> None:
+        """Many instructions and no time: let time pass for who polls, give up on who cannot be ended."""
+        if self.machine.stepping:
+            return
+        if self.machine.has_future() or self.looked_at_time:
+            self.sleep_tick(self.frame.counter)
+            return
+        if self.looked and self.spent >= MOST_BLIND_POLLS:
+            self.machine.deadlock(self, "a signal that nothing changes, in a loop")
+        elif self.spent >= MOST_WITHOUT_TIME:
+            origin = self.frame.code.origin(self.frame.counter)
+            self.machine.fault("no-time", "this loop takes no time and never ends", self, origin)
+
+    def sleep_tick(self, next: int) -> int:
+        """A cycle of the controller passes before the task goes on."""
+        now = self.machine.now
+        if self.spinning_since is None or now - self.spinning_since < 0.0:
+            self.spinning_since = now
+        step = poll_step(now - self.spinning_since, CYCLE_S)
+        return self.block(Wait("tick", next, next, self.machine.token(), now, now + step))
+
+    # ---- waits
+
+    def block(self, wait: Wait) -> int:
+        """Wait; gives the answer for the instruction."""
+        if wait.kind != "tick":
+            self.spinning_since = None
+        self.frame.at, self.frame.counter = wait.at, wait.next
+        self.wait = wait
+        self.state = WAITING
+        self.machine.schedule_wait(self, wait)
+        return BLOCKED
+
+    def wait_until(
+        self,
+        condition: Read,
+        values: Values,
+        at: int,
+        next: int,
+        polls: bool,
+        timeout: float | None = None,
+        timed_out: Write | None = None,
+        error: str | None = None,
+        subject: str = "",
+    ) -> int:
+        """Block until the condition holds."""
+        now = self.machine.now
+        deadline = None if timeout is None else now + max(timeout, 0.0)
+        wait = Wait("condition", at, next, self.machine.token(), now, deadline, condition, values, polls)
+        wait.timed_out, wait.error, wait.subject = timed_out, error, subject
+        wait.poll_s = max(CYCLE_S, self.frame.code.rules.wait_poll_s)
+        self.machine.event("wait", {"condition": subject}, self, self.frame.code.origin(at))
+        return self.block(wait)
+
+    def sleep(self, seconds: float, at: int, next: int) -> int:
+        """Block for a time."""
+        if seconds <= 0.0:
+            return next
+        self.machine.event("wait", {"seconds": round(seconds, 9)}, self, self.frame.code.origin(at))
+        now = self.machine.now
+        return self.block(Wait("time", at, next, self.machine.token(), now, now + seconds))
+
+    def wait_for(self, kind: str, at: int, next: int, move: int = 0) -> int:
+        """Block for the robot: idle, room, released, standing."""
+        wait = Wait(kind, at, next, self.machine.token(), self.machine.now, move=move)
+        if wait.is_over(self):
+            return next
+        return self.block(wait)
+
+    def awake(self, timed_out: bool) -> None:
+        """The wait is over: go on behind it, or at its time-out."""
+        wait, self.wait = self.wait, None
+        self.state = READY
+        if wait is None:
+            return
+        if wait.kind != "condition" and wait.kind != "answer":
+            return
+        if wait.timed_out is not None and wait.values is not None:
+            wait.timed_out(wait.values, timed_out)
+        elif timed_out and wait.error is not None:
+            name = "timeout" if wait.kind == "condition" else "dialog_timeout"
+            error = ProgramError(name, "the wait has timed out")
+            error.number = self.frame.code.rules.errors.get(wait.error)
+            self.fail(error, wait.at)
+
+    # ---- interrupts
+
+    def running_priority(self) -> int | None:
+        """The most urgent interrupt that runs now."""
+        found = [frame.priority for frame in self.frames if frame.priority is not None]
+        return min(found) if found else None
+
+    def attention(self, next: int) -> int:
+        """An instruction changed something that interrupts watch: set the counter and look."""
+        self.frame.counter = next
+        return ATTEND
+
+    def attend(self) -> None:
+        """Start what is due: the actions of triggers that were passed, then the most urgent interrupt."""
+        if self.state == ENDED:
+            return
+        if self.triggers:
+            self._interrupt_with(self.triggers.pop(0))
+            return
+        interrupt = self.interrupts.urgent(self.running_priority())
+        if interrupt is None:
+            return
+        self.interrupts.forget(interrupt.key)
+        values = interrupt.values
+        if values is None:
+            frame = self.new_frame(interrupt.action, "interrupt")
+        else:
+            frame = Frame(interrupt.action, values, "interrupt")
+        frame.priority, frame.level, frame.number = interrupt.priority, interrupt.level, interrupt.key
+        self.interrupt_number = interrupt.key
+        if self.robot is not None:
+            self.robot.mark_interrupted()
+        self._interrupt_with(frame)
+
+    def _interrupt_with(self, frame: Frame) -> None:
+        frame.wait, self.wait = self.wait, None
+        self.state = READY
+        self.enter(frame)
+
+    def trigger(self, routine: Code, values: Values) -> None:
+        """A place on the path was passed whose action is a routine: it runs as soon as the task can."""
+        self.triggers.append(Frame(routine, values, "trigger"))
+
+    def take_triggers(self) -> list[TriggerOrder]:
+        """The triggers set for the next move."""
+        taken, self.next_triggers = self.next_triggers, []
+        return taken
+
+    def watch_time(self, interrupt: Interrupt) -> None:
+        """Schedule what time alone brings: timer interrupts and conditions that read the clock."""
+        if interrupt.event == "timer":
+            self.machine.schedule_interrupt(self, interrupt, interrupt.period)
+        elif interrupt.polls:
+            self.machine.schedule_interrupt(self, interrupt, CYCLE_S)
+
+    def resume_level(self) -> int:
+        """Leave the interrupt and every routine down to the one that declared it; its motion is dropped."""
+        level = next((frame.level for frame in reversed(self.frames) if frame.kind == "interrupt"), None)
+        if level is None or level not in self.frames:
+            raise ProgramError("bad_call", "RESUME outside an interrupt routine")
+        while self.frames[-1] is not level:
+            frame = self.frames.pop()
+            self.interrupts.drop_level(frame)
+        self.frame = level
+        self.wait = None
+        if self.robot is not None:
+            self.robot.clear()
+        return ATTEND
+
+    # ---- errors
+
+    def fail(self, error: ProgramError, counter: int) -> None:
+        """An instruction failed: go to the nearest handler, or end the run with a fault."""
+        frame = self.frame
+        frame.at = counter
+        self.state = READY
+        self.wait = None
+        self.machine.error_came(self)
+        self._unwind(error, frame.code.origin(counter), frame.code.rules)
+
+    def _unwind(self, error: ProgramError, origin: Origin, rules: Rules) -> None:
+        number = number_of(error, rules.errors)
+        while True:
+            frame = self.frame
+            start = None if error.name in FATAL else self._handler(frame, 0 if number is None else number)
+            if start is not None:
+                retry, following = frame.code.statements[frame.at]
+                name = name_of(number, rules.errors) if number is not None else error.name
+                frame.handling = Handling(number or 0, name, error.message, retry, following)
+                self.error_number = number or 0
+                self.last_error = (error, origin)
+                frame.counter = start
+                return
+            if frame.code.undo is not None and frame.leaving is None and error.name not in FATAL:
+                frame.leaving = (error, origin)
+                frame.counter = frame.code.undo
+                return
+            if frame.kind != "call" or len(self.frames) == 1:
+                self._unhandled(error, number, origin, rules)
+                return
+            self.frames.pop()
+            self.interrupts.drop_level(frame)
+            self.frame = self.frames[-1]
+
+    def _handler(self, frame: Frame, number: float) -> int | None:
+        if frame.handling is not None or frame.leaving is not None:
+            return None
+        for handler in frame.code.handlers:
+            if not handler.codes or any(code(frame.values) == number for code in handler.codes):
+                return handler.start
+        return None
+
+    def _unhandled(self, error: ProgramError, number: float | None, origin: Origin, rules: Rules) -> None:
+        named = name_of(number, rules.errors) if number is not None else ""
+        message = f"{error.message} ({named})" if named and named not in error.message else error.message
+        self.machine.fault(error.name.replace("_", "-"), message, self, origin)
+
+    def undone(self) -> int:
+        """The undo part has run: the error goes on to the caller."""
+        leaving = self.frame.leaving
+        if leaving is None:
+            return self.leave(self.frame.counter)
+        assert isinstance(leaving, tuple)
+        error, origin = leaving
+        if self.frame.kind != "call" or len(self.frames) == 1:
+            self._unhandled(error, number_of(error, self.frame.code.rules.errors), origin, self.frame.code.rules)
+            return BLOCKED
+        rules = self.frame.code.rules
+        self.frames.pop()
+        self.frame = self.frames[-1]
+        self._unwind(error, origin, rules)
+        return SWITCHED
+
+    def handling(self) -> Handling:
+        """The error that the present frame handles."""
+        if self.frame.handling is None:
+            raise ProgramError("bad_call", "this statement belongs into an error handler")
+        return self.frame.handling
+
+    def handled(self, counter: int) -> int:
+        """Leave the handler for an instruction of the routine."""
+        self.frame.handling = None
+        return counter
+
+    def pass_on(self) -> int:
+        """Raise the error being handled in the caller."""
+        handling = self.handling()
+        error, origin = self.last_error or (ProgramError("bad_raise", handling.message), NOWHERE)
+        passed = ProgramError(error.name, handling.message, handling.number)
+        self._unwind(passed, origin, self.frame.code.rules)
+        return SWITCHED
+
+    def where(self) -> Origin:
+        """The place of the statement that the task is at."""
+        frame = self.frame
+        counter = self.wait.at if self.wait is not None else frame.counter
+        return frame.code.origin(counter)
+
+
+def _as_program_error(error: Exception) -> ProgramError:
+    """Python's own complaint about an operation, as the error of the program that asked for it."""
+    match error:
+        case ZeroDivisionError():
+            return ProgramError("division_by_zero", "division by zero")
+        case OverflowError():
+            return ProgramError("overflow", "the number is too large")
+        case ValueError():
+            return ProgramError("negative_argument", f"a function is not defined for this argument: {error}")
+        case KeyError():
+            return ProgramError("wrong_kind", f"there is no component {error}")
+    return ProgramError("wrong_kind", f"an operation does not fit its values: {error}")

@@ -1,0 +1,106 @@
+"""What a run shows: its events, and the result made of them in the shape that `rpl run --json` prints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from rpl.runtime.values import SignalRef, Value
+from rpl.source import NOWHERE, Origin
+
+if TYPE_CHECKING:
+    from rpl.emulator.planner import PlannedMove
+
+KINDS = ("move", "output", "input", "message", "wait", "call", "fault", "end")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Leg:
+    """A piece of a move as it was driven: from `start_s` on the clock for `duration_s`, beginning `offset_s` into the
+    planned piece."""
+
+    plan: PlannedMove
+    start_s: float
+    duration_s: float
+    offset_s: float = 0.0
+
+    def __deepcopy__(self, memo: object) -> Leg:
+        return self
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Event:
+    """One happening. `data` is what the trace prints beside time, task, kind and place. For comparing runs: `port` is
+    the signal of an output or input, `names` all its names; `legs` is how a move was driven (empty without a robot) and
+    `stops` whether it ended in rest."""
+
+    t: float
+    task: str
+    kind: str
+    data: dict[str, Value]
+    origin: Origin = NOWHERE
+    port: SignalRef | None = None
+    names: tuple[str, ...] = ()
+    legs: tuple[Leg, ...] = ()
+    stops: bool = True
+
+    def __deepcopy__(self, memo: object) -> Event:
+        return self
+
+    def as_json(self) -> dict[str, Value]:
+        origin = self.origin
+        place = {"file": origin.file, "line": origin.line}
+        return {"t": round(self.t, 6), "task": self.task, "kind": self.kind, **place, **self.data}
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """Why a run ended early. code: a kebab-case word for the kind of fault."""
+
+    code: str
+    message: str
+    task: str = ""
+    origin: Origin = field(default=NOWHERE, compare=False)
+
+    def as_json(self) -> dict[str, Value]:
+        return {
+            "code": self.code,
+            "message": self.message,
+            "task": self.task,
+            "file": self.origin.file,
+            "line": self.origin.line,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class RunResult:
+    """How a run ended. status: finished, stopped, fault, deadlock, limit. `outputs` are changes in order: time, name of
+    the physical signal, value. `joints` at the end (None without a robot)."""
+
+    status: str
+    time_s: float
+    moves: int
+    statements: int
+    messages: tuple[str, ...]
+    outputs: tuple[tuple[float, str, Value], ...]
+    fault: Fault | None
+    trace: tuple[Event, ...]
+    joints: tuple[float, ...] | None = None
+    waiting: tuple[str, ...] = ()
+
+    def as_json(self) -> dict[str, Value]:
+        return {
+            "status": self.status,
+            "time_s": round(self.time_s, 6),
+            "moves": self.moves,
+            "statements": self.statements,
+            "messages": list(self.messages),
+            "outputs": [[round(t, 6), name, value] for t, name, value in self.outputs],
+            "fault": self.fault.as_json() if self.fault else None,
+        }
+
+    def trace_lines(self) -> Iterator[dict[str, Value]]:
+        """The events as JSON objects, one a line of the trace."""
+        for event in self.trace:
+            yield event.as_json()

@@ -1,0 +1,77 @@
+"""What a task waits for, as plain data: the scheduler asks `is_over` whenever something changed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from rpl.runtime.code import Read, Values, Write
+
+if TYPE_CHECKING:
+    from rpl.runtime.task import Task
+
+# How often a condition that depends on time is looked at, s: the cycle in which controllers interpolate.
+CYCLE_S = 0.012
+# A long wait is looked at less often: at this share of the time it has taken so far, at most every POLL_MOST_S.
+POLL_SHARE = 0.002
+POLL_MOST_S = 0.1
+
+
+def poll_step(waited_s: float, least_s: float = CYCLE_S) -> float:
+    """Seconds until a condition is looked at again."""
+    return max(least_s, min(POLL_MOST_S, waited_s * POLL_SHARE))
+
+
+@dataclass(slots=True, eq=False)
+class Wait:
+    """kind: time, condition, idle (the robot has driven everything), room (the program pointer may go on), released
+    (move `move` lets the program go on), standing (a stop has ended), tick (a polling loop lets time pass), answer.
+
+    `at` is the waiting instruction, `next` where to go on; `deadline` ends the wait, then `timed_out` is written or the
+    error raised. `counts`: whether the deadline is the purpose (a timed wait) or a time-out.
+    """
+
+    kind: str
+    at: int
+    next: int
+    token: int
+    since: float
+    deadline: float | None = None
+    condition: Read | None = None
+    values: Values | None = None
+    polls: bool = False
+    poll_s: float = CYCLE_S
+    timed_out: Write | None = None
+    error: str | None = None
+    move: int = 0
+    subject: str = ""
+
+    def is_over(self, task: Task) -> bool:
+        """Has what is waited for come? A deadline that passed is the caller's business."""
+        match self.kind:
+            case "condition":
+                assert self.condition is not None and self.values is not None  # set by Task.wait_until
+                return bool(self.condition(self.values))
+            case "idle":
+                return not task.busy
+            case "room":
+                return task.robot is None or task.robot.has_room()
+            case "released":
+                return task.robot is None or task.robot.has_released(self.move)
+            case "standing":
+                return task.robot is None or task.robot.is_standing()
+        return False
+
+    def describe(self) -> str:
+        """What it waits for, in words."""
+        words = {
+            "time": "a time to pass",
+            "condition": "a condition",
+            "idle": "the robot to arrive",
+            "room": "the robot to drive on",
+            "released": "the robot to come near its target",
+            "standing": "the robot to stand",
+            "tick": "time to pass",
+            "answer": "the operator's answer",
+        }
+        return f"{words[self.kind]} ({self.subject})" if self.subject else words[self.kind]
