@@ -65,9 +65,11 @@ class _Configurations(Rewriter):
     def __init__(self, program: ir.Program, context: Context, trial: _Configurations | None = None) -> None:
         super().__init__(program, context)
         self.trial = trial
-        self.target_notation = context.capabilities.notation
+        kept = context.capabilities.carries_rules or not context.foreign
+        self.target_notation = context.source if kept else context.capabilities.notation
         sources = {module.dialect for module in program.modules}
-        self.foreign = any(one != self.target_notation for one in sources)
+        self.foreign = not kept and any(one != self.target_notation for one in sources)
+        self.side_by_side = True  # are the flags of the target written now beside its position?
         self.arm, self.to_arm = context.robot, context.to_robot or context.robot
         self.other_arm = bool(self.arm and self.to_arm and self.arm.name != self.to_arm.name)
         self.results: dict[int, dict[str, int] | _Refused] = trial.results if trial else {}
@@ -200,7 +202,7 @@ class _Configurations(Rewriter):
     @property
     def flat(self) -> bool:
         """Do the target's targets have their flags side by side with the position?"""
-        return self.context.capabilities.rotation == "zyx"
+        return self.context.capabilities.rotation == "zyx" if self.foreign else self.side_by_side
 
     @property
     def fields(self) -> tuple[str, ...]:
@@ -226,6 +228,7 @@ class _Configurations(Rewriter):
         flags = set(registry.dialect(type.notation).notation_fields)
         given = self.named(expression, type)
         had = bool(flags & set(given)) or "conf" in given
+        self.side_by_side = not {"conf", "trans"} & set(given)
         entries = [(n, self.expression(v)) for n, v in given.items() if n not in flags and n != "conf"]
         word = type_word(replace(type, notation=self.target_notation))
         done = replace(expression, type_name=word)

@@ -210,3 +210,23 @@ ENDMODULE
         found[move] = sorted(set(flags(configurations(program, surroundings), "p1")) & {"s", "t"})
         assert not surroundings.diagnostics.items
     assert found == {"MoveJ": ["s"], "MoveL": ["s", "t"]}
+
+
+@pytest.mark.parametrize("dialect", ["krl", "rapid"])
+def test_the_same_language_on_another_arm_keeps_its_form(kuka: RobotModel, abb: RobotModel, dialect: str) -> None:
+    joints = [10, -80, 100, 5, 40, 20]
+    if dialect == "krl":
+        text = f"DEF t()\nPTP P1\nEND\n====\nDEFDAT t\nDECL POS P1={krl_pos(kuka, joints)}\nENDDAT\n"
+    else:
+        text = f"MODULE t\nCONST robtarget P1:={rapid_target(kuka, joints)};\n"
+        text += "PROC t()\nMoveJ P1,v100,fine,tool0;\nENDPROC\nENDMODULE\n"
+    program = read(text, dialect)
+    surroundings = context(program, dialect, kuka, abb)
+    surroundings.target = dialect
+    done = configurations(program, surroundings)
+    reached = abb.inverse(kuka.forward(joints), abb.home)
+    notation = registry.dialect(dialect).notation()  # type: ignore[misc]
+    allowed = [notation.encode(abb, choice) for one in reached for choice in abb.expand_turns(one)]
+    assert {name: value for name, value in flags(done, "P1").items() if name in notation.fields} in allowed
+    assert variable(done, "P1").type == variable(program, "P1").type
+    assert lines(done) == lines(program)
