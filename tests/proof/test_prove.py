@@ -97,7 +97,7 @@ def test_other_words_for_the_same(old: str, new: str) -> None:
         ("PTP {A1 10", "PTP {A1 10.1", "path", 16),
         ("$OUT[2]=TRUE\n", "", "order", 10),
         ("$OUT[2]=TRUE", "$OUT[4]=TRUE", "output", 10),
-        ("$OUT[1]=FALSE", "$OUT[1]=TRUE", "output", 17),
+        ("$OUT[1]=FALSE", "$OUT[1]=TRUE", "order", 17),
         ('"at part"', '"at Part"', "message", 9),
         ("WAIT SEC 0.5", "WAIT SEC 0.6", "wait", 11),
         ("FOR i=1 TO 2", "FOR i=1 TO 3", "output", 17),
