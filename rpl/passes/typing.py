@@ -240,17 +240,27 @@ class Typer:
                 return replace(statement, value=self.assigned(value, self.scope.resolve(wanted) if wanted else None))
             case ir.ConnectInterrupt(routine=name):
                 self.known_routine(name, statement.origin)
-            case ir.Move(target=target, via=via, settings=settings):
-                typed = replace(
-                    statement,
-                    target=self.place(target),
-                    via=None if via is None else self.place(via),
-                    settings=tuple(
-                        (self.value(name), self.assigned(value, self.infer(name)[1])) for name, value in settings
-                    ),
-                )
-                return rewrite_parts(typed, self.value, self.body)
+            case ir.Move():
+                return rewrite_parts(self.written_move(statement), self.value, self.body)
         return rewrite_parts(statement, self.value, self.body)
+
+    def written_move(self, move: ir.Move) -> ir.Move:
+        """The move with everything written out in it (targets, speeds, zones, settings) in typed form."""
+        speed, blend = move.speed, move.blend
+        if speed is not None and isinstance(speed.profile, ir.Aggregate):
+            speed = replace(speed, profile=self.assigned(speed.profile, ir.SpeedType()))
+        if isinstance(blend, ir.BlendZone) and isinstance(blend.zone, ir.Aggregate):
+            blend = replace(blend, zone=self.assigned(blend.zone, ir.ZoneType()))
+        return replace(
+            move,
+            target=self.place(move.target),
+            via=None if move.via is None else self.place(move.via),
+            settings=tuple(
+                (self.value(name), self.assigned(value, self.infer(name)[1])) for name, value in move.settings
+            ),
+            speed=speed,
+            blend=blend,
+        )
 
     def place(self, target: ir.Expression) -> ir.Expression:
         """A motion target; an aggregate written there is joints or a target by the components it names."""
