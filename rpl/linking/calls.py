@@ -72,9 +72,8 @@ class Calls:
             if value is not None and has_call(value):
                 waiting -= 1
                 value = flat.expression(value)
-            elif value is not None and waiting and place is not None:
-                if routine.parameters[place].mode != "reference" and not isinstance(value, ir.Signal):
-                    value = flat.kept(value)
+            elif value is not None and waiting and place is not None and _by_value(routine.parameters[place], value):
+                value = flat.kept(value)
             done.append(ir.Argument(value, argument.name, argument.if_present))
         return tuple(done)
 
@@ -105,9 +104,7 @@ class Calls:
         linked = self.linker.linked
         return Plan(lambda: linked.code_of(routine), tuple(fills))
 
-    def fill(
-        self, parameter: ir.Parameter, place: int, argument: ir.Argument, origin: Origin
-    ) -> Fill | None:
+    def fill(self, parameter: ir.Parameter, place: int, argument: ir.Argument, origin: Origin) -> Fill | None:
         """What puts one argument into its place; None for one that is left out."""
         compiler = self.compiler
         given = self._present(argument.if_present)
@@ -218,6 +215,10 @@ def _call(plan: Plan, result: int | None, linked: LinkedProgram, routine: ir.Rou
         return call
 
     return make
+
+
+def _by_value(parameter: ir.Parameter, value: ir.Expression) -> bool:
+    return parameter.mode != "reference" and not isinstance(value, ir.Signal)
 
 
 def _vendor_body(routine: ir.Routine) -> ir.Vendor | None:

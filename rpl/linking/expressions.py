@@ -11,6 +11,16 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.errors import InternalError
+from rpl.linking.operators import (
+    NUMBERS,
+    OPERATIONS,
+    WITH_NUMBER,
+    converted,
+    divided,
+    equality,
+    logic,
+    scaled,
+)
 from rpl.linking.types import Types
 from rpl.passes.scope import Scope
 from rpl.runtime import functions, system
@@ -21,11 +31,9 @@ from rpl.runtime.values import (
     MUTABLE,
     Array,
     Member,
-
     SignalRef,
     Value,
     copied,
-    equal,
     is_unset,
     whole,
 )
@@ -125,11 +133,11 @@ class Compiler:
             case ir.Signal():
                 return self.signal(expression)
             case ir.Quantity(value=value, unit=unit):
-                return _scaled(self.value(value), ir.UNITS[unit])
+                return scaled(self.value(value), ir.UNITS[unit])
             case ir.Magnitude(value=value, unit=unit):
-                return _divided(self.value(value), ir.UNITS[unit])
+                return divided(self.value(value), ir.UNITS[unit])
             case ir.Convert(how=how, operand=operand):
-                return _converted(how, self.value(operand))
+                return converted(how, self.value(operand))
             case ir.Present(name=name):
                 place = self.place_of(name)
                 if not isinstance(place, Place):
@@ -229,16 +237,16 @@ class Compiler:
     def binary(self, expression: ir.Binary) -> Read:
         op = expression.op
         if op in ("and", "or", "xor", "cand", "cor"):
-            return _logic(op, self.value(expression.left), self.value(expression.right))
+            return logic(op, self.value(expression.left), self.value(expression.right))
         left, right = self.value(expression.left), self.value(expression.right)
         if op in ("=", "<>"):
-            return _equality(op, left, right, self._is_plain(expression.left) or self._is_plain(expression.right))
+            return equality(op, left, right, self._is_plain(expression.left) or self._is_plain(expression.right))
         number = _constant_number(expression.right)
-        if number is not None and op in _WITH_NUMBER:
-            return _WITH_NUMBER[op](left, number)
-        operation = _OPERATIONS[op]
-        if op in _NUMBERS:
-            return _NUMBERS[op](left, right)
+        if number is not None and op in WITH_NUMBER:
+            return WITH_NUMBER[op](left, number)
+        operation = OPERATIONS[op]
+        if op in NUMBERS:
+            return NUMBERS[op](left, right)
         return lambda f: operation(left(f), right(f))
 
     def _is_plain(self, expression: ir.Expression) -> bool:
@@ -471,116 +479,6 @@ def _element(base: Read, index: Read) -> Read:
     return read
 
 
-def _scaled(read: Read, factor: float) -> Read:
-    return read if factor == 1.0 else lambda f: read(f) * factor
-
-
-def _divided(read: Read, factor: float) -> Read:
-    return read if factor == 1.0 else lambda f: read(f) / factor
-
-
-def _truth(value: Value) -> bool:
-    return bool(value != 0)
-
-
-_CONVERSIONS: dict[str, Callable[[Value], Value]] = {
-    "real": float,
-    "round_half_away": lambda v: v if v.__class__ is int else functions.round_half_away(v),
-    "trunc": int,
-    "bit": int,
-    "truth": _truth,
-    "code": lambda v: ord(v[0]) if v else 0,
-    "char": lambda v: chr(whole(v) & 0xFF),
-}
-
-
-def _converted(how: str, read: Read) -> Read:
-    convert = _CONVERSIONS[how]
-    return lambda f: convert(read(f))
-
-
-def _logic(op: str, left: Read, right: Read) -> Read:
-    match op:
-        case "cand":
-            return lambda f: left(f) and right(f)
-        case "cor":
-            return lambda f: left(f) or right(f)
-        case "and":
-            return lambda f: bool(left(f)) & bool(right(f))
-        case "or":
-            return lambda f: bool(left(f)) | bool(right(f))
-    return lambda f: bool(left(f)) != bool(right(f))
-
-
-def _equality(op: str, left: Read, right: Read, plain: bool) -> Read:
-    if plain:
-        if op == "=":
-            return lambda f: left(f) == right(f)
-        return lambda f: left(f) != right(f)
-    if op == "=":
-        return lambda f: equal(left(f), right(f))
-    return lambda f: not equal(left(f), right(f))
-
-
-def _div(a: Value, b: Value) -> Value:
-    if a.__class__ is int and b.__class__ is int:
-        quotient = abs(a) // abs(b)
-        return quotient if (a < 0) == (b < 0) else -quotient
-    return float(int(a / b))
-
-
-def _quo(a: Value, b: Value) -> Value:
-    return _div(a, b) if a.__class__ is int and b.__class__ is int else a / b
-
-
-def _text(value: Value) -> str:
-    if isinstance(value, str):
-        return value
-    raise ProgramError("wrong_kind", "only texts can be joined")
-
-
-_OPERATIONS: dict[str, Callable[[Value, Value], Value]] = {
-    "+": operator.add,
-    "-": operator.sub,
-    "*": operator.mul,
-    "/": operator.truediv,
-    "div": _div,
-    "mod": lambda a, b: a - b * _div(a, b),
-    "quo": _quo,
-    "**": lambda a, b: float(a) ** b,
-    ":": functions.compose,
-    "&": lambda a, b: _text(a) + _text(b),
-    "@": functions.cross,
-    "<": operator.lt,
-    ">": operator.gt,
-    "<=": operator.le,
-    ">=": operator.ge,
-    "band": lambda a, b: whole(a) & whole(b),
-    "bor": lambda a, b: whole(a) | whole(b),
-    "bxor": lambda a, b: whole(a) ^ whole(b),
-}
-# The commonest operators get closures of their own: one call less.
-_NUMBERS: dict[str, Callable[[Read, Read], Read]] = {
-    "+": lambda a, b: lambda f: a(f) + b(f),
-    "-": lambda a, b: lambda f: a(f) - b(f),
-    "*": lambda a, b: lambda f: a(f) * b(f),
-    "/": lambda a, b: lambda f: a(f) / b(f),
-    "<": lambda a, b: lambda f: a(f) < b(f),
-    ">": lambda a, b: lambda f: a(f) > b(f),
-    "<=": lambda a, b: lambda f: a(f) <= b(f),
-    ">=": lambda a, b: lambda f: a(f) >= b(f),
-}
-_WITH_NUMBER: dict[str, Callable[[Read, float], Read]] = {
-    "+": lambda a, n: lambda f: a(f) + n,
-    "-": lambda a, n: lambda f: a(f) - n,
-    "*": lambda a, n: lambda f: a(f) * n,
-    "<": lambda a, n: lambda f: a(f) < n,
-    ">": lambda a, n: lambda f: a(f) > n,
-    "<=": lambda a, n: lambda f: a(f) <= n,
-    ">=": lambda a, n: lambda f: a(f) >= n,
-}
-
-
 def _constant_number(expression: ir.Expression | None) -> float | None:
     match expression:
         case ir.IntLiteral(value=value) | ir.RealLiteral(value=value):
@@ -622,6 +520,3 @@ def _applied(function: Callable[..., Value], arguments: list[Read]) -> Read:
         first, second = arguments
         return lambda f: function(first(f), second(f))
     return lambda f: function(*[argument(f) for argument in arguments])
-
-
-__all__ = ["HIDDEN", "Compiler", "Place", "hidden"]

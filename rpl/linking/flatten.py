@@ -43,8 +43,10 @@ class Flattener:
         """A statement whose own expressions hold no calls any more; bodies inside stay as they are."""
         if not has_call(statement):
             return statement
-        if isinstance(statement, ir.Assign) and not isinstance(statement.target, ir.Name):
-            target = self.parts(statement.target, has_call(statement.value))
+        if isinstance(statement, ir.Assign):
+            target = statement.target
+            if not isinstance(target, ir.Name):
+                target = self.parts(target, has_call(statement.value))
             return ir.Assign(target, self.expression(statement.value), origin=statement.origin)
         waiting = sum(has_call(child) for child in _direct(statement))
 

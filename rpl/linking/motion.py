@@ -109,13 +109,18 @@ class MotionStatements:
         for place, value in settings:
             target, given = place, value
             if isinstance(target, ir.Magnitude):
-                target, given = target.value, ir.Quantity(given, place.unit) if isinstance(place, ir.Magnitude) else given
+                target, given = (
+                    target.value,
+                    ir.Quantity(given, place.unit) if isinstance(place, ir.Magnitude) else given,
+                )
             if isinstance(target, ir.System):
                 index = self.value(target.indices[0]) if target.indices else None
                 made.append((target.name, index, self.value(given)))
         if not made:
             return lambda f: {}
-        return lambda f: {modal_key(name, index(f) if index is not None else None): read(f) for name, index, read in made}
+        return lambda f: {
+            modal_key(name, index(f) if index is not None else None): read(f) for name, index, read in made
+        }
 
     def speed(self, speed: ir.Speed | None) -> Callable[[Values], SpeedOrder]:
         if speed is None:

@@ -241,9 +241,7 @@ def _reference_to_name(compiler: Compiler, name: str, target: ir.Name, origin: O
     return lambda f: Ref(f, number)
 
 
-def _reference_to_element(
-    compiler: Compiler, array: Read, index: Read, target: ir.Index, origin: Origin
-) -> MakeRef:
+def _reference_to_element(compiler: Compiler, array: Read, index: Read, target: ir.Index, origin: Origin) -> MakeRef:
     """An element of an array; a character of a text is written through its text."""
     outer = ir.Index(target.base, target.indices[:-1]) if len(target.indices) > 1 else target.base
     write = writer(compiler, outer, origin) if _is_place(outer) else _refused("this cannot be written")

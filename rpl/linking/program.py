@@ -112,7 +112,9 @@ class LinkedProgram:
             }
         return self._preludes[dialect]
 
-    def home_of(self, declaration: ir.Variable, module: ir.Module | None, dialect: str) -> tuple[ir.Variable, ir.Module]:
+    def home_of(
+        self, declaration: ir.Variable, module: ir.Module | None, dialect: str
+    ) -> tuple[ir.Variable, ir.Module]:
         """A global variable with its module; one of the prelude in its normal form."""
         if module is not None:
             return declaration, module
@@ -203,8 +205,8 @@ class LinkedProgram:
     def alias_names(self, port: SignalRef) -> tuple[str, ...]:
         """All declared names of a signal."""
         if is_bit_group(port):
-            wanted = (port.index, port.last)
-            return tuple(n for n, p in self._aliases.items() if is_bit_group(p) and (p.index, p.last) == wanted)
+            wanted = (port.number, port.last)
+            return tuple(n for n, p in self._aliases.items() if is_bit_group(p) and (p.number, p.last) == wanted)
         return tuple(self._names_of.get(key_of(port), ()))
 
     def signal_name(self, dialect: str, kind: str, number: int) -> str:
@@ -307,5 +309,3 @@ def _names(expression: ir.Expression) -> Iterator[ir.Name]:
     from rpl.ir.walk import expressions
 
     return (node for node in expressions(expression) if isinstance(node, ir.Name))
-
-

@@ -166,7 +166,8 @@ def first_value(compiler: Compiler, declaration: ir.Variable) -> Read:
         read = compiler.copy_of(declaration.initial)
         resolved = compiler.scope.resolve(type)
         if isinstance(resolved, ir.ArrayType) and resolved.base != 1:
-            return lambda f: _rebased(read(f), resolved.base)
+            base = resolved.base
+            return lambda f: _rebased(read(f), base)
         return read
     resolved = compiler.scope.resolve(type)
     if isinstance(resolved, ir.IntType | ir.RealType | ir.BoolType | ir.StringType | ir.CharType):

@@ -128,7 +128,9 @@ class Statements:
 
                 self.emit(leaving(self.linker.compiler.copy_of(value) if value is not None else None))
             case ir.Do(procedure=name, arguments=arguments):
-                self.emit(_run(procedure(self.linker.compiler, name, arguments), _may_wake(flat_statement, self.linker)))
+                self.emit(
+                    _run(procedure(self.linker.compiler, name, arguments), _may_wake(flat_statement, self.linker))
+                )
             case ir.Move() | ir.MoveExternal() | ir.Spline() | ir.Trigger() | ir.DefineTrigger():
                 self.motion.statement(flat_statement)
             case _:
@@ -378,7 +380,9 @@ def _run(run: Read, wakes: bool) -> Make:
 
 def _may_wake(statement: ir.Do, linker: RoutineLinker) -> bool:
     return any(
-        argument is not None and isinstance(argument, ir.Name | ir.Index | ir.Field) and watches(linker.compiler, argument)
+        argument is not None
+        and isinstance(argument, ir.Name | ir.Index | ir.Field)
+        and watches(linker.compiler, argument)
         for argument in statement.arguments
     )
 

@@ -1,4 +1,4 @@
-"""Types where running needs them: first values of variables, values of aggregates, shapes of what texts are read into."""
+"""Types where running needs them: first values of variables and values of aggregates."""
 
 from __future__ import annotations
 

@@ -304,16 +304,16 @@ def _configuration(order: Order, plan: Planning) -> dict[str, Value]:
             flags = {}
         return {"select": lambda flange, near: notation.select(model, flange, flags, near)}
     checks = setting(plan.modal, order.modal, "path_configuration_check") is True
-    if order.configuration == "nearest" or not (checks or order.configuration == "exact") or not any(
-        value is not None for value in flags.values()
+    if (
+        order.configuration == "nearest"
+        or not (checks or order.configuration == "exact")
+        or not any(value is not None for value in flags.values())
     ):
         return {}
     return {"check_end": lambda joints: _mismatch(model, notation, flags, joints)}
 
 
-def _mismatch(
-    model: RobotModel, notation: Notation, flags: dict[str, int | None], joints: FloatArray
-) -> str | None:
+def _mismatch(model: RobotModel, notation: Notation, flags: dict[str, int | None], joints: FloatArray) -> str | None:
     shown = notation.encode(model, joints)
     if all(value is None or shown.get(name) == value for name, value in flags.items()):
         return None

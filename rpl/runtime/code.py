@@ -146,7 +146,7 @@ class ComponentRef:
 
     __slots__ = ("base", "name")
 
-    def __init__(self, base: Ref | PartRef | ComponentRef, name: str) -> None:
+    def __init__(self, base: AnyRef, name: str) -> None:
         self.base = base
         self.name = name
 

@@ -20,8 +20,8 @@ UNRANKED = 1000
 
 @dataclass(slots=True, eq=False)
 class Interrupt:
-    """event: edge (condition becomes true), change (the value changes), timer (`period`), error. `level`: the frame that
-    declared it; with it the declaration ends, unless `everywhere`. `last` is the value seen last."""
+    """event: edge (condition becomes true), change (the value changes), timer (`period`), error. `level`: the frame
+    that declared it; with it the declaration ends, unless `everywhere`. `last` is the value seen last."""
 
     key: int
     priority: int

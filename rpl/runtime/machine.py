@@ -219,13 +219,13 @@ class Machine:
             try:
                 task.interrupts.look()
             except ProgramError as error:
-                self.fault(error.name.replace("_", "-"), f"condition of an interrupt: {error.message}", task, task.where())
+                self.fault(
+                    error.name.replace("_", "-"), f"condition of an interrupt: {error.message}", task, task.where()
+                )
                 return
         if task.state != WAITING or task.wait is None:
             return
-        if task.triggers or (
-            task.interrupts.pending and task.interrupts.urgent(task.running_priority()) is not None
-        ):
+        if task.triggers or (task.interrupts.pending and task.interrupts.urgent(task.running_priority()) is not None):
             task.state = READY
             self.ready(task)
         elif task.wait.kind not in ("time", "tick", "answer") and self._is_over(task, task.wait):
@@ -315,10 +315,8 @@ class Machine:
                     name = self.physical_name(key, SignalRef(kind, whole(key[1])), task)
                     self.outputs.append((self.now, name, bit))
         if kind.endswith("_out"):
-            first, last = (
-                self.physical_name(key, SignalRef(kind, whole(key[1])), task) for key in (keys[0], keys[-1])
-            )
-            group = port._replace(last=port.last if port.last is not None else port.index)
+            first, last = (self.physical_name(key, SignalRef(kind, whole(key[1])), task) for key in (keys[0], keys[-1]))
+            group = port._replace(last=port.last if port.last is not None else port.number)
             self._show_output(task, group, f"{first} TO {last}", value, origin, tuple(keys))
         self.changed()
 
@@ -335,7 +333,7 @@ class Machine:
         """The one name of a signal: its own, or its number as its language spells it."""
         name = self.names.get(key)
         if name is None:
-            name = port.name or self.linked.signal_name(task.frame.code.rules.name, port.kind, port.index or 0)
+            name = port.name or self.linked.signal_name(task.frame.code.rules.name, port.kind, port.number or 0)
             self.names[key] = name
         return name
 
@@ -438,7 +436,9 @@ class Machine:
                     self.set_input(signal, value)
                 return meaning.seconds
         if effect == "unknown":
-            raise ProgramError("vendor", f"nothing says what this stands for: {text[:80]} (see [[vendor]] of a cell file)")
+            raise ProgramError(
+                "vendor", f"nothing says what this stands for: {text[:80]} (see [[vendor]] of a cell file)"
+            )
         if effect == "message":
             self.message(task, "vendor", text, origin)
         return 0.0

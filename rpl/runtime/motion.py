@@ -11,22 +11,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rpl.passes import rigid
 from rpl.runtime import pieces
 from rpl.runtime.chain import (
-    Frames,
     Planning,
     current_target,
     frames_of,
-    is_joints,
-    joints_of,
     joints_value,
     pose_of_array,
     request_of,
-    shifted,
-    filled,
 )
 from rpl.runtime.faults import ProgramError
+from rpl.runtime.imagined import Imagined
 from rpl.runtime.orders import Drive, Order, TriggerOrder
 from rpl.runtime.pieces import Piece
 from rpl.runtime.trace import Leg
@@ -64,7 +59,7 @@ class MotionQueue:
         self.joints: FloatArray | None = model.home.copy() if model is not None else None
         self.planned_joints = self.joints
         self.external: tuple[float | None, ...] = (None,) * 6
-        self.planned_external = self.external
+        self.planned_external: tuple[float | None, ...] = self.external
         self.queue: list[Drive] = []
         self.piece: Piece | None = None
         self.halted: Piece | None = None
@@ -75,8 +70,7 @@ class MotionQueue:
         self.numbers = 0
         self.asked = False
         self.late: dict[int, TriggerOrder] = {}
-        self.imagined: rigid.Pose | None = None
-        self.imagined_joints: list[float] | None = None
+        self.imagined = Imagined()
         self.interrupted: tuple[FloatArray, float] | None = None
 
     @property
@@ -91,7 +85,7 @@ class MotionQueue:
         if order.tool is not None:
             task.modal["tool_in_use"], task.modal["frame_in_use"] = order.tool, order.frame
         if self.model is None:
-            return self._at_once(order, next)
+            return self.imagined.make(self, order, next)
         if self.failed is not None:
             return task.wait_for("idle", order.at, next)
         assert self.planned_joints is not None  # with a model there are joints
@@ -99,8 +93,9 @@ class MotionQueue:
         plan = Planning(self.model, self.planned_joints, self.planned_external, task.modal, notation)
         request, moving, goal, external = request_of(order, plan)
         planned = pieces.plan(self.model, self.planned_joints, request)
-        if not pieces.is_planned(planned):
+        if pieces.is_fault(planned):
             return self._refuse(planned, order, next)
+        assert pieces.is_planned(planned)  # it is either
         self.numbers += 1
         drive = Drive(self.numbers, order, planned, moving, goal, external)
         drive.blending = not order.blend.stops and order.search is None
@@ -178,7 +173,7 @@ class MotionQueue:
                 self._consider()
             case "late":
                 self.machine.timed_outputs -= 1
-                self._fire(self.late.pop(data[0]))
+                self.fire(self.late.pop(data[0]))
             case _ if data[0] != self.generation:
                 return  # of a plan that has been replaced
             case "arrive":
@@ -380,18 +375,18 @@ class MotionQueue:
             drives.append(self.piece.drive)
         for drive in drives:
             if drive.number == number:
-                self._fire(drive.order.triggers[place])
+                self.fire(drive.order.triggers[place])
 
     def _fire_later(self, trigger: TriggerOrder, due: float) -> None:
         if due <= self.machine.now:
-            self._fire(trigger)
+            self.fire(trigger)
             return
         self.numbers += 1
         self.late[self.numbers] = trigger
         self.machine.timed_outputs += 1
         self.machine.schedule(due, ARRIVALS, "motion", self.task_index, "late", self.numbers)
 
-    def _fire(self, trigger: TriggerOrder) -> None:
+    def fire(self, trigger: TriggerOrder) -> None:
         if trigger.fired:
             return
         trigger.fired = True
@@ -549,15 +544,15 @@ class MotionQueue:
 
     def joints_now(self) -> tuple[float, ...] | None:
         if self.model is None:
-            return tuple(self.imagined_joints) if self.imagined_joints is not None else None
+            return tuple(self.imagined.joints) if self.imagined.joints is not None else None
         return tuple(float(joint) for joint in self.joints_array())
 
     def joints_as_value(self, rules: Rules, joints: FloatArray | None = None) -> JointsValue:
         """The joints as the language shows them."""
         if self.model is None:
-            if self.imagined_joints is None:
+            if self.imagined.joints is None:
                 raise ProgramError("motion", "the joints are asked for, but the run has no robot")
-            return joints_value(self.imagined_joints, self.external, rules)
+            return joints_value(self.imagined.joints, self.external, rules)
         here = self.joints_array() if joints is None else joints
         return joints_value([float(joint) for joint in here], self.external, rules)
 
@@ -569,56 +564,7 @@ class MotionQueue:
             frame = frame if frame is not None else modal.get("frame_in_use")
         frames = frames_of(tool, frame, modal, {})
         if self.model is None:
-            return self._imagined_target(frames, rules)
+            return self.imagined.target(frames, self.external, rules)
         here = self.joints_array() if joints is None else joints
         notation = self.machine.linked.notation(rules.name)
         return current_target(self.model, here, self.external, frames, rules, notation)
-
-    # ---- without a robot
-
-    def _at_once(self, order: Order, next: int) -> int:
-        """Without a robot a move is made in no time; its triggers fire in their order."""
-        task = self.task
-        data: dict[str, Value] = {"motion": order.kind}
-        frames = frames_of(order.tool, order.frame, task.modal, order.modal)
-        if order.external_only:
-            pass
-        elif is_joints(order.target):
-            self.imagined_joints = joints_of(order.target, self.imagined_joints or [0.0] * 6, order.relative is not None)
-            self.imagined = None
-            data["joints"] = [round(joint, 6) for joint in self.imagined_joints]
-        else:
-            before = self._imagined_goal(frames)
-            goal = filled(order.target, before) if order.relative is None else shifted(order.target, before, order.relative)
-            place, moving = frames.target_in_robot(goal)
-            self.imagined = place if not frames.stationary else place.then(moving.inverse)
-            data |= pieces.pose_data(place)
-        data["duration"] = 0.0
-        self.machine.moves += 1
-        self.machine.event("move", data, task, order.code.origin(order.at))
-        for trigger in order.triggers:
-            self._fire(trigger)
-        if order.search is not None and not order.search.found:
-            if bool(order.search.condition(order.search.values)):
-                order.search.write(order.search.values, order.target)
-            else:
-                raise ProgramError("search_missed", "the search has found nothing")
-        return task.attention(next) if task.triggers else next
-
-    def _imagined_goal(self, frames: Frames) -> rigid.Pose:
-        if self.imagined is None:
-            return rigid.IDENTITY
-        if frames.stationary:
-            return frames.goal_of(self.imagined)
-        return frames.base.inverse.then(self.imagined)
-
-    def _imagined_target(self, frames: Frames, rules: Rules) -> TargetValue:
-        from rpl.runtime.chain import convention_of, external_value
-        from rpl.runtime.values import ConfigValue, pose_of
-
-        if self.imagined is None:
-            raise ProgramError("motion", "the position is asked for, but the run has no robot")
-        pose = pose_of(self._imagined_goal(frames), convention_of(rules))
-        return TargetValue(pose, ConfigValue(rules.name, ()), external_value(self.external, rules))
-
-

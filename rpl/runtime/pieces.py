@@ -72,6 +72,10 @@ def is_planned(planned: PlannedMove | MotionFault) -> TypeGuard[PlannedMove]:
     return isinstance(planned, PlannedMove)
 
 
+def is_fault(planned: PlannedMove | MotionFault) -> TypeGuard[MotionFault]:
+    return not is_planned(planned)
+
+
 def pose_data(pose: rigid.Pose | None) -> dict[str, Value]:
     """A pose as the trace prints it."""
     if pose is None:
@@ -190,29 +194,27 @@ def corner_piece(piece: Piece, now: float) -> Piece:
     return Piece(piece.drive, piece.ahead.plan, now, corner=piece.ahead)
 
 
-def blend_size(
-    order: BlendOrder, first: PlannedMove, second: PlannedMove | None
-) -> tuple[float | None, float | None]:
+def blend_size(order: BlendOrder, first: PlannedMove, second: PlannedMove | None) -> tuple[float | None, float | None]:
     """Distance in mm or share of the moves, by the measure that the program uses; none: no corner."""
     both_joint = first.kind == "joint" and (second is None or second.kind == "joint")
     match order.kind:
         case "percent" if both_joint or order.path is None:
-            share = order.percent / 100.0 * JOINT_BLEND_DEG
+            size = order.percent / 100.0 * JOINT_BLEND_DEG
             ways = [float(abs(m.end_joints - m.start_joints).max()) for m in (first, second) if m is not None]
-            fraction = min([MOST, *(share / way for way in ways if way > 1e-9)])
+            fraction = min([MOST, *(size / way for way in ways if way > 1e-9)])
             return None, fraction if fraction > 0.0 else None
         case "percent":
             return blend_size(order.path, first, second) if order.path is not None else (None, None)
         case "speed":
             whole = first.length_mm
             top, acceleration = first.profile.speed * whole, first.profile.acceleration * whole
-            way = (order.percent / 100.0 * top) ** 2 / (2.0 * acceleration) if acceleration > 0.0 else 0.0
+            way: float = (order.percent / 100.0 * top) ** 2 / (2.0 * acceleration) if acceleration > 0.0 else 0.0
             return (way, None) if way > 0.0 else (None, None)
         case "zone" if order.zone is not None:
-            distance = order.distance if order.distance is not None else order.zone.get("path")
+            radius = order.distance if order.distance is not None else order.zone.get("path")
             if first.length_mm < 1e-6:
                 return None, _turn_share(order.zone.get("rotation"), first)
-            return (float(distance), None) if distance else (None, None)
+            return (float(radius), None) if radius else (None, None)
         case "distance":
             sizes = [] if not order.distance else [order.distance]
             share = _turn_share(order.rotation, first)

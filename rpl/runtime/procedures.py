@@ -99,9 +99,7 @@ def _format_into(
     return good
 
 
-def _scan_from(
-    places: list[Place], text: str, state: AnyRef, offset: AnyRef, pattern: str, *targets: AnyRef
-) -> bool:
+def _scan_from(places: list[Place], text: str, state: AnyRef, offset: AnyRef, pattern: str, *targets: AnyRef) -> bool:
     start = whole(offset.get() or 0)
     found, end = scanned(pattern, text, start)
     for target, value in zip(targets, found, strict=False):

@@ -45,7 +45,7 @@ def run_program(
 
 
 class Simulation(Machine):
-    """A program on its machine, under control. `breakpoints` are (file, line); a file may be given by its name alone."""
+    """A program on its machine, under control. `breakpoints` are (file, line); a file may be named without its folder."""
 
     def __init__(
         self,

@@ -51,7 +51,7 @@ def key_of(port: SignalRef) -> Key:
     """Where the value of a single signal is kept. Groups of numbered bits have no value of their own."""
     if port.name is not None:
         return port.name.lower()
-    return (port.kind, port.index or 0)
+    return (port.kind, port.number or 0)
 
 
 def is_bit_group(port: SignalRef) -> bool:
@@ -60,7 +60,7 @@ def is_bit_group(port: SignalRef) -> bool:
 
 def group_bits(port: SignalRef) -> list[Key]:
     """Keys of the bits of a numbered group, lowest first."""
-    first = port.index or 0
+    first = port.number or 0
     kind = bit_kind(port.kind)
     return [(kind, number) for number in range(first, (port.last if port.last is not None else first) + 1)]
 

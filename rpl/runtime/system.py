@@ -8,10 +8,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from rpl import ir
+from rpl.runtime.chain import DEFAULTS
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.functions import identity
 from rpl.runtime.values import Member, StopWatch, Value, copied, whole
-from rpl.runtime.chain import DEFAULTS
 
 if TYPE_CHECKING:
     from rpl.runtime.motion import MotionQueue

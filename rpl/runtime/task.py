@@ -148,15 +148,15 @@ class Task:
         while self.state == READY and not self.machine.paused:
             frame = self.frame
             values, instructions, counter = frame.values, frame.code.instructions, frame.counter
-            used = -1
+            used = 0
             try:
-                for used in range(self._budget()):
+                for used in range(1, self._budget() + 1):  # noqa: B007 (how far it came)
                     counter = instructions[counter](values)
                     if counter < 0:
                         break
                 else:
                     frame.counter = counter
-                    self._count(used + 1)
+                    self._count(used)
                     self._spun()
                     continue
             except ProgramError as error:
@@ -167,7 +167,7 @@ class Task:
                 self._count(used)
                 self.fail(_as_program_error(error), counter)
                 continue
-            self._count(used + 1)
+            self._count(used)
             if counter == ATTEND:
                 self.attend()
 

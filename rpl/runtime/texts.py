@@ -199,9 +199,20 @@ def scanned(pattern: str, text: str, offset: int) -> tuple[list[Value], int]:
         if piece is None:
             break
         word = piece[0].strip() if kind != "c" else piece[0]
-        found.append(int(word) if kind in "di" else int(word, 16) if kind == "x" else float(word) if kind in "feg" else word)
+        found.append(_scanned_word(kind, word))
         at = piece.end()
     return found, at
+
+
+def _scanned_word(kind: str, word: str) -> Value:
+    match kind:
+        case "d" | "i":
+            return int(word)
+        case "x":
+            return int(word, 16)
+        case "f" | "e" | "g":
+            return float(word)
+    return word
 
 
 # ---- reading values

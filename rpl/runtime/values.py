@@ -55,7 +55,8 @@ class VectorValue(NamedTuple):
     def __mul__(self, factor: float) -> VectorValue:  # type: ignore[override]
         return VectorValue(*(p * factor for p in needed(self)))
 
-    __rmul__ = __mul__  # type: ignore[assignment]
+    def __rmul__(self, factor: float) -> VectorValue:  # type: ignore[override]
+        return self * factor
 
     def __truediv__(self, divisor: float) -> VectorValue:
         return VectorValue(*(p / divisor for p in needed(self)))
@@ -230,7 +231,7 @@ class SignalRef(NamedTuple):
     """A physical signal as a value: kind, number (and last number of a group) or name."""
 
     kind: str
-    index: int | None = None
+    number: int | None = None
     last: int | None = None
     name: str | None = None
 
@@ -311,8 +312,8 @@ class StopWatch:
         return self.counted + (now - self.since if self.running else 0.0)
 
 
-MUTABLE = frozenset((Record, Array, StopWatch))
-STRUCTURED = frozenset(
+MUTABLE: frozenset[Any] = frozenset((Record, Array, StopWatch))
+STRUCTURED: frozenset[Any] = frozenset(
     (
         *(VectorValue, RotationValue, PoseValue, ConfigValue, ExternalValue, AxesValue, TargetValue, JointsValue),
         *(Record, Array),
