@@ -54,13 +54,9 @@ def _happening(event: Event, way: _Way, stuck: Place) -> Happening | None:
     place = place_of(event.origin)
     match event.kind:
         case "output":
-            port = event.port
-            names = signal_names(
-                port.kind if port else None,
-                [str(name) for name in (event.data.get("signal"), *event.names) if name],
-                port.index if port else None,
-                port.last if port else None,
-            )
+            kind, index, last, _ = event.port or (None, None, None, None)
+            known = [str(name) for name in (event.data.get("signal"), *event.names) if name]
+            names = signal_names(kind, known, index, last)
             return Happening("output", event.t, _plain(event.data.get("value")), names, place, along, moving)
         case "message":
             if event.data.get("type") == "clear":
