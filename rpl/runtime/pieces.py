@@ -104,8 +104,8 @@ def part(move: PlannedMove, span: tuple[float, float], law: TimeLaw) -> PlannedM
 
     ends = np.array(span)
     joints, poses, distances = move.geometry.joints(ends), move.geometry.tcp(ends), move.geometry.distance(ends)
-    whole_start = joints[0] if span[0] > 0.0 else move.start_joints
-    whole_end = joints[1] if span[1] < 1.0 else move.end_joints
+    whole_start = move.start_joints if span[0] <= 0.0 and move.span[0] <= 0.0 else joints[0]
+    whole_end = move.end_joints if span[1] >= 1.0 and move.span[1] >= 1.0 else joints[1]
     return replace(
         move,
         start_joints=whole_start,
