@@ -45,7 +45,7 @@ def run_program(
 
 
 class Simulation(Machine):
-    """A program on its machine, under control. `breakpoints` are (file, line); a file may be named without its folder."""
+    """A program on its machine, under control. `breakpoints`: (file, line), the file without its folder."""
 
     def __init__(
         self,
@@ -108,7 +108,7 @@ class Simulation(Machine):
         return not self.status
 
     def step(self) -> bool:
-        """Execute one instruction of the task that is next; FALSE when the run is over."""
+        """Execute one statement of the task that is next; FALSE when the run is over."""
         self.stepping = True
         self.one_step = True
         self._go_on()
@@ -138,12 +138,12 @@ class Simulation(Machine):
         wanted = self.one_step or any(
             line == origin.line and file in (origin.file, name) for file, line in self.breakpoints
         )
-        if wanted and (self.one_step or self._starts_line(task)):
+        if wanted and self._starts_statement(task):
             self.passed = place
             self.paused = True
         return self.paused
 
-    def _starts_line(self, task: Task) -> bool:
+    def _starts_statement(self, task: Task) -> bool:
         code, counter = task.frame.code, task.frame.counter
         return code.statements[counter][0] == counter
 
