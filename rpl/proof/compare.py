@@ -45,13 +45,17 @@ class Tolerance:
 
 @dataclass(slots=True)
 class Verdict:
-    """level: the highest level at which no difference was found."""
+    """level: the highest level at which no difference was found. corners: how many corners of joint moves were compared
+    by their programmed points only, because two controllers measure such a blend differently; max_corner_mm: how far
+    apart the tool went there."""
 
     level: str = "none"
     difference: Difference | None = None
     max_path_mm: float = 0.0
     max_joint_deg: float = 0.0
     max_time_s: float = 0.0
+    corners: int = 0
+    max_corner_mm: float = 0.0
 
 
 def compare(a: Record, b: Record, tolerance: Tolerance) -> Verdict:
@@ -214,14 +218,16 @@ def _event_difference(task: str, a: Happening | None, b: Happening | None) -> Di
 
 
 def _geometry(a: Record, b: Record, tolerance: Tolerance, verdict: Verdict) -> Difference | None:
-    same_arm = a.robot == b.robot
+    same_arm, same_language = a.robot == b.robot, a.language == b.language
     for task in a.motion:
         theirs = b.motion.get(task)
         if theirs is None:
             theirs = next(iter(b.motion.values()), ()) if len(a.motion) == 1 else ()
-        difference = _motion(task, a.motion[task], theirs, same_arm, tolerance, verdict)
+        difference = _motion(task, a.motion[task], theirs, (same_arm, same_language), tolerance, verdict)
         if difference is not None:
             return difference
+    if verdict.corners:
+        return None  # the ways have other lengths, so a place along them says nothing
     pairs = _paired(a, b)
     if isinstance(pairs, Difference):
         return pairs
@@ -240,18 +246,54 @@ def _motion(
     task: str,
     ours: Sequence[Stretch],
     theirs: Sequence[Stretch],
-    same_arm: bool,
+    same: tuple[bool, bool],
     tolerance: Tolerance,
     verdict: Verdict,
 ) -> Difference | None:
+    same_arm, same_language = same
     first = [stretch for stretch in ours if not _stands(stretch)]
     second = [stretch for stretch in theirs if not _stands(stretch)]
     groups = _aligned(first, second)
+    loose = set() if same_language else _at_joint_corners(groups)
     found: Difference | None = None
-    for a, b in groups:
-        difference = _group(task, a, b, same_arm, tolerance, verdict)
+    for number, (a, b) in enumerate(groups):
+        if number in loose:
+            difference = _goals(task, a[-1], b[-1], tolerance, verdict)
+        else:
+            difference = _group(task, a, b, same_arm, tolerance, verdict)
         found = found or difference
     return found
+
+
+def _at_joint_corners(groups: Sequence[Group]) -> set[int]:
+    """Groups of one move each that begin or end with a corner between moves of which one is a joint move."""
+    found: set[int] = set()
+    for number, (a, b) in enumerate(groups[:-1]):
+        later_a, later_b = groups[number + 1]
+        if not (len(a) == len(b) == len(later_a) == len(later_b) == 1) or a[0].stops or b[0].stops:
+            continue
+        if "joint" in (a[0].motion, later_a[0].motion) and a[0].goal is not None and b[0].goal is not None:
+            found |= {number, number + 1}
+    return found
+
+
+def _goals(task: str, a: Stretch, b: Stretch, tolerance: Tolerance, verdict: Verdict) -> Difference | None:
+    """Moves at such a corner: both must head for the same point. (The move behind it may come to rest there.)"""
+    worst = gap(a.poses, b.poses)
+    verdict.corners += 1
+    verdict.max_corner_mm = max(verdict.max_corner_mm, worst.mm)
+    if a.stops != b.stops:
+        text = f"{'A' if a.stops else 'B'} comes to rest where the other goes on"
+        return Difference("stop", "geometry", text, _move_side([a]), _move_side([b]), task)
+    if a.goal is None or b.goal is None:
+        return None
+    apart = float(np.linalg.norm(a.goal[:3] - b.goal[:3]))
+    turn = 2.0 * np.degrees(np.arccos(min(1.0, abs(float(a.goal[3:] @ b.goal[3:])))))
+    verdict.max_path_mm = max(verdict.max_path_mm, apart)
+    if apart > tolerance.path_mm or turn > tolerance.turn_deg:
+        text = f"the moves head for points that are {apart:.3f} mm and {turn:.3f} deg apart"
+        return Difference("path", "geometry", text, _move_side([a]), _move_side([b]), task)
+    return None
 
 
 def _stands(stretch: Stretch) -> bool:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from rpl import ir
-from rpl.proof.compare import Tolerance, compare
+from rpl.proof.compare import Tolerance, Verdict, compare
 from rpl.proof.difference import Difference
 from rpl.proof.record import Record
 from rpl.proof.recording import record_of
@@ -84,7 +84,7 @@ def prove_programs(
         verdict.max_path_mm,
         verdict.max_joint_deg,
         verdict.max_time_s,
-        tuple(_notes(record_a, record_b, refuted)),
+        (*_notes(record_a, record_b, refuted), *_corner_note(verdict)),
     )
 
 
@@ -119,6 +119,15 @@ _REACH = {
     "deadlock": "both runs end waiting for something that never comes; a cell file can give the inputs",
     "limit": "both runs were cut off by the time limit",
 }
+
+
+def _corner_note(verdict: Verdict) -> list[str]:
+    if not verdict.corners:
+        return []
+    return [
+        "another controller measures the blends of joint moves differently: at these corners the programmed points were"
+        f" compared, the tool went up to {verdict.max_corner_mm:.1f} mm apart there"
+    ]
 
 
 def _notes(a: Record, b: Record, refuted: bool) -> list[str]:

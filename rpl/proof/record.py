@@ -82,7 +82,8 @@ class Happening:
 @dataclass(frozen=True, slots=True, eq=False)
 class Stretch:
     """One move as it was driven: tool poses (k, 4, 4) in the robot's base frame, mm, at times (k,), and the joints (n,)
-    at its end. motion: joint, linear, circular, spline. `stops`: the robot came to rest at its end."""
+    at its end. motion: joint, linear, circular, spline. `stops`: the robot came to rest at its end. `goal`: the
+    programmed end, x y z in mm and the quaternion w x y z (7,), which a blended move passes at a distance."""
 
     motion: str
     times: FloatArray
@@ -90,6 +91,7 @@ class Stretch:
     joints: FloatArray
     stops: bool = True
     place: Place = field(default_factory=Place)
+    goal: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

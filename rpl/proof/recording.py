@@ -134,8 +134,9 @@ class _Way:
 
 def _fractions(leg: Leg, gone_s: float) -> tuple[float, float]:
     """The part of the planned geometry that the leg has driven after so many seconds."""
-    law = leg.plan.law
-    return float(law.at(leg.offset_s)), float(law.at(leg.offset_s + gone_s))
+    law, (begin, end) = leg.plan.law, leg.plan.span
+    first, last = float(law.at(leg.offset_s)), float(law.at(leg.offset_s + gone_s))
+    return begin + (end - begin) * first, begin + (end - begin) * last
 
 
 def _travelled(leg: Leg, gone_s: float) -> float:
@@ -154,7 +155,11 @@ def _stretch(event: Event) -> Stretch:
     last = event.legs[-1]
     joints = np.asarray(last.plan.joints_at(last.offset_s + last.duration_s))
     motion = str(event.data.get("motion", event.legs[0].plan.kind))
-    return Stretch(motion, np.concatenate(times), np.concatenate(poses), joints, event.stops, place_of(event.origin))
+    goal = None
+    if "xyz_mm" in event.data and "quat_wxyz" in event.data:
+        goal = np.array([*event.data["xyz_mm"], *event.data["quat_wxyz"]], dtype=float)
+    way, when = np.concatenate(poses), np.concatenate(times)
+    return Stretch(motion, when, way, joints, event.stops, place_of(event.origin), goal)
 
 
 def _sampled(leg: Leg) -> FloatArray:
