@@ -70,7 +70,7 @@ class Statements:
         def make(here: int, next: int) -> Instruction:
             def wait(f: Values) -> int:
                 task = f[0]
-                if not task.busy:
+                if not task.busy or task.aside:
                     return next
                 if task.look_ahead == here:
                     task.look_ahead = -1

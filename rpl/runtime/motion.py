@@ -65,6 +65,8 @@ class MotionQueue:
         self.halted: Piece | None = None
         self.stopped = False
         self.stored: list[Stored] = []
+        self.set_aside = False
+        self.regained: Piece | None = None
         self.failed: tuple[MotionFault, Order] | None = None
         self.generation = 0
         self.numbers = 0
@@ -88,6 +90,9 @@ class MotionQueue:
             return self.imagined.make(self, order, next)
         if self.failed is not None:
             return task.wait_for("idle", order.at, next)
+        if self.stopped and task.aside and order.rules.advance.runs_ahead_of == "all":
+            self.store()
+            self.set_aside = True
         assert self.planned_joints is not None  # with a model there are joints
         notation = self.machine.linked.notation(order.rules.name)
         plan = Planning(self.model, self.planned_joints, self.planned_external, task.modal, notation)
@@ -127,7 +132,7 @@ class MotionQueue:
             if order.blend.stops:
                 return task.wait_for("idle", order.at, next)
             return task.wait_for("released", order.at, next, drive.number)
-        if self.most_ahead() == 0 or task.running_priority() is not None:
+        if self.most_ahead() == 0 or task.aside:
             return task.wait_for("idle", order.at, next)
         return next
 
@@ -156,6 +161,10 @@ class MotionQueue:
 
     def is_standing(self) -> bool:
         return self.piece is None
+
+    def is_stopped(self) -> bool:
+        """Was the motion stopped, and does the robot stand?"""
+        return self.stopped and self.piece is None
 
     # ---- driving
 
@@ -275,6 +284,11 @@ class MotionQueue:
         self._close_leg(piece, now)
         if piece.halting:
             self._halted(piece)
+            return
+        if self.regained is not None:
+            taken, self.regained = self.regained, None
+            self.joints, self.piece = piece.plan.end_joints, None
+            self._take_up(taken)
             return
         if piece.ahead is not None:
             self.piece = None
@@ -469,9 +483,26 @@ class MotionQueue:
         self.stopped = False
         piece, self.halted = self.halted, None
         if piece is not None and self.model is not None:
-            self._drive(pieces.taken_up(piece, self.machine.now))
-            self._after_corner(piece.drive)
+            assert self.joints is not None
+            back = pieces.way_back(self.model, self.joints, piece, self.machine.now)
+            if back is not None:
+                self.regained = piece
+                self._drive(back)
+                return
+            self._take_up(piece)
         self._ask()
+
+    def _take_up(self, piece: Piece) -> None:
+        self._drive(pieces.taken_up(piece, self.machine.now))
+        self._after_corner(piece.drive)
+
+    def interrupt_ended(self) -> None:
+        """A motion braked in an interrupt goes on when that ends without leaving its level."""
+        if self.set_aside:
+            self.set_aside = False
+            self.restore()
+        if self.stopped:
+            self.start()
 
     def clear(self) -> None:
         """Forget everything commanded; the robot stays where it is."""
@@ -484,6 +515,10 @@ class MotionQueue:
         if begun is not None:
             self._show(begun.drive, True, True)
         self.queue.clear()
+        self.regained = None
+        if self.set_aside:
+            self.set_aside = False
+            self.stored.pop()
         self.planned_joints, self.planned_external = self.joints, self.external
         self.stopped = False
         self.failed = None
@@ -511,7 +546,6 @@ class MotionQueue:
             raise ProgramError("path_not_stored", "no path is stored")
         stored = self.stored.pop()
         self.halted, self.queue = stored.piece, stored.queue
-        self.joints = stored.joints
         last = self.queue[-1] if self.queue else None
         self.planned_joints = last.plan.end_joints if last is not None and last.plan is not None else stored.joints
         self.stopped = True

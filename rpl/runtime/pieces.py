@@ -168,6 +168,21 @@ def taken_up(piece: Piece, now: float) -> Piece:
     return Piece(piece.drive, part(piece.plan, (place, 1.0), law), now)
 
 
+# Moving back onto a path that was left, as a share of the axes' speed.
+REGAIN_SHARE = 0.1
+
+
+def way_back(model: RobotModel, joints: FloatArray, piece: Piece, now: float) -> Piece | None:
+    """The move back to where a path was left; None when the robot stands there."""
+    from rpl.emulator.planner import MoveRequest
+
+    goal = piece.joints_at(piece.end_s)
+    if float(abs(goal - joints).max()) < 1e-3:
+        return None
+    made = plan(model, joints, MoveRequest(kind="joint", target_joints=goal, joint_speed=REGAIN_SHARE))
+    return Piece(piece.drive, made, now) if is_planned(made) else None
+
+
 # ---- corners
 
 

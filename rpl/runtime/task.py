@@ -50,6 +50,7 @@ class Task:
         self.interrupts = Interrupts()
         self.robot: MotionQueue | None = None
         self.busy = False
+        self.aside = 0  # frames of interrupts and triggers: there the program pointer never waits for the main motion
         self.looked = False
         self.looked_at_time = False
         self.look_ahead = -1
@@ -76,6 +77,7 @@ class Task:
     def restart(self) -> None:
         """Begin the entry routine again (end of a cyclic task's pass, end of cycle asked for)."""
         self.interrupts = Interrupts()
+        self.aside = 0
         self.frame = self._start()
 
     def new_frame(self, code: Code, kind: str = "call") -> Frame:
@@ -116,8 +118,9 @@ class Task:
                 caller.values[frame.result] = value
             return SWITCHED
         self.interrupt_number = 0
-        if frame.level is not None and self.robot is not None and self.robot.stopped:
-            self.robot.start()  # a motion braked in the interrupt goes on when that ends without RESUME
+        self.aside -= 1
+        if frame.level is not None and self.robot is not None:
+            self.robot.interrupt_ended()
         wait = frame.wait
         if isinstance(wait, Wait):
             self.wait = wait
@@ -303,6 +306,7 @@ class Task:
     def _interrupt_with(self, frame: Frame) -> None:
         frame.wait, self.wait = self.wait, None
         self.state = READY
+        self.aside += 1
         self.enter(frame)
 
     def trigger(self, routine: Code, values: Values) -> None:
@@ -328,6 +332,7 @@ class Task:
             raise ProgramError("bad_call", "RESUME outside an interrupt routine")
         while self.frames[-1] is not level:
             frame = self.frames.pop()
+            self.aside -= frame.kind != "call"
             self.interrupts.drop_level(frame)
         self.frame = level
         self.wait = None

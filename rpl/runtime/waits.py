@@ -53,7 +53,7 @@ class Wait:
                 assert self.condition is not None and self.values is not None  # set by Task.wait_until
                 return bool(self.condition(self.values))
             case "idle":
-                return not task.busy
+                return not task.busy or (task.robot is not None and task.robot.is_stopped())
             case "room":
                 return task.robot is None or task.robot.has_room()
             case "released":

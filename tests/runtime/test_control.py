@@ -55,9 +55,7 @@ ENDFCT
 
 @pytest.mark.parametrize(("body", "said"), KRL_MESSAGES)
 def test_krl_control(body: str, said: str) -> None:
-    result = krl(
-        f'N=0\nFOR I=1 TO 5\nA[I]=0\nENDFOR\n{body}MsgNotify("%1","",N)', "DECL INT I,J,N,A[5]", KRL_MORE
-    )
+    result = krl(f'N=0\nFOR I=1 TO 5\nA[I]=0\nENDFOR\n{body}MsgNotify("%1","",N)', "DECL INT I,J,N,A[5]", KRL_MORE)
     assert (result.status, result.messages) == ("finished", (said,)), result.fault
 
 
@@ -156,8 +154,7 @@ def test_a_disabled_interrupt_is_remembered_once() -> None:
 
 def test_a_more_urgent_interrupt_interrupts_a_less_urgent_one() -> None:
     body = (
-        "INTERRUPT DECL 20 WHEN $IN[1] DO LOW( )\nINTERRUPT DECL 10 WHEN $IN[2] DO HIGH( )\n"
-        "INTERRUPT ON\nWAIT SEC 10"
+        "INTERRUPT DECL 20 WHEN $IN[1] DO LOW( )\nINTERRUPT DECL 10 WHEN $IN[2] DO HIGH( )\nINTERRUPT ON\nWAIT SEC 10"
     )
     routines = (
         'DEF LOW( )\nMsgNotify("low")\nWAIT SEC 2\nMsgNotify("low end")\nEND\n'
@@ -165,9 +162,7 @@ def test_a_more_urgent_interrupt_interrupts_a_less_urgent_one() -> None:
     )
 
     def inputs(first: int, second: int) -> str:
-        return "".join(
-            f"[[input]]\ntime={t}\nsignal='$IN[{n}]'\nvalue=true\n" for n, t in ((1, first), (2, second))
-        )
+        return "".join(f"[[input]]\ntime={t}\nsignal='$IN[{n}]'\nvalue=true\n" for n, t in ((1, first), (2, second)))
 
     assert krl(body, more=routines, cell=inputs(1, 2)).messages == ("low", "high", "high end", "low end")
     assert krl(body, more=routines, cell=inputs(2, 1)).messages == ("high", "high end", "low", "low end")
@@ -175,7 +170,7 @@ def test_a_more_urgent_interrupt_interrupts_a_less_urgent_one() -> None:
 
 def test_rapid_traps_timers_and_single_orders() -> None:
     data = "VAR intnum i;\nVAR num n:=0;"
-    trap = 'TRAP hit n:=n+1; TPWrite NumToStr(n,0); ENDTRAP'
+    trap = "TRAP hit n:=n+1; TPWrite NumToStr(n,0); ENDTRAP"
     inputs = "".join(f"[[input]]\ntime={t}\nsignal='di1'\nvalue=true\nduration=0.1\n" for t in (1, 2, 3))
     every = "CONNECT i WITH hit;\nISignalDI di1,1,i;\nWaitTime 1.5;\nISleep i;\nWaitTime 1;\nIWatch i;\nWaitTime 5;"
     assert rapid(every, data, trap, cell=inputs).messages == ("1", "2")
@@ -227,7 +222,9 @@ def test_pulses_and_delayed_outputs_come_at_their_times() -> None:
 
 
 def test_an_alias_its_number_and_a_group_are_one_signal() -> None:
-    result = krl("GRIP=TRUE\n$OUT[3]=TRUE\nNUM=5\n$OUT[9]=$OUT[1]", "SIGNAL GRIP $OUT[3]\nSIGNAL NUM $OUT[1] TO $OUT[4]")
+    result = krl(
+        "GRIP=TRUE\n$OUT[3]=TRUE\nNUM=5\n$OUT[9]=$OUT[1]", "SIGNAL GRIP $OUT[3]\nSIGNAL NUM $OUT[1] TO $OUT[4]"
+    )
     assert [(name, value) for _, name, value in result.outputs] == [
         ("$OUT[3]", True),
         ("$OUT[1]", True),
@@ -242,7 +239,7 @@ def test_reactions_of_the_cell() -> None:
 
 
 def test_two_runs_are_equal_and_a_copy_goes_on_by_itself() -> None:
-    text = 'DEF P0( )\nDECL INT I\nFOR I=1 TO 5\n$OUT[I]=TRUE\nWAIT SEC 1\nENDFOR\nEND'
+    text = "DEF P0( )\nDECL INT I\nFOR I=1 TO 5\n$OUT[I]=TRUE\nWAIT SEC 1\nENDFOR\nEND"
     program = read("krl", text)
     first, second = run_program(program), run_program(program)
     assert list(first.trace_lines()) == list(second.trace_lines())
@@ -277,9 +274,9 @@ def test_breakpoints_and_steps() -> None:
 @pytest.mark.parametrize(
     ("text", "entry", "found"),
     [
-        ("MODULE a PROC other() ENDPROC PROC main() TPWrite \"main\"; ENDPROC ENDMODULE", None, "main"),
-        ("MODULE a PROC x() y; ENDPROC PROC y() TPWrite \"y\"; ENDPROC ENDMODULE", None, "y"),
-        ("MODULE a PROC x() TPWrite \"x\"; ENDPROC PROC y() TPWrite \"y\"; ENDPROC ENDMODULE", "Y", "y"),
+        ('MODULE a PROC other() ENDPROC PROC main() TPWrite "main"; ENDPROC ENDMODULE', None, "main"),
+        ('MODULE a PROC x() y; ENDPROC PROC y() TPWrite "y"; ENDPROC ENDMODULE', None, "y"),
+        ('MODULE a PROC x() TPWrite "x"; ENDPROC PROC y() TPWrite "y"; ENDPROC ENDMODULE', "Y", "y"),
     ],
 )
 def test_the_entry(text: str, entry: str | None, found: str) -> None:
