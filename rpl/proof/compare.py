@@ -91,10 +91,17 @@ def _events(a: Record, b: Record, tolerance: Tolerance) -> Difference | None:
         return pairs
     found = []
     for task, ours, theirs in pairs:
+        if a.language != b.language:
+            ours, theirs = _without_conditions(ours), _without_conditions(theirs)
         difference = _task_events(task, ours, theirs, tolerance)
         if difference is not None:
             found.append(difference)
     return min(found, key=_when) if found else None
+
+
+def _without_conditions(happenings: tuple[Happening, ...]) -> tuple[Happening, ...]:
+    """Whether a condition had to be waited for depends on how fast each controller was before."""
+    return tuple(one for one in happenings if not (one.kind == "wait" and one.value is None))
 
 
 def _when(difference: Difference) -> float:
@@ -232,6 +239,8 @@ def _geometry(a: Record, b: Record, tolerance: Tolerance, verdict: Verdict) -> D
     if isinstance(pairs, Difference):
         return pairs
     for task, ours, others in pairs:
+        if not same_language:
+            ours, others = _without_conditions(ours), _without_conditions(others)
         for first, second in zip(ours, others, strict=False):
             slack = tolerance.place_mm if first.moving or second.moving else 10.0 * tolerance.path_mm
             if first.kind == "output" and same_arm and abs(first.along - second.along) > slack:
@@ -254,10 +263,10 @@ def _motion(
     first = [stretch for stretch in ours if not _stands(stretch)]
     second = [stretch for stretch in theirs if not _stands(stretch)]
     groups = _aligned(first, second)
-    loose = set() if same_language else _at_joint_corners(groups)
+    loose = set() if same_language else _at_joint_corners(groups) | _at_cuts(groups)
     found: Difference | None = None
     for number, (a, b) in enumerate(groups):
-        if number in loose:
+        if number in loose and a and b:
             difference = _goals(task, a[-1], b[-1], tolerance, verdict)
         else:
             difference = _group(task, a, b, same_arm, tolerance, verdict)
@@ -277,6 +286,16 @@ def _at_joint_corners(groups: Sequence[Group]) -> set[int]:
     return found
 
 
+def _at_cuts(groups: Sequence[Group]) -> set[int]:
+    """Moves that both programs leave on the way, when a sensor answers, and the moves from there: where that was
+    depends on how fast each controller accelerates."""
+    found: set[int] = set()
+    for number, (a, b) in enumerate(groups):
+        if a and b and a[-1].cut and b[-1].cut:
+            found |= {number, number + 1}
+    return found
+
+
 def _goals(task: str, a: Stretch, b: Stretch, tolerance: Tolerance, verdict: Verdict) -> Difference | None:
     """Moves at such a corner: both must head for the same point. (The move behind it may come to rest there.)"""
     worst = gap(a.poses, b.poses)
@@ -285,7 +304,7 @@ def _goals(task: str, a: Stretch, b: Stretch, tolerance: Tolerance, verdict: Ver
     if a.stops != b.stops:
         text = f"{'A' if a.stops else 'B'} comes to rest where the other goes on"
         return Difference("stop", "geometry", text, _move_side([a]), _move_side([b]), task)
-    if a.goal is None or b.goal is None:
+    if a.goal is None or b.goal is None or (a.cut and b.cut):
         return None
     apart = float(np.linalg.norm(a.goal[:3] - b.goal[:3]))
     turn = 2.0 * np.degrees(np.arccos(min(1.0, abs(float(a.goal[3:] @ b.goal[3:])))))

@@ -159,7 +159,8 @@ def _stretch(event: Event) -> Stretch:
     if "xyz_mm" in event.data and "quat_wxyz" in event.data:
         goal = np.array([*event.data["xyz_mm"], *event.data["quat_wxyz"]], dtype=float)
     way, when = np.concatenate(poses), np.concatenate(times)
-    return Stretch(motion, when, way, joints, event.stops, place_of(event.origin), goal)
+    cut = bool(event.data.get("interrupted"))
+    return Stretch(motion, when, way, joints, event.stops, place_of(event.origin), goal, cut)
 
 
 def _sampled(leg: Leg) -> FloatArray:

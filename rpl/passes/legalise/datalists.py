@@ -38,7 +38,7 @@ def set_data_at_start(program: ir.Program, context: Context) -> ir.Program:
         return program
     name = context.fresh("rpl_initialise")
     context.diagnostics.report(SET_AT_START, NOWHERE, name=name)
-    entries = _never_called(program)
+    entries = never_called(program)
     call = ir.CallRoutine(name)
     for at, module in enumerate(modules):
         routines = tuple(
@@ -62,7 +62,7 @@ def _reachable(declaration: ir.Declaration) -> ir.Declaration:
     return declaration
 
 
-def _never_called(program: ir.Program) -> set[str]:
+def never_called(program: ir.Program) -> set[str]:
     """Procedures without parameters that nothing calls: any of them may be where a program starts."""
     called: set[str] = set()
 

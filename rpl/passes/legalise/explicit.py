@@ -11,7 +11,8 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
-from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.context import Context, ProgramScope, rules_of
+from rpl.passes.legalise.datalists import never_called
 from rpl.passes.legalise.modal import DROPPED, JOINT_BLEND, MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
 from rpl.passes.legalise.usage import base_name, each_expression, each_statement, usage_of
 from rpl.passes.rewrite import rewrite_parts
@@ -50,15 +51,23 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     scopes = ProgramScope(program)
     assigned = usage_of(program).assigned
     reported: set[Code] = set()
+    entries = never_called(program)
     modules = []
     for module in program.modules:
         routines = []
         for routine in module.routines:
+            if routine.name.lower() in entries and routine.body:
+                routine = _looking_ahead(routine, rules_of(context.target).advance.moves)
             worker = _Modal(context, scopes.routine(module, routine), assigned, reported)
             handlers = tuple(replace(handler, body=worker.body(handler.body, {})) for handler in routine.handlers)
             routines.append(replace(routine, body=worker.body(routine.body, {}), handlers=handlers))
         modules.append(replace(module, routines=tuple(routines)))
     return replace(program, modules=tuple(modules))
+
+
+def _looking_ahead(routine: ir.Routine, moves: int) -> ir.Routine:
+    """A routine that a program may start with allows the look-ahead that blending needs."""
+    return replace(routine, body=(ir.Assign(ir.System("advance"), ir.IntLiteral(moves)), *routine.body))
 
 
 Environment = dict[str, ir.Expression]
