@@ -14,26 +14,21 @@ from typing import TYPE_CHECKING
 from rpl.runtime import pieces
 from rpl.runtime.chain import (
     Planning,
-    current_target,
-    frames_of,
-    joints_value,
     pose_of_array,
     request_of,
 )
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.imagined import Imagined
 from rpl.runtime.orders import Drive, Order, TriggerOrder
 from rpl.runtime.pieces import Piece
+from rpl.runtime.robotstate import RobotState
 from rpl.runtime.trace import Leg
-from rpl.runtime.values import JointsValue, TargetValue, Value
+from rpl.runtime.values import Value
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
     from rpl.emulator.planner import MotionFault
     from rpl.emulator.rotations import FloatArray
-    from rpl.ir.rules import Rules
     from rpl.runtime.machine import Machine
-    from rpl.runtime.task import Task
 
 ARRIVALS, MOTION = 1, 4  # phases of a moment, see machine
 MOST_CONCURRENT = 5
@@ -48,20 +43,15 @@ class Stored:
     queue: list[Drive]
 
 
-class MotionQueue:
+class MotionQueue(RobotState):
     """Queue, robot state and what is driven now. `joints` (n,) and `external` are where it stands; `planned_...` where
     it will stand when everything commanded is done."""
 
     def __init__(self, machine: Machine, task_index: int, model: RobotModel | None) -> None:
-        self.machine = machine
-        self.task_index = task_index
-        self.model = model
-        self.joints: FloatArray | None = model.home.copy() if model is not None else None
+        super().__init__(machine, task_index, model)
         self.planned_joints = self.joints
-        self.external: tuple[float | None, ...] = (None,) * 6
-        self.planned_external: tuple[float | None, ...] = self.external
+        self.planned_external = self.external
         self.queue: list[Drive] = []
-        self.piece: Piece | None = None
         self.halted: Piece | None = None
         self.stopped = False
         self.stored: list[Stored] = []
@@ -72,12 +62,6 @@ class MotionQueue:
         self.numbers = 0
         self.asked = False
         self.late: dict[int, TriggerOrder] = {}
-        self.imagined = Imagined()
-        self.interrupted: tuple[FloatArray, float] | None = None
-
-    @property
-    def task(self) -> Task:
-        return self.machine.tasks[self.task_index]
 
     # ---- what the program asks
 
@@ -551,11 +535,6 @@ class MotionQueue:
         self.stopped = True
         self.task.busy = bool(self.queue) or self.halted is not None
 
-    def mark_interrupted(self) -> None:
-        """An interrupt came: remember where the robot is."""
-        if self.model is not None:
-            self.interrupted = (self.joints_array(), self.machine.now)
-
     def finish(self) -> None:
         """The run ends: show the move that was cut off."""
         if self.piece is not None and self.model is not None:
@@ -565,40 +544,3 @@ class MotionQueue:
             self.piece = None
             if piece.drive.legs:
                 self._show(piece.drive, False, True)
-
-    # ---- where the robot is
-
-    def joints_array(self) -> FloatArray:
-        """Joints (n,) at this moment."""
-        if self.joints is None:
-            raise ProgramError("motion", "the position is asked for, but the run has no robot")
-        if self.piece is not None:
-            return self.piece.joints_at(self.machine.now)
-        return self.joints
-
-    def joints_now(self) -> tuple[float, ...] | None:
-        if self.model is None:
-            return tuple(self.imagined.joints) if self.imagined.joints is not None else None
-        return tuple(float(joint) for joint in self.joints_array())
-
-    def joints_as_value(self, rules: Rules, joints: FloatArray | None = None) -> JointsValue:
-        """The joints as the language shows them."""
-        if self.model is None:
-            if self.imagined.joints is None:
-                raise ProgramError("motion", "the joints are asked for, but the run has no robot")
-            return joints_value(self.imagined.joints, self.external, rules)
-        here = self.joints_array() if joints is None else joints
-        return joints_value([float(joint) for joint in here], self.external, rules)
-
-    def target_now(self, tool: Value, frame: Value, rules: Rules, joints: FloatArray | None = None) -> TargetValue:
-        """Where the tool centre point is."""
-        modal = self.task.modal
-        if modal.get("tool") is None:
-            tool = tool if tool is not None else modal.get("tool_in_use")
-            frame = frame if frame is not None else modal.get("frame_in_use")
-        frames = frames_of(tool, frame, modal, {})
-        if self.model is None:
-            return self.imagined.target(frames, self.external, rules)
-        here = self.joints_array() if joints is None else joints
-        notation = self.machine.linked.notation(rules.name)
-        return current_target(self.model, here, self.external, frames, rules, notation)

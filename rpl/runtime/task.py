@@ -26,8 +26,8 @@ READY, WAITING, ENDED = "ready", "waiting", "ended"
 # many it gets in each such cycle.
 SPIN, SPIN_AGAIN = 2000, 500
 # Instructions without time after which a loop that nothing can end is given up.
-MOST_WITHOUT_TIME = 1_000_000
-MOST_BLIND_POLLS = 200_000
+MOST_WITHOUT_TIME = 5_000_000
+MOST_BLIND_POLLS = 500_000
 
 
 class Task:
