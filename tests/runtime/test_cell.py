@@ -1,0 +1,53 @@
+"""What a cell file does to a run."""
+
+import pytest
+from helpers import krl, rapid
+
+from rpl.errors import UsageError
+
+
+def test_initial_values_of_variables_records_and_elements() -> None:
+    data = "PERS num count:=1;\nPERS pos place:=[1,2,3];\nVAR num list{3}:=[1,2,3];\nVAR robtarget p;"
+    body = 'TPWrite ValToStr(count)+"/"+ValToStr(place)+"/"+ValToStr(list)+"/"+ValToStr(p.trans.z);'
+    cell = "[variables]\ncount = 5\n'prog.place' = [7, 8, 9]\n'list[2]' = 20\n'p.trans.z' = 4.5\n"
+    assert rapid(body, data, cell=cell).messages == ("5/[7,8,9]/[1,20,3]/4.5",)
+
+
+def test_numeric_tools_and_system_variables() -> None:
+    body = 'BAS(#TOOL,3)\nMsgNotify("%1 %2","",$TOOL.Z,$VEL.CP)'
+    cell = (
+        "[variables]\n'TOOL_DATA[3]' = { x = 0, y = 0, z = 120.0, a = 0, b = 0, c = 0 }\n[system]\npath_speed = 500.0\n"
+    )
+    assert krl(body, cell=cell).messages == ("120 0.5",)
+
+
+@pytest.mark.parametrize(
+    ("entry", "complaint"),
+    [("count = 'x'", "variables.count"), ("'list[9]' = 1", "variables.list"), ("place = [1, 2]", "variables.place")],
+)
+def test_a_value_that_does_not_fit_names_its_key(entry: str, complaint: str) -> None:
+    data = "PERS num count:=1;\nPERS pos place:=[1,2,3];\nVAR num list{3}:=[1,2,3];"
+    with pytest.raises(UsageError, match=complaint):
+        rapid("count:=list{1}+place.x;", data, cell=f"[variables]\n{entry}\n")
+
+
+def test_a_signal_is_found_by_any_usual_name() -> None:
+    for name in ("$IN[3]", "di3", "DI_3", "digital_in[3]"):
+        cell = f"[[input]]\ntime = 1.0\nsignal = '{name}'\nvalue = true\n"
+        assert krl("WAIT FOR $IN[3]\n$OUT[1]=TRUE", cell=cell).outputs[0][0] == 1.0
+        if name.lower() != "di_3":
+            assert rapid("WaitDI di3,1;\nSetDO do1,1;", cell=cell).outputs[0][0] == 1.0
+
+
+def test_answers_by_text_and_after_a_time() -> None:
+    cell = "[[answer]]\ntext = 'parts'\nanswer = 2\nafter = 1.5\n[[answer]]\nanswer = 3\n"
+    body = 'TPReadNum n,"how many parts?";\nTPReadNum m,"what else?";\nTPWrite NumToStr(n*10+m,0);'
+    result = rapid(body, "VAR num n;\nVAR num m;", cell=cell)
+    assert result.messages == ("how many parts?", "what else?", "23") and result.time_s == 1.5
+
+
+def test_the_value_of_a_vendor_function() -> None:
+    body = "TPWrite NumToStr(OpMode(),0);"
+    assert rapid(body, cell="[[vendor]]\nmatch='OpMode'\nvalue=1\n").messages == ("1",)
+    unknown = rapid(body)
+    assert unknown.status == "fault" and unknown.fault is not None and unknown.fault.code == "vendor"
