@@ -24,6 +24,7 @@ CAPABILITIES = Capabilities(
             *("error_number", "interrupt_number", "circle_orientation", "actual_pose", "actual_joints"),
         )
     ),
+    aliases=True,
     operators=OPERATORS,
     types=frozenset(type.__name__ for type in TYPE_NAMES),
     names=NameRules(32, False, RESERVED),

@@ -73,3 +73,4 @@ class Capabilities:
     relative_moves: bool = False
     partial_targets: bool = False
     data_lists: bool = False
+    aliases: bool = False

@@ -176,6 +176,7 @@ class _Priorities:
     routine_of: dict[str, str] = field(default_factory=dict)
     priority_of: dict[str, int] = field(default_factory=dict)
     once: dict[str, str] = field(default_factory=dict)
+    timer_of: dict[str, int] = field(default_factory=dict)
     made: list[ir.Routine] = field(default_factory=list)
 
     def program(self) -> ir.Program:
@@ -233,13 +234,45 @@ class _Priorities:
                     ir.DeclareInterrupt(priority, condition, action, True, origin=statement.origin),
                     ir.ControlInterrupt("on", priority, origin=later),
                 ]
+            case ir.OrderInterrupt(handle=handle, event="timer", time=time) if time is not None:
+                name = base_name(handle)
+                if name is None or name not in self.priority_of or not self.context.capabilities.timers:
+                    return [statement]
+                return self.every(statement, name, time)
             case ir.ControlInterrupt(op=op, handle=handle) if handle is not None:
                 name = base_name(handle)
                 if name not in self.priority_of:
                     return [statement]
                 op = "off" if op == "delete" else op
-                return [replace(statement, op=op, handle=ir.IntLiteral(self.priority_of[name]))]
+                done = replace(statement, op=op, handle=ir.IntLiteral(self.priority_of[name]))
+                if op == "off" and name in self.timer_of:
+                    stop = ir.Assign(self.timer(name, "timer_stopped"), ir.BoolLiteral(True))
+                    return [done, replace(stop, origin=replace(statement.origin, comments=()))]
+                return [done]
         return [rewrite_parts(statement, lambda expression: expression, self.body)]
+
+    def every(self, statement: ir.OrderInterrupt, name: str, time: ir.Expression) -> list[ir.Statement]:
+        """A timer that counts up to zero; its interrupt sets it back by the period, so that no time is lost."""
+        if name not in self.timer_of:
+            self.timer_of[name] = self.context.capabilities.timers - len(self.timer_of)
+        timer, stopped = self.timer(name, "timer"), self.timer(name, "timer_stopped")
+        priority, later = ir.IntLiteral(self.priority_of[name]), replace(statement.origin, comments=())
+        off = ir.ControlInterrupt("off", priority)
+        again = off if statement.once else ir.Assign(timer, ir.Binary("-", timer, time))
+        routine = self.context.fresh(f"{self.routine_of[name]}_timer")
+        call = ir.CallRoutine(self.routine_of[name])
+        self.made.append(ir.Routine(routine, body=(again, call), scope="global"))
+        return [
+            ir.Assign(timer, ir.Unary("-", time), origin=statement.origin),
+            ir.Assign(stopped, ir.BoolLiteral(False), origin=later),
+            ir.DeclareInterrupt(
+                priority, self.timer(name, "timer_positive"), ir.CallRoutine(routine), True, origin=later
+            ),
+            ir.ControlInterrupt("on", priority, origin=later),
+        ]
+
+    def timer(self, name: str, what: str) -> ir.System:
+        return ir.System(what, (ir.IntLiteral(self.timer_of[name]),))
 
     def action(self, name: str, once: bool) -> ir.CallRoutine:
         trap = self.routine_of[name]

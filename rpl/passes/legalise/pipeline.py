@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.aggregates import aggregates
+from rpl.passes.legalise.aliases import without_aliases
 from rpl.passes.legalise.calls import rewrite_calls
 from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.context import Context, Pass, names_in
@@ -40,6 +41,7 @@ PASSES: tuple[Pass, ...] = (
     searches,
     link_prelude,
     configurations,
+    without_aliases,
     stop_blends,
     triggers,
     resumes,

@@ -131,7 +131,7 @@ def _keys(declaration: ir.Declaration) -> list[str]:
             while isinstance(base, ir.Index | ir.Field):
                 base = base.base
             return [base.id.lower()] if isinstance(base, ir.Name) else []
-        case ir.Unread():
+        case ir.Unread() | ir.ExternalDeclaration():
             return []
     return [declaration.name.lower()]
 

@@ -46,6 +46,10 @@ class TextHoister(Hoister):
     # ---- concatenation
 
     def lower(self, expression: ir.Expression, lvalue: bool = False) -> Lowered:
+        if self.builds and isinstance(expression, ir.Builtin) and expression.function == "value_text":
+            (value,) = expression.arguments
+            if isinstance(self.editor.type_of(value), ir.BoolType):
+                return self.truth(value)
         if self.composed(expression):
             before, pieces = self.pieces(expression)
             text = self.editor.temporary("text", ir.StringType())
@@ -68,6 +72,15 @@ class TextHoister(Hoister):
                         return expansion(statement.origin, (*before, *written))
         return super().statement(statement)
 
+    def truth(self, value: ir.Expression) -> Lowered:
+        """The text of a BOOL: chosen by an If."""
+        before, (condition,) = self.several([value], [False])
+        text = self.editor.temporary("text", ir.StringType())
+        choose = ir.If(
+            ((condition, (ir.Assign(text, ir.TextLiteral("TRUE")),)),), (ir.Assign(text, ir.TextLiteral("FALSE")),)
+        )
+        return (*before, choose), text
+
     def composed(self, expression: ir.Expression) -> bool:
         """Is it a text that this target can only build by statements?"""
         if not self.builds:
@@ -76,7 +89,7 @@ class TextHoister(Hoister):
             case ir.Binary(op="&"):
                 return True
             case ir.Builtin(function=function) if function in _NUMBERS:
-                return function not in self.editor.capabilities.functions
+                return function not in self.editor.capabilities.functions and self._formatted(expression)
         return False
 
     def pieces(self, expression: ir.Expression) -> tuple[ir.Body, list[ir.Expression]]:
