@@ -2,6 +2,7 @@
 statements stand for. Every error names the file and the key.
 
     seed = 1                                             of random numbers
+    joints = [0, -90, 90, 0, 45, 0]                      where the robot stands at the start (its home if not said)
     [[input]]     time = 1.5  signal = "di1"  value = true  [duration = 0.2]
     [[reaction]]  when = "do1"  becomes = true  after = 0.4  signal = "di2"  value = true
     [variables]   count = 3   "module.name" = [1, 2]   "data[1]" = { x = 10.0, y = 0.0 }
@@ -77,6 +78,7 @@ class Cell:
     answers: tuple[Answer, ...] = ()
     vendor: tuple[VendorMeaning, ...] = ()
     seed: int = 1
+    joints: tuple[float, ...] | None = None
     path: str = ""
 
 
@@ -102,7 +104,7 @@ def parse_cell(text: str, path: str = "cell") -> Cell:
     return _Reader(path).cell(table)
 
 
-_TOP = frozenset(("seed", "input", "reaction", "variables", "system", "answer", "answers", "vendor"))
+_TOP = frozenset(("seed", "joints", "input", "reaction", "variables", "system", "answer", "answers", "vendor"))
 
 
 class _Reader:
@@ -137,8 +139,17 @@ class _Reader:
             self.answers(table),
             tuple(self.vendor(key, row) for key, row in self.rows(table, "vendor")),
             seed,
+            self.joints(table),
             self.path,
         )
+
+    def joints(self, table: dict[str, Value]) -> tuple[float, ...] | None:
+        given = table.get("joints")
+        if given is None:
+            return None
+        if not isinstance(given, list) or not all(isinstance(each, int | float) for each in given):
+            raise self.wrong("joints", "must be a list of joint values")
+        return tuple(float(each) for each in given)
 
     def rows(self, table: dict[str, Value], name: str) -> Iterator[tuple[str, dict[str, Value]]]:
         rows = table.get(name, [])

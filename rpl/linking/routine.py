@@ -80,6 +80,7 @@ def link_routine(linked: LinkedProgram, module: ir.Module, routine: ir.Routine) 
     compiler = Compiler(linked, scope)
     linker = RoutineLinker(linked, compiler, module)
     code = linker.code = Code(routine.name, scope.rules, routine.kind)
+    code.predefined = not any(module is own for own in linked.program.modules)
     for place, parameter in enumerate(routine.parameters):
         compiler.places[scope.fold(parameter.name)] = Place(
             FIRST + place, is_reference=parameter.mode == "reference" and not _is_signal(linker, parameter.type)

@@ -54,7 +54,7 @@ class Code:
     prepare: tuple[Callable[[Values], None], ...] = ()
     places: dict[str, tuple[int, bool]] = field(default_factory=dict)
     globals_needed: int = 0
-    trap: bool = False
+    predefined: bool = False
 
     def __deepcopy__(self, memo: object) -> Code:
         return self

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
 # Phases of one moment, in order.
 INPUTS, ARRIVALS, TIMERS, TASKS, MOTION = range(5)
+MOST_CALLS_SHOWN = 100_000
 Entry = tuple[float, int, int, int, int, str, tuple[Any, ...]]
 
 
@@ -68,6 +69,7 @@ class Machine:
         self.paused = False
         self.stepping = False
         self.timed_outputs = 0
+        self.calls = 0
         self.tokens = 0
         self.answered = 0
         self.timers: dict[int, StopWatch] = {}
@@ -370,6 +372,12 @@ class Machine:
         if self.on_event is not None:
             self.on_event(shown)
         return shown
+
+    def called(self, task: Task, name: str) -> None:
+        """A routine of the program is called; a run that calls without end shows only the first of them."""
+        if self.calls < MOST_CALLS_SHOWN:
+            self.calls += 1
+            self.event("call", {"routine": name}, task, task.frame.code.origin(task.frame.at))
 
     def message(self, task: Task, kind: str, text: str, origin: Origin, **more: Value) -> None:
         """A message to the operator."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from rpl.errors import UsageError
 from rpl.runtime.chain import current_target, frames_of, joints_value
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.imagined import Imagined
@@ -25,7 +26,7 @@ class RobotState:
         self.machine = machine
         self.task_index = task_index
         self.model = model
-        self.joints: FloatArray | None = model.home.copy() if model is not None else None
+        self.joints: FloatArray | None = _start(machine, model)
         self.external: tuple[float | None, ...] = (None,) * 6
         self.piece: Piece | None = None
         self.imagined = Imagined()
@@ -74,3 +75,15 @@ class RobotState:
         here = self.joints_array() if joints is None else joints
         notation = self.machine.linked.notation(rules.name)
         return current_target(self.model, here, self.external, frames, rules, notation)
+
+
+def _start(machine: Machine, model: RobotModel | None) -> FloatArray | None:
+    """Where the robot stands when the run begins."""
+    given = machine.cell.joints
+    if model is None or given is None:
+        return model.home.copy() if model is not None else None
+    import numpy as np
+
+    if len(given) != model.axes:
+        raise UsageError(f"{machine.cell.path}: joints: {model.name} has {model.axes}, {len(given)} are given")
+    return np.array(given)

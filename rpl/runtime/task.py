@@ -97,6 +97,8 @@ class Task:
     def enter(self, frame: Frame) -> int:
         if len(self.frames) > frame.code.rules.call_depth * 10:
             raise ProgramError("too_deep", f"more than {frame.code.rules.call_depth * 10} calls are nested")
+        if frame.kind == "call" and not frame.code.predefined:
+            self.machine.called(self, frame.code.name)
         self.frames.append(frame)
         self.frame = frame
         for prepare in frame.code.prepare:

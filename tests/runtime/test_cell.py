@@ -51,3 +51,11 @@ def test_the_value_of_a_vendor_function() -> None:
     assert rapid(body, cell="[[vendor]]\nmatch='OpMode'\nvalue=1\n").messages == ("1",)
     unknown = rapid(body)
     assert unknown.status == "fault" and unknown.fault is not None and unknown.fault.code == "vendor"
+
+
+def test_where_the_robot_stands_at_the_start() -> None:
+    cell = "joints = [10, -90, 90, 0, 45, 0]"
+    body = 'MsgNotify("%1","",$AXIS_ACT.A1)'
+    assert krl(body, cell=cell, robot="kuka_kr6r900sixx").messages == ("10",)
+    with pytest.raises(UsageError, match="joints"):
+        krl(body, cell="joints = [1, 2]", robot="kuka_kr6r900sixx")

@@ -251,10 +251,10 @@ def test_without_a_robot_the_logic_runs_and_moves_take_no_time() -> None:
 
 
 def test_events_come_in_the_shape_of_the_design() -> None:
-    result = krl(INIT + START + P1 + "\n$OUT[1]=TRUE\nWAIT SEC 0.5", robot=KUKA)
+    result = krl(INIT + START + P1 + "\n$OUT[1]=TRUE\nPAUSE( )", more="DEF PAUSE( )\nWAIT SEC 0.5\nEND", robot=KUKA)
     lines = list(result.trace_lines())
     assert all({"t", "task", "kind", "file", "line"} <= line.keys() for line in lines)
-    assert [line["kind"] for line in lines] == ["move", "move", "output", "wait", "end"]
+    assert [line["kind"] for line in lines] == ["move", "move", "output", "call", "wait", "end"]
     move = lines[1]
     assert {"motion", "joints", "xyz_mm", "quat_wxyz", "duration"} <= move.keys()
     assert move["line"] == 9 and len(move["joints"]) == 6
