@@ -227,12 +227,13 @@ def find_entry(program: ir.Program, linked: LinkedProgram, entry: str | None) ->
     main = linked.find_routine(MAIN)
     if main is not None and _starts(main[1]):
         return main[1]
-    uncalled = [(m, r) for m, r in _startable(program) if r.name.lower() not in _called(program, r)]
-    named = [(m, r) for m, r in _startable(program) if _like_its_file(m, r)]
+    startable = [(m, r) for m, r in _startable(program) if not _is_empty(r)]
+    uncalled = [(m, r) for m, r in startable if r.name.lower() not in _called(program, r)]
+    named = [(m, r) for m, r in startable if _like_its_file(m, r)]
     for group in (named, [each for each in named if each in uncalled], uncalled):
         if len(group) == 1:
             return group[0][1]
-    candidates = uncalled or _startable(program)
+    candidates = uncalled or startable or _startable(program)
     raise UsageError(f"which routine is the program? {_listed(candidates)} (name one with --entry)")
 
 
@@ -242,6 +243,11 @@ def _starts(routine: ir.Routine) -> bool:
 
 def _startable(program: ir.Program) -> list[tuple[ir.Module, ir.Routine]]:
     return [(module, r) for module in program.modules for r in module.routines if _starts(r)]
+
+
+def _is_empty(routine: ir.Routine) -> bool:
+    """Languages whose files must begin with a routine of their name have many that do nothing."""
+    return all(isinstance(statement, ir.Nothing) for statement in routine.body)
 
 
 def _like_its_file(module: ir.Module, routine: ir.Routine) -> bool:

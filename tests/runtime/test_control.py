@@ -283,8 +283,13 @@ def test_the_entry(text: str, entry: str | None, found: str) -> None:
     assert run_program(read("rapid", text), entry=entry).messages == (found,)
 
 
+def test_a_file_whose_own_routine_does_nothing_is_a_library() -> None:
+    library = 'DEF P0( )\nEND\nGLOBAL DEF HELP( )\nMsgNotify("help")\nEND'
+    assert run_program(read("krl", library, "DEF P1( )\nHELP( )\nEND")).messages == ("help",)
+
+
 def test_an_entry_that_cannot_be_told_lists_the_candidates() -> None:
-    program = read("rapid", "MODULE a PROC x() ENDPROC PROC y() ENDPROC ENDMODULE")
+    program = read("rapid", "MODULE a PROC x() Stop; ENDPROC PROC y() Stop; ENDPROC ENDMODULE")
     with pytest.raises(UsageError, match="x, y"):
         run_program(program)
 
