@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 # A joint blend of 100 percent begins this far before the target, measured on the axis that has the longest way.
 JOINT_BLEND_DEG = 90.0
 MOST = 0.5
+# A move is driven up to this share of it before its corner, so that rounding never puts it behind the corner's start.
+ROUNDING = 1e-9
 # Braking with the emergency ramp is this much stronger than the programmed acceleration.
 HARD = 2.0
 
@@ -81,10 +83,10 @@ def pose_data(pose: rigid.Pose | None) -> dict[str, Value]:
     if pose is None:
         return {}
     place = pose.position
-    return {
-        "xyz_mm": [round(number + 0.0, 6) for number in (place.x, place.y, place.z)],
-        "quat_wxyz": [round(number + 0.0, 9) for number in pose.rotation.quaternion],
-    }
+    turn = [round(number + 0.0, 9) for number in pose.rotation.quaternion]
+    if next((number for number in turn if number), 1.0) < 0.0:  # of two quaternions for one rotation always the same
+        turn = [0.0 - number for number in turn]
+    return {"xyz_mm": [round(number + 0.0, 6) for number in (place.x, place.y, place.z)], "quat_wxyz": turn}
 
 
 # ---- where a piece is
@@ -133,7 +135,7 @@ def to_the_end(piece: Piece, now: float) -> Piece:
 
 def open_ended(piece: Piece, now: float) -> Piece:
     """Towards where the corner would begin, without slowing down for a stop."""
-    leave = _leave_alone(piece.plan, piece.drive.order.blend)
+    leave = _leave_alone(piece.plan, piece.drive.order.blend) - ROUNDING
     place, speed = place_of(piece, now)
     if leave <= place + 1e-9:
         return piece
