@@ -88,5 +88,6 @@ def show(result: RunResult) -> None:
     for message in messages:
         click.echo(f"message    {message}")
     click.echo(f"{result.status} after {result.time_s:.3f} s, {result.moves} moves, {result.statements} statements")
-    if fault:
-        click.echo(f"rpl: {fault}", err=True)
+    if isinstance(fault, dict):
+        place = f"{fault['file']}:{fault['line']}: " if fault["file"] else ""
+        click.echo(f"{place}fault {fault['code']} {fault['message']} (task {fault['task']})", err=True)
