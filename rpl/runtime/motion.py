@@ -265,6 +265,9 @@ class MotionQueue(RobotState):
         piece = self.piece
         assert piece is not None
         now = self.machine.now
+        if piece.open_end and not piece.drive.released:
+            self._release()  # the program's last chance, at this moment, to say how to go on
+            return
         self._close_leg(piece, now)
         if piece.halting:
             self._halted(piece)

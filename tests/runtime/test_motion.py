@@ -277,3 +277,20 @@ def test_a_background_task_runs_beside_the_motion() -> None:
     result = run_program(both)
     assert result.status == "finished" and result.outputs[0][0] == pytest.approx(2.0)
     assert run("krl", "DEF P0( )\nWAIT FOR $FLAG[1]\nEND").status == "deadlock"
+
+
+def test_in_rpl_a_move_with_a_blend_lets_the_program_go_on_where_the_corner_begins() -> None:
+    text = (
+        "MODULE m\nPROCEDURE main()\nMOVE TO {j1: 0, j2: 0, j3: 0, j4: 0, j5: 30, j6: 0}\n"
+        "MOVE LINEAR TO {x: 350, y: 0, z: 400, a: 0, b: 150, c: 0} SPEED 200 mm/s\n"
+        "MOVE LINEAR TO {x: 350, y: 100, z: 400, a: 0, b: 150, c: 0} SPEED 200 mm/s BLEND 20 mm\n"
+        "SET do[1] TO ON\n"
+        "MOVE LINEAR TO {x: 350, y: 100, z: 300, a: 0, b: 150, c: 0} SPEED 200 mm/s\n"
+        "END PROCEDURE\nEND MODULE\n"
+    )
+    result = run("rpl", text, robot=ABB)
+    assert result.status == "finished", result.fault
+    corner = next(leg for leg in moves(result)[2].legs if leg.plan.kind == "corner")
+    assert result.outputs[0][0] == pytest.approx(corner.start_s, abs=1e-6)
+    speed = [float(leg.plan.law.speed_at(leg.duration_s)) for leg in moves(result)[2].legs]
+    assert speed[-2] > 0.0  # it did not stop there
