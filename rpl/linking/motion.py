@@ -155,10 +155,8 @@ class MotionStatements:
                     float(turn(f)) if turn is not None else None,
                 )
             case ir.BlendPercent(percent=percent, path=path):
-                share, inner = self.value(percent), self.blend(path) if path is not None else None
-                return lambda f: BlendOrder(
-                    "percent", percent=float(share(f)), path=inner(f) if inner is not None else None
-                )
+                share, inner = self.value(percent), self.blend(path) if path is not None else _modal_distance
+                return lambda f: BlendOrder("percent", percent=float(share(f)), path=inner(f))
             case ir.BlendSpeed(percent=percent):
                 part = self.value(percent)
                 return lambda f: BlendOrder("speed", percent=float(part(f)))
@@ -289,6 +287,11 @@ class MotionStatements:
             return define
 
         return make
+
+
+def _modal_distance(f: Values) -> BlendOrder:
+    """Between a joint and a path move a blend in percent is measured by the modal distance, where there is one."""
+    return BlendOrder("distance", float(f[0].modal.get("blend_distance") or 0.0))
 
 
 def _frozen(value: Value, write: Callable[[Values, Value], None]) -> Instruction:

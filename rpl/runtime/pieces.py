@@ -215,13 +215,14 @@ def blend_size(order: BlendOrder, first: PlannedMove, second: PlannedMove | None
     """Distance in mm or share of the moves, by the measure that the program uses; none: no corner."""
     both_joint = first.kind == "joint" and (second is None or second.kind == "joint")
     match order.kind:
-        case "percent" if both_joint or order.path is None:
+        case "percent":
+            by_path = blend_size(order.path, first, second) if order.path is not None and not both_joint else None
+            if by_path is not None and by_path != (None, None):
+                return by_path
             size = order.percent / 100.0 * JOINT_BLEND_DEG
             ways = [float(abs(m.end_joints - m.start_joints).max()) for m in (first, second) if m is not None]
             fraction = min([MOST, *(size / way for way in ways if way > 1e-9)])
             return None, fraction if fraction > 0.0 else None
-        case "percent":
-            return blend_size(order.path, first, second) if order.path is not None else (None, None)
         case "speed":
             whole = first.length_mm
             top, acceleration = first.profile.speed * whole, first.profile.acceleration * whole

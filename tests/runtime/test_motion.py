@@ -43,6 +43,15 @@ def test_a_corner_is_cut_and_the_end_is_reached() -> None:
     assert [event.stops for event in moves(exact)] == [True] * 4
 
 
+def test_a_joint_blend_into_a_path_move_is_measured_by_the_path_distance() -> None:
+    # EP: between PTP and LIN the second measure counts, C_DIS when none is said.
+    result = krl(INIT + START + P1 + "\nPTP_REL {A1 20} C_PTP\nLIN_REL {Z 100}", robot=KUKA)
+    corner = next(leg for leg in moves(result)[2].legs if leg.plan.kind == "corner")
+    turn = moves(result)[2].legs[0].plan
+    assert turn.end_pose[2, 3] == pytest.approx(400.0)
+    assert corner.plan.end_pose[2, 3] == pytest.approx(430.0, abs=0.01)  # $APO.CDIS=30
+
+
 def test_an_advance_stop_between_two_moves_prevents_the_corner() -> None:
     result = krl(INIT + START + P1 + "\nLIN_REL {Y 100} C_DIS\n$OUT[1]=TRUE\nLIN_REL {Z 100}", robot=KUKA)
     assert all(event.stops for event in moves(result))
