@@ -13,7 +13,7 @@ from pathlib import Path
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import load_robot
 from rpl.project import read_program
-from rpl.runtime.run import run_program
+from rpl.simulation import run_program
 
 ROOT = Path(__file__).parents[1]
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from rpl.cell import Cell
     from rpl.emulator.model import RobotModel
     from rpl.proof.prove import ProofResult
-    from rpl.runtime.run import RunResult
+    from rpl.simulation import RunResult
     from rpl.translation import Translation
 
 
@@ -46,7 +46,7 @@ def run(
     max_time_s: float = 3600.0,
 ) -> RunResult:
     """Run a program on an emulated robot in simulated time."""
-    from rpl.runtime.run import run_program
+    from rpl.simulation import run_program
 
     return run_program(program.program, robot, cell, entry, max_time_s)
 

@@ -106,7 +106,7 @@ class Session:
 
     def _run(self, read: ReadProgram) -> Record | None:
         from rpl.proof.recording import record_of
-        from rpl.runtime.run import run_program
+        from rpl.simulation import run_program
 
         if not any(routine.name == "main" for module in read.program.modules for routine in module.routines):
             return None  # only declarations and routines so far

@@ -27,7 +27,7 @@ from rpl.diagnostics import Severity
 from rpl.errors import UsageError
 
 if TYPE_CHECKING:
-    from rpl.runtime.run import RunResult
+    from rpl.simulation import RunResult
 
 
 @click.command("run")
@@ -55,7 +55,7 @@ def command(
     """
     from rpl.project import read_program
     from rpl.proof.prove import load_cell
-    from rpl.runtime.run import run_program
+    from rpl.simulation import run_program
 
     if max_time is not None and not max_time > 0:
         raise UsageError(f"--max-time: {max_time:g} is not a time above 0 s")

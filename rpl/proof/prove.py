@@ -108,7 +108,7 @@ def _model(robot: str | RobotModel | None) -> RobotModel | None:
 def _run(
     program: ir.Program, robot: RobotModel | None, cell: Cell | None, entry: str | None, max_time_s: float | None
 ) -> Record:
-    from rpl.runtime.run import run_program
+    from rpl.simulation import run_program
 
     result = run_program(program, robot, cell, entry, max_time_s)
     return record_of(result, program, robot)

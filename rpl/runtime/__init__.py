@@ -1,1 +1,1 @@
-"""Runs linked programs: tasks, virtual clock, values, signals, motion queue, trace. Entry: `rpl.runtime.run`."""
+"""Runs linked programs: tasks, virtual clock, values, signals, motion queue, trace. Entry: `rpl.simulation`."""

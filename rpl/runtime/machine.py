@@ -27,7 +27,7 @@ from rpl.source import NOWHERE, Origin
 if TYPE_CHECKING:
     from rpl.cell import Answer, Cell
     from rpl.emulator.model import RobotModel
-    from rpl.linking.program import LinkedProgram
+    from rpl.runtime.linked import Linked
 
 # Phases of one moment, in order.
 INPUTS, ARRIVALS, TIMERS, TASKS, MOTION = range(5)
@@ -40,7 +40,7 @@ class Machine:
 
     def __init__(
         self,
-        linked: LinkedProgram,
+        linked: Linked,
         model: RobotModel | None,
         cell: Cell,
         max_time_s: float,

@@ -127,7 +127,7 @@ def test_it_reads_without_an_error(sample: Path) -> None:
 @each_sample
 def test_it_does_what_it_says(sample: Path) -> None:
     from rpl.emulator.model import load_robot
-    from rpl.runtime.run import run_program
+    from rpl.simulation import run_program
 
     wanted, program = expected(sample), programs_of(sample).program
     robot = load_robot(wanted.robot)

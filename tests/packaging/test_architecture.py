@@ -13,7 +13,7 @@ LEVELS = [
     ["cli"],
     ["api"],
     ["proof"],
-    ["project", "translation"],
+    ["project", "translation", "simulation"],
     ["cell", "emulator", "runtime", "linking", "writing", "reading"],
     ["passes"],
     ["registry"],

@@ -6,8 +6,8 @@ from rpl import ir
 from rpl.cell import Cell, parse_cell
 from rpl.diagnostics import Diagnostics
 from rpl.project import read_sources
-from rpl.runtime.run import run_program
 from rpl.runtime.trace import RunResult
+from rpl.simulation import run_program
 from rpl.source import source_from_text
 
 KUKA, ABB = "kuka_kr6r900sixx", "abb_irb120_3_58"

@@ -6,7 +6,7 @@ import pytest
 from helpers import krl, on, rapid, read
 
 from rpl.errors import UsageError
-from rpl.runtime.run import Simulation, run_program
+from rpl.simulation import Simulation, run_program
 
 # Each writes its result with one message; expectations from the manuals' own examples (EP, RAPID kernel reference).
 KRL_MESSAGES = [

@@ -277,7 +277,7 @@ def test_a_background_task_runs_beside_the_motion() -> None:
     from helpers import read
 
     from rpl import ir
-    from rpl.runtime.run import run_program
+    from rpl.simulation import run_program
 
     program = read(
         "krl", "DEF P0( )\nWAIT FOR $FLAG[1]\n$OUT[1]=TRUE\nEND", "DEF P1( )\nWAIT SEC 2\n$FLAG[1]=TRUE\nEND"

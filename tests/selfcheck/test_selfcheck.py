@@ -13,7 +13,7 @@ import pytest
 
 from rpl.diagnostics import Diagnostics
 from rpl.project import ReadProgram, read_program, read_sources
-from rpl.runtime.run import run_program
+from rpl.simulation import run_program
 from rpl.source import read_source, source_from_bytes, source_from_text
 from rpl.translation import translate_program
 

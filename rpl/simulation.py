@@ -61,7 +61,7 @@ class Simulation(Machine):
         from rpl.linking import link
 
         limit = DEFAULT_MAX_TIME_S if max_time_s is None else max_time_s
-        linked = link(program)
+        linked = self.program = link(program)
         super().__init__(linked, _model(robot), cell if cell is not None else NoCell(), limit, max_statements, on_event)
         self.breakpoints: set[tuple[str, int]] = set()
         self.passed: tuple[int, int] | None = None
@@ -75,7 +75,7 @@ class Simulation(Machine):
         from rpl.runtime.chain import DEFAULTS
         from rpl.runtime.functions import identity
 
-        code = self.linked.code_of(routine)
+        code = self.program.code_of(routine)
         self.provide(code)
         task = Task(self, declared.name, len(self.tasks), declared.kind, code, declared.cyclic)
         for name, value in code.rules.system_defaults.items():
@@ -155,7 +155,7 @@ class Simulation(Machine):
         for key, value in self.locals(chosen):
             if key == name.lower():
                 return value
-        slot = self.linked.variable_slot(name)
+        slot = self.program.variable_slot(name)
         if slot is None:
             raise UsageError(f"there is no variable {name}")
         if slot >= len(self.globals):

@@ -1,0 +1,29 @@
+"""What the machine asks of a linked program. rpl.linking makes one; the runtime itself knows no compiler."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from rpl.emulator.configuration import Notation
+    from rpl.runtime.code import Values
+    from rpl.runtime.values import SignalRef
+
+
+class Linked(Protocol):
+    """A program ready to run."""
+
+    def initialise(self, values: Values, machine: Any) -> None:
+        """Fill the global data with first values."""
+
+    def alias(self, name: str) -> SignalRef | None:
+        """The physical signal behind a declared name."""
+
+    def alias_names(self, port: SignalRef) -> tuple[str, ...]:
+        """The declared names of a physical signal."""
+
+    def signal_name(self, dialect: str, kind: str, number: int) -> str:
+        """How the dialect spells a numbered signal."""
+
+    def notation(self, dialect: str) -> Notation | None:
+        """The dialect's arm configuration flags."""
