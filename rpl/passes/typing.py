@@ -7,13 +7,45 @@ place. Unknown names are reported once each; what has no known type is left as i
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field
+from operator import is_
 
-from rpl import ir, registry
+from rpl import ir
 from rpl.diagnostics import Code, Diagnostics, Severity, code
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.collector import paused_cycle_collector
+from rpl.passes.rewrite import changed, each, rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope, signal_type
+from rpl.passes.typerules import (
+    BITS,
+    BOOL,
+    CHAR,
+    CONVERTED,
+    INT,
+    KIND_TYPES,
+    LOGIC,
+    ORDERED,
+    REAL,
+    TEXT,
+    arithmetic,
+    clash,
+    has_components,
+    pose_result,
+    quotient,
+    system_type,
+)
+from rpl.passes.typewords import component_names, component_type, type_word, word_type
 from rpl.source import NOWHERE, Origin
+
+__all__ = [
+    "Typer",
+    "component_names",
+    "component_type",
+    "counter_type",
+    "normalise",
+    "type_of",
+    "type_word",
+    "word_type",
+]
 
 UNKNOWN_NAME = code("unknown-name", Severity.WARNING, "{name} is not declared in what was read")
 UNKNOWN_ROUTINE = code("unknown-routine", Severity.WARNING, "routine {name} is not in what was read")
@@ -21,123 +53,35 @@ MISMATCH = code("type-mismatch", Severity.ERROR, "{found} where {wanted} is need
 UNKNOWN_COMPONENT = code("unknown-component", Severity.ERROR, "{type} has no component {name}")
 TOO_MANY = code("too-many-arguments", Severity.ERROR, "{name} takes {count} arguments, {given} are given")
 
-_INT, _REAL, _BOOL, _CHAR, _TEXT = ir.IntType(), ir.RealType(), ir.BoolType(), ir.CharType(), ir.StringType()
-_RESULT_KINDS: dict[str, ir.Type] = {
-    "n": _REAL,
-    "i": _INT,
-    "b": _BOOL,
-    "t": _TEXT,
-    "c": _CHAR,
-    "v": ir.VectorType(),
-    "r": ir.RotationType(),
-    "j": ir.JointsType(),
-    "J": ir.JointsType(),
-    "P": ir.PoseType(),
-    "T": ir.ToolType(),
-    "W": ir.WorkObjectType(),
-    "L": ir.LoadType(),
+# What most expressions of a point list are: their own normal form, of a type that their class tells.
+_LITERALS: dict[type, ir.Type] = {
+    ir.IntLiteral: INT,
+    ir.RealLiteral: REAL,
+    ir.BoolLiteral: BOOL,
+    ir.Present: BOOL,
 }
-_TYPE_WORDS: dict[type, str] = {
-    ir.IntType: "int",
-    ir.RealType: "real",
-    ir.BoolType: "bool",
-    ir.CharType: "char",
-    ir.StringType: "string",
-    ir.VectorType: "vector",
-    ir.RotationType: "rotation",
-    ir.PoseType: "pose",
-    ir.ConfigType: "configuration",
-    ir.ExternalType: "external",
-    ir.AxesType: "axes",
-    ir.TargetType: "target",
-    ir.JointsType: "joints",
-    ir.ToolType: "tool",
-    ir.WorkObjectType: "workobject",
-    ir.LoadType: "load",
-    ir.SpeedType: "speed",
-    ir.ZoneType: "zone",
-    ir.ClockType: "clock",
-    ir.InterruptType: "interrupt",
-    ir.TriggerType: "trigger",
-}
-_WORD_TYPES: dict[str, ir.Type] = {
-    "vector": ir.VectorType(),
-    "rotation": ir.RotationType(),
-    "pose": ir.PoseType(),
-    "external": ir.ExternalType(),
-    "axes": ir.AxesType(),
-    "joints": ir.JointsType(),
-    "tool": ir.ToolType(),
-    "workobject": ir.WorkObjectType(),
-    "load": ir.LoadType(),
-    "speed": ir.SpeedType(),
-    "zone": ir.ZoneType(),
-}
-_ORDERED = frozenset(("=", "<>", "<", ">", "<=", ">="))
-_LOGIC = frozenset(("and", "or", "xor", "cand", "cor"))
-_BITS = frozenset(("band", "bor", "bxor", "div", "mod"))
+_NUMBERS = frozenset((ir.IntLiteral, ir.RealLiteral))
 Typed = tuple[ir.Expression, ir.Type | None]
 
 
-def type_word(type: ir.Type) -> str:
-    """One word for a type: the neutral name, or a declared type's own name. Targets say their notation."""
-    match type:
-        case ir.NamedType(name=name):
-            return name
-        case ir.TargetType(notation=notation) | ir.ConfigType(notation=notation):
-            return f"{_TYPE_WORDS[type.__class__]} {notation}"
-        case ir.VendorType(name=name):
-            return name
-        case ir.ArrayType(element=element):
-            return f"array of {type_word(element)}"
-        case ir.SignalType(kind=kind):
-            return kind
-    return _TYPE_WORDS[type.__class__]
+@dataclass(slots=True)
+class _Layout:
+    """Components of a type as aggregates write them: types by position, and by written name with the neutral name."""
+
+    word: str
+    positional: tuple[ir.Type | None, ...]
+    complete: bool  # a component that is not found is an error (not so for a record that was not read)
+    named: dict[str, tuple[str, ir.Type | None]] = field(default_factory=dict)
 
 
-def word_type(word: str, scope: Scope) -> ir.Type | None:
-    """The type that `type_word` or the dialect's own spelling names; None when there is none."""
-    head, _, notation = word.partition(" ")
-    if head == "target":
-        return ir.TargetType(notation)
-    if head == "configuration":
-        return ir.ConfigType(notation)
-    declared = scope.type(word)
-    if declared is not None:
-        return scope.resolve(ir.NamedType(word))
-    return scope.rules.type_names.get(scope.fold(word)) or _WORD_TYPES.get(word)
+@dataclass(frozen=True, slots=True)
+class _Signature:
+    """A routine's parameters as a call's arguments find them."""
 
-
-def component_type(base: ir.Type, name: str, scope: Scope) -> ir.Type | None:
-    """Type of a component by its neutral (or record field) name; None when the type has no such component."""
-    match base:
-        case ir.NamedType(name=record):
-            declaration = scope.type(record)
-            if isinstance(declaration, ir.RecordDeclaration):
-                for field_name, field_type in declaration.fields:
-                    if scope.fold(field_name) == scope.fold(name):
-                        return scope.resolve(field_type)
-            return None
-        case ir.TargetType(notation=notation):
-            if name == "conf":
-                return ir.ConfigType(notation)
-            if name in registry.dialect(notation).notation_fields:
-                return _INT
-            return ir.COMPONENTS[ir.TargetType].get(name)
-        case ir.ConfigType(notation=notation):
-            return _REAL if name in registry.dialect(notation).notation_fields else None
-    return ir.COMPONENTS.get(base.__class__, {}).get(name)
-
-
-def component_names(base: ir.Type, scope: Scope) -> tuple[str, ...]:
-    """Components in the order of a positional aggregate."""
-    match base:
-        case ir.NamedType(name=record):
-            declaration = scope.type(record)
-            return tuple(n for n, _ in declaration.fields) if isinstance(declaration, ir.RecordDeclaration) else ()
-        case ir.ConfigType(notation=notation):
-            return registry.dialect(notation).notation_fields
-    return ir.POSITIONAL.get(base.__class__, ())
+    parameters: tuple[ir.Parameter, ...]
+    by_name: dict[str, ir.Parameter]
+    positional: tuple[ir.Parameter, ...]
+    open_ended: bool  # or unknown: any number of arguments may be right
 
 
 def type_of(expression: ir.Expression, scope: Scope) -> ir.Type | None:
@@ -148,23 +92,24 @@ def type_of(expression: ir.Expression, scope: Scope) -> ir.Type | None:
 def counter_type(loop: ir.For, scope: Scope) -> ir.Type:
     """Type of a loop's own counter: whole where it starts at a whole number and steps by whole ones."""
     parts = [loop.start] if loop.step is None else [loop.start, loop.step]
-    return _INT if all(isinstance(type_of(part, scope), ir.IntType) for part in parts) else _REAL
+    return INT if all(isinstance(type_of(part, scope), ir.IntType) for part in parts) else REAL
 
 
 def normalise(program: ir.Program, diagnostics: Diagnostics) -> ir.Program:
     """The program in normal form. Reports unknown names and type errors."""
     scopes = ProgramScope(program)
-    return replace(program, modules=tuple(_module(module, scopes, diagnostics) for module in program.modules))
+    with paused_cycle_collector():
+        return changed(program, modules=each(program.modules, lambda module: _module(module, scopes, diagnostics)))
 
 
 def _module(module: ir.Module, scopes: ProgramScope, diagnostics: Diagnostics) -> ir.Module:
     typer = Typer(scopes.module(module), diagnostics)
-    declarations = tuple(typer.declaration(declaration) for declaration in module.declarations)
-    routines = tuple(
-        Typer(scopes.routine(module, routine), diagnostics, typer.reported).routine(routine)
-        for routine in module.routines
+    declarations = each(module.declarations, typer.declaration)
+    routines = each(
+        module.routines,
+        lambda routine: Typer(scopes.routine(module, routine), diagnostics, typer.reported).routine(routine),
     )
-    return replace(module, declarations=declarations, routines=routines)
+    return changed(module, declarations=declarations, routines=routines)
 
 
 class Typer:
@@ -176,6 +121,11 @@ class Typer:
         self.diagnostics = diagnostics
         self.reported: set[str] = set() if reported is None else reported
         self.here = NOWHERE
+        # Asked again and again within one scope, and never another answer.
+        self._names: dict[str, ir.Type | None] = {}
+        self._layouts: dict[ir.Type, _Layout] = {}
+        self._signatures: dict[str, _Signature] = {}
+        self._joints: dict[tuple[str | None, ...], bool] = {}
 
     # ---- declarations and statements
 
@@ -184,12 +134,12 @@ class Typer:
         match declaration:
             case ir.Variable(type=type, initial=initial) if initial is not None:
                 value = self.assigned(initial, self.scope.resolve(type))
-                return replace(declaration, initial=value, type=self.type(type))
+                return changed(declaration, initial=value, type=self.type(type))
             case ir.Variable(type=type):
-                return replace(declaration, type=self.type(type))
+                return changed(declaration, type=self.type(type))
             case ir.Initialise(assign=assign):
                 done = self.statement(assign)
-                return replace(declaration, assign=done) if isinstance(done, ir.Assign) else declaration
+                return changed(declaration, assign=done) if isinstance(done, ir.Assign) else declaration
         return declaration
 
     def type(self, type: ir.Type) -> ir.Type:
@@ -197,83 +147,88 @@ class Typer:
         return rewrite_parts(type, self.value) if isinstance(type, ir.ArrayType | ir.StringType) else type
 
     def routine(self, routine: ir.Routine) -> ir.Routine:
-        return replace(
+        return changed(
             routine,
-            declarations=tuple(self.declaration(declaration) for declaration in routine.declarations),
+            declarations=each(routine.declarations, self.declaration),
             body=self.body(routine.body),
-            handlers=tuple(
-                replace(handler, codes=tuple(map(self.value, handler.codes)), body=self.body(handler.body))
-                for handler in routine.handlers
-            ),
+            handlers=each(routine.handlers, self.handler),
             undo=self.body(routine.undo),
             backward=self.body(routine.backward),
         )
 
+    def handler(self, handler: ir.Handler) -> ir.Handler:
+        return changed(handler, codes=each(handler.codes, self.value), body=self.body(handler.body))
+
     def body(self, body: ir.Body) -> ir.Body:
-        return tuple(self.statement(statement) for statement in body)
+        return each(body, self.statement)
 
     def statement(self, statement: ir.Statement) -> ir.Statement:
         self.here = statement.origin
         match statement:
             case ir.Assign(target=target, value=value):
                 lvalue, wanted = self.infer(target)
-                return replace(statement, target=lvalue, value=self.assigned(value, wanted))
+                return changed(statement, target=lvalue, value=self.assigned(value, wanted))
             case ir.CallRoutine(dynamic=None):
                 name = statement.name
-                return replace(statement, arguments=self.arguments(name, statement.arguments, statement.origin))
+                return changed(statement, arguments=self.arguments(name, statement.arguments, statement.origin))
             case ir.For(scoped=True):
                 counter = ir.Variable(statement.counter, counter_type(statement, self.scope))
                 inner = Typer(self.scope.with_value(counter), self.diagnostics, self.reported)
                 body = inner.body(statement.body)
-                return replace(rewrite_parts(replace(statement, body=()), self.value, self.body), body=body)
+                return changed(rewrite_parts(changed(statement, body=()), self.value, self.body), body=body)
             case ir.Switch(selector=selector):
                 chosen, wanted = self.infer(selector)
                 cases = tuple(
-                    replace(case, values=tuple(self.coerced(v, wanted) for v in case.values), body=self.body(case.body))
+                    changed(case, values=tuple(self.coerced(v, wanted) for v in case.values), body=self.body(case.body))
                     for case in statement.cases
                 )
                 default = None if statement.default is None else self.body(statement.default)
-                return replace(statement, selector=chosen, cases=cases, default=default)
+                return changed(statement, selector=chosen, cases=cases, default=default)
             case ir.Return(value=value) if value is not None:
                 routine = self.scope.routine_here
                 wanted = routine.returns if routine else None
-                return replace(statement, value=self.assigned(value, self.scope.resolve(wanted) if wanted else None))
+                return changed(statement, value=self.assigned(value, self.scope.resolve(wanted) if wanted else None))
             case ir.ConnectInterrupt(routine=name):
                 self.known_routine(name, statement.origin)
             case ir.Move():
-                return rewrite_parts(self.written_move(statement), self.value, self.body)
+                return self.move(statement)
         return rewrite_parts(statement, self.value, self.body)
 
-    def written_move(self, move: ir.Move) -> ir.Move:
+    def move(self, move: ir.Move) -> ir.Move:
         """The move with everything written out in it (targets, speeds, zones, settings) in typed form."""
+        done: dict[str, object] = {}
         speed, blend = move.speed, move.blend
         if speed is not None and isinstance(speed.profile, ir.Aggregate):
-            speed = replace(speed, profile=self.assigned(speed.profile, ir.SpeedType()))
+            profile = self.assigned(speed.profile, ir.SpeedType())
+            done["speed"] = rewrite_parts(speed, self.value, given={"profile": profile})
         if isinstance(blend, ir.BlendZone) and isinstance(blend.zone, ir.Aggregate):
-            blend = replace(blend, zone=self.assigned(blend.zone, ir.ZoneType()))
-        return replace(
-            move,
-            target=self.place(move.target),
-            via=None if move.via is None else self.place(move.via),
-            settings=tuple(
+            zone = self.assigned(blend.zone, ir.ZoneType())
+            done["blend"] = rewrite_parts(blend, self.value, given={"zone": zone})
+        done["target"] = self.place(move.target)
+        if move.via is not None:
+            done["via"] = self.place(move.via)
+        if move.settings:
+            done["settings"] = tuple(
                 (self.value(name), self.assigned(value, self.infer(name)[1])) for name, value in move.settings
-            ),
-            speed=speed,
-            blend=blend,
-        )
+            )
+        return rewrite_parts(move, self.value, self.body, done)
 
     def place(self, target: ir.Expression) -> ir.Expression:
         """A motion target; an aggregate written there is joints or a target by the components it names."""
         if not isinstance(target, ir.Aggregate) or target.type_name:
             return self.value(target)
-        written = [name for name, _ in target.entries]
-        if written and all(name is None for name in written):
-            joints = len(written) == len(ir.POSITIONAL[ir.JointsType])
-        else:
-            axes = self.rules.components.get("JointsType", {})
-            neutral = {axes.get(name.lower(), name.lower()) for name in written if name}
-            joints = bool(neutral & set(ir.POSITIONAL[ir.AxesType]))
+        written = tuple([name for name, _ in target.entries])
+        joints = self._joints.get(written)
+        if joints is None:
+            joints = self._joints[written] = self.are_joints(written)
         return self.assigned(target, ir.JointsType() if joints else ir.TargetType(self.rules.name))
+
+    def are_joints(self, written: tuple[str | None, ...]) -> bool:
+        if written and all(name is None for name in written):
+            return len(written) == len(ir.POSITIONAL[ir.JointsType])
+        axes = self.rules.components.get("JointsType", {})
+        neutral = {axes.get(name.lower(), name.lower()) for name in written if name}
+        return bool(neutral & set(ir.POSITIONAL[ir.AxesType]))
 
     # ---- expressions
 
@@ -285,6 +240,8 @@ class Typer:
         return self.coerced(expression, wanted, strict=True)
 
     def coerced(self, expression: ir.Expression, wanted: ir.Type | None, strict: bool = False) -> ir.Expression:
+        if expression.__class__ in _NUMBERS and wanted.__class__ is ir.RealType:
+            return expression
         done, found = self.infer(expression, wanted)
         if wanted is None or found is None or wanted == found:
             return done
@@ -295,7 +252,7 @@ class Typer:
                 return self.convert("code", done)
             case ir.CharType(), ir.IntType() if self.rules.char_numbers:
                 return self.convert("char", done)
-        if strict and _clash(wanted, found):
+        if strict and clash(wanted, found):
             self.report(MISMATCH, expression.origin, found=type_word(found), wanted=type_word(wanted))
         return done
 
@@ -307,71 +264,71 @@ class Typer:
     def infer(self, expression: ir.Expression, wanted: ir.Type | None = None) -> Typed:
         """The normal form of an expression and its type. `wanted` is what its place expects (for aggregates)."""
         match expression:
-            case ir.IntLiteral():
-                return expression, _INT
-            case ir.RealLiteral():
-                return expression, _REAL
-            case ir.BoolLiteral() | ir.Present():
-                return expression, _BOOL
+            case ir.IntLiteral() | ir.RealLiteral() | ir.BoolLiteral() | ir.Present():
+                return expression, _LITERALS[expression.__class__]
+            case ir.Name():
+                return self.name(expression)
+            case ir.Aggregate():
+                return self.aggregate(expression, wanted)
+            case ir.Unary(op=op, operand=operand):
+                inner, type = self.infer(operand)
+                return changed(expression, operand=inner), BOOL if op == "not" else type
+            case ir.Binary():
+                return self.binary(expression)
             case ir.TextLiteral(value=text):
                 short = self.rules.char_numbers and len(text) == 1 and isinstance(wanted, ir.CharType | ir.IntType)
-                return expression, _CHAR if short else _TEXT
+                return expression, CHAR if short else TEXT
             case ir.EnumLiteral(member=member):
                 declaration = self.scope.enum_of(member)
                 return expression, ir.NamedType(declaration.name) if declaration else None
-            case ir.Name():
-                return self.name(expression)
             case ir.Index():
                 return self.index(expression)
             case ir.Field():
                 return self.field(expression)
-            case ir.Unary(op=op, operand=operand):
-                inner, type = self.infer(operand)
-                return replace(expression, operand=inner), _BOOL if op == "not" else type
-            case ir.Binary():
-                return self.binary(expression)
-            case ir.Aggregate():
-                return self.aggregate(expression, wanted)
             case ir.Call(name=name, arguments=arguments):
                 routine = self.scope.routine(name)
-                done = replace(expression, arguments=self.arguments(name, arguments, expression.origin))
+                done = changed(expression, arguments=self.arguments(name, arguments, expression.origin))
                 returns = routine.returns if routine else None
                 return done, self.scope.resolve(returns) if returns else None
             case ir.Builtin():
                 return self.builtin(expression)
             case ir.System(name=name):
-                return rewrite_parts(expression, self.value), self.system_type(name)
+                return rewrite_parts(expression, self.value), system_type(name, self.rules.name)
             case ir.Signal():
                 return rewrite_parts(expression, self.value), signal_type(expression)
             case ir.Quantity() | ir.Magnitude():
-                return rewrite_parts(expression, self.value), _REAL
+                return rewrite_parts(expression, self.value), REAL
             case ir.Convert(how=how):
-                return rewrite_parts(expression, self.value), _CONVERTED[how]
+                return rewrite_parts(expression, self.value), CONVERTED[how]
 
     def name(self, expression: ir.Name) -> Typed:
-        symbol = self.scope.value(expression.id)
+        name = expression.id
+        if name in self._names:
+            return expression, self._names[name]
+        symbol = self.scope.value(name)
         if symbol is None:
-            self.report_once(UNKNOWN_NAME, expression.id, expression.origin)
-            return expression, None
-        return expression, self.scope.resolve(symbol.type)
+            self.report_once(UNKNOWN_NAME, name, expression.origin)
+        type = self._names[name] = None if symbol is None else self.scope.resolve(symbol.type)
+        return expression, type
 
     def index(self, expression: ir.Index) -> Typed:
         base, type = self.infer(expression.base)
-        indices = tuple(self.coerced(index, _INT) if self.rules.real_to_int else self.value(index)
-                        for index in expression.indices)  # fmt: skip
+        indices = each(
+            expression.indices, lambda index: self.coerced(index, INT) if self.rules.real_to_int else self.value(index)
+        )
         match type:
             case ir.ArrayType(element=element, dimensions=dimensions):
                 count, inner = len(dimensions), self.scope.resolve(element)
                 if len(indices) > count and isinstance(inner, ir.StringType):
-                    row = replace(expression, base=base, indices=indices[:count])
-                    return replace(expression, base=row, indices=indices[count:]), _CHAR
+                    row = changed(expression, base=base, indices=indices[:count])
+                    return changed(expression, base=row, indices=indices[count:]), CHAR
                 if len(indices) < count:
                     rest = ir.ArrayType(element, dimensions[len(indices) :], type.base)
-                    return replace(expression, base=base, indices=indices), rest
-                return replace(expression, base=base, indices=indices), inner
+                    return changed(expression, base=base, indices=indices), rest
+                return changed(expression, base=base, indices=indices), inner
             case ir.StringType():
-                return replace(expression, base=base, indices=indices), _CHAR
-        return replace(expression, base=base, indices=indices), None
+                return changed(expression, base=base, indices=indices), CHAR
+        return changed(expression, base=base, indices=indices), None
 
     def neutral(self, base: ir.Type, name: str) -> str:
         """A component's neutral name from the language's own."""
@@ -383,38 +340,38 @@ class Typer:
     def field(self, expression: ir.Field) -> Typed:
         base, type = self.infer(expression.base)
         if type is None:
-            return replace(expression, base=base), None
+            return changed(expression, base=base), None
         name = self.neutral(type, expression.name)
         found = component_type(type, name, self.scope)
         if found is None and not (isinstance(type, ir.NamedType) and self.scope.type(type.name) is None):
             self.report(UNKNOWN_COMPONENT, expression.origin, type=type_word(type), name=expression.name)
-            return replace(expression, base=base), None
-        return replace(expression, base=base, name=name), found
+            return changed(expression, base=base), None
+        return changed(expression, base=base, name=name), found
 
     def binary(self, expression: ir.Binary) -> Typed:
         op = expression.op
         wanted = ir.PoseType() if op == ":" else None
         left, left_type = self.infer(expression.left, wanted if self.is_pose(expression.left) else None)
         right, right_type = self.infer(expression.right, wanted if self.is_pose(expression.right) else None)
-        if left_type is None and isinstance(left, ir.Aggregate) and _has_components(right_type):
+        if left_type is None and isinstance(left, ir.Aggregate) and has_components(right_type):
             left, left_type = self.infer(expression.left, right_type)  # written out: of the other side's type
-        elif right_type is None and isinstance(right, ir.Aggregate) and _has_components(left_type):
+        elif right_type is None and isinstance(right, ir.Aggregate) and has_components(left_type):
             right, right_type = self.infer(expression.right, left_type)
-        if op in _ORDERED:
+        if op in ORDERED:
             left, right = self.comparable(left, left_type, right, right_type)
-            return replace(expression, left=left, right=right), _BOOL
-        if op in _LOGIC:
-            return replace(expression, left=left, right=right), _BOOL
-        if op in _BITS:
+            return changed(expression, left=left, right=right), BOOL
+        if op in LOGIC:
+            return changed(expression, left=left, right=right), BOOL
+        if op in BITS:
             whole = right_type if left_type is None else left_type
-            return replace(expression, left=left, right=right), whole
+            return changed(expression, left=left, right=right), whole
         if op == ":":
-            return replace(expression, left=left, right=right), right_type
+            return changed(expression, left=left, right=right), right_type
         if op == "quo":
-            op, type = self.quotient(left_type, right_type)
+            op, type = quotient(left_type, right_type)
         else:
-            op, type = self.arithmetic(op, left_type, right_type)
-        return replace(expression, op=op, left=left, right=right), type
+            op, type = arithmetic(op, left_type, right_type, self.rules.text_plus)
+        return changed(expression, op=op, left=left, right=right), type
 
     def is_pose(self, expression: ir.Expression) -> bool:
         """Does an aggregate name components of a pose only (no flags, no external axes)?"""
@@ -422,32 +379,6 @@ class Typer:
             return False
         known = ir.COMPONENTS[ir.PoseType]
         return all(name is not None and self.neutral(ir.PoseType(), name) in known for name, _ in expression.entries)
-
-    def quotient(self, left: ir.Type | None, right: ir.Type | None) -> tuple[str, ir.Type | None]:
-        if isinstance(left, ir.IntType) and isinstance(right, ir.IntType):
-            return "div", _INT
-        if isinstance(left, ir.RealType) or isinstance(right, ir.RealType):
-            return "/", _REAL
-        return "quo", None
-
-    def arithmetic(self, op: str, left: ir.Type | None, right: ir.Type | None) -> tuple[str, ir.Type | None]:
-        texts = (ir.StringType, ir.CharType)
-        if op == "&" or (op == "+" and self.rules.text_plus and (isinstance(left, texts) or isinstance(right, texts))):
-            return "&", _TEXT
-        if op == "*" and isinstance(left, ir.VectorType) and isinstance(right, ir.VectorType):
-            return "@", left
-        if op == "*" and isinstance(left, ir.RotationType):
-            return ":", left
-        for type in (left, right):
-            if isinstance(type, ir.VectorType):
-                return op, type
-        if op in ("/", "**"):
-            return op, _REAL
-        if left is None or right is None:
-            return op, None
-        if isinstance(left, ir.IntType) and isinstance(right, ir.IntType):
-            return op, _INT
-        return op, _REAL
 
     def comparable(
         self, left: ir.Expression, left_type: ir.Type | None, right: ir.Expression, right_type: ir.Type | None
@@ -468,23 +399,48 @@ class Typer:
         if isinstance(type, ir.ArrayType):
             rest = type.dimensions[1:]
             element = ir.ArrayType(type.element, rest, type.base) if rest else self.scope.resolve(type.element)
-            entries = tuple((name, self.assigned(value, element)) for name, value in expression.entries)
-            return replace(expression, entries=entries), type
-        names = component_names(type, self.scope)
+            items = each(expression.entries, lambda entry: self.element(entry, element))
+            return changed(expression, entries=items), type
+        layout = self.layout(type)
         done = []
-        for position, (written, value) in enumerate(expression.entries):
-            name = written if written is None else self.neutral(type, written)
-            place = name or (names[position] if position < len(names) else "")
-            inner = component_type(type, place, self.scope)
-            if inner is None and not self._unknown_record(type):
-                self.report(
-                    UNKNOWN_COMPONENT, expression.origin, type=type_word(type), name=written or f"number {position + 1}"
-                )
-            done.append((name, self.assigned(value, inner)))
-        return replace(expression, entries=tuple(done), type_name=type_word(type)), type
+        same = True
+        for position, entry in enumerate(expression.entries):
+            written, value = entry
+            if written is None:
+                name, inner = None, layout.positional[position] if position < len(layout.positional) else None
+            else:
+                name, inner = layout.named.get(written) or self.component(type, layout, written)
+            if inner is None and layout.complete:
+                what = written or f"number {position + 1}"
+                self.report(UNKNOWN_COMPONENT, expression.origin, type=layout.word, name=what)
+            if value.__class__ in _NUMBERS and inner.__class__ is ir.RealType:
+                new = value  # as `coerced` has it; most of what there is in a list of points
+            else:
+                new = self.assigned(value, inner)
+            if new is not value or name != written:
+                same, entry = False, (name, new)
+            done.append(entry)
+        if same and expression.type_name == layout.word:
+            return expression, type
+        entries = expression.entries if same else tuple(done)
+        return ir.Aggregate(entries, layout.word, origin=expression.origin), type
 
-    def _unknown_record(self, type: ir.Type) -> bool:
-        return isinstance(type, ir.NamedType) and self.scope.type(type.name) is None
+    def element(self, entry: tuple[str | None, ir.Expression], wanted: ir.Type) -> tuple[str | None, ir.Expression]:
+        done = self.assigned(entry[1], wanted)
+        return entry if done is entry[1] else (entry[0], done)
+
+    def layout(self, type: ir.Type) -> _Layout:
+        found = self._layouts.get(type)
+        if found is None:
+            places = tuple([component_type(type, name, self.scope) for name in component_names(type, self.scope)])
+            unknown_record = isinstance(type, ir.NamedType) and self.scope.type(type.name) is None
+            found = self._layouts[type] = _Layout(type_word(type), places, not unknown_record)
+        return found
+
+    def component(self, type: ir.Type, layout: _Layout, written: str) -> tuple[str, ir.Type | None]:
+        name = self.neutral(type, written)
+        found = layout.named[written] = name, component_type(type, name, self.scope)
+        return found
 
     def builtin(self, expression: ir.Builtin) -> Typed:
         arguments, types = [], []
@@ -502,48 +458,51 @@ class Typer:
         if kind.isdigit():
             result = types[int(kind)] if int(kind) < len(types) else None
         elif kind == "p":
-            result = _pose_result(expression.function, types, self.rules.name)
+            result = pose_result(expression.function, types, self.rules.name)
         else:
-            result = _RESULT_KINDS.get(kind)
-        return replace(expression, arguments=tuple(arguments)), result
+            result = KIND_TYPES.get(kind)
+        return changed(expression, arguments=tuple(arguments)), result
 
     def written_kind(self, kind: str, argument: ir.Aggregate) -> ir.Type | None:
         """The type of an aggregate written as an argument of a built-in function."""
         if kind != "p":
-            return _RESULT_KINDS.get(kind)
+            return KIND_TYPES.get(kind)
         whole = len(argument.entries) == len(ir.POSITIONAL[ir.TargetType])
         named = any(name is not None for name, _ in argument.entries)
         pose = self.is_pose(argument) if named else not whole
         return ir.PoseType() if pose else ir.TargetType(self.rules.name)
 
-    def system_type(self, name: str) -> ir.Type | None:
-        row = ir.SYSTEM_VARIABLES.get(name)
-        if row is None:
-            return None
-        if row.type == "P" and row.access == "r" and name.endswith("_pose"):
-            return ir.TargetType(self.rules.name)
-        return _RESULT_KINDS.get(row.type)
-
     def arguments(self, name: str, given: tuple[ir.Argument, ...], origin: Origin) -> tuple[ir.Argument, ...]:
         """Arguments in normal form, converted to their parameters' types where they are passed by value."""
-        routine = self.known_routine(name, origin)
-        parameters = routine.parameters if routine else ()
-        by_name = {self.scope.fold(parameter.name): parameter for parameter in parameters}
-        required = [parameter for parameter in parameters if not parameter.optional]
-        positional = iter(required if any(p.optional for p in parameters) else parameters)
+        signature = self._signatures.get(name) or self.signature(name, origin)
+        positional = iter(signature.positional)
         done = []
         for argument in given:
-            parameter = by_name.get(self.scope.fold(argument.name)) if argument.name else next(positional, None)
-            if routine and not routine.open_ended and parameter is None and argument.value is not None:
-                self.report(TOO_MANY, origin, name=name, count=len(parameters), given=len(given))
+            parameter: ir.Parameter | None
+            if argument.name:
+                parameter = signature.by_name.get(self.scope.fold(argument.name))
+            else:
+                parameter = next(positional, None)
             if argument.value is None:
                 done.append(argument)
-            elif parameter is None or parameter.mode == "reference":
-                wanted = None if parameter is None else self.scope.resolve(parameter.type)
-                done.append(replace(argument, value=self.infer(argument.value, wanted)[0]))
+                continue
+            if parameter is None and not signature.open_ended:
+                self.report(TOO_MANY, origin, name=name, count=len(signature.parameters), given=len(given))
+            wanted = None if parameter is None else self.scope.resolve(parameter.type)
+            if parameter is None or parameter.mode == "reference":
+                done.append(changed(argument, value=self.infer(argument.value, wanted)[0]))
             else:
-                done.append(replace(argument, value=self.assigned(argument.value, self.scope.resolve(parameter.type))))
-        return tuple(done)
+                done.append(changed(argument, value=self.assigned(argument.value, wanted)))
+        return given if all(map(is_, done, given)) else tuple(done)
+
+    def signature(self, name: str, origin: Origin) -> _Signature:
+        routine = self.known_routine(name, origin)
+        parameters = routine.parameters if routine else ()
+        required = tuple([parameter for parameter in parameters if not parameter.optional])
+        by_name = {self.scope.fold(parameter.name): parameter for parameter in parameters}
+        found = _Signature(parameters, by_name, required, routine is None or routine.open_ended)
+        self._signatures[name] = found
+        return found
 
     def known_routine(self, name: str, origin: Origin) -> ir.Routine | None:
         routine = self.scope.routine(name)
@@ -560,43 +519,3 @@ class Typer:
     def report(self, what: Code, origin: Origin, /, **arguments: object) -> None:
         """Report at the expression, or at its statement where a reader keeps no places of expressions."""
         self.diagnostics.report(what, origin if origin.source else self.here, **arguments)
-
-
-_CONVERTED: dict[str, ir.Type] = {
-    "real": _REAL,
-    "round_half_away": _INT,
-    "trunc": _INT,
-    "bit": _INT,
-    "truth": _BOOL,
-    "code": _INT,
-    "char": _CHAR,
-}
-
-
-def _pose_result(function: str, types: list[ir.Type | None], notation: str) -> ir.Type | None:
-    """Poses keep the kind of what they are made from; positions of the robot are targets."""
-    if function in ("current_target", "joints_to_target"):
-        return ir.TargetType(notation)
-    if function == "compose":
-        return types[-1] if types else None
-    return ir.PoseType()
-
-
-def _has_components(type: ir.Type | None) -> bool:
-    return isinstance(type, ir.NamedType | ir.ArrayType) or type.__class__ in ir.POSITIONAL
-
-
-def _clash(wanted: ir.Type, found: ir.Type) -> bool:
-    """Certainly incompatible: a text, number or BOOL where another of these is needed."""
-    kinds = []
-    for type in (wanted, found):
-        match type:
-            case ir.IntType() | ir.RealType():
-                kinds.append("number")
-            case ir.StringType() | ir.CharType():
-                kinds.append("text")
-            case ir.BoolType():
-                kinds.append("bool")
-            case _:
-                return False
-    return kinds[0] != kinds[1]

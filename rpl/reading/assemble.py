@@ -6,13 +6,12 @@ reported and mended at the nearest sensible place.
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.passes.collector import paused_cycle_collector
 from rpl.reading.ledger import LOWERED, REPORTED, TRIVIA, FileReport, Ledger
 from rpl.reading.pieces import (
     BLANK,
@@ -64,18 +63,6 @@ class _Frame:
     def next_section(self, head: Middle | None) -> None:
         self.sections.append(Section(self.head, tuple(self.items)))
         self.head, self.items = head, []
-
-
-@contextmanager
-def paused_cycle_collector() -> Iterator[None]:
-    """Millions of live nodes make Python's cycle collector dominate; trees and IR have no cycles."""
-    enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if enabled:
-            gc.enable()
 
 
 @dataclass(frozen=True, slots=True)
