@@ -43,18 +43,30 @@ class Expressions:
         done = rewrite_parts(expression, self.divided)
         if not isinstance(done, ir.Binary) or done.op not in ("/", "div"):
             return done
-        whole = [isinstance(self.type(side), ir.IntType) for side in (done.left, done.right)]
+        whole = [self.whole(side) for side in (done.left, done.right)]
         if done.op == "div":
             if not all(whole):
                 raise CannotSayError("a whole division of numbers that KRL takes for real ones")
             return done
         if not all(whole):
             return done
-        if isinstance(done.left, ir.IntLiteral):
-            return replace(done, left=ir.RealLiteral(float(done.left.value)))
-        if isinstance(done.right, ir.IntLiteral):
-            return replace(done, right=ir.RealLiteral(float(done.right.value)))
+        left, right = _bare(done.left), _bare(done.right)
+        if isinstance(left, ir.IntLiteral):
+            return replace(done, left=ir.RealLiteral(float(left.value)))
+        if isinstance(right, ir.IntLiteral):
+            return replace(done, right=ir.RealLiteral(float(right.value)))
         return replace(done, left=ir.Binary("*", ir.RealLiteral(1.0), done.left))
+
+    def whole(self, expression: ir.Expression) -> bool:
+        """Does KRL take what is written for a whole number? A conversion to a real number leaves no trace in it."""
+        match expression:
+            case ir.Convert(how="real", operand=operand) | ir.Unary(op="-" | "+", operand=operand):
+                return self.whole(operand)
+            case ir.Binary(op="+" | "-" | "*", left=left, right=right):
+                return self.whole(left) and self.whole(right)
+            case ir.Builtin(function="abs" | "min" | "max", arguments=arguments):
+                return all(part is not None and self.whole(part) for part in arguments)
+        return isinstance(self.type(expression), ir.IntType)
 
     def stored(self, expression: ir.Expression) -> str:
         """A value in a place whose type is known: the aggregate needs no type of its own."""
@@ -325,3 +337,10 @@ def _scale(value: float, factor: float) -> float:
 def _what(expression: ir.Expression) -> str:
     words = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", expression.__class__.__name__).lower()
     return f"{words} {getattr(expression, 'how', getattr(expression, 'op', ''))}".strip()
+
+
+def _bare(expression: ir.Expression) -> ir.Expression:
+    """Without conversions to real numbers, which KRL does not write."""
+    while isinstance(expression, ir.Convert) and expression.how == "real":
+        expression = expression.operand
+    return expression

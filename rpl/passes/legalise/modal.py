@@ -324,11 +324,12 @@ class _Explicit:
         match move.blend:
             case None | ir.BlendStop():
                 return ir.BlendStop()
-            case ir.BlendDistance(distance=distance) if move.kind != "joint":
-                if distance is None or (isinstance(distance, ir.Field) and distance.name == "path"):
+            case ir.BlendDistance(distance=distance) if move.kind != "joint" or distance is not None:
+                modal = distance is None or (isinstance(distance, ir.Field) and distance.name == "path")
+                if modal:
                     distance = values.get("blend_distance")
                 if distance is None or _number(distance) is None:
-                    return ir.BlendZone(self.name("zone"))
+                    return ir.BlendZone(self.name("zone"), distance=None if modal else distance)
                 return ir.BlendZone(_zone(distance))
             case ir.BlendZone():
                 return move.blend
