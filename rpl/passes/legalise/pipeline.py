@@ -7,6 +7,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.aggregates import aggregates
 from rpl.passes.legalise.aliases import without_aliases
+from rpl.passes.legalise.arrays import array_bases, array_sizes
 from rpl.passes.legalise.calls import rewrite_calls
 from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.context import Context, Pass, names_in
@@ -40,6 +41,7 @@ from rpl.passes.typing import normalise
 PASSES: tuple[Pass, ...] = (
     searches,
     link_prelude,
+    array_bases,
     configurations,
     without_aliases,
     stop_blends,
@@ -54,6 +56,7 @@ PASSES: tuple[Pass, ...] = (
     numbers,
     starting_values,
     fit_parameters,
+    array_sizes,
     check_errors,
     fit_waits,
     unroll_switches,
