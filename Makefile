@@ -39,6 +39,7 @@ lint: $(VENV)/.test-ready
 
 types: $(VENV)/.test-ready
 	$(BIN)/mypy
+	$(BIN)/mypy dialects postprocessors
 
 clean:
 	rm -rf demo-out build dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis $(VENV)/.demo-ready $(VENV)/.test-ready

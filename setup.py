@@ -5,7 +5,9 @@ from pathlib import Path
 from setuptools import find_packages, setup
 
 ROOMS = {"rpl": "rpl", "rpl.dialects": "dialects", "rpl.postprocessors": "postprocessors", "rpl.grammars": "grammars"}
-packages = [p for name, folder in ROOMS.items() for p in [name, *(f"{name}.{s}" for s in find_packages(str(Path(folder))))]]
+packages = []
+for name, folder in ROOMS.items():
+    packages += [name, *(f"{name}.{inner}" for inner in find_packages(str(Path(folder))))]
 DATA = ["*.lark", "*.toml", "*.j2", "*.rpl", "*.src", "*.mod", "*.dat", "py.typed"]
 
 setup(packages=packages, package_dir=ROOMS, package_data={"": DATA})

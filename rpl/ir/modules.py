@@ -99,7 +99,7 @@ Declaration = (
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
-    """mode: value (a copy), reference (an alias), readonly. `choice`: parameters with the same number exclude each other
+    """mode: value (a copy), reference (an alias), readonly. `choice`: parameters with one number exclude each other
     (RAPID `\\switch on | switch off`). `switch`: present or not, without a value."""
 
     name: str

@@ -105,7 +105,8 @@ class SpeedType:
 
 @dataclass(frozen=True, slots=True)
 class ZoneType:
-    """Zone: `stop`, `path` mm, `rotation_path` mm, `external_path` mm, `rotation` deg, `linear_external`, `rotary_external`."""
+    """Zone: `stop`, `path` mm, `rotation_path` mm, `external_path` mm, `rotation` deg, `linear_external` mm,
+    `rotary_external` deg."""
 
 
 @dataclass(frozen=True, slots=True)

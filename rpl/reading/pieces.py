@@ -12,8 +12,8 @@ STATEMENT, COMMENT, LAYOUT, BLANK = "statement", "comment", "layout", "blank"
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """One logical piece of a source: offsets of its span, the text to parse (joined where the language continues lines),
-    and the comment that stands behind it on its line (text without the sign, with its span included in the piece).
+    """One logical piece of a source: offsets of its span, the text to parse (joined where the language goes on over
+    lines), and the comment that stands behind it on its line (text without the sign; its span is part of the piece).
 
     kind: STATEMENT, COMMENT (text is the remark), LAYOUT (header, fold, attribute lines: text is kept), BLANK.
     """
