@@ -138,6 +138,8 @@ class Expressions:
         spelling = values[slot.index]
         if slot.real:
             return ir.RealLiteral(float(spelling), spelling)
+        if spelling.isdecimal():
+            return ir.IntLiteral(int(spelling), spelling)
         base = _BASES.get(spelling[:2].lower(), 10)
         return ir.IntLiteral(int(spelling, base) if base == 10 else int(spelling[2:], base), spelling)
 

@@ -15,12 +15,13 @@ from rpl.source import Source
 
 from .types import SIGNALS, TYPES
 
+# The letters a pattern can begin with stand first: most places of a long text are then passed over at once.
 _NOISE = re.compile(r'"(?:[^"\r\n]|"")*"|![^\r\n]*')
-_ROUTINE = re.compile(r"(\bLOCAL\s+)?\b(?:PROC|FUNC\s+\w+|TRAP)\s+(\w+)(?:\s*\(([^()]*)\))?", re.IGNORECASE)
-_DATA = re.compile(r"\b(?:CONST|VAR|PERS)\s+\w+\s+(\w+)", re.IGNORECASE)
+_ROUTINE = re.compile(r"(?=[LPFT])\b(LOCAL\s+)?(?:PROC|FUNC\s+\w+|TRAP)\s+(\w+)(?:\s*\(([^()]*)\))?", re.IGNORECASE)
+_DATA = re.compile(r"(?=[CVP])\b(?:CONST|VAR|PERS)\s+\w+\s+(\w+)", re.IGNORECASE)
 _PARAMETER = re.compile(r"(\w+)\s+(\w+)\s*(?:\{[^}]*\}\s*)?(?=[,|\\]|$)")
-_COUNTER = re.compile(r"\bFOR\s+(\w+)\s+FROM\b", re.IGNORECASE)
-_RECORD = re.compile(r"\b(?:RECORD|ALIAS\s+\w+)\s+(\w+)", re.IGNORECASE)
+_COUNTER = re.compile(r"(?=F)\bFOR\s+(\w+)\s+FROM\b", re.IGNORECASE)
+_RECORD = re.compile(r"(?=[RA])\b(?:RECORD|ALIAS\s+\w+)\s+(\w+)", re.IGNORECASE)
 # The first argument behind an instruction or inside a function tells the kind of signal.
 _USES = (
     (r"Set|Reset|InvertDO|SetDO|PulseDO|WaitDO|ISignalDO|DOutput", "digital_out"),
@@ -32,8 +33,11 @@ _USES = (
 )
 _OPTION = r"(?:\\\w+(?:\s*:=\s*[\w.]+)?\s*,?\s*)*"
 _USE_KINDS = {word.lower(): kind for words, kind in _USES for word in words.split("|")}
+_USE_LETTERS = "".join(sorted({word[0] for word in _USE_KINDS}))
 _SIGNAL_USE = re.compile(
-    rf"(?<![\w\\.])({'|'.join(words for words, _ in _USES)})\s*\(?\s*{_OPTION}([^\W\d]\w*)\s*(?=[,;)\\])", re.IGNORECASE
+    rf"(?=[{_USE_LETTERS}])(?<![\w\\.])({'|'.join(words for words, _ in _USES)})"
+    rf"\s*\(?\s*{_OPTION}([^\W\d]\w*)\s*(?=[,;)\\])",
+    re.IGNORECASE,
 )
 _DOP = re.compile(r"\\(DOp|AOp|GOp)\s*:=\s*([^\W\d]\w*)", re.IGNORECASE)
 _DOP_KINDS = {"dop": "digital_out", "aop": "analog_out", "gop": "group_out"}

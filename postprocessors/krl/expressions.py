@@ -9,7 +9,8 @@ from rpl import ir
 from rpl.errors import RplError
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
-from rpl.passes.typing import component_type, type_of
+from rpl.passes.typewords import component_type
+from rpl.passes.typing import type_of
 from rpl.writing.precedence import ExpressionPrinter, Printed
 from rpl.writing.text import ALWAYS_POINT, number_text
 
@@ -307,7 +308,7 @@ def component_name(type: ir.Type | None, name: str) -> str:
 
 
 def _aggregate_type(aggregate: ir.Aggregate, scope: Scope) -> ir.Type | None:
-    from rpl.passes.typing import word_type
+    from rpl.passes.typewords import word_type
 
     return word_type(aggregate.type_name, scope) if aggregate.type_name else None
 

@@ -7,7 +7,8 @@ import re
 from rpl import ir
 from rpl.errors import RplError
 from rpl.passes.scope import Scope
-from rpl.passes.typing import component_names, type_of, word_type
+from rpl.passes.typewords import component_names, word_type
+from rpl.passes.typing import type_of
 from rpl.writing.precedence import ExpressionPrinter, Printed
 from rpl.writing.text import NumberStyle, number_text
 

@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping
 
 from rpl import ir, registry
 from rpl.passes.scope import Scope
-from rpl.passes.typing import component_names, type_of, word_type
+from rpl.passes.typewords import component_names, word_type
+from rpl.passes.typing import type_of
 from rpl.runtime.chain import convention_of
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.values import (

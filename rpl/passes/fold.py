@@ -17,7 +17,8 @@ from rpl.diagnostics import Diagnostics
 from rpl.passes import rigid
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
-from rpl.passes.typing import component_names, normalise, type_of, word_type
+from rpl.passes.typewords import component_names, word_type
+from rpl.passes.typing import normalise, type_of
 from rpl.passes.values import Member, Value, binary, component, composed, converted, literal, pure, real, scaled, unary
 
 __all__ = ["Unchanged", "Value", "constant", "constant_number", "literal", "real", "simplify"]

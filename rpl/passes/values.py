@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from rpl import ir, registry
 from rpl.passes import rigid
-from rpl.passes.typing import type_word
+from rpl.passes.typewords import type_word
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from rpl.passes.legalise.support import default_value
 from rpl.passes.legalise.usage import base_name
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
-from rpl.passes.typing import component_names, component_type, type_word
+from rpl.passes.typewords import component_names, component_type, type_word
 from rpl.passes.values import Value
 
 # Taken apart by the pass of geometry, also inside of expressions.

@@ -18,7 +18,7 @@ from rpl.passes.legalise.library import Library, composed, minus, number, plus, 
 from rpl.passes.legalise.records import RECORDS, Records
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
-from rpl.passes.typing import component_names, type_word
+from rpl.passes.typewords import component_names, type_word
 from rpl.passes.values import Value, pose_of
 
 QUATERNION_PART = code(

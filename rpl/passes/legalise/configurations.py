@@ -17,7 +17,7 @@ from rpl.passes.legalise.context import Arm, Context, rules_of
 from rpl.passes.legalise.flow import Use, Uses
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
-from rpl.passes.typing import component_names, type_word
+from rpl.passes.typewords import component_names, type_word
 from rpl.passes.values import Record, Target, component, moved
 
 if TYPE_CHECKING:

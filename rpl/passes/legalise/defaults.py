@@ -14,7 +14,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.support import default_value
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
-from rpl.passes.typing import component_names, component_type, type_word
+from rpl.passes.typewords import component_names, component_type, type_word
 
 # An array of more elements is filled by a loop where it can be.
 _LISTED = 32

@@ -17,7 +17,8 @@ from rpl.passes.legalise.modal import DROPPED, JOINT_BLEND, MM_S_PER_PERCENT, ZO
 from rpl.passes.legalise.usage import base_name, each_expression, each_statement, usage_of
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
-from rpl.passes.typing import component_names, type_of
+from rpl.passes.typewords import component_names
+from rpl.passes.typing import type_of
 from rpl.source import Origin
 
 JOINT_TOOL_SPEED = code(

@@ -16,7 +16,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.usage import base_name
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
-from rpl.passes.typing import type_word
+from rpl.passes.typewords import type_word
 from rpl.passes.values import Target, Value
 
 ANGLE_RANGE = code(

@@ -15,7 +15,8 @@ from rpl.passes.fold import Unchanged
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.usage import base_name, usage_of
 from rpl.passes.rewrite import rewrite_parts
-from rpl.passes.typing import counter_type, type_of, word_type
+from rpl.passes.typewords import word_type
+from rpl.passes.typing import counter_type, type_of
 
 EARLY = code(
     "condition-read-once",

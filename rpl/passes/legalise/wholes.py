@@ -15,7 +15,8 @@ from rpl.passes.legalise.context import ProgramScope
 from rpl.passes.legalise.usage import bodies
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
-from rpl.passes.typing import component_names, type_of
+from rpl.passes.typewords import component_names
+from rpl.passes.typing import type_of
 
 LARGEST = 2**31 - 1
 _WHOLE_FUNCTIONS = frozenset(

@@ -9,7 +9,8 @@ from typing import Any
 from rpl import ir
 from rpl.passes import rigid
 from rpl.passes.scope import ProgramScope, Scope
-from rpl.passes.typing import component_names, component_type, type_of, word_type
+from rpl.passes.typewords import component_names, component_type, word_type
+from rpl.passes.typing import type_of
 from rpl.passes.values import Member, Target, binary, component, composed, converted, pose_of, pure, unary
 
 ZERO: dict[type, Any] = {
