@@ -42,6 +42,13 @@ def _notation() -> Notation:
     return NOTATION
 
 
+def _signal_name(kind: str, number: int) -> str:
+    from rpl.ir.words import SIGNAL_WORDS
+
+    word = next((word for word, meant in SIGNAL_WORDS.items() if meant == kind), kind)
+    return f"{word}[{number}]"
+
+
 DIALECT = Dialect(
     name="rpl",
     title="RPL, the universal robot programming language",
@@ -52,4 +59,5 @@ DIALECT = Dialect(
     prelude=_prelude,
     notation=_notation,
     notation_fields=POSTURE_FLAGS,
+    signal_name=_signal_name,
 )
