@@ -102,7 +102,7 @@ class _Configurations(Rewriter):
 
     def checks(self) -> tuple[ir.Statement, ...]:
         """Switch off the checks of the target's controller that the source's did not make."""
-        if not self.results:
+        if not self.results and not self.nearest:
             return ()
         known = rules_of(self.context.source).system_defaults
         joint, path = _CHECKS
@@ -116,6 +116,9 @@ class _Configurations(Rewriter):
     def joint_move(self, move: ir.Move) -> list[ir.Statement]:
         """A joint move; where its target's flags are not known, without the check of the flags."""
         done = super().statement(move)
+        if self.foreign and isinstance(self.type_of(move.target), ir.PoseType):
+            self.nearest = True  # a pose says nothing about the arm's posture
+            return self.unchecked(done)
         found = [self.results[key] for key in self.uses.reach(move.target, self.scope) if key in self.results]
         if not found:
             return done
@@ -123,6 +126,10 @@ class _Configurations(Rewriter):
             self.exact = True
             return done
         self.nearest = True
+        return self.unchecked(done)
+
+    def unchecked(self, done: list[ir.Statement]) -> list[ir.Statement]:
+        """Moves without the check of the flags, where other moves are to be checked."""
         mixed = self.trial is not None and self.trial.exact
         if not mixed or not self.can_set(_CHECKS[0]):
             return done

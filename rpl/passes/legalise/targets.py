@@ -124,7 +124,7 @@ class _Whole:
                     same = statement.tool == move.tool and statement.frame == move.frame and not statement.settings
                     if not same or isinstance(type_of(target, self.scope), ir.JointsType | None):
                         return None
-                    return target if isinstance(target, ir.Aggregate | ir.Name | ir.Builtin) else None
+                    return target if isinstance(target, ir.Aggregate | ir.Builtin) or _is_place(target) else None
                 case ir.Assign(target=ir.Signal()) | ir.Nothing() | ir.Wait() | ir.WaitUntil() | ir.LookAhead():
                     continue
                 case ir.Assign(target=ir.System(name=name)) if name not in ("tool", "base"):
@@ -145,3 +145,15 @@ class _Whole:
 
 def _is_zero(value: ir.Expression) -> bool:
     return isinstance(value, ir.IntLiteral | ir.RealLiteral) and value.value == 0
+
+
+def _is_place(target: ir.Expression) -> bool:
+    """A variable, or an element of one that can be named again."""
+    match target:
+        case ir.Name():
+            return True
+        case ir.Field(base=base):
+            return _is_place(base)
+        case ir.Index(base=base, indices=indices):
+            return _is_place(base) and all(isinstance(one, ir.IntLiteral) or _is_place(one) for one in indices)
+    return False
