@@ -349,6 +349,8 @@ class Machine:
                 key = name or f"out{self.value(index, frame)}"
                 self.outputs[key] = self.value(value, frame)
                 self.trace.append(("output", key, self.outputs[key]))
+            case ir.Assign(target=ir.System(name="advance")):
+                return  # how far the program pointer may be ahead shows in motion only
             case ir.Assign(target=ir.System(name="timer", indices=(index,)), value=value):
                 number, started = self.value(index, frame), self.timers.get(self.value(index, frame), (0, 0.0))[1]
                 self.timers[number] = (self.value(value, frame), None if started is None else self.time)
