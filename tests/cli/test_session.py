@@ -22,7 +22,7 @@ def test_blocks_are_gathered_until_they_end(session: Session) -> None:
     assert session.enter("var i : int") == []
     assert session.enter("for i = 1 to 2") is None
     shown = session.enter("for i = 1 to 2\nset do[i] to on\nend for")
-    assert shown == ["output digital_out[1] becomes TRUE", "output digital_out[2] becomes TRUE"]
+    assert shown == ["output do[1] becomes TRUE", "output do[2] becomes TRUE"]
 
 
 def test_a_move_is_shown_and_undone(session: Session) -> None:
@@ -35,7 +35,7 @@ def test_a_move_is_shown_and_undone(session: Session) -> None:
 
 
 def test_mistakes_leave_the_session_as_it_was(session: Session) -> None:
-    assert session.enter("set do[1] to on") == ["output digital_out[1] becomes TRUE"]
+    assert session.enter("set do[1] to on") == ["output do[1] becomes TRUE"]
     assert session.enter("set do[1] to )") not in (None, [])
     far = session.enter("move linear to {x: 9000, y: 0, z: 0, a: 0, b: 90, c: 0}") or []
     assert "taken back" in far[-1]
