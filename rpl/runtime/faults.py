@@ -7,32 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-# neutral name -> spellings under which the rules of a language may number it
-SPELLINGS: Mapping[str, tuple[str, ...]] = {
-    "timeout": ("ERR_WAIT_MAXTIME",),
-    "dialog_timeout": ("ERR_TP_MAXTIME", "timeout"),
-    "division_by_zero": ("ERR_DIVZERO",),
-    "out_of_range": ("ERR_OUTOFBND",),
-    "not_present": ("ERR_NOTPRES",),
-    "unknown_routine": ("ERR_REFUNKPRC",),
-    "unknown_function": ("ERR_REFUNKFUN",),
-    "unknown_trap": ("ERR_REFUNKTRP",),
-    "unknown_data": ("ERR_REFUNKDAT",),
-    "bad_call": ("ERR_CALLPROC",),
-    "no_result": ("ERR_FNCNORET",),
-    "negative_argument": ("ERR_NEGARG",),
-    "overflow": ("ERR_OVERFLOW", "ERR_NUM_LIMIT"),
-    "bad_rotation": ("ERR_ILLQUAT",),
-    "text_too_long": ("ERR_STRTOOLNG",),
-    "search_missed": ("ERR_WHLSEARCH",),
-    "search_already": ("ERR_SIGSUPSEARCH",),
-    "unreachable": ("ERR_OUTSIDE_REACH", "ERR_ROBLIMIT"),
-    "not_whole": ("ERR_NOTINTVAL", "ERR_INT_NOTVAL"),
-    "already_connected": ("ERR_ALRDYCNT",),
-    "unknown_interrupt": ("ERR_UNKINO",),
-    "path_not_stored": ("ERR_PATH",),
-    "bad_raise": ("ERR_ILLRAISE",),
-}
+from rpl.ir.errornames import SPELLINGS
+
 # Errors that are faults of the program in every language: no handler sees them.
 FATAL = frozenset(("no_value", "wrong_kind", "no_time", "opaque", "vendor", "too_deep", "internal_limit", "motion"))
 

@@ -31,7 +31,7 @@ CAUGHT_PARTLY = code(
     Severity.WARNING,
     "{routine}: errors that the controller itself raises stop the program instead of coming to this handler",
 )
-_DIVISION, _BOUND = "err_divzero", "err_outofbnd"
+_DIVISION, _BOUND = "division_by_zero", "out_of_range"
 
 
 @dataclass(frozen=True, slots=True)

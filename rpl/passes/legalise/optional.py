@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.errornames import spelled_among
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
 from rpl.passes.legalise.effects import blocks, children, everything, statements_in
@@ -357,7 +358,7 @@ class _Dynamic:
 
     def missing(self, statement: ir.CallRoutine) -> ir.Body:
         """No procedure of that name: an error of the program."""
-        known = next((word for word in self.editor.scope.rules.errors if word.lower() == "err_refunkprc"), None)
+        known = spelled_among("unknown_routine", self.editor.scope.rules.errors)
         origin = replace(statement.origin, comments=())
         if known is not None:
             return (ir.Raise(ir.IntLiteral(self.editor.scope.rules.errors[known]), origin=origin),)

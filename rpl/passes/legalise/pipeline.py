@@ -14,6 +14,7 @@ from rpl.passes.legalise.context import Context, Pass, names_in
 from rpl.passes.legalise.datalists import set_data_at_start
 from rpl.passes.legalise.defaults import starting_values
 from rpl.passes.legalise.enums import enums_to_constants
+from rpl.passes.legalise.errorcodes import name_errors
 from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.explicit import explicit_to_modal
 from rpl.passes.legalise.geometry import geometry
@@ -68,6 +69,7 @@ PASSES: tuple[Pass, ...] = (
     explicit_to_modal,
     aggregates,
     geometry,
+    name_errors,
     drop_unused,
 )
 

@@ -6,19 +6,20 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from rpl import ir
+from rpl.ir.errornames import neutral_name
 from rpl.passes.legalise.context import rules_of
 from rpl.passes.legalise.effects import blocks, children, everything, is_constant, statements_in
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 
-_WAIT, _DIALOG, _DIVISION, _BOUND = "err_wait_maxtime", "err_tp_maxtime", "err_divzero", "err_outofbnd"
+_WAIT, _DIALOG, _DIVISION, _BOUND = "timeout", "dialog_timeout", "division_by_zero", "out_of_range"
 _SEEN = frozenset((_WAIT, _DIALOG, _DIVISION, _BOUND))
 _UNKNOWN_ERROR = 1
 
 
 @dataclass(slots=True)
 class Raising:
-    """Facts about a program. `caught`: error names it mentions (folded) and how it writes them."""
+    """Facts about a program. `caught`: errors it mentions, by neutral names, and how it writes them."""
 
     caught: dict[str, ir.Expression] = field(default_factory=dict)
     used: bool = False
@@ -27,6 +28,12 @@ class Raising:
     _called: set[str] = field(default_factory=set)
     _actions: set[str] = field(default_factory=set)
     _numbers: dict[str, int] = field(default_factory=dict)
+    _spelled: set[str] = field(default_factory=set)
+
+    def key(self, name: str) -> str:
+        """The neutral name of an error of the language; a name of the program's own stays apart from those."""
+        folded = name.lower()
+        return neutral_name(folded) if folded in self._spelled else f"own {folded}"
 
     def raises(self, name: str) -> bool:
         """May an error come out of a routine of that name?"""
@@ -93,34 +100,39 @@ class Raising:
         """Is some handler of the routine for errors that only the source's controller sees?"""
         seen = _SEEN | {name for name in self.caught if name not in self._numbers}
         for handler in routine.handlers:
-            asked = set(_mentioned(handler))
+            asked = set(_mentioned(handler, self))
             if not asked or asked & set(self._numbers) - seen:
                 return not (asked and asked <= seen)
         return False
 
     def timeout_code(self, statement: ir.WaitUntil | ir.Dialog) -> ir.Expression:
         """What the timeout of a wait or a question raises."""
-        name = _DIALOG if isinstance(statement, ir.Dialog) else (statement.error or _WAIT).lower()
+        name = _DIALOG if isinstance(statement, ir.Dialog) else neutral_name(statement.error or _WAIT)
         if name in self.caught:
             return self.caught[name]
         return ir.IntLiteral(self._numbers.get(name, _UNKNOWN_ERROR))
 
 
-def _mentioned(handler: ir.Handler) -> Iterator[str]:
+def _mentioned(handler: ir.Handler, facts: Raising) -> Iterator[str]:
     parts = list(handler.codes)
     for statement in statements_in(handler.body):
         parts.extend(children(statement))
     for part in parts:
         for one in everything(part):
-            if isinstance(one, ir.Name) and (one.id.lower().startswith("err") or part in handler.codes):
-                yield one.id.lower()
+            if not isinstance(one, ir.Name):
+                continue
+            name = one.id.lower()
+            if name.startswith("err") or name in facts._spelled or part in handler.codes:
+                yield facts.key(one.id)
 
 
 def raising_of(program: ir.Program) -> Raising:
     """The facts about a program; `used` is False when it has no errors to speak of."""
     facts = Raising()
     for module in program.modules:
-        facts._numbers.update((name.lower(), number) for name, number in rules_of(module.dialect).errors.items())
+        errors = rules_of(module.dialect).errors
+        facts._spelled.update(name.lower() for name in errors)
+        facts._numbers.update((neutral_name(name), number) for name, number in errors.items())
     scopes = ProgramScope(program)
     routines = list(scopes.routines())
     for module, routine in routines:
@@ -163,5 +175,5 @@ def _note(facts: Raising, statement: ir.Statement, scope: Scope) -> None:
 
 
 def _caught(facts: Raising, number: ir.Expression, raised: bool = False) -> None:
-    if isinstance(number, ir.Name) and (number.id.lower() in facts._numbers or raised):
-        facts.caught.setdefault(number.id.lower(), ir.Name(number.id))
+    if isinstance(number, ir.Name) and (number.id.lower() in facts._spelled or raised):
+        facts.caught.setdefault(facts.key(number.id), ir.Name(number.id))

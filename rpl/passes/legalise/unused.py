@@ -17,10 +17,10 @@ def drop_unused(program: ir.Program, context: Context) -> ir.Program:
     own = []
     for module in program.modules:
         mine = tuple(one for one in module.declarations if not _is_generated(one, module, context))
-        routines = () if _is_linked(module, context) else module.routines
+        routines = () if is_linked(module, context) else module.routines
         own.append(replace(module, declarations=mine, routines=routines))
         parts.extend(one for one in module.declarations if _is_generated(one, module, context))
-        parts.extend(one for one in module.routines if _is_linked(module, context))
+        parts.extend(one for one in module.routines if is_linked(module, context))
     if not parts:
         return program
     used = _names(replace(program, modules=tuple(own)))
@@ -38,7 +38,7 @@ def drop_unused(program: ir.Program, context: Context) -> ir.Program:
         gone = {id(one) for one in parts} - kept
         declarations = tuple(one for one in module.declarations if id(one) not in gone)
         routines = tuple(one for one in module.routines if id(one) not in gone)
-        if declarations or routines or not _is_linked(module, context):
+        if declarations or routines or not is_linked(module, context):
             modules.append(replace(module, declarations=declarations, routines=routines))
     return replace(program, modules=tuple(modules))
 
@@ -46,10 +46,11 @@ def drop_unused(program: ir.Program, context: Context) -> ir.Program:
 def _is_generated(one: ir.Declaration, module: ir.Module, context: Context) -> bool:
     """Part of a linked prelude, or a record that stands for a built-in type."""
     record = isinstance(one, ir.RecordDeclaration) and one.name.startswith("rpl_")
-    return record or _is_linked(module, context)
+    return record or is_linked(module, context)
 
 
-def _is_linked(module: ir.Module, context: Context) -> bool:
+def is_linked(module: ir.Module, context: Context) -> bool:
+    """Is it the used part of the source's prelude?"""
     return module.name.lower().startswith(f"{context.source}_base")
 
 

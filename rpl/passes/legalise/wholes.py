@@ -255,8 +255,11 @@ class _Collector:
         self.scope = outer
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
-        if isinstance(expression, ir.Call):
-            self.passed(expression.name, expression.arguments, False)
+        match expression:
+            case ir.Call(name=name, arguments=given):
+                self.passed(name, given, False)
+            case ir.Builtin(function=function, arguments=arguments) if function in _PARSERS:
+                self.procedure(function, arguments)
         return rewrite_parts(expression, self.expression)
 
     def passed(self, name: str, arguments: tuple[ir.Argument, ...], dynamic: bool) -> None:
