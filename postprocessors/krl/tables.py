@@ -16,8 +16,7 @@ RESERVED = frozenset(
     abs acos atan2 cos frand inv_pos inverse forward sin sqrt tan varstate stradd strclear strcomp strcopy strdecllen
     strfind strlen strtobool strtoint strtoreal swrite sread cread cwrite copen cclose cioctl ek
     msgnotify msgquit msgstate msgdialog msgloop on_error_proceed
-    bas fdat pdat ldat apo cp load inertia date base_data tool_data load_data x y z a b c s t m j
-    e1 e2 e3 e4 e5 e6 a1 a2 a3 a4 a5 a6""".split()  # noqa: SIM905 (a word list reads better)
+    bas fdat pdat ldat apo cp load inertia date base_data tool_data load_data""".split()  # noqa: SIM905 (a word list reads better)
 )
 
 _RELATION, _OR, _EXOR, _AND, _SUM, _PRODUCT, _SIGN, _CHAIN = 20, 30, 40, 50, 60, 70, 80, 90
