@@ -88,6 +88,10 @@ class _Splitter:
             self.remarks = []
             end = max(self.end_of(at), at + 1)
             for start, stop in self.mended(at, end):
+                for first, last, remark in self.remarks:  # comments at the break between two statements
+                    if at <= first and last <= start:
+                        yield Piece(COMMENT, first, last, remark)
+                        at = last
                 piece = self.statement(start, stop)
                 yield replace(piece, start=lead) if lead < start == at else piece
                 at = piece.end

@@ -157,6 +157,11 @@ def test_the_text_is_rebuilt_from_its_claims() -> None:
     assert rebuilt == text
 
 
+def test_a_comment_at_a_break_between_damaged_statements_is_kept() -> None:
+    text, rebuilt = ledger_of("1\n!" + PROGRAM)
+    assert rebuilt == text
+
+
 @settings(max_examples=200, deadline=None)
 @given(st.data())
 def test_every_text_is_accounted_for(data: st.DataObject) -> None:
