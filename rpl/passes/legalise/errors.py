@@ -215,6 +215,12 @@ class _Passing(Hoister):
     def ready(self, before: ir.Body) -> ir.Body:
         return self.checked(before) if any(map(self.raises, before)) else before
 
+    def _finished(self, old: ir.Statement, before: ir.Body, new: ir.Statement) -> ir.Body:
+        if blocks(new):
+            return super()._finished(old, before, new)
+        # `statement` puts the checks behind the steps of a plain statement
+        return expansion(old.origin, (*before, new)) if before else (new,)
+
     def checked(self, steps: ir.Body) -> ir.Body:
         """The steps, each that may raise with a check that leaves the routine behind it."""
         done: list[ir.Statement] = []

@@ -257,7 +257,8 @@ def _numbers(
     used: dict[str, set[int]] = {}
     for kind, key in names:
         match = re.fullmatch(r"([a-z_]+?)_?([1-9]\d{0,3})", key)
-        if match and match.group(1) in prefixes.get(kind, set()):
+        # The number of a group is not that of its first bit: groups are declared by their names.
+        if match and not kind.startswith("group") and match.group(1) in prefixes.get(kind, set()):
             number = int(match.group(2))
             if number not in used.setdefault(kind, set()):
                 used[kind].add(number)
