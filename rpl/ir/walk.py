@@ -33,31 +33,46 @@ def _fields(kind: type) -> tuple[str, ...]:
     return known
 
 
+# Classes whose values hold no nodes: what most fields of a node are.
+_PLAIN = frozenset((str, int, float, bool, type(None), Origin))
+
+
 def _is_node(part: object) -> bool:
-    return dataclasses.is_dataclass(part) and not isinstance(part, Origin)
+    return part.__class__ not in _PLAIN and dataclasses.is_dataclass(part)
 
 
-def children(node: object) -> Iterator[object]:
+def children(node: object) -> list[object]:
     """The nodes directly below a node (or inside nested tuples), in the order of its fields."""
+    found: list[object] = []
     for name in _fields(node.__class__):
-        yield from _nodes(getattr(node, name))
+        part = getattr(node, name)
+        if part.__class__ not in _PLAIN:
+            _collect(part, found)
+    return found
 
 
-def _nodes(part: object) -> Iterator[object]:
-    if isinstance(part, tuple):
-        for item in part:
-            yield from _nodes(item)
-    elif _is_node(part):
-        yield part
+def _collect(part: object, found: list[object]) -> None:
+    if part.__class__ is tuple:
+        for item in cast(tuple[object, ...], part):
+            if item.__class__ not in _PLAIN:
+                _collect(item, found)
+    elif dataclasses.is_dataclass(part):
+        found.append(part)
+
+
+def _nodes(part: object) -> list[object]:
+    found: list[object] = []
+    _collect(part, found)
+    return found
 
 
 def walk(*roots: object) -> Iterator[object]:
     """Every node of the trees, each before the ones below it. A root may be a body (a tuple of nodes)."""
-    stack: list[object] = [node for root in reversed(roots) for node in reversed(list(_nodes(root)))]
+    stack: list[object] = [node for root in reversed(roots) for node in reversed(_nodes(root))]
     while stack:
         node = stack.pop()
         yield node
-        stack.extend(reversed(list(children(node))))
+        stack.extend(reversed(children(node)))
 
 
 def expressions(*roots: object) -> Iterator[Expression]:
