@@ -54,6 +54,7 @@ _DEFAULTS: dict[str, float | bool | str] = {
     "joint_configuration_check": True,
     "path_configuration_check": True,
     "singularity_mode": "off",
+    "circle_orientation": "path",  # M: CirPathMode starts as \PathFrame
     "override": 100.0,
 }
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
+from rpl.passes.legalise.circles import has_arcs
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.usage import Usage, each_expression, usage_of
 from rpl.passes.rewrite import rewrite_parts
@@ -76,7 +77,7 @@ def modal_to_explicit(program: ir.Program, context: Context) -> ir.Program:
     if context.capabilities.modal_motion:
         return program
     usage = usage_of(program)
-    worker = _Explicit(context, usage)
+    worker = _Explicit(context, usage, has_arcs(program))
     modules = tuple(
         replace(
             module,
@@ -105,8 +106,9 @@ Environment = dict[str, ir.Expression]
 
 
 class _Explicit:
-    def __init__(self, context: Context, usage: Usage) -> None:
+    def __init__(self, context: Context, usage: Usage, arcs: bool) -> None:
         self.context = context
+        self.arcs = arcs
         self.usage = usage
         self.state = _State()
         self.defaults = rules_of(context.source).system_defaults
@@ -243,6 +245,8 @@ class _Explicit:
         assert isinstance(target, ir.System)
         name, value = target.name, self.expression(statement.value)
         if name in _DROPPED:
+            if name == "circle_orientation" and name in self.context.capabilities.system_variables:
+                return [statement if self.arcs else ir.Nothing(origin=statement.origin)]
             if _says(value, _USUAL.get(name, "")):
                 return [ir.Nothing(origin=statement.origin)]
             if name == "interpolation":  # a tool fixed in the room is another motion: the writer stops there

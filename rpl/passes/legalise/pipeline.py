@@ -9,6 +9,7 @@ from rpl.passes.legalise.aggregates import aggregates
 from rpl.passes.legalise.aliases import without_aliases
 from rpl.passes.legalise.arrays import array_bases, array_sizes
 from rpl.passes.legalise.calls import rewrite_calls
+from rpl.passes.legalise.circles import circle_rules
 from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.context import Context, Pass, names_in
 from rpl.passes.legalise.datalists import set_data_at_start
@@ -43,6 +44,7 @@ PASSES: tuple[Pass, ...] = (
     searches,
     link_prelude,
     array_bases,
+    circle_rules,
     configurations,
     without_aliases,
     stop_blends,
