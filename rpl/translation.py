@@ -42,11 +42,11 @@ def translate_program(
     second = _load(to_robot) if to_robot and to_robot != robot else first
     source = read.dialects[0] if read.dialects else target_name
     context = Context(source, target_name, target.capabilities(), collector, first, second)
+    before = len(collector)
     program = legalise(read.program, context)
     renamed: dict[str, str] = {}
     if source != target_name:
         program, renamed = rename(program, target.capabilities().names)
-    before = len(collector)
     files = target.write(program, WriteContext(collector, second))
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
     return Translation(tuple(files), program, renamed, losses)

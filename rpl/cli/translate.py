@@ -188,7 +188,7 @@ def _print(
             click.echo(f"renamed {old} to {new}")
         losses = len(translation.losses)
         click.echo(
-            f"{losses} statements could not be said and stop the program there" if losses else "nothing was lost"
+            f"{losses} losses: see above; where a statement could not be said the program stops" if losses else "nothing was lost"
         )
     if proof is not None:
         click.echo(proof.as_text(), err=output is None)

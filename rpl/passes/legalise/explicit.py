@@ -154,6 +154,8 @@ class _Modal:
             if known.get(name) != value:
                 known[name] = value
                 before.extend(_set(name, value, replace(origin, comments=())))
+        if move.tool is not None and self.is_fixed(move.tool):
+            before.insert(0, ir.Halt(origin=replace(origin, comments=())))  # no controller may drive on from here
         done = replace(move, tool=None, frame=None, load=None, speed=None, blend=blend, configuration=None)
         if before:
             before[0] = replace(before[0], origin=origin)
@@ -163,10 +165,16 @@ class _Modal:
     def frame_of_tool(self, tool: ir.Expression, move: ir.Move) -> ir.Expression:
         if not isinstance(self.type(tool), ir.ToolType):
             return tool
-        held = self.component(tool, "held")
-        if isinstance(held, ir.BoolLiteral) and not held.value:
+        if self.is_fixed(tool):
             self.context.diagnostics.report(FIXED_TOOL, move.origin)
         return self.component(tool, "frame")
+
+    def is_fixed(self, tool: ir.Expression) -> bool:
+        """Is it data of a tool that the robot does not hold?"""
+        if not isinstance(self.type(tool), ir.ToolType):
+            return False
+        held = self.component(tool, "held")
+        return isinstance(held, ir.BoolLiteral) and not held.value
 
     def frame_of_work_object(self, frame: ir.Expression) -> ir.Expression:
         if not isinstance(self.type(frame), ir.WorkObjectType):

@@ -21,7 +21,7 @@ from rpl.passes.values import Target, Value
 
 ANGLE_RANGE = code(
     "angles-normalised",
-    Severity.WARNING,
+    Severity.LOSS,
     "an angle B beyond 90 degrees is written here; the target keeps rotations as quaternions, "
     "so single angles read back or changed later may come out in another of the equal forms",
 )
