@@ -187,8 +187,7 @@ def _print(
         for old, new in translation.renamed.items():
             click.echo(f"renamed {old} to {new}")
         losses = len(translation.losses)
-        click.echo(
-            f"{losses} losses: see above; where a statement could not be said the program stops" if losses else "nothing was lost"
-        )
+        said = f"{losses} losses, listed above; what could not be said stops the program there"
+        click.echo(said if losses else "nothing was lost")
     if proof is not None:
         click.echo(proof.as_text(), err=output is None)
