@@ -37,6 +37,15 @@ class Capabilities:
     switch_constant_cases: case values must be literals. text_results: functions may return texts.
     format_state: type of the state that format_into writes; None when it has none. carries_rules: the target's text
     says by which language's rules a module runs (RPL's USING), so nothing has to be rewritten.
+
+    Flow: which of If, Switch, For, While, Repeat, Loop, ExitLoop, NextPass, Goto, Label stand in `statements` says what
+    structure there is; without If there is still `If` with one Goto as its only branch. else_if: an If may have several
+    branches. for_keeps_last: a FOR's counter keeps the last value a pass ran with. for_steps: `any`, or `one` (only up
+    or down by 1). next_move_settings: SetForNextMove can be said; otherwise it is attached to the next move.
+
+    Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
+    parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
+    locals: a routine has variables of its own. recursion: a routine may be active twice.
     """
 
     statements: frozenset[str]
@@ -74,3 +83,11 @@ class Capabilities:
     partial_targets: bool = False
     data_lists: bool = False
     aliases: bool = False
+    else_if: bool = True
+    for_keeps_last: bool = False
+    for_steps: str = "any"
+    function_routines: bool = True
+    parameters: str = "names"
+    locals: bool = True
+    recursion: bool = True
+    next_move_settings: bool = False
