@@ -101,6 +101,23 @@ FUNCTIONS: dict[str, Function] = _table(
     is_uninitialised | x      | b | has the variable no value yet
     pose_of        | p        | p | the pose of a target without configuration
     error_text     | n        | t | text of an error number
+    sign           | n        | n | -1, 0 or 1
+    fraction       | n        | n | the part behind the decimal point, with the number's sign
+    log10          | n        | n | logarithm to base 10
+    element_sum    | xx       | 0 | x, y, z, a, b, c (or joints) one by one; flags of the first
+    element_difference | xx   | 0 | component by component, like element_sum
+    displaced      | pp       | 0 | target moved by a pose given in its frame (second . first); configuration kept
+    displaced_in_tool | pp    | 0 | target moved by a pose given in its own axes (first . second); configuration kept
+    rotation_vector_x | r     | n | x of the rotation vector (axis times angle in degrees)
+    rotation_vector_y | r     | n | y of the rotation vector in degrees
+    rotation_vector_z | r     | n | z of the rotation vector in degrees
+    pose_from_rotation_vector | nnnnnn | p | pose from x, y, z and a rotation vector in degrees
+    pose_zyz       | nnnnnn   | p | pose from x, y, z and angles about z, new y, new z
+    zyz_yaw        | p        | n | first angle of the ZYZ Euler angles; 0 where only the sum is determined
+    zyz_pitch      | p        | n | second angle of the ZYZ Euler angles, 0..180
+    zyz_roll       | p        | n | third angle of the ZYZ Euler angles
+    interpolate_pose | ppn    | p | straight and by the shortest rotation from first (0) to second (1), also beyond
+    rotation_angle | pp       | n | angle of the rotation between two poses in degrees
     """
 )
 
@@ -201,5 +218,12 @@ SYSTEM_VARIABLES: dict[str, SystemVariable] = _system(
     time            | n | r  | - | s     | - | time since the start of the run
     date            | x | r  | - |       | - | date and time record
     moving          | b | r  | - |       | s | is the robot moving
+    posture_shoulder | x | rw | - |     | - | asked of joint moves to poses without flags: front, back or empty
+    posture_elbow   | x | rw | - |      | - | asked of joint moves to poses without flags: up, down or empty
+    posture_wrist   | x | rw | - |      | - | asked of joint moves to poses without flags: flip, noflip or empty
+    move_duration   | n | rw | - | s    | - | least time of a move (V+ DURATION)
+    end_tolerance   | n | rw | - | percent | - | how exactly a stop is waited for (V+ FINE, COARSE)
+    blending        | b | rw | - |      | - | FALSE: every move ends in a stop (V+ CPOFF)
+    task_running    | b | r  | i |      | - | does the task of that number run
     """
 )

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from rpl.ir.types import Type
 from rpl.source import NOWHERE, Origin
 
 
@@ -184,6 +185,16 @@ class Present:
     origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
 
 
+@dataclass(frozen=True, slots=True)
+class VendorValue:
+    """A value only one controller can give. A run stops there unless the cell file says what it is."""
+
+    dialect: str
+    text: str
+    type: Type
+    origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
 Expression = (
     IntLiteral
     | RealLiteral
@@ -204,6 +215,7 @@ Expression = (
     | Magnitude
     | Convert
     | Present
+    | VendorValue
 )
 
 UNARY_OPERATORS = ("-", "+", "not", "bnot")
@@ -214,8 +226,8 @@ BINARY_OPERATORS = (
     *("and", "or", "xor", "cand", "cor", "band", "bor", "bxor"),
 )
 # real: exact widening; round_half_away: KRL real to int; trunc: toward zero; bit: BOOL to 0/1; truth: nonzero to BOOL;
-# code: CHAR to its number; char: number to CHAR.
-CONVERSIONS = ("real", "round_half_away", "trunc", "bit", "truth", "code", "char")
+# code: CHAR to its number; char: number to CHAR; minus_bit: BOOL to 0/-1 (V+); floor: the whole number not above.
+CONVERSIONS = ("real", "round_half_away", "trunc", "bit", "truth", "code", "char", "minus_bit", "floor")
 
 # Unit name -> factor to the base unit (mm, s, deg, mm/s, mm/s2, deg/s, deg/s2, percent, kg).
 UNITS: dict[str, float] = {

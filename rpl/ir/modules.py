@@ -16,13 +16,15 @@ SCOPES = ("routine", "module", "task", "global")
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """storage: constant, variable (set anew by a reset or, in a routine, at each call), persistent (survives runs)."""
+    """storage: constant, variable (set anew by a reset or, in a routine, at each call), persistent (survives runs).
+    `label`: the comment that a numbered variable has in its controller (FANUC `R[1:count]`)."""
 
     name: str
     type: Type
     initial: Expression | None = None
     storage: str = "variable"
     scope: str = "module"
+    label: str = field(default="", compare=False)
     origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
 
 

@@ -15,13 +15,18 @@ from rpl.source import NOWHERE, Origin
 @dataclass(frozen=True, slots=True)
 class Speed:
     """Speed of one move. `profile` is an expression of SpeedType (RAPID speeddata); the others override parts of it:
-    `path` mm/s, `rotation` deg/s, `joint` percent of the axes' maximum, `duration` s for the whole move."""
+    `path` mm/s, `rotation` deg/s, `joint` percent of the axes' maximum, `axis` deg/s of the leading axis (URScript),
+    `duration` s for the whole move. Accelerations: `path_acceleration` mm/s2, `axis_acceleration` deg/s2
+    of the leading axis."""
 
     profile: Expression | None = None
     path: Expression | None = None
     rotation: Expression | None = None
     joint: Expression | None = None
     duration: Expression | None = None
+    axis: Expression | None = None
+    path_acceleration: Expression | None = None
+    axis_acceleration: Expression | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +66,14 @@ class BlendZone:
     in_position: Expression | None = None
 
 
-Blend = BlendStop | BlendDistance | BlendPercent | BlendSpeed | BlendZone
+@dataclass(frozen=True, slots=True)
+class BlendLevel:
+    """Blend by a numbered level of the controller (INFORM PL 0..8): `Rules.blend_levels` has the distances."""
+
+    level: Expression
+
+
+Blend = BlendStop | BlendDistance | BlendPercent | BlendSpeed | BlendZone | BlendLevel
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,12 +105,14 @@ class DefineTrigger:
 @dataclass(frozen=True, slots=True)
 class Search:
     """Watch a condition while moving. `stop`: none, stop (quick), path (on the path), soft (ramp down). `found`: lvalue
-    that receives the target where it became true. `edge`: rising, falling, either."""
+    that receives the target where it became true. `edge`: rising, falling, either. `hit`: BOOL lvalue that says whether
+    it became true before the move ended (FANUC Skip)."""
 
     condition: Expression
-    found: Expression
+    found: Expression | None = None
     stop: str = "none"
     edge: str = "rising"
+    hit: Expression | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +120,8 @@ class Move:
     """One move.
 
     kind: joint, linear, circular, spline (a point of a spline block).
-    motion_class: `classic` or `spline` (KRL SLIN and PTP blend by different rules).
+    motion_class: `classic`, `spline` (KRL SLIN and PTP blend by different rules) or `process` (URScript movep: constant
+    speed of the tool, circular blends).
     target: expression of target, pose or joints type (a joints value makes any move go there).
     via: auxiliary point of a circle; swept: total angle in deg.
     relative: None, `base` (target is an offset in base axes), `tool`, or `joints` (offset per axis).

@@ -36,6 +36,7 @@ class Rules:
     RAPID `robax.rax_1` maps step by step. undefined: reading a variable without a value is a fault (else zero values).
     implicit_pose: an undeclared name is a pose. call_depth: nested calls the controller allows.
     system_defaults: modal system variables at the start of a run, in base units. errors: names of error numbers.
+    blend_levels: distance in mm of each numbered blend level (INFORM PL).
     """
 
     name: str
@@ -51,3 +52,4 @@ class Rules:
     system_defaults: Mapping[str, float | bool | str] = field(default_factory=dict)
     errors: Mapping[str, int] = field(default_factory=dict)
     type_names: Mapping[str, Type] = field(default_factory=dict)
+    blend_levels: tuple[float, ...] = ()

@@ -48,7 +48,7 @@ class For:
 
     `step` None: +1, or with `automatic` -1 when start > stop. `at_least_once`: the first pass is not checked (RAPID).
     `scoped`: the counter exists in the loop only (RAPID); otherwise it is the declared variable and keeps the first
-    value past the end (KRL).
+    value past the end (KRL), or with `keeps_last` the value of the last pass (FANUC).
     """
 
     counter: str
@@ -59,6 +59,7 @@ class For:
     automatic: bool = False
     at_least_once: bool = False
     scoped: bool = False
+    keeps_last: bool = False
     origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
 
 
@@ -185,12 +186,17 @@ class SetAfter:
 
 @dataclass(frozen=True, slots=True)
 class DeclareInterrupt:
-    """KRL: `priority` (lower is more urgent) identifies it; edge of `condition` runs `action` once armed."""
+    """The edge of `condition` runs `action` once armed. `priority`: lower is more urgent. `identity` says which one it
+    is (without it the priority does, as in KRL). `once`: disarmed when it comes (V+ REACT). `stops`: the robot brakes
+    at once when it comes (V+ REACTI)."""
 
     priority: Expression
     condition: Expression
     action: CallRoutine | Assign
     everywhere: bool = False
+    identity: Expression | None = None
+    once: bool = False
+    stops: bool = False
     origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
 
 
@@ -218,7 +224,8 @@ class OrderInterrupt:
 
 @dataclass(frozen=True, slots=True)
 class ControlInterrupt:
-    """op: on, off, enable, disable, delete. `handle` None: all of them."""
+    """op: on, off, enable, disable, delete, mask. `handle` None: all of them. `mask`: interrupts that are not more
+    urgent than the priority `handle` wait until the mask is lifted (`handle` None)."""
 
     op: str
     handle: Expression | None = None
@@ -297,9 +304,9 @@ class Message:
 
 @dataclass(frozen=True, slots=True)
 class Dialog:
-    """Ask the operator: `answer` becomes the number of the key (1-based) or, with kind `number`, the number typed.
+    """Ask the operator: `answer` becomes the number of the key (1-based), the number or the text typed.
 
-    kind: keys, number. Texts left out (None in `keys`) are keys that do not exist. `timeout` in s."""
+    kind: keys, number, text. Texts left out (None in `keys`) are keys that do not exist. `timeout` in s."""
 
     answer: Expression
     text: Expression
@@ -332,11 +339,37 @@ class Do:
 
 @dataclass(frozen=True, slots=True)
 class TaskControl:
-    """Start, stop or signal another task: op start, stop, pause."""
+    """Another task: op start, stop (end it), pause, resume, join (wait until it has ended). `task` is its routine."""
 
     op: str
     task: str
     arguments: tuple[Argument, ...] = ()
+    origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Critical:
+    """Begin (`enter`) or end of a section in which no other task runs (URScript enter_critical)."""
+
+    enter: bool
+    origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
+@dataclass(frozen=True, slots=True)
+class SetForNextMove:
+    """A modal system variable has this value for the next commanded move only (V+ SPEED without ALWAYS)."""
+
+    setting: Expression
+    value: Expression
+    origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
+@dataclass(frozen=True, slots=True)
+class OnError:
+    """From now on an error that no handler takes calls `routine` in this task (V+ REACTE); None: no longer. The routine
+    ends by Retry (the failed statement again), TryNext (behind it) or Return (as Retry)."""
+
+    routine: str | None
     origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
 
 
@@ -378,6 +411,9 @@ Statement = (
     | Clock
     | Do
     | TaskControl
+    | Critical
+    | SetForNextMove
+    | OnError
     | Vendor
     | Opaque
     | Nothing
