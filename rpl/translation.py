@@ -47,7 +47,7 @@ def translate_program(
     renamed: dict[str, str] = {}
     if source != target_name:
         program, renamed = rename(program, target.capabilities().names)
-    files = target.write(program, WriteContext(collector, second))
+    files = target.write(program, WriteContext(collector, second, register_names=context.register_names))
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
     return Translation(tuple(files), program, renamed, losses)
 

@@ -20,6 +20,15 @@ class NameRules:
 
 
 @dataclass(frozen=True, slots=True)
+class Bank:
+    """Numbered storage of a controller: elements `first`..`last` under one name (`R[1]`..`R[200]`)."""
+
+    name: str
+    first: int
+    last: int
+
+
+@dataclass(frozen=True, slots=True)
 class Capabilities:
     """What the target's controller can say. passes.legalise rewrites the rest before writing.
 
@@ -46,6 +55,18 @@ class Capabilities:
     Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
     locals: a routine has variables of its own. recursion: a routine may be active twice.
+
+    Data: banks: where variables of a type (class name) are kept, when they have numbers and no names; types may share a
+    bank. points: taught points that live in a routine. records, arrays (False only with banks: consecutive numbers),
+    texts: whether there are any. truth: `minus_one` when TRUE is the number -1 and there is no type of truth values.
+    index_base: where arrays start; None: anywhere. expressions: `steps` when an assignment has one operator or function
+    of constants and variables. calculated_places: moves, signals, waits take any expression. conditions: `comparisons`
+    of two simple operands, joined by and/or. functions_alone: a function only as the whole right side of an assignment.
+
+    Motion: move_settings: which of `tool`, `frame`, `speed`, `blend` each move says itself, the rest being modal (System
+    tool, base); empty: all or none by modal_motion, in data of the types of RAPID or variables of KRL. Only with it:
+    speeds: fields of Speed that the target says (for joint moves `joint`, `axis`; for the others `path`, ...);
+    blends: blend classes that it says (BlendStop always).
     """
 
     statements: frozenset[str]
@@ -91,3 +112,17 @@ class Capabilities:
     locals: bool = True
     recursion: bool = True
     next_move_settings: bool = False
+    banks: Mapping[str, Bank] = field(default_factory=dict)
+    points: Bank | None = None
+    records: bool = True
+    arrays: bool = True
+    texts: bool = True
+    truth: str = "bool"
+    index_base: int | None = 1
+    expressions: str = "any"
+    calculated_places: bool = True
+    conditions: str = "any"
+    functions_alone: bool = False
+    move_settings: frozenset[str] = frozenset()
+    speeds: frozenset[str] = frozenset()
+    blends: frozenset[str] = frozenset()

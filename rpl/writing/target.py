@@ -23,12 +23,13 @@ class OutputFile:
 
 @dataclass(frozen=True, slots=True)
 class WriteContext:
-    """What a writer is given: the collector, the arm that will run the program (None when none is named), and the
-    target's own options (such as `version`)."""
+    """What a writer is given: the collector, the arm that will run the program (None when none is named), the target's
+    own options (such as `version`), and the source names of data in numbered banks by (bank, number)."""
 
     diagnostics: Diagnostics
     robot: RobotModel | None = None
     options: Mapping[str, str] = field(default_factory=dict)
+    register_names: Mapping[tuple[str, int], str] = field(default_factory=dict)
 
 
 __all__ = ["Capabilities", "NameRules", "OutputFile", "WriteContext"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
@@ -41,7 +41,9 @@ class Arm(Protocol):
 @dataclass(slots=True)
 class Context:
     """`source` and `target` are dialect names. `robot` is the arm the source was written for, `to_robot` the arm that
-    will run the result; either may be None (then what needs it is reported). `taken` are all names in use, folded."""
+    will run the result; either may be None (then what needs it is reported). `taken` are all names in use, folded.
+    `register_names`: (bank, number) -> source name for data that has got a number, filled by the passes;
+    `registers`: the numbers that an earlier translation gave, to be honoured."""
 
     source: str
     target: str
@@ -50,6 +52,8 @@ class Context:
     robot: Arm | None = None
     to_robot: Arm | None = None
     taken: set[str] = field(default_factory=set)
+    register_names: dict[tuple[str, int], str] = field(default_factory=dict)
+    registers: Mapping[tuple[str, int], str] = field(default_factory=dict)
 
     @property
     def foreign(self) -> bool:
