@@ -63,7 +63,7 @@ class Capabilities:
     of constants and variables. calculated_places: moves, signals, waits take any expression. conditions: `comparisons`
     of two simple operands, joined by and/or. functions_alone: a function only as the whole right side of an assignment.
 
-    Motion: move_settings: which of `tool`, `frame`, `speed`, `blend` each move says itself, the rest being modal (System
+    Motion: move_settings: which of `tool`, `frame`, `speed`, `blend` a move says itself, the rest being modal (System
     tool, base); empty: all or none by modal_motion, in data of the types of RAPID or variables of KRL. Only with it:
     speeds: fields of Speed that the target says (for joint moves `joint`, `axis`; for the others `path`, ...);
     blends: blend classes that it says (BlendStop always).
