@@ -102,6 +102,7 @@ def _for_head(tree: SyntaxTree, at: Reading) -> ir.For:
         "either way" in rules,
         "at least once" in rules,
         "scoped" in rules,
+        "keeps last" in rules,
         origin=at.origin,
     )
 

@@ -297,6 +297,12 @@ def _constant(value: bool) -> Callable[[SyntaxTree, Reading], ir.Expression]:
     return lambda tree, at: ir.BoolLiteral(value, origin=at.origin)
 
 
+def _vendor_value(tree: SyntaxTree, at: Reading) -> ir.Expression:
+    dialect = names(tree)[0]
+    text = words.disclose(next(tokens(tree, "TEXT")))
+    return ir.VendorValue(dialect, text, type_of(next(trees(tree)), at), origin=at.origin)
+
+
 _EXPRESSIONS: dict[str, Callable[[SyntaxTree, Reading], ir.Expression]] = {
     "int": _int,
     "real": _real,
@@ -318,6 +324,7 @@ _EXPRESSIONS: dict[str, Callable[[SyntaxTree, Reading], ir.Expression]] = {
     "aggregate": _aggregate,
     "typed_aggregate": _typed_aggregate,
     "invoke": _invoke,
+    "vendor_value": _vendor_value,
 }
 
 

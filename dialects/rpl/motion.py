@@ -27,6 +27,9 @@ _SPEED_FIELDS = {
     "reorient": "rotation",
     "joint speed": "joint",
     "duration": "duration",
+    "axis speed": "axis",
+    "path acceleration": "path_acceleration",
+    "axis acceleration": "axis_acceleration",
 }
 _MODES = {
     "orientation": "orientation",
@@ -69,6 +72,9 @@ class Settings:
         zone = given.get("zone")
         if zone is not None:
             return ir.BlendZone(zone, given.get("radius"), given.get("settled"))
+        level = given.get("blend level")
+        if level is not None:
+            return ir.BlendLevel(level)
         if "fine" in given:
             return ir.BlendStop()
         return _path_blend(given)
@@ -160,13 +166,14 @@ def _binding(tree: SyntaxTree, at: Reading) -> tuple[ir.Expression, ir.Expressio
 
 
 def _search(tree: SyntaxTree, at: Reading) -> ir.Search:
-    condition, found, *rest = trees(tree)
+    condition, *rest = trees(tree)
     given = options(rest)
     return ir.Search(
         expression(condition, at),
-        lvalue(found, at),
+        lvalue(next(trees(given["into"])), at) if "into" in given else None,
         names(given["stopping"])[0] if "stopping" in given else "none",
         names(given["edge"])[0] if "edge" in given else "rising",
+        lvalue(next(trees(given["hit"])), at) if "hit" in given else None,
     )
 
 

@@ -150,14 +150,27 @@ def _wait_until(tree: SyntaxTree, at: Reading) -> ir.Statement:
 
 
 def _declare_interrupt(tree: SyntaxTree, at: Reading) -> ir.Statement:
-    priority, condition, done = trees(tree)
+    priority, *rest, condition, done = trees(tree)
+    found = options(rest)
     return ir.DeclareInterrupt(
         expression(priority, at),
         expression(condition, at),
         action(done, at),
-        _has(tree, "EVERYWHERE"),
+        "everywhere" in found,
+        _valued(found, "named_as", at),
+        "once" in found,
+        "braking" in found,
         origin=at.origin,
     )
+
+
+def _for_next_move(tree: SyntaxTree, at: Reading) -> ir.Statement:
+    setting, value = trees(tree)
+    return ir.SetForNextMove(lvalue(setting, at), expression(value, at), origin=at.origin)
+
+
+def _trap_errors(tree: SyntaxTree, at: Reading) -> ir.Statement:
+    return ir.OnError(names(tree)[0], origin=at.origin)
 
 
 def _connect(tree: SyntaxTree, at: Reading) -> ir.Statement:
@@ -286,6 +299,11 @@ STATEMENTS: dict[str, Lowering] = {
     "ask": _ask,
     "clock": _clock,
     "task_control": _task_control,
+    "enter_critical": _bare(ir.Critical, enter=True),
+    "leave_critical": _bare(ir.Critical, enter=False),
+    "for_next_move": _for_next_move,
+    "trap_errors": _trap_errors,
+    "trap_errors_off": _bare(ir.OnError, routine=None),
     "vendor": _vendor,
     "opaque": _opaque,
     "nothing": _bare(ir.Nothing),

@@ -133,6 +133,8 @@ def _called(node: ir.Expression, printer: ExpressionPrinter) -> str:
             return _signal(node, printer)
         case ir.Aggregate():
             return _aggregate(node, printer)
+        case ir.VendorValue(dialect=dialect, text=text, type=type):
+            return f"VENDOR({name_text(dialect)}, {text_literal(text)}, {type_text(type)})"
     raise InternalError(f"RPL has no form for {node.__class__.__name__}")
 
 

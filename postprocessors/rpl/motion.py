@@ -71,6 +71,9 @@ def speed_clauses(speed: ir.Speed | None) -> Iterator[str]:
         ("SPEED", speed.path),
         ("REORIENT", speed.rotation),
         ("JOINT SPEED", speed.joint),
+        ("AXIS SPEED", speed.axis),
+        ("PATH ACCELERATION", speed.path_acceleration),
+        ("AXIS ACCELERATION", speed.axis_acceleration),
         ("DURATION", speed.duration),
     )
 
@@ -89,6 +92,8 @@ def blend_clauses(blend: ir.Blend | None, prefix: str = "") -> Iterator[str]:
         case ir.BlendPercent(percent=percent, path=path):
             yield f"BLEND PERCENT {expression_text(percent)}"
             yield from blend_clauses(path, "PATH ")
+        case ir.BlendLevel(level=level):
+            yield f"BLEND LEVEL {expression_text(level)}"
         case ir.BlendZone(zone=zone, distance=distance, in_position=in_position):
             yield from _valued(("ZONE", zone), ("RADIUS", distance), ("SETTLED", in_position))
 
@@ -99,7 +104,11 @@ def with_clause(settings: tuple[tuple[ir.Expression, ir.Expression], ...]) -> It
 
 
 def _search(search: ir.Search) -> str:
-    text = f"SEARCH {expression_text(search.condition)} INTO {place_text(search.found)}"
+    text = f"SEARCH {expression_text(search.condition)}"
+    if search.found is not None:
+        text += f" INTO {place_text(search.found)}"
+    if search.hit is not None:
+        text += f" HIT {place_text(search.hit)}"
     if search.stop != "none":
         text += f" STOPPING {name_text(search.stop)}"
     if search.edge != "rising":

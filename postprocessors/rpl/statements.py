@@ -139,7 +139,9 @@ def _for_head(loop: ir.For) -> str:
         text += " EITHER WAY"
     if loop.at_least_once:
         text += " AT LEAST ONCE"
-    return text + " SCOPED" if loop.scoped else text
+    if loop.scoped:
+        text += " SCOPED"
+    return text + " KEEPS LAST" if loop.keeps_last else text
 
 
 def line_text(statement: ir.Statement) -> str:
@@ -207,6 +209,12 @@ def _flow_text(statement: ir.Statement) -> str:
         case ir.TaskControl(op=op, task=task, arguments=arguments):
             given = f"({arguments_text(arguments)})" if arguments else ""
             return f"{op.upper()} TASK {name_text(task)}{given}"
+        case ir.Critical(enter=enter):
+            return "ENTER CRITICAL" if enter else "LEAVE CRITICAL"
+        case ir.SetForNextMove(setting=setting, value=value):
+            return f"FOR NEXT MOVE {place_text(setting)} = {value_text(value)}"
+        case ir.OnError(routine=routine):
+            return "TRAP ERRORS OFF" if routine is None else f"TRAP ERRORS WITH {name_text(routine)}"
         case ir.Vendor(dialect=dialect, text=text, effect=effect):
             return f"VENDOR {name_text(dialect)} {text_literal(text)} EFFECT {name_text(effect)}"
         case ir.Opaque(text=text):
@@ -253,8 +261,9 @@ def _operator_text(statement: ir.Message | ir.Dialog) -> str:
 
 def _interrupt_text(statement: ir.Statement) -> str:
     match statement:
-        case ir.DeclareInterrupt(priority=priority, condition=condition, action=action, everywhere=everywhere):
-            where = " EVERYWHERE" if everywhere else ""
+        case ir.DeclareInterrupt(priority=priority, condition=condition, action=action):
+            words = ((statement.everywhere, " EVERYWHERE"), (statement.once, " ONCE"), (statement.stops, " BRAKING"))
+            where = "".join(word for said, word in words if said) + _behind("NAMED", statement.identity)
             when = f"WHEN {expression_text(condition)} DO {line_text(action)}"
             return f"DECLARE INTERRUPT {expression_text(priority)}{where} {when}"
         case ir.ConnectInterrupt(handle=handle, routine=routine):

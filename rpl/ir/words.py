@@ -52,6 +52,8 @@ CONVERSION_WORDS: dict[str, str] = {
     "to_bool": "truth",
     "to_code": "code",
     "to_char": "char",
+    "to_minus_bit": "minus_bit",
+    "to_floor": "floor",
 }
 PRESENT_WORD = "present"
 # Words that mean something else than a user's function when they stand before an opening bracket.

@@ -55,6 +55,7 @@ leaves: st.SearchStrategy[ir.Expression] = st.one_of(
     st.builds(ir.Present, names),
     st.builds(ir.System, _leaf_system),
     st.builds(ir.Signal, signal_kinds, name=names),
+    st.builds(ir.VendorValue, dialects, texts, st.sampled_from((ir.RealType(), ir.BoolType(), ir.TargetType("krl")))),
 )
 
 
@@ -124,22 +125,24 @@ calls = st.one_of(
     st.builds(ir.CallRoutine, names, arguments(leaves), small),
 )
 actions = st.one_of(assignments, calls)
-speeds = st.builds(ir.Speed, maybe, maybe, maybe, maybe, maybe)
+speeds = st.builds(ir.Speed, *[maybe] * 8)
 distances = st.builds(ir.BlendDistance, maybe, maybe)
 blends = st.one_of(
     st.builds(ir.BlendStop),
     distances,
     st.builds(ir.BlendPercent, small, st.one_of(st.none(), distances, st.builds(ir.BlendSpeed, small))),
     st.builds(ir.BlendSpeed, small),
+    st.builds(ir.BlendLevel, small),
     st.builds(ir.BlendZone, small, maybe, maybe),
 )
 triggers = st.builds(ir.Trigger, st.sampled_from(("start", "end", "middle")), actions, maybe, maybe, maybe)
 searches = st.builds(
     ir.Search,
     small,
-    lvalues,
+    st.one_of(st.none(), lvalues),
     st.sampled_from(("none", "stop", "path", "soft")),
     st.sampled_from(("rising", "falling", "either")),
+    st.one_of(st.none(), lvalues),
 )
 bindings = st.lists(st.tuples(lvalues, small), max_size=2).map(tuple)
 
@@ -210,7 +213,9 @@ simple: st.SearchStrategy[ir.Statement] = st.one_of(
     st.builds(ir.WaitUntil, small, maybe, st.one_of(st.none(), lvalues), st.one_of(st.none(), names), st.booleans()),
     st.builds(ir.Pulse, lvalues, small, small),
     st.builds(ir.SetAfter, lvalues, small, small),
-    st.builds(ir.DeclareInterrupt, small, small, actions, st.booleans()),
+    st.builds(
+        ir.DeclareInterrupt, small, small, actions, st.booleans(), maybe, st.booleans(), st.booleans()
+    ),
     st.builds(ir.ConnectInterrupt, lvalues, names),
     st.builds(
         ir.OrderInterrupt,
@@ -220,7 +225,7 @@ simple: st.SearchStrategy[ir.Statement] = st.one_of(
         maybe,
         st.booleans(),
     ),
-    st.builds(ir.ControlInterrupt, st.sampled_from(("on", "off", "enable", "disable", "delete")), maybe),
+    st.builds(ir.ControlInterrupt, st.sampled_from(("on", "off", "enable", "disable", "delete", "mask")), maybe),
     st.builds(ir.StopMotion, st.booleans()),
     st.builds(ir.StoreMotion, st.booleans()),
     st.builds(ir.Raise, maybe),
@@ -230,15 +235,18 @@ simple: st.SearchStrategy[ir.Statement] = st.one_of(
         lvalues,
         small,
         st.lists(maybe, max_size=3).map(tuple),
-        st.sampled_from(("keys", "number")),
+        st.sampled_from(("keys", "number", "text")),
         maybe,
         st.one_of(st.none(), lvalues),
         maybe,
     ),
     st.builds(ir.Clock, st.sampled_from(("reset", "start", "stop")), lvalues),
     st.builds(ir.Do, st.sampled_from(sorted(ir.PROCEDURES)), st.lists(maybe, max_size=3).map(tuple)),
-    st.builds(ir.TaskControl, st.sampled_from(("start", "stop", "pause")), names, arguments(leaves)),
+    st.builds(ir.TaskControl, st.sampled_from(("start", "stop", "pause", "resume", "join")), names, arguments(leaves)),
     st.builds(ir.Vendor, dialects, texts, st.sampled_from(("none", "message", "time", "unknown"))),
+    st.builds(ir.Critical, st.booleans()),
+    st.builds(ir.SetForNextMove, lvalues, small),
+    st.builds(ir.OnError, st.one_of(st.none(), names)),
     st.builds(ir.Opaque, texts),
 )
 _remarks = st.sampled_from(("", "remark", "a -- b", "x\ny", '"'))
@@ -261,7 +269,7 @@ def _blocks(inner: st.SearchStrategy[ir.Statement]) -> st.SearchStrategy[ir.Stat
     return st.one_of(
         st.builds(ir.If, branches, body),
         st.builds(ir.Switch, small, cases, st.one_of(st.none(), body)),
-        st.builds(ir.For, names, small, small, maybe, body, st.booleans(), st.booleans(), st.booleans()),
+        st.builds(ir.For, names, small, small, maybe, body, *[st.booleans()] * 4),
         st.builds(ir.While, small, body),
         st.builds(ir.Repeat, small, body),
         st.builds(ir.Loop, body),
