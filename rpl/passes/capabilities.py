@@ -49,8 +49,10 @@ class Capabilities:
 
     Flow: which of If, Switch, For, While, Repeat, Loop, ExitLoop, NextPass, Goto, Label stand in `statements` says what
     structure there is; without If there is still `If` with one Goto as its only branch. else_if: an If may have several
-    branches. for_keeps_last: a FOR's counter keeps the last value a pass ran with. for_steps: `any`, or `one` (only up
-    or down by 1). next_move_settings: SetForNextMove can be said; otherwise it is attached to the next move.
+    branches. switch_jumps: a case of a Switch holds one Goto or one call. for_keeps_last: a FOR's counter keeps the last
+    value a pass ran with. for_steps: `any`, or `one` (only up or down by 1). poll_s: time between two looks in a loop
+    that waits for a condition, for targets without WaitUntil. next_move_settings: SetForNextMove can be said; otherwise
+    it is attached to the next move.
 
     Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
@@ -105,6 +107,8 @@ class Capabilities:
     data_lists: bool = False
     aliases: bool = False
     else_if: bool = True
+    switch_jumps: bool = False
+    poll_s: float = 0.008
     for_keeps_last: bool = False
     for_steps: str = "any"
     function_routines: bool = True

@@ -7,12 +7,12 @@ While and Goto where they are lacking. Runs after the passes that make new loops
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.counters import declared_loops, jumps_about, overwritten, used_outside_loops
 from rpl.passes.legalise.editing import (
     Editor,
     edit_bodies,
@@ -24,7 +24,8 @@ from rpl.passes.legalise.editing import (
     passes_on,
     written_arguments,
 )
-from rpl.passes.legalise.effects import children, everything, is_constant, root, statements_in
+from rpl.passes.legalise.effects import everything, is_constant, statements_in
+from rpl.passes.legalise.jumps import entered
 from rpl.passes.legalise.usage import base_name, each_expression
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
@@ -53,12 +54,15 @@ class _Loops:
     def __init__(self, editor: Editor, routine: ir.Routine) -> None:
         self.editor = editor
         self.has = editor.capabilities.statements
+        # without WHILE the loops stay for the pass that makes labels of them
+        self.labelled = "While" not in self.has and {"Goto", "Label"} <= self.has
         self.routine = routine
         self.local = {
             variable.name.lower(): variable for variable in routine.declarations if isinstance(variable, ir.Variable)
         }
-        self.outside = _used_outside_loops(routine)
-        self.overwritten = set() if _jumps_about(routine) else _overwritten(routine)
+        self.outside = used_outside_loops(routine)
+        self.overwritten = set() if jumps_about(routine) else overwritten(routine)
+        self.entered = entered(routine.body)
         self.counters: dict[str, tuple[ir.Name, ir.Type]] = {}
         self.active: list[str] = []
         self.implicit: set[str] = set()
@@ -70,8 +74,10 @@ class _Loops:
         match statement:
             case ir.For():
                 return self.counting(statement)
+            case ir.While() | ir.Repeat() | ir.Loop() if self.labelled and not self.stays(statement):
+                return (rewrite_parts(statement, lambda expression: expression, self.body),)
             case ir.While():
-                return self.left(statement, self.entered(statement))
+                return self.left(statement, self.passed_on(statement))
             case ir.Repeat():
                 return self.repeat(statement)
             case ir.Loop():
@@ -80,9 +86,12 @@ class _Loops:
                 return (rewrite_parts(statement, lambda expression: expression, self.body),)
         return (statement,)
 
+    def stays(self, loop: ir.Statement) -> bool:
+        return loop.__class__.__name__ in self.has and id(loop) not in self.entered
+
     # ---- jumps
 
-    def entered(self, loop: ir.While | ir.Repeat | ir.Loop | ir.For) -> ir.Body:
+    def passed_on(self, loop: ir.While | ir.Repeat | ir.Loop | ir.For) -> ir.Body:
         """The body of a loop that stays one, with NextPass as a jump to its end where the target has none."""
         body = self.body(loop.body)
         if "NextPass" in self.has or not passes_on(body):
@@ -102,7 +111,7 @@ class _Loops:
 
     def repeat(self, statement: ir.Repeat) -> ir.Body:
         if "Repeat" in self.has:
-            return self.left(statement, self.entered(statement))
+            return self.left(statement, self.passed_on(statement))
         if not exits(statement.body) and not passes_on(statement.body) and _is_true(statement.until):
             return self.body(statement.body) or (ir.Nothing(origin=statement.origin),)
         done = self.editor.temporary("done", ir.BoolType())
@@ -116,7 +125,7 @@ class _Loops:
 
     def loop(self, statement: ir.Loop) -> ir.Body:
         if "Loop" in self.has:
-            return self.left(statement, self.entered(statement))
+            return self.left(statement, self.passed_on(statement))
         match statement.body:
             case (ir.If(branches=((condition, (ir.ExitLoop(),)),), otherwise=()), *rest) if not exits(tuple(rest)):
                 loop = ir.While(negation(condition), tuple(rest), origin=statement.origin)
@@ -129,6 +138,8 @@ class _Loops:
     def counting(self, loop: ir.For) -> ir.Body:
         rule = self.rule(loop)
         if self.fits(loop, rule):
+            if loop.keeps_last != self.editor.capabilities.for_keeps_last:
+                loop = replace(loop, keeps_last=not loop.keeps_last)  # nobody looks at the counter afterwards
             return self.left(loop, self.inside(loop))
         if self.editor.capabilities.for_scoped:
             done = self.as_scoped(loop, rule)
@@ -138,7 +149,7 @@ class _Loops:
 
     def inside(self, loop: ir.For) -> ir.Body:
         with self.editor.counting(loop):
-            return self.entered(loop)
+            return self.passed_on(loop)
 
     def rule(self, loop: ir.For) -> _Rule:
         scope = self.editor.scope
@@ -167,7 +178,7 @@ class _Loops:
     def fits(self, loop: ir.For, rule: _Rule) -> bool:
         """Is the target's own rule exactly the loop's?"""
         target = self.editor.capabilities
-        if "For" not in self.has:
+        if not self.sayable(loop, rule) or (self.counter_matters(loop) and self.misses_value(loop)):
             return False
         if (loop.scoped, loop.automatic, loop.at_least_once) != (
             target.for_scoped,
@@ -177,32 +188,66 @@ class _Loops:
             return False
         return target.for_scoped or ((target.for_real or self.whole_counter(loop)) and rule.step is not None)
 
+    def sayable(self, loop: ir.For, rule: _Rule) -> bool:
+        """Has the target a For with such a step, and can it be that no jump goes into the loop?"""
+        if "For" not in self.has or id(loop) in self.entered:
+            return False
+        return self.editor.capabilities.for_steps == "any" or (rule.step is not None and abs(rule.step) == 1.0)
+
+    def misses_value(self, loop: ir.For) -> bool:
+        """Would the target's FOR leave another value in the counter?"""
+        return not loop.scoped and loop.keeps_last != self.editor.capabilities.for_keeps_last
+
+    def counter_matters(self, loop: ir.For) -> bool:
+        """May something look at the counter behind the loop?"""
+        key = loop.counter.lower()
+        if loop.scoped:
+            return False
+        own = key in self.local or any(
+            one.name.lower() == key and one.mode == "value" for one in self.routine.parameters
+        )
+        return not own or (key in self.outside and id(loop) not in self.overwritten)
+
     def whole_counter(self, loop: ir.For) -> bool:
         return isinstance(self.editor.type_of(ir.Name(loop.counter)), ir.IntType)
 
     def as_plain(self, loop: ir.For, rule: _Rule) -> ir.Body | None:
         """As a For over a declared counter that is checked before each pass."""
         target = self.editor.capabilities
-        if "For" not in self.has or not rule.step or (loop.at_least_once and not rule.passes):
+        if not rule.step or not self.sayable(loop, rule) or (loop.at_least_once and not rule.passes):
             return None
         counts_whole = rule.whole if loop.scoped else self.whole_counter(loop)
         if not (counts_whole or target.for_real):
             return None
         written = loop.step if loop.step is not None else None if rule.step == 1.0 else _number(rule.step)
         if not loop.scoped:
-            plain = replace(loop, step=written, automatic=False, at_least_once=False)
-            return self.left(plain, self.entered(plain))
+            last = target.for_keeps_last
+            plain = replace(loop, step=written, automatic=False, at_least_once=False, keeps_last=last)
+            if not self.counter_matters(loop) or not self.misses_value(loop):
+                return self.left(plain, self.passed_on(plain))
+            if exits(loop.body) or not rule.passes:
+                return None
+            by = ir.Binary("+" if last else "-", ir.Name(loop.counter), ir.IntLiteral(1))
+            if abs(rule.step) != 1.0 and loop.step is not None:
+                by = replace(by, right=loop.step)
+            elif rule.step < 0:
+                by = replace(by, op="-" if last else "+")
+            mended = ir.Assign(by.left, by)
+            return expansion(loop.origin, (*self.left(plain, self.passed_on(plain)), mended))
         name = self.counter(loop, ir.IntType() if rule.whole else ir.RealType())
         body = self.renamed(loop, name)
-        plain = ir.For(name.id, _whole(loop.start), _whole(loop.stop), written, body, origin=loop.origin)
+        last = target.for_keeps_last
+        plain = ir.For(
+            name.id, _whole(loop.start), _whole(loop.stop), written, body, keeps_last=last, origin=loop.origin
+        )
         self.active.append(name.id.lower())
-        done = self.left(plain, self.entered(plain))
+        done = self.left(plain, self.passed_on(plain))
         self.active.pop()
         return done
 
     def as_scoped(self, loop: ir.For, rule: _Rule) -> ir.Body | None:
         """As a For with its own counter that always makes a first pass, behind a check where it must not."""
-        if "For" not in self.has or not rule.step or rule.passes is False:
+        if not rule.step or not self.sayable(loop, rule) or rule.passes is False:
             return None
         key = loop.counter.lower()
         if not loop.scoped and (key not in self.local or self.written(key, loop.body)):
@@ -212,7 +257,7 @@ class _Loops:
         step = None if abs(rule.step) == 1.0 else loop.step
         if step is None and abs(rule.step) != 1.0:
             return None
-        own = replace(loop, step=step, scoped=True, automatic=step is None, at_least_once=True)
+        own = replace(loop, step=step, scoped=True, automatic=step is None, at_least_once=True, keeps_last=False)
         before: list[ir.Statement] = []
         if not rule.passes:
             start, stop = self.kept(loop.start, "first", loop, before), self.kept(loop.stop, "last", loop, before)
@@ -220,7 +265,7 @@ class _Loops:
         if not loop.scoped:
             self.implicit.add(key)
         with self.editor.counting(own):
-            done = self.left(own, self.entered(own))
+            done = self.left(own, self.passed_on(own))
         if not rule.passes:
             some = ir.Binary("<=" if rule.step > 0 else ">=", own.start, own.stop)
             return expansion(loop.origin, (*before, ir.If(((some, done),))))
@@ -292,17 +337,37 @@ class _Loops:
             further: ir.Expression = ir.Binary("-", counter, step.operand)
         else:
             further = ir.Binary("+", counter, step)
-        increment = ir.Assign(counter, further)
-        body = redirected(loop.body, ir.NextPass, (increment, ir.NextPass()))
+        tail: ir.Body = (ir.Assign(counter, further),)
+        if loop.keeps_last and not loop.scoped:
+            tail = (ir.If(((self.last_pass(rule, over, further, whole), (ir.ExitLoop(),)),)), *tail)
+        body = self.ended(loop.body, tail)
         spelled: ir.Statement
         if loop.at_least_once or (loop.automatic and loop.step is None):
-            spelled = ir.Repeat(over, (*body, increment))
+            spelled = ir.Loop(body) if loop.keeps_last else ir.Repeat(over, body)
         else:
-            spelled = ir.While(negation(over), (*body, increment))
+            spelled = ir.While(negation(over), body)
         self.active.append(counter.id.lower())
         done = self.statement(spelled)
         self.active.pop()
         return expansion(loop.origin, (*init, *done))
+
+    def ended(self, body: ir.Body, tail: ir.Body) -> ir.Body:
+        """A pass and what ends it, also on the way of NextPass."""
+        if self.labelled and passes_on(body):
+            label = self.editor.context.fresh("next_pass")
+            return (*redirected(body, ir.NextPass, (ir.Goto(label),)), ir.Label(label), *tail)
+        return (*redirected(body, ir.NextPass, (*tail, ir.NextPass())), *tail)
+
+    def last_pass(self, rule: _Rule, over: ir.Expression, further: ir.Expression, whole: bool) -> ir.Expression:
+        """Was this the last pass: would the next value be past the end?"""
+        assert isinstance(over, ir.Binary)  # what `stepping` makes
+        if rule.step and abs(rule.step) == 1.0 and whole and rule.whole:
+            return replace(over, op=">=" if rule.step > 0 else "<=")
+        if rule.step:
+            return replace(over, left=further)
+        way = over.left
+        assert isinstance(way, ir.Binary) and isinstance(way.left, ir.Binary)
+        return replace(over, left=replace(way, left=replace(way.left, left=further)))
 
     def stepping(
         self,
@@ -368,7 +433,7 @@ class _Loops:
                 isinstance(declaration, ir.Variable)
                 and declaration.name.lower() in self.implicit - self.outside
                 and not declaration.origin.comments
-                and not _declared_loops(routine, declaration.name.lower())
+                and not declared_loops(routine, declaration.name.lower())
             )
         )
         return replace(routine, declarations=kept)
@@ -436,88 +501,6 @@ def _in_arguments(name: str, arguments: tuple[ir.Argument, ...], key: str, scope
     values = [argument.value for argument in arguments if argument.value is not None]
     written = written_arguments(name, arguments, scope)
     return any(writes and base_name(value) == key for writes, value in zip(written, values, strict=True))
-
-
-def _used_outside_loops(routine: ir.Routine) -> set[str]:
-    """Names that stand anywhere but in the body of a loop that counts with them."""
-    found: set[str] = set()
-
-    def names(node: ir.Expression, counting: frozenset[str]) -> ir.Expression:
-        if isinstance(node, ir.Name) and node.id.lower() not in counting:
-            found.add(node.id.lower())
-        return rewrite_parts(node, lambda part: names(part, counting))
-
-    def look(body: ir.Body, counting: frozenset[str]) -> ir.Body:
-        for statement in body:
-            inner = counting
-            if isinstance(statement, ir.For):
-                inner = counting | {statement.counter.lower()}
-            rewrite_parts(statement, lambda part: names(part, counting), _looking(look, inner))
-        return body
-
-    for body in (routine.body, *(handler.body for handler in routine.handlers), routine.undo, routine.backward):
-        look(body, frozenset())
-    for declaration in routine.declarations:
-        if isinstance(declaration, ir.Variable) and declaration.initial is not None:
-            names(declaration.initial, frozenset())
-    return found
-
-
-def _jumps_about(routine: ir.Routine) -> bool:
-    return any(isinstance(statement, ir.Goto) for statement in statements_in(routine.body))
-
-
-def _overwritten(routine: ir.Routine) -> set[int]:
-    """Loops on the routine's own level whose counter gets another value behind them before anything reads it."""
-    found = set()
-    for at, loop in enumerate(routine.body):
-        if not isinstance(loop, ir.For):
-            continue
-        key = loop.counter.lower()
-        for following in routine.body[at + 1 :]:
-            read = {one.id.lower() for one in _all_expressions(following) if isinstance(one, ir.Name)}
-            match following:
-                case ir.For(counter=counter) if counter.lower() == key:
-                    bounds = [following.start, following.stop] + ([following.step] if following.step else [])
-                    if not any(
-                        isinstance(one, ir.Name) and one.id.lower() == key for b in bounds for one in everything(b)
-                    ):
-                        found.add(id(loop))
-                    break
-                case ir.Assign(target=ir.Name(id=name), value=value) if name.lower() == key:
-                    if not any(isinstance(one, ir.Name) and one.id.lower() == key for one in everything(value)):
-                        found.add(id(loop))
-                    break
-            if key in read or _counts(following, key):
-                break
-        else:
-            found.add(id(loop))
-    return found
-
-
-def _counts(statement: ir.Statement, key: str) -> bool:
-    return any(isinstance(one, ir.For) and one.counter.lower() == key for one in statements_in((statement,)))
-
-
-def _all_expressions(statement: ir.Statement) -> list[ir.Expression]:
-    return [one for inner in statements_in((statement,)) for child in children(inner) for one in everything(child)]
-
-
-def _looking(
-    look: Callable[[ir.Body, frozenset[str]], ir.Body], counting: frozenset[str]
-) -> Callable[[ir.Body], ir.Body]:
-    return lambda body: look(body, counting)
-
-
-def _declared_loops(routine: ir.Routine, key: str) -> bool:
-    """Does a loop still count with the declared variable?"""
-    return any(
-        isinstance(statement, ir.For) and not statement.scoped and statement.counter.lower() == key
-        for statement in statements_in(routine.body)
-    ) or any(
-        isinstance(statement, ir.Assign) and base_name(root(statement.target)) == key
-        for statement in statements_in(routine.body)
-    )
 
 
 def _renamed(body: ir.Body, old: str, new: str) -> ir.Body:
