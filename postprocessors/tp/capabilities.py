@@ -1,0 +1,69 @@
+"""What a FANUC controller can say in TP, for the passes that rewrite the rest."""
+
+from __future__ import annotations
+
+from rpl.passes.capabilities import Capabilities, NameRules
+
+from . import tables
+
+CAPABILITIES = Capabilities(
+    statements=frozenset(
+        (
+            *("Assign", "CallRoutine", "If", "Switch", "For", "Label", "Goto", "Return", "Halt", "Wait", "WaitUntil"),
+            *("Pulse", "Message", "Clock", "TaskControl", "Vendor", "Opaque", "Nothing", "Move"),
+        )
+    ),
+    functions=frozenset((*tables.FUNCTIONS, *tables.TEXT_FUNCTIONS, *tables.POSITION_FUNCTIONS, "clock_seconds")),
+    procedures=frozenset(),
+    system_variables=frozenset(
+        ("tool", "base", "override", "actual_pose", "actual_joints", "timer", "timer_stopped", "null_frame", "world")
+    ),
+    operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary, "-", "+", "&")),
+    types=frozenset(
+        (
+            *("RealType", "BoolType", "StringType", "PoseType", "TargetType", "JointsType", "ClockType"),
+            *("ArrayType",),
+        )
+    ),
+    names=NameRules(longest=36, case_sensitive=False, reserved=tables.RESERVED),
+    modal_motion=False,
+    notation="tp",
+    rotation="zyx",
+    conversions=frozenset(("real", "trunc", "round_half_away")),
+    timers=tables.TIMER.last,
+    wait_timeout=True,
+    dynamic_calls=True,
+    switch_types=frozenset(("RealType", "IntType")),
+    switch_constant_cases=True,
+    text_results=False,
+    named_aggregates=True,
+    partial_aggregates=True,
+    constant_aggregates=True,
+    relative_moves=True,
+    partial_targets=True,
+    for_real=True,
+    else_if=False,
+    for_keeps_last=True,
+    for_steps="one",
+    function_routines=False,
+    parameters="numbered",
+    locals=False,
+    recursion=False,
+    banks={
+        "RealType": tables.R,
+        "BoolType": tables.F,
+        "StringType": tables.SR,
+        "PoseType": tables.PR,
+        "TargetType": tables.PR,
+        "JointsType": tables.PR,
+        "ClockType": tables.TIMER,
+    },
+    points=tables.POINTS,
+    records=False,
+    arrays=False,
+    calculated_places=False,
+    functions_alone=True,
+    move_settings=frozenset(("speed", "blend")),
+    speeds=frozenset(("joint", "path", "rotation", "duration")),
+    blends=frozenset(("BlendStop", "BlendPercent", "BlendDistance")),
+)

@@ -1,0 +1,338 @@
+"""IR expressions as TP text: registers, signals, plain lines, mixed logic in brackets, conditions.
+
+A plain line goes from left to right without brackets; whatever needs an order of its own is mixed logic, which stands
+in brackets as a whole. Functions have an instruction of their own, so they are never part of a longer expression.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from rpl import ir
+from rpl.errors import RplError
+from rpl.passes.scope import Scope
+from rpl.passes.typing import type_of
+from rpl.writing.precedence import ExpressionPrinter, Printed
+
+from . import tables
+from .texts import ascii_text, comment, number
+
+_ELEMENT = re.compile(r"(?P<bank>R|PR|SR|F|AR|P|TIMER)\[?(?P<number>\d+)\]?", re.IGNORECASE)
+_NAMED = re.compile(r"(?P<kind>[A-Z]{1,2})\[?(?P<number>\d+)\]?", re.IGNORECASE)
+_NUMERIC_BANKS = ("R", "AR", "TIMER")
+
+
+class CannotSayError(RplError):
+    """TP has no words for this; the statement is written as a guarded stop."""
+
+
+@dataclass(slots=True)
+class Expressions:
+    """Prints expressions inside of one scope. `names` are the comments of registers; `labels` those of points."""
+
+    scope: Scope
+    names: Mapping[tuple[str, int], str] = field(default_factory=dict)
+    points: Mapping[str, str] = field(default_factory=dict)
+    printer: ExpressionPrinter = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.printer = ExpressionPrinter(tables.OPERATORS, self._mixed)
+
+    def type(self, expression: ir.Expression) -> ir.Type | None:
+        return type_of(expression, self.scope)
+
+    # ---- places
+
+    def place(self, expression: ir.Expression) -> str:
+        """A register, argument, point or signal."""
+        found = self.element(expression)
+        if found is not None:
+            return found
+        match expression:
+            case ir.Signal():
+                return self.signal(expression)
+            case ir.Field(base=base, name=name):
+                return self.component(base, name)
+            case ir.System(name="timer", indices=(index,)):
+                return self.numbered("TIMER", index)
+            case ir.System(name="flag", indices=(index,)):
+                return self.numbered("F", index)
+            case ir.Convert(how="real" | "bit", operand=operand):
+                return self.place(operand)
+            case ir.Name(id=name):
+                raise CannotSayError(f"{name} has no register")
+        raise CannotSayError(f"this is no register: {_what(expression)}")
+
+    def element(self, expression: ir.Expression) -> str | None:
+        """An element of a bank, by its number or by a name such as R5; None when it is something else."""
+        match expression:
+            case ir.Index(base=ir.Name(id=bank), indices=(index,)) if bank.upper() in tables.BANKS:
+                return self.numbered(bank.upper(), index)
+            case ir.Name(id=name) if name in self.points:
+                return self.points[name]
+            case ir.Name(id=name):
+                parts = _ELEMENT.fullmatch(name)
+                if parts is not None:
+                    return self.numbered(parts["bank"].upper(), ir.IntLiteral(int(parts["number"])))
+        return None
+
+    def numbered(self, bank: str, index: ir.Expression) -> str:
+        """`R[5:count]`, `PR[R[2]]`; a number outside of the bank cannot be said."""
+        value = constant(index)
+        if value is None:
+            return f"{bank}[{self.index(index)}]"
+        limits = tables.BANKS[bank]
+        if value != int(value) or not limits.first <= value <= limits.last:
+            raise CannotSayError(f"{bank}[{value:g}] is outside of {limits.first}..{limits.last}")
+        name = comment(self.names.get((bank, int(value)), ""))
+        return f"{bank}[{int(value)}{':' + name if name else ''}]"
+
+    def index(self, index: ir.Expression) -> str:
+        """A computed number: one register or argument."""
+        if isinstance(index, ir.Convert) and index.how == "real":
+            return self.index(index.operand)
+        shown = self.element(index)
+        if shown is None or not shown.startswith(("R[", "AR[")):
+            raise CannotSayError("a number in brackets is a constant, a register or an argument")
+        return shown
+
+    def component(self, base: ir.Expression, name: str) -> str:
+        """`PR[3,1]`."""
+        names = tables.JOINT_ELEMENTS if isinstance(self.type(base), ir.JointsType) else tables.POSE_ELEMENTS
+        shown = self.element(base)
+        if shown is None or not shown.startswith("PR["):
+            raise CannotSayError("only a position register has components")
+        if name.lower() not in names:
+            raise CannotSayError(f"a position register has no component {name}")
+        inner, _, label = shown[3:-1].partition(":") if shown[3].isdigit() else (shown[3:-1], "", "")
+        return f"PR[{inner},{names.index(name.lower()) + 1}{':' + label if label else ''}]"
+
+    def signal(self, signal: ir.Signal) -> str:
+        """`DI[3]`, `GO[1]`; RI, RO, UI, UO, SI, SO are signals by name."""
+        if signal.name is not None:
+            parts = _NAMED.fullmatch(signal.name)
+            if parts is None or parts["kind"].upper() not in (*tables.NAMED_SIGNALS, *tables.LAST_SIGNAL):
+                raise CannotSayError(f"the signal {signal.name} has no number")
+            return f"{parts['kind'].upper()}[{int(parts['number'])}]"
+        word = tables.SIGNALS.get(signal.kind)
+        if word is None or signal.index is None:
+            raise CannotSayError("a signal needs a number")
+        if signal.last is not None:
+            raise CannotSayError("a group of signals has a number of its own, given at the controller")
+        value = constant(signal.index)
+        if value is None:
+            return f"{word}[{self.index(signal.index)}]"
+        if not 1 <= value <= tables.LAST_SIGNAL[word]:
+            raise CannotSayError(f"{word}[{value:g}] is outside of 1..{tables.LAST_SIGNAL[word]}")
+        name = comment(self.names.get((word, int(value)), ""))
+        return f"{word}[{int(value)}{':' + name if name else ''}]"
+
+    # ---- operands
+
+    def simple(self, expression: ir.Expression) -> str | None:
+        """A constant or a place; None when it is an operation."""
+        value = constant(expression)
+        if value is not None:
+            return number(value)
+        match expression:
+            case ir.BoolLiteral(value=truth):
+                return "ON" if truth else "OFF"
+            case ir.TextLiteral(value=text):
+                return self.text(text)
+            case ir.Convert(how="real", operand=operand):
+                return self.simple(operand)
+            case ir.Convert(how="bit", operand=ir.Signal() as signal):
+                return self.signal(signal)
+            case ir.Index() | ir.Name() | ir.Signal() | ir.Field():
+                return self.place(expression)
+            case ir.System(name="timer" | "flag"):
+                return self.place(expression)
+            case ir.Builtin(function="clock_seconds", arguments=(clock,)):
+                return self.place(clock)
+            case ir.Quantity(value=value_of, unit=unit) if ir.UNITS[unit] == 1:
+                return self.simple(value_of)
+        return None
+
+    def operand(self, expression: ir.Expression) -> str:
+        shown = self.simple(expression)
+        if shown is None:
+            raise CannotSayError(f"{_what(expression)} inside of another instruction")
+        return shown
+
+    def text(self, text: str) -> str:
+        if "'" in text or len(text) > tables.LONGEST_TEXT or ascii_text(text) != text:
+            raise CannotSayError("a text is ASCII without apostrophes, of at most 254 characters")
+        return f"'{text}'"
+
+    # ---- values
+
+    def value(self, expression: ir.Expression) -> str:
+        """The right side of an assignment of a number, a truth value or a text."""
+        shown = self.simple(expression)
+        if shown is not None:
+            return shown
+        match expression:
+            case ir.Builtin():
+                return self.function(expression)
+            case ir.Convert(how="trunc", operand=operand):
+                return f"TRUNC[{self.operand(operand)}]"
+            case ir.Convert(how="round_half_away", operand=operand):
+                return f"ROUND[{self.operand(operand)}]"
+            case ir.Convert(how="real", operand=operand):
+                return self.value(operand)
+        return self.plain(expression) or f"({self.mixed(expression)})"
+
+    def function(self, call: ir.Builtin) -> str:
+        name, values = call.function, call.arguments
+        if name in tables.FUNCTIONS:
+            wanted = 2 if name == "atan2" else 1
+            if len(values) != wanted:
+                raise CannotSayError(f"{tables.FUNCTIONS[name]} has {wanted} argument{'s' * (wanted > 1)}")
+            return f"{tables.FUNCTIONS[name]}[{','.join(self.operand(value) for value in values)}]"
+        match name, values:
+            case "text_length", (text,):
+                return f"STRLEN {self.operand(text)}"
+            case "text_find", (text, start, wanted_text) if constant(start) == 1:
+                return f"FINDSTR {self.operand(text)},{self.operand(wanted_text)}"
+            case "text_part", (text, start, count):
+                return f"SUBSTR {self.operand(text)},{self.operand(start)},{self.operand(count)}"
+        raise CannotSayError(f"TP has no function {name}")
+
+    def plain(self, expression: ir.Expression) -> str | None:
+        """`R[1]+R[2]-3`: operators of one family from left to right; None when it has to be mixed logic."""
+        parts: list[str] = []
+        family: frozenset[str] | None = None
+        left: ir.Expression = expression
+        while isinstance(left, ir.Binary):
+            group = next((one for one in (tables.SUMS, tables.PRODUCTS, frozenset("&")) if left.op in one), None)
+            right = self.simple(left.right)
+            if group is None or family not in (None, group) or right is None:
+                return None
+            family = group
+            sign = "+" if left.op == "&" else tables.OPERATORS.binary[left.op].symbol
+            parts[:0] = [f" {sign} " if sign.isalpha() else sign, right]
+            left = _bare(left.left)
+        first = self.simple(left)
+        if first is None or not parts or len(parts) > 2 * tables.LONGEST_PLAIN:
+            return None
+        return first + "".join(parts)
+
+    def mixed(self, expression: ir.Expression) -> str:
+        """Mixed logic without its outer brackets."""
+        return self.printer.text(expression)
+
+    def _mixed(self, expression: ir.Expression, printer: ExpressionPrinter) -> str | Printed:
+        value = constant(expression)
+        if value is not None:
+            return number(value)
+        match expression:
+            case ir.BoolLiteral(value=truth):
+                return "ON" if truth else "OFF"
+            case ir.Unary(op="+", operand=operand) | ir.Convert(how="real", operand=operand):
+                return printer.printed(operand)
+            case ir.Unary(op="-", operand=operand):
+                return printer.printed(ir.Binary("*", ir.IntLiteral(-1), operand))
+            case ir.Binary(op="cand" | "cor" as op):
+                return printer.printed(ir.Binary(op[1:], expression.left, expression.right))
+            case ir.Convert(how="truth", operand=operand):
+                return printer.printed(ir.Binary("<>", operand, ir.IntLiteral(0)))
+            case ir.TextLiteral():
+                raise CannotSayError("a text inside of mixed logic")
+        return self.operand(expression)
+
+    # ---- conditions
+
+    def condition(self, expression: ir.Expression) -> str:
+        """The shorter way: comparisons joined by AND or by OR, else mixed logic in brackets."""
+        plain = self.comparisons(expression)
+        return plain if plain is not None else f"({self.mixed(expression)})"
+
+    def comparisons(self, expression: ir.Expression) -> str | None:
+        """`R[1]=5 AND DI[2]=ON`; None when it needs brackets."""
+        terms: list[ir.Expression] = []
+        joint = ""
+        left = expression
+        while isinstance(left, ir.Binary) and left.op in ("and", "or", "cand", "cor"):
+            op = left.op[-3:] if left.op.endswith("and") else "or"
+            if joint not in ("", op):
+                return None
+            joint = op
+            terms.insert(0, left.right)
+            left = left.left
+        terms.insert(0, left)
+        shown = [self.comparison(term) for term in terms]
+        if len(terms) > tables.LONGEST_PLAIN or any(one is None for one in shown):
+            return None
+        return f" {joint.upper()} ".join(one for one in shown if one is not None)
+
+    def comparison(self, term: ir.Expression) -> str | None:
+        match term:
+            case ir.Binary(op=op, left=left, right=right) if op in tables.COMPARISONS:
+                if constant(left) is not None or not self.is_place(left):
+                    return None
+                first, second = self.simple(left), self.simple(right)
+                if first is None or second is None:
+                    return None
+                return f"{first}{tables.OPERATORS.binary[op].symbol}{second}"
+            case ir.Unary(op="not", operand=operand) if self.is_truth(operand):
+                return f"{self.place(operand)}=OFF"
+            case _ if self.is_truth(term):
+                return f"{self.place(term)}=ON"
+        return None
+
+    def is_place(self, expression: ir.Expression) -> bool:
+        if isinstance(expression, ir.Convert) and expression.how in ("real", "bit"):
+            return self.is_place(expression.operand)
+        return isinstance(expression, ir.Signal | ir.Field) or self.simple(expression) is not None
+
+    def is_truth(self, expression: ir.Expression) -> bool:
+        """Is it a signal or a flag that is on or off?"""
+        if isinstance(expression, ir.Signal):
+            return expression.kind.startswith(("digital", "flag"))
+        if isinstance(expression, ir.System):
+            return expression.name == "flag"
+        shown = self.element(expression)
+        return shown is not None and shown.startswith("F[")
+
+
+def constant(expression: ir.Expression) -> float | int | None:
+    """The number that is written, with its sign."""
+    match expression:
+        case ir.IntLiteral(value=number_of):
+            return number_of
+        case ir.RealLiteral(value=real):
+            return int(real) if real == int(real) and abs(real) < 1e9 else real
+        case ir.Unary(op="-" | "+" as op, operand=operand):
+            inner = constant(operand)
+            return None if inner is None else -inner if op == "-" else inner
+        case ir.Convert(how="real", operand=operand):
+            return constant(operand)
+        case ir.Quantity(value=inner_value, unit=unit):
+            inner = constant(inner_value)
+            return None if inner is None else _clean(inner * ir.UNITS[unit])
+    return None
+
+
+def measured(expression: ir.Expression, unit: str) -> float | int | None:
+    """The constant number of a quantity in `unit`; a bare number is in base units."""
+    value = constant(expression)
+    return None if value is None else _clean(value / ir.UNITS[unit])
+
+
+def _clean(value: float) -> float | int:
+    value = float(f"{value:.12g}")
+    return int(value) if value == int(value) and abs(value) < 1e9 else value
+
+
+def _bare(expression: ir.Expression) -> ir.Expression:
+    while isinstance(expression, ir.Convert) and expression.how == "real":
+        expression = expression.operand
+    return expression
+
+
+def _what(expression: ir.Expression) -> str:
+    words = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", expression.__class__.__name__).lower()
+    detail = getattr(expression, "function", getattr(expression, "op", getattr(expression, "name", "")))
+    return f"{words} {detail}".strip()

@@ -1,0 +1,169 @@
+"""Tools and user frames: which number a value has, and the lines that give the number its value.
+
+A constant value is put into its number once, at the start of the program, through a position register that is filled
+element by element. A value that is kept in a position register is handed over where it is selected.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from rpl import ir
+from rpl.passes.fold import constant
+from rpl.passes.scope import Scope
+from rpl.passes.values import pose_of
+from rpl.source import NOWHERE
+from rpl.writing.text import number_text
+
+from . import tables
+from .expressions import CannotSayError, Expressions
+from .lines import Line
+from .positions import Position, position_of
+
+WORLD = (0.0,) * 6
+
+
+@dataclass(slots=True)
+class Numbers:
+    """The numbers of one kind: `UTOOL` or `UFRAME`. `first`: the number of nothing at all (UFRAME 0 is the world)."""
+
+    word: str
+    most: int
+    constants: dict[tuple[float, ...], int] = field(default_factory=dict)
+    registers: dict[str, int] = field(default_factory=dict)
+    taken: set[int] = field(default_factory=set)
+
+    def of_constant(self, value: tuple[float, ...]) -> int:
+        if value not in self.constants:
+            self.constants[value] = self._free()
+        return self.constants[value]
+
+    def of_register(self, register: str) -> int:
+        if register not in self.registers:
+            self.registers[register] = self._free()
+        return self.registers[register]
+
+    def _free(self) -> int:
+        free = next((n for n in range(1, self.most + 1) if n not in self.taken), None)
+        if free is None:
+            raise CannotSayError(f"there are only {self.most} numbers for {self.word}")
+        self.taken.add(free)
+        return free
+
+    def value_of(self, number: int) -> tuple[float, ...] | None:
+        return next((value for value, n in self.constants.items() if n == number), None)
+
+
+@dataclass(slots=True)
+class Frames:
+    """Tools and user frames of a whole program. `scratch`: the position register that carries values over."""
+
+    scratch: int = tables.PR.last
+    tools: Numbers = field(default_factory=lambda: Numbers("UTOOL", tables.MOST_TOOLS))
+    frames: Numbers = field(default_factory=lambda: Numbers("UFRAME", tables.MOST_FRAMES))
+    selected: dict[str, set[str]] = field(default_factory=lambda: {"UTOOL": set(), "UFRAME": set()})
+
+    def select(self, kind: str, value: ir.Expression, expressions: Expressions) -> tuple[list[Line], str]:
+        """The lines that select a tool or frame, and its number ('' when it is computed)."""
+        numbers = self.tools if kind == "UTOOL" else self.frames
+        table = _table_element(value, kind)
+        if table is not None:
+            return self._line(numbers, _number_text(table, expressions)), _number_text(table, expressions)
+        register = expressions.element(value) if isinstance(value, ir.Index | ir.Name) else None
+        if register is not None and register.startswith("PR["):
+            number = str(numbers.of_register(register))
+            return [Line(f"  {kind}[{number}]={register}"), *self._line(numbers, number)], number
+        if register is not None:
+            raise CannotSayError("a tool or frame has to be in a position register")
+        pose = constant_pose(value, expressions.scope)
+        if kind == "UFRAME" and pose == WORLD:
+            return self._line(numbers, "0"), "0"
+        number = str(numbers.of_constant(pose))
+        return self._line(numbers, number), number
+
+    def _line(self, numbers: Numbers, number: str) -> list[Line]:
+        self.selected[numbers.word].add(number)
+        return [Line(f"  {numbers.word}_NUM={number}")]
+
+    def only(self, word: str) -> str:
+        """The one number that the program ever selects, if there is only one."""
+        found = self.selected[word]
+        return next(iter(found)) if len(found) == 1 else ""
+
+    def pose(self, word: str, number: str) -> tuple[float, ...] | None:
+        """The constant value behind a number."""
+        if word == "UFRAME" and number == "0":
+            return WORLD
+        numbers = self.tools if word == "UTOOL" else self.frames
+        return numbers.value_of(int(number)) if number.isdigit() else None
+
+    def setup(self) -> Iterator[Line]:
+        """What gives the numbers their constant values at the start."""
+        for numbers in (self.tools, self.frames):
+            for value, number in numbers.constants.items():
+                yield from self._filled(value)
+                yield Line(f"  {numbers.word}[{number}]=PR[{self.scratch}]")
+
+    def _filled(self, value: tuple[float, ...]) -> Iterator[Line]:
+        x, y, z, a, b, c = value
+        yield Line(f"  PR[{self.scratch}]=LPOS")
+        for element, number in enumerate((x, y, z, c, b, a), 1):
+            shown = number_text(number, 6, tables.NUMBERS)
+            yield Line(f"  PR[{self.scratch},{element}]={f'({shown})' if shown.startswith('-') else shown}")
+
+
+def constant_pose(value: ir.Expression, scope: Scope) -> tuple[float, ...]:
+    """x, y, z, a, b, c of a constant pose. Raises CannotSayError when it is computed."""
+    if isinstance(value, ir.System) and value.name in ("null_frame", "world"):
+        return WORLD
+    try:
+        position = position_of(value, scope)
+    except CannotSayError:
+        pose = pose_of(constant(value, scope))
+        if pose is None:
+            raise CannotSayError("a tool or frame is a constant or in a position register") from None
+        place = pose.position
+        position = Position("pose", (place.x, place.y, place.z, *pose.rotation.zyx))
+    if position.kind != "pose":
+        raise CannotSayError("a tool or frame is a pose")
+    return tuple(one + 0.0 for one in position.values)
+
+
+def _table_element(value: ir.Expression, kind: str) -> ir.Expression | None:
+    """The number of an element of the controller's own table (`UTOOL[3]`), as programs read from listings have it."""
+    match value:
+        case ir.Index(base=ir.Name(id=name), indices=(index,)) if name.upper() == kind:
+            return index
+        case ir.Name(id=name) if name.upper().startswith(kind) and name[len(kind) :].isdigit():
+            return ir.IntLiteral(int(name[len(kind) :]), origin=NOWHERE)
+    return None
+
+
+def _number_text(index: ir.Expression, expressions: Expressions) -> str:
+    return expressions.operand(index)
+
+
+def highest_free_register(program: ir.Program) -> int:
+    """A position register that no constant number names, from the top."""
+    from rpl.passes.rewrite import rewrite_parts
+
+    used: set[int] = set()
+
+    def expression(one: ir.Expression) -> ir.Expression:
+        match one:
+            case ir.Index(base=ir.Name(id=name), indices=(ir.IntLiteral(value=number),)) if name.upper() == "PR":
+                used.add(number)
+            case ir.Name(id=name) if name.upper().startswith("PR") and name[2:].isdigit():
+                used.add(int(name[2:]))
+        return rewrite_parts(one, expression)
+
+    def body(statements: ir.Body) -> ir.Body:
+        for statement in statements:
+            rewrite_parts(statement, expression, body)
+        return statements
+
+    for module in program.modules:
+        for routine in module.routines:
+            body(routine.body)
+    return next((n for n in range(tables.PR.last, 0, -1) if n not in used), tables.PR.last)

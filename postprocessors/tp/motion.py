@@ -1,0 +1,282 @@
+"""IR moves as TP motion lines: point, speed, termination, options."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from rpl import ir
+from rpl.diagnostics import Code, Diagnostics, Severity, code
+from rpl.passes.legalise.modal import MM_S_PER_PERCENT
+from rpl.source import Origin
+from rpl.writing.text import number_text
+
+from . import tables
+from .expressions import CannotSayError, Expressions, constant, measured
+from .lines import Line
+from .positions import Points, Position, flat, numbers, position_of
+
+ROUNDED = code("tp-rounded", Severity.WARNING, "{what} {value} is written as {written}", "TP takes whole numbers here")
+TOOL_SPEED = code(
+    "tp-joint-speed",
+    Severity.WARNING,
+    "a joint move's tool speed has no counterpart; it is written in percent of the axes ({factor:g} mm/s a percent)",
+)
+JOINT_CORNER = code(
+    "tp-joint-corner",
+    Severity.WARNING,
+    "a joint move has no corner distance; it is written as CNT ({factor:g} mm each)",
+)
+LEFT_OUT = code("tp-left-out", Severity.WARNING, "TP has no place for {what} at a move; it is left out")
+NO_SPEED = code("tp-no-speed", Severity.WARNING, "the move says no speed; it is written with {speed}")
+
+_ZERO = {name: ir.RealLiteral(0.0) for name in ("x", "y", "z", "a", "b", "c")}
+
+
+class Action(Protocol):
+    """How an assignment or a call is written behind a trigger."""
+
+    def __call__(self, action: ir.Assign | ir.CallRoutine) -> str: ...
+
+
+@dataclass(slots=True)
+class Motion:
+    """Prints the moves of one program. `frame` and `tool` are the numbers in force, '' when not known."""
+
+    expressions: Expressions
+    points: Points
+    diagnostics: Diagnostics
+    action: Action
+    reported: set[tuple[Code, str]] = field(default_factory=set)
+    frame: str = ""
+    tool: str = ""
+
+    def report_once(self, about: Code, origin: Origin, key: str = "", **arguments: object) -> None:
+        if (about, key) not in self.reported:
+            self.reported.add((about, key))
+            self.diagnostics.report(about, origin, **arguments)
+
+    def move(self, move: ir.Move, skip: str = "") -> Line:
+        """The line of a move; `skip` is what stands behind Skip."""
+        letter = tables.LETTERS.get(move.kind)
+        if letter is None:
+            raise CannotSayError(f"there is no {move.kind} move")
+        self.refuse(move)
+        target, offsets = self.target(move, move.target)
+        speed, term = self.speed(move), self.blend(move)
+        options = offsets + self.options(move) + skip
+        settings = f"{speed} {term}{options}    "
+        if move.kind != "circular":
+            return Line(f"{letter} {target} {settings}")
+        if move.via is None:
+            raise CannotSayError("a circle needs its point on the way")
+        via, via_offsets = self.target(move, move.via)
+        return Line(f"{letter} {via}{via_offsets}    ", (f"  {target} {settings}",))
+
+    def refuse(self, move: ir.Move) -> None:
+        for what, found in (
+            ("a circle by its angle", move.swept),
+            ("settings of system variables", move.settings),
+            ("a load", move.load),
+            ("a motion group of its own", move.group != 1),
+        ):
+            if found:
+                raise CannotSayError(f"a move has no place for {what}")
+        left = {
+            "an orientation rule": move.orientation not in (None, "variable"),
+            "a circle's orientation rule": move.circle_orientation not in (None, "base"),
+            "an acceleration in mm/s2": move.speed is not None and move.speed.path_acceleration is not None,
+            "an acceleration in deg/s2": move.speed is not None and move.speed.axis_acceleration is not None,
+        }
+        for what, found in left.items():
+            if found:
+                self.report_once(LEFT_OUT, move.origin, what, what=what)
+
+    # ---- points
+
+    def target(self, move: ir.Move, target: ir.Expression) -> tuple[str, str]:
+        """`P[1]` or `PR[2]`, and the options that move it."""
+        match target:
+            case ir.Builtin(function="displaced" | "displaced_in_tool" as how, arguments=(base, pose)):
+                shown, more = self.target(move, base)
+                word = "Offset" if how == "displaced" else "Tool_Offset"
+                return shown, f"{more} {word},{self.register(pose)}"
+            case ir.Binary(op=":", left=base, right=pose) | ir.Builtin(function="compose", arguments=(base, pose)):
+                shown, more = self.target(move, base)
+                return shown, f"{more} Tool_Offset,{self.register(pose)}"
+        known = self.expressions.element(target) if isinstance(target, ir.Index | ir.Name) else None
+        if known is not None:
+            if not known.startswith(("P[", "PR[")):
+                raise CannotSayError(f"{known} is no position")
+            self.noted(known)
+            return known, ""
+        number_of = self.points.add(self.position(move, target))
+        shown = self.points.place(number_of)
+        self.noted(shown)
+        return shown, ""
+
+    def noted(self, shown: str) -> None:
+        inner = shown[2:-1].partition(":")[0]
+        if shown.startswith("P[") and inner.isdigit():
+            self.points.used(int(inner), self.frame or "F", self.tool or "F")
+
+    def register(self, pose: ir.Expression) -> str:
+        shown = self.expressions.element(pose)
+        if shown is None or not shown.startswith("PR["):
+            raise CannotSayError("an offset has to be in a position register")
+        return shown
+
+    def position(self, move: ir.Move, target: ir.Expression) -> Position:
+        if move.relative is None:
+            return position_of(target, self.expressions.scope)
+        parts = flat(target)
+        if move.relative == "joints":
+            names = [f"j{axis}" for axis in range(1, 7)]
+            values = numbers({**dict.fromkeys(names, ir.RealLiteral(0.0)), **parts}, tuple(names))
+            return Position("joints", tuple(values))
+        values = numbers({**_ZERO, **parts}, ("x", "y", "z", "a", "b", "c"))
+        if any(values[3:]):
+            raise CannotSayError("INC adds angles one by one; a turned relative move is something else")
+        return Position("pose", tuple(values))
+
+    # ---- speed
+
+    def speed(self, move: ir.Move) -> str:
+        speed = move.speed or ir.Speed()
+        if speed.profile is not None:
+            raise CannotSayError("speed data have no register")
+        if speed.duration is not None:
+            return self.measured_in(speed.duration, "s", "sec", move, 1)
+        if move.kind == "joint":
+            return self.joint_speed(move, speed)
+        if speed.path is not None:
+            if speed.rotation is not None:
+                self.report_once(LEFT_OUT, move.origin, "rotation", what="a speed of turning beside that of the tool")
+            return self.path_speed(move, speed.path)
+        if speed.rotation is not None:
+            return self.measured_in(speed.rotation, "deg/s", "deg/sec", move, 0, tables.LARGEST_DEG_S)
+        self.report_once(NO_SPEED, move.origin, "path", speed="250 mm/sec")
+        return "250mm/sec"
+
+    def joint_speed(self, move: ir.Move, speed: ir.Speed) -> str:
+        if speed.joint is not None:
+            return self.percent(speed.joint, move, "the speed", 1, tables.LARGEST_PERCENT) + "%"
+        if speed.path is not None:
+            self.report_once(TOOL_SPEED, move.origin, factor=MM_S_PER_PERCENT)
+            value = constant(speed.path)
+            if value is None:
+                raise CannotSayError("a joint move's speed is in percent of the axes")
+            return f"{max(1, min(tables.LARGEST_PERCENT, round(value / MM_S_PER_PERCENT)))}%"
+        if speed.axis is not None or speed.rotation is not None:
+            raise CannotSayError("a joint move's speed is in percent of the axes")
+        self.report_once(NO_SPEED, move.origin, "joint", speed="100 percent")
+        return "100%"
+
+    def path_speed(self, move: ir.Move, path: ir.Expression) -> str:
+        """In the unit of the source, else in one that says the value exactly; the controller's units are coarse."""
+        value = constant(path)
+        if value is None or (isinstance(path, ir.Quantity) and path.unit in ("cm/min", "inch/min")):
+            unit = path.unit if isinstance(path, ir.Quantity) else "mm/s"
+            places = 1 if unit == "inch/min" else 0
+            return self.measured_in(path, unit, unit.replace("/s", "/sec"), move, places)
+        for unit, word, scale in (("mm/s", "mm/sec", 1), ("cm/min", "cm/min", 1), ("inch/min", "inch/min", 10)):
+            shown = float(f"{value / ir.UNITS[unit] * scale:.9g}")
+            if shown == int(shown) and shown >= 1 and value <= tables.LARGEST_MM_S:
+                return f"{number_text(shown / scale, style=tables.NUMBERS)}{word}"
+        return self.measured_in(path, "mm/s", "mm/sec", move, 0, tables.LARGEST_MM_S)
+
+    def measured_in(
+        self, value: ir.Expression, unit: str, word: str, move: ir.Move, places: int, most: float = 1e9
+    ) -> str:
+        """A number with its unit behind it, or a register in that unit."""
+        found = measured(value, unit)
+        if found is None:
+            inner = value.value if isinstance(value, ir.Quantity) and value.unit == unit else value
+            if isinstance(value, ir.Quantity) and value.unit != unit:
+                raise CannotSayError(f"a register holds this speed in another unit than {word}")
+            return f"{self.expressions.index(inner)}{word}"
+        shown = min(most, max(10.0**-places, round(float(found), places)))
+        if shown != found:
+            written = f"{number_text(shown, style=tables.NUMBERS)} {word}"
+            self.rounded(move, "the speed", found, written)
+        return f"{number_text(shown, style=tables.NUMBERS)}{word}"
+
+    def rounded(self, move: ir.Move, what: str, value: float, written: str) -> None:
+        self.report_once(ROUNDED, move.origin, f"{what}{value}", what=what, value=f"{value:g}", written=written)
+
+    def percent(self, value: ir.Expression, move: ir.Move, what: str, least: int, most: int) -> str:
+        found = constant(value)
+        if found is None:
+            return self.expressions.index(value)
+        shown = int(min(most, max(least, round(found))))
+        if shown != found:
+            self.rounded(move, what, float(found), str(shown))
+        return str(shown)
+
+    # ---- termination
+
+    def blend(self, move: ir.Move) -> str:
+        match move.blend:
+            case None | ir.BlendStop():
+                return "FINE"
+            case ir.BlendPercent(percent=percent) | ir.BlendSpeed(percent=percent):
+                return self.continuous(move, percent)
+            case ir.BlendDistance(distance=distance) if distance is not None:
+                return self.corner(move, distance)
+        raise CannotSayError("TP rounds corners by CNT or by a distance")
+
+    def continuous(self, move: ir.Move, percent: ir.Expression) -> str:
+        if constant(percent) is None:
+            return f"CNT {self.expressions.index(percent)}"
+        return "CNT" + self.percent(percent, move, "the continuous value", 0, 100)
+
+    def corner(self, move: ir.Move, distance: ir.Expression) -> str:
+        value = measured(distance, "mm")
+        if value is None:
+            raise CannotSayError("a corner distance is a constant")
+        if value == 0:
+            return "FINE"
+        if move.kind == "joint":
+            self.report_once(JOINT_CORNER, move.origin, factor=tables.MM_PER_CNT)
+            return f"CNT{max(1, min(100, round(value / tables.MM_PER_CNT)))}"
+        shown = max(1, min(tables.LARGEST_CORNER_MM, round(value)))
+        if shown != value:
+            self.rounded(move, "the corner distance", float(value), str(shown))
+        return f"CR{shown}"
+
+    # ---- options
+
+    def options(self, move: ir.Move) -> str:
+        shown = ""
+        if move.acceleration is not None:
+            least, most = tables.ACCELERATION
+            percent = self.percent(move.acceleration, move, "the acceleration", least, most)
+            shown += f" ACC{percent}" if percent.isdigit() else f" ACC {percent}"
+        if move.relative in ("base", "joints"):
+            shown += " INC"
+        elif move.relative is not None:
+            raise CannotSayError(f"a move relative to the {move.relative}")
+        if len(move.triggers) > 1:
+            raise CannotSayError("a move has one action on its path")
+        for trigger in move.triggers:
+            shown += f" {self.trigger(trigger)}"
+        return shown
+
+    def trigger(self, trigger: ir.Expression | ir.Trigger) -> str:
+        """`TB .20sec,DO[1]=ON`, `TA`, `DB 10.0mm`: before or after the end of the move."""
+        if not isinstance(trigger, ir.Trigger):
+            raise CannotSayError("stored actions on the path")
+        action = self.action(trigger.action)
+        if trigger.reference == "start":
+            raise CannotSayError("an action on the path counts from the end of the move")
+        if trigger.distance is not None and constant(trigger.distance) != 0:
+            if trigger.delay is not None and constant(trigger.delay) != 0:
+                raise CannotSayError("an action by distance and by time")
+            distance = measured(trigger.distance, "mm")
+            if distance is None or distance > 0:
+                raise CannotSayError("an action by distance comes a constant distance before the end")
+            return f"DB {number_text(-float(distance), 1, tables.NUMBERS)}mm,{action}"
+        delay = measured(trigger.delay, "s") if trigger.delay is not None else 0
+        if delay is None:
+            raise CannotSayError("an action by time comes at a constant time")
+        return f"{'TA' if delay > 0 else 'TB'} {number_text(abs(float(delay)), 2, tables.NUMBERS)}sec,{action}"

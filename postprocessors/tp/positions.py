@@ -1,0 +1,196 @@
+"""Taught positions of one program: their numbers, their values and their text in /POS.
+
+A position says in which user frame and tool it was taught, and the controller refuses it with any other. So the numbers
+are written where every move to it has the same ones, and F (whatever is active) where they differ.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+from rpl import ir
+from rpl.passes.fold import constant
+from rpl.passes.scope import Scope
+from rpl.passes.values import Record, Target, pose_of
+from rpl.writing.text import number_text
+
+from . import tables
+from .configuration import FLAGS, config_text
+from .expressions import CannotSayError
+from .expressions import constant as number_of
+from .texts import comment
+
+_POSE = ("x", "y", "z", "a", "b", "c")
+_JOINTS = ("j1", "j2", "j3", "j4", "j5", "j6")
+_EXTERNAL = ("e1", "e2", "e3", "e4", "e5", "e6")
+_POINT = re.compile(r"P\[?(\d+)\]?", re.IGNORECASE)
+_UNSET = 8e9  # RAPID's mark of an external axis that is not there
+_DECIMALS, _MOST_DECIMALS = 3, 6
+
+
+@dataclass(frozen=True, slots=True)
+class Position:
+    """kind: pose (x y z a b c; mm, deg), joints (own units) or none (never taught)."""
+
+    kind: str
+    values: tuple[float, ...] = ()
+    flags: tuple[tuple[str, int], ...] = ()
+    external: tuple[float, ...] = ()
+
+    def with_flags(self, flags: Mapping[str, int]) -> Position:
+        return Position(self.kind, self.values, tuple(flags.items()), self.external)
+
+
+@dataclass(slots=True)
+class Points:
+    """The positions of one program by number."""
+
+    found: dict[int, Position] = field(default_factory=dict)
+    labels: dict[int, str] = field(default_factory=dict)
+    frames: dict[int, set[tuple[str, str]]] = field(default_factory=dict)
+    anonymous: dict[Position, int] = field(default_factory=dict)
+
+    def declare(self, variable: ir.Variable, scope: Scope) -> int:
+        """A variable that is a point: by the number in its name."""
+        number = point_number(variable.name)
+        if number is None or number in self.found:
+            raise CannotSayError(f"{variable.name} is no number of a point")
+        self.found[number] = (
+            Position("none") if variable.initial is None else position_of(variable.initial, scope, variable.type)
+        )
+        label = comment(variable.label)
+        if label:
+            self.labels[number] = label
+        return number
+
+    def add(self, position: Position) -> int:
+        """The number of a value without a name; equal values share one."""
+        known = self.anonymous.get(position)
+        if known is not None:
+            return known
+        number = next(n for n in range(tables.POINTS.first, tables.POINTS.last + 2) if n not in self.found)
+        if number > tables.POINTS.last:
+            raise CannotSayError("there are no more numbers for points")
+        self.found[number] = position
+        self.anonymous[position] = number
+        return number
+
+    def used(self, number: int, frame: str, tool: str) -> None:
+        """A move goes to the point with this frame and tool in force (F: not known)."""
+        self.frames.setdefault(number, set()).add((frame, tool))
+
+    def place(self, number: int) -> str:
+        label = self.labels.get(number, "")
+        return f"P[{number}{':' + label if label else ''}]"
+
+    def text(self) -> Iterator[str]:
+        for number in sorted(self.found):
+            uses = self.frames.get(number, set())
+            frame, tool = next(iter(uses)) if len(uses) == 1 else ("F", "F")
+            label = self.labels.get(number, "")
+            head = f"P[{number}{f':{chr(34)}{label}{chr(34)}' if label else ''}]{{"
+            yield "\n".join((head, "   GP1:", *_lines(self.found[number], frame, tool), "};"))
+
+
+def point_number(name: str) -> int | None:
+    match = _POINT.fullmatch(name)
+    return int(match[1]) if match else None
+
+
+def position_of(value: ir.Expression, scope: Scope, type: ir.Type | None = None) -> Position:
+    """The position of a constant value. Raises CannotSayError when it is computed or lacks components."""
+    parts = flat(value)
+    if set(_JOINTS) & set(parts):
+        found = _JOINTS[: 6 if "j6" in parts or len(parts) > 5 else 4]
+        return Position("joints", tuple(numbers(parts, found)), (), external(parts))
+    if set(parts) >= set(_POSE):
+        angles = [_turned(one) for one in numbers(parts, _POSE[3:])]
+        return Position("pose", (*numbers(parts, _POSE[:3]), *angles), _flags(parts), external(parts))
+    folded = constant(value, scope)
+    pose = pose_of(folded)
+    if pose is not None:
+        x, y, z = pose.position.x, pose.position.y, pose.position.z
+        a, b, c = pose.rotation.zyx
+        flags = folded.flags if isinstance(folded, Target) else ()
+        more = tuple(v for _, v in folded.external if abs(v) < _UNSET) if isinstance(folded, Target) else ()
+        return Position("pose", (x, y, z, a, b, c), flags, more)
+    if isinstance(folded, Record) and isinstance(folded.type, ir.JointsType):
+        axes = folded.part("robax")
+        source = axes if isinstance(axes, Record) else folded
+        given = [source.part(name) for name in _JOINTS]
+        values = tuple(float(one) for one in given if isinstance(one, int | float))
+        return Position("joints", values)
+    raise CannotSayError("a position with computed or missing components")
+
+
+def flat(value: ir.Expression) -> dict[str, ir.Expression]:
+    """Components by name; those of nested parts beside the others."""
+    found: dict[str, ir.Expression] = {}
+    if isinstance(value, ir.Aggregate):
+        for name, entry in value.entries:
+            if isinstance(entry, ir.Aggregate):
+                found.update(flat(entry))
+            elif name is not None:
+                found[name.lower()] = entry
+    return found
+
+
+def numbers(parts: Mapping[str, ir.Expression], names: tuple[str, ...]) -> list[float]:
+    found = []
+    for name in names:
+        value = number_of(parts[name]) if name in parts else None
+        if value is None:
+            raise CannotSayError(f"the component {name} of a position is computed or missing")
+        found.append(float(value))
+    return found
+
+
+def external(parts: Mapping[str, ir.Expression]) -> tuple[float, ...]:
+    """Positions of external axes; those that are not there, and zeros behind the last other one, are left out."""
+    values = [number_of(parts[name]) for name in _EXTERNAL if name in parts]
+    found = [float(one) for one in values if one is not None and abs(one) < _UNSET]
+    while found and found[-1] == 0:
+        found.pop()
+    return tuple(found)
+
+
+def _flags(parts: Mapping[str, ir.Expression]) -> tuple[tuple[str, int], ...]:
+    found = {name: number_of(parts[name]) for name in FLAGS if name in parts}
+    return tuple((name, int(value)) for name, value in found.items() if value is not None)
+
+
+def _turned(degrees: float) -> float:
+    """The angle within half a turn."""
+    if -180 <= degrees <= 180:
+        return degrees
+    return (degrees + 180) % 360 - 180
+
+
+def _lines(position: Position, frame: str, tool: str) -> list[str]:
+    head = f"\tUF : {frame}, UT : {tool},"
+    if position.kind == "none":
+        head += f"\t\tCONFIG : '{config_text({})}',"
+        rows = [[f"{name} = ********  {unit}" for name in names] for names, unit in (("XYZ", "mm"), ("WPR", "deg"))]
+    elif position.kind == "joints":
+        named = [f"J{number}= {_number(value)} deg" for number, value in enumerate(position.values, 1)]
+        rows = [named[:3], named[3:]]
+    else:
+        head += f"\t\tCONFIG : '{config_text(dict(position.flags))}',"
+        x, y, z, a, b, c = position.values
+        rows = [
+            [f"{name} = {_number(value)}  mm" for name, value in (("X", x), ("Y", y), ("Z", z))],
+            [f"{name} = {_number(value)} deg" for name, value in (("W", c), ("P", b), ("R", a))],
+        ]
+    more = [f"E{number}= {_number(value)}  mm" for number, value in enumerate(position.external, 1)]
+    rows += [more[:3], more[3:]]
+    shown = ["\t" + ",\t".join(row) for row in rows if row]
+    return [head, *(line + "," for line in shown[:-1]), shown[-1]]
+
+
+def _number(value: float) -> str:
+    """Three places as on the screen; more where the value has them."""
+    text = number_text(float(value), _MOST_DECIMALS, tables.NUMBERS)
+    whole, _, places = text.partition(".")
+    return f"{whole}.{places.ljust(_DECIMALS, '0')}".rjust(9)

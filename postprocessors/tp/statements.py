@@ -1,0 +1,469 @@
+"""IR statements as TP lines. What TP cannot say becomes a guarded stop: the original as remarks, then PAUSE."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.source import Comment, Origin
+from rpl.writing.ledger import EmissionLedger
+
+from . import tables
+from .assignments import Assignments, set_output
+from .expressions import CannotSayError, Expressions, constant, measured
+from .flow import If, Labels, choice, single_jump
+from .frames import Frames
+from .lines import Line
+from .motion import Motion
+from .positions import Points
+from .texts import ascii_text, number, remarks
+
+GUARDED = code(
+    "tp-guarded-stop",
+    Severity.LOSS,
+    "TP cannot say this: {reason}",
+    "the program stops there with PAUSE; write the line by hand",
+)
+WAIT_ROUNDED = code("tp-wait-rounded", Severity.WARNING, "a time of {time:g} s is written in hundredths of a second")
+SPLIT_MESSAGE = code(
+    "tp-split-message", Severity.WARNING, "a message of more than {most} characters is written in several lines"
+)
+
+_CLOCKS = {"start": "START", "stop": "STOP", "reset": "RESET"}
+_HALTS = {"stop": "PAUSE", "exit": "ABORT"}
+
+
+@dataclass(slots=True)
+class Printer:
+    """Prints the body of one program."""
+
+    expressions: Expressions
+    points: Points
+    frames: Frames
+    labels: Labels
+    ledger: EmissionLedger
+    diagnostics: Diagnostics
+    lines: list[Line] = field(default_factory=list)
+    depth: int = 0
+    motion: Motion = field(init=False)
+    assignments: Assignments = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.motion = Motion(self.expressions, self.points, self.diagnostics, self.action)
+        self.assignments = Assignments(self.expressions, self.points)
+
+    # ---- lines and comments
+
+    def line(self, text: str, origin: Origin | None = None) -> None:
+        """One line, behind the remarks that belong to its statement."""
+        self.put([Line(f"  {text}")], origin)
+
+    def put(self, lines: list[Line], origin: Origin | None = None) -> None:
+        if origin is not None:
+            self.comments_only(origin)
+        for line in lines:
+            if line.length > tables.LONGEST_LINE:
+                raise CannotSayError(f"a line of {line.length} characters; a controller takes {tables.LONGEST_LINE}")
+            self.lines.append(line)
+
+    def remark(self, text: str) -> None:
+        self.lines.extend(Line(one) for one in remarks(text))
+
+    def comment(self, comment: Comment) -> None:
+        self.remark(comment.text)
+
+    def comments_only(self, origin: Origin) -> None:
+        for comment in origin.comments:
+            self.comment(comment)
+
+    # ---- bodies
+
+    def body(self, body: ir.Body) -> None:
+        at = 0
+        while at < len(body):
+            at += self.pair(body[at], body[at + 1] if at + 1 < len(body) else None)
+
+    def inner(self, body: ir.Body) -> None:
+        """A body inside of a block."""
+        if self.depth >= tables.DEEPEST_BLOCK:
+            raise CannotSayError(f"blocks are at most {tables.DEEPEST_BLOCK} deep")
+        self.depth += 1
+        self.body(body)
+        self.depth -= 1
+
+    def pair(self, statement: ir.Statement, following: ir.Statement | None) -> int:
+        """Two statements that TP says as one (a limited wait or a search and the jump when it failed), else one."""
+        label = self.failure_jump(statement, following)
+        if label is None or following is None:
+            self.statement(statement)
+            return 1
+        kept = len(self.lines)
+        try:
+            self.comments_only(following.origin)
+            if isinstance(statement, ir.Move):
+                self.searching(statement, label)
+            elif isinstance(statement, ir.WaitUntil):
+                self.limited(statement, label)
+        except CannotSayError as error:
+            del self.lines[kept:]
+            self.guard(statement, str(error))
+            self.statement(following)
+        else:
+            self.ledger.written(statement)
+            self.ledger.merged(following)
+        return 2
+
+    def failure_jump(self, statement: ir.Statement, following: ir.Statement | None) -> int | None:
+        """The label that the next statement jumps to when this one's condition did not come true."""
+        jump = single_jump(following)
+        if jump is None:
+            return None
+        condition, label = jump
+        match statement:
+            case ir.WaitUntil(timed_out=flag, timeout=limit) if limit is not None and flag == condition:
+                return self.labels.number(label) if self.private(flag) else None
+            case ir.Move(search=ir.Search(hit=hit)) if hit is not None and condition == ir.Unary("not", hit):
+                return self.labels.number(label) if self.private(hit) else None
+        return None
+
+    def private(self, flag: ir.Expression | None) -> bool:
+        """Is it a variable that only stands for the outcome, so that no register has to keep it?"""
+        return isinstance(flag, ir.Name) and self.expressions.element(flag) is None
+
+    def statement(self, statement: ir.Statement) -> None:
+        """One statement, or its guarded stop."""
+        kept, depth = len(self.lines), self.depth
+        try:
+            self.written(statement)
+        except CannotSayError as error:
+            del self.lines[kept:]
+            self.depth = depth
+            self.guard(statement, str(error))
+        else:
+            self.ledger.written(statement)
+
+    def guard(self, statement: ir.Statement, reason: str) -> None:
+        self.comments_only(statement.origin)
+        original = statement.origin.text or getattr(statement, "text", "") or statement.__class__.__name__
+        for part in original.splitlines():
+            self.remark(part.strip())
+        self.lines.append(Line("  PAUSE"))
+        self.diagnostics.report(GUARDED, statement.origin, reason=reason)
+        self.ledger.reported(statement)
+        self.forget()
+
+    def forget(self) -> None:
+        """What tool and frame are in force is not known here."""
+        self.motion.frame = self.motion.tool = ""
+
+    # ---- statements
+
+    def written(self, statement: ir.Statement) -> None:
+        origin = statement.origin
+        match statement:
+            case ir.Nothing():
+                self.comments_only(origin)
+            case ir.If():
+                self.choice(statement)
+            case ir.Switch():
+                self.switch(statement)
+            case ir.For():
+                self.counting(statement)
+            case ir.Label(name=name):
+                self.forget()
+                self.line(f"LBL[{self.labels.text(name)}]", origin)
+            case ir.Goto(label=name):
+                self.line(f"JMP LBL[{self.labels.number(name)}]", origin)
+            case ir.Assign(target=ir.System(name="tool" | "base" as name), value=value):
+                self.select(name, value, origin)
+            case ir.Assign():
+                self.put(self.assignments.lines(statement), origin)
+            case ir.Move():
+                self.move(statement)
+            case ir.WaitUntil(timeout=limit) if limit is not None:
+                self.limited_alone(statement)
+            case ir.Message():
+                self.message(statement)
+            case ir.Opaque(text=text):
+                raise CannotSayError(f"it was not read ({text.strip()[:40]})")
+            case ir.Vendor(dialect=dialect, text=text):
+                if dialect != "tp":
+                    raise CannotSayError(f"it belongs to {dialect}")
+                self.put([Line(f"  {part.strip()}") for part in text.splitlines()], origin)
+            case _:
+                self.line(self.simple(statement), origin)
+                if isinstance(statement, ir.CallRoutine):
+                    self.forget()
+
+    def simple(self, statement: ir.Statement) -> str:
+        match statement:
+            case ir.CallRoutine():
+                return self.call(statement)
+            case ir.Return(value=None):
+                return "END"
+            case ir.Halt(kind=kind) if kind in _HALTS:
+                return _HALTS[kind]
+            case ir.Wait(time=time):
+                return f"WAIT {self.seconds(time, statement.origin)}"
+            case ir.WaitUntil(condition=condition, error=None):
+                return f"WAIT {self.expressions.condition(condition)}    "
+            case ir.Pulse(signal=ir.Signal(kind=kind) as signal, value=ir.BoolLiteral(value=True)):
+                if kind != "digital_out":
+                    raise CannotSayError("only a digital output has pulses")
+                width = measured(statement.duration, "s")
+                if width is None:
+                    raise CannotSayError("the length of a pulse is a constant")
+                return f"{self.expressions.signal(signal)}=PULSE,{number(width)}sec"
+            case ir.Clock(op=op, clock=clock) if op in _CLOCKS:
+                return f"{self.expressions.place(clock)}={_CLOCKS[op]}"
+            case ir.TaskControl(op="start", task=name, arguments=arguments):
+                return f"RUN {name.upper()}{self.arguments(arguments)}"
+        raise CannotSayError(f"there is no {statement.__class__.__name__} of this kind")
+
+    def seconds(self, time: ir.Expression, origin: Origin) -> str:
+        found = measured(time, "s")
+        if found is None:
+            inner = time.value if isinstance(time, ir.Quantity) and ir.UNITS[time.unit] == 1 else time
+            return self.expressions.index(inner)
+        shown = max(round(float(found), 2), 0.01 if found > 0 else 0.0)
+        if abs(shown - found) > 1e-9:
+            self.diagnostics.report(WAIT_ROUNDED, origin, time=found)
+        return f"{shown:6.2f}(sec)"
+
+    def call(self, call: ir.CallRoutine) -> str:
+        name = call.name.upper() if call.dynamic is None else self.expressions.place(call.dynamic)
+        return f"CALL {name}{self.arguments(call.arguments)}    "
+
+    def arguments(self, arguments: tuple[ir.Argument, ...]) -> str:
+        if not arguments:
+            return ""
+        if len(arguments) > tables.MOST_ARGUMENTS:
+            raise CannotSayError(f"a call has at most {tables.MOST_ARGUMENTS} arguments")
+        shown = []
+        for argument in arguments:
+            if argument.value is None or argument.name or argument.if_present:
+                raise CannotSayError("arguments go by their place, and none is left out")
+            shown.append(self.expressions.operand(argument.value))
+        return f"({','.join(shown)})"
+
+    def action(self, action: ir.Assign | ir.CallRoutine) -> str:
+        """What a trigger does."""
+        self.ledger_action(action)
+        if isinstance(action, ir.CallRoutine):
+            return self.call(action).rstrip()
+        if isinstance(action.target, ir.Signal):
+            return set_output(action.target, action.value, self.expressions)
+        raise CannotSayError("an action on the path is a call or an output")
+
+    def ledger_action(self, action: ir.Assign | ir.CallRoutine) -> None:
+        """Actions are part of their trigger, which the ledger does not look into."""
+
+    # ---- blocks
+
+    def choice(self, statement: ir.If) -> None:
+        (condition, body), *more = statement.branches
+        if more:
+            raise CannotSayError("an IF has one condition")
+        short = choice(If(condition, body, statement.otherwise), self.expressions, self.labels, self.call)
+        if short is not None:
+            self.comments_only(statement.origin)
+            for inner in body:
+                self.comments_only(inner.origin)
+                self.ledger.merged(inner)
+            self.line(short)
+            return
+        self.line(f"IF ({self.expressions.mixed(condition)}) THEN", statement.origin)
+        before = (self.motion.frame, self.motion.tool)
+        self.inner(body)
+        after = (self.motion.frame, self.motion.tool)
+        self.motion.frame, self.motion.tool = before
+        if statement.otherwise:
+            self.line("ELSE")
+            self.inner(statement.otherwise)
+        if (self.motion.frame, self.motion.tool) != after:
+            self.forget()
+        self.line("ENDIF")
+
+    def counting(self, loop: ir.For) -> None:
+        if loop.scoped or loop.automatic or loop.at_least_once:
+            raise CannotSayError("a loop whose counter or first pass follows another language's rule")
+        step = 1 if loop.step is None else constant(loop.step)
+        if step not in (1, -1):
+            raise CannotSayError("a FOR counts up or down by one")
+        counter = self.expressions.element(ir.Name(loop.counter))
+        if counter is None or not counter.startswith("R["):
+            raise CannotSayError("a FOR counts in a register")
+        first, last = self.expressions.operand(loop.start), self.expressions.operand(loop.stop)
+        self.line(f"FOR {counter}={first} {'TO' if step == 1 else 'DOWNTO'} {last}", loop.origin)
+        self.forget()
+        self.inner(loop.body)
+        self.forget()
+        self.line("ENDFOR")
+
+    def switch(self, statement: ir.Switch) -> None:
+        """SELECT with a jump or call in each case; longer cases stand behind it under labels of their own."""
+        if not statement.cases:
+            raise CannotSayError("a SELECT without a case")
+        selector = self.expressions.operand(statement.selector)
+        if not selector.startswith(("R[", "AR[")):
+            raise CannotSayError("a SELECT looks at a register")
+        behind = self.labels.fresh("end select")
+        places: list[tuple[int, ir.Body]] = []
+        rows: list[tuple[str, str]] = []
+        for case in statement.cases:
+            deed = self.deed(case.body, behind, places)
+            rows.extend((f"={self.expressions.operand(value)}", deed) for value in case.values)
+        otherwise = statement.default or ()
+        if otherwise or places:
+            rows.append(("ELSE", self.deed(otherwise, behind, places)))
+        for index, (value, deed) in enumerate(rows):
+            head = f"SELECT {selector}" if index == 0 else " " * 7
+            self.line(f"{head}{value},{deed}", statement.origin if index == 0 else None)
+        jumps_behind = f"JMP LBL[{behind}]"
+        if places and any(deed.startswith("CALL") for _, deed in rows):
+            self.line(jumps_behind)
+        for number_of, body in places:
+            self.forget()
+            self.line(f"LBL[{number_of}]")
+            self.body(body)
+            if not _leaves(body) and number_of != places[-1][0]:
+                self.line(jumps_behind)
+        if any(line.first.endswith(jumps_behind) for line in self.lines):
+            self.line(f"LBL[{behind}]")
+        self.forget()
+
+    def deed(self, body: ir.Body, behind: int, places: list[tuple[int, ir.Body]]) -> str:
+        """What a row of a SELECT does."""
+        match body:
+            case (ir.CallRoutine() as call,) if not call.origin.comments:
+                shown = self.call(call).rstrip()
+                self.ledger.written(call)
+                return shown
+            case (ir.Goto(label=label) as jump,) if not jump.origin.comments:
+                self.ledger.written(jump)
+                return f"JMP LBL[{self.labels.number(label)}]"
+            case ():
+                return f"JMP LBL[{behind}]"
+        number_of = self.labels.fresh("")
+        places.append((number_of, body))
+        return f"JMP LBL[{number_of}]"
+
+    # ---- motion, frames
+
+    def select(self, name: str, value: ir.Expression, origin: Origin) -> None:
+        kind = "UTOOL" if name == "tool" else "UFRAME"
+        lines, chosen = self.frames.select(kind, value, self.expressions)
+        self.put(lines, origin)
+        if kind == "UTOOL":
+            self.motion.tool = chosen if chosen.isdigit() else ""
+        else:
+            self.motion.frame = chosen if chosen.isdigit() else ""
+
+    def move(self, move: ir.Move) -> None:
+        if move.search is not None:
+            self.searching_alone(move)
+            return
+        self.own_frames(move)
+        self.put([self.motion.move(move)], move.origin)
+        self.triggers_done(move)
+
+    def triggers_done(self, move: ir.Move) -> None:
+        for trigger in move.triggers:
+            if isinstance(trigger, ir.Trigger):
+                self.ledger.merged(trigger)
+
+    def own_frames(self, move: ir.Move) -> None:
+        """Tool and frame that the move names itself, where they are not in force already."""
+        for name, value in (("base", move.frame), ("tool", move.tool)):
+            if value is None:
+                continue
+            kind = "UTOOL" if name == "tool" else "UFRAME"
+            _, chosen = self.frames.select(kind, value, self.expressions)
+            in_force = self.motion.tool if kind == "UTOOL" else self.motion.frame
+            if not chosen.isdigit() or chosen != in_force:
+                self.select(name, value, Origin())
+
+    def searching(self, move: ir.Move, label: int, flag: str = "") -> None:
+        search = move.search
+        if search is None:
+            raise CannotSayError("a search without a condition")
+        if search.stop == "none":
+            raise CannotSayError("a search that does not stop the robot")
+        found = ""
+        if search.found is not None:
+            place = self.expressions.element(search.found)
+            if place is None or not place.startswith("PR["):
+                raise CannotSayError("a search keeps the place in a position register")
+            found = f",{place}=LPOS"
+        self.own_frames(move)
+        line = self.motion.move(move, f" Skip,LBL[{label}]{found}")
+        self.line(f"SKIP CONDITION {self.expressions.condition(search.condition)}    ", move.origin)
+        if flag:
+            self.line(f"{flag}=OFF")
+        self.put([line])
+        self.triggers_done(move)
+
+    def searching_alone(self, move: ir.Move) -> None:
+        """A search whose outcome is kept in a flag: the line behind the move runs only when the condition came."""
+        behind = self.labels.fresh("")
+        hit = move.search.hit if move.search is not None else None
+        flag = "" if hit is None else self.expressions.place(hit)
+        self.searching(move, behind, flag)
+        if flag:
+            self.line(f"{flag}=ON")
+        self.line(f"LBL[{behind}]")
+
+    # ---- waits, messages
+
+    def limited_alone(self, wait: ir.WaitUntil) -> None:
+        """A wait with a limit: the flag is on unless the line behind the wait is reached without the jump."""
+        if wait.error is not None:
+            raise CannotSayError("a wait that raises an error")
+        behind = self.labels.fresh("")
+        flag = "" if wait.timed_out is None else self.expressions.place(wait.timed_out)
+        self.limited(wait, behind, f"{flag}=ON" if flag else "")
+        if flag:
+            self.line(f"{flag}=OFF")
+        self.line(f"LBL[{behind}]")
+
+    def limited(self, wait: ir.WaitUntil, label: int, before: str = "") -> None:
+        shown = self.expressions.condition(wait.condition)
+        if wait.timeout is None:
+            raise CannotSayError("a wait without a limit")
+        self.line(f"$WAITTMOUT={self.hundredths(wait.timeout)}", wait.origin)
+        if before:
+            self.line(before)
+        self.line(f"WAIT {shown} TIMEOUT,LBL[{label}]")
+
+    def hundredths(self, time: ir.Expression) -> str:
+        """The limit of a wait counts in hundredths of a second."""
+        found = measured(time, "s")
+        if found is not None:
+            return f"({max(1, round(found * 100))})"
+        inner = time.value if isinstance(time, ir.Quantity) else time
+        factor = 100 * (ir.UNITS[time.unit] if isinstance(time, ir.Quantity) else 1.0)
+        if factor == 1:
+            return f"({self.expressions.operand(inner)})"
+        return f"({self.expressions.operand(inner)}*{number(factor)})"
+
+    def message(self, message: ir.Message) -> None:
+        if message.kind == "clear":
+            self.comments_only(message.origin)
+            return
+        if not isinstance(message.text, ir.TextLiteral):
+            raise CannotSayError("a message is a constant text")
+        text = ascii_text(message.text.value).replace("[", "(").replace("]", ")")
+        most = tables.LONGEST_MESSAGE
+        if len(text) > most:
+            self.diagnostics.report(SPLIT_MESSAGE, message.origin, most=most)
+        parts = [text[at : at + most] for at in range(0, len(text), most)] or [""]
+        self.put([Line(f"  MESSAGE[{part}]") for part in parts], message.origin)
+
+
+def _leaves(body: ir.Body) -> bool:
+    """Does the body never come to its end?"""
+    match body:
+        case (*_, ir.Goto() | ir.Return() | ir.Halt(kind="exit")):
+            return True
+    return False

@@ -1,0 +1,113 @@
+"""FANUC TP's words, ranges and limits as data. `M` marks what rests on memory; each such row has a test.
+
+Ranges are those of a controller as it is delivered; most of them can be enlarged at a controlled start.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+from rpl.passes.capabilities import Bank
+from rpl.writing.precedence import Operator, OperatorTable
+from rpl.writing.text import NumberStyle
+
+# M: precedence of mixed logic; all operators group to the left.
+OPERATORS: Final = OperatorTable(
+    binary={
+        "*": Operator("*", 7, spaced=False),
+        "/": Operator("/", 7, spaced=False),
+        "div": Operator("DIV", 7),
+        "mod": Operator("MOD", 7),
+        "+": Operator("+", 6, spaced=False),
+        "-": Operator("-", 6, spaced=False),
+        "<": Operator("<", 5, "none", spaced=False),
+        ">": Operator(">", 5, "none", spaced=False),
+        "<=": Operator("<=", 5, "none", spaced=False),
+        ">=": Operator(">=", 5, "none", spaced=False),
+        "=": Operator("=", 4, "none", spaced=False),
+        "<>": Operator("<>", 4, "none", spaced=False),
+        "and": Operator("AND", 3),
+        "or": Operator("OR", 2),
+    },
+    unary={"not": Operator("!", 8)},
+    mixed=(frozenset(("and", "or")),),
+)
+COMPARISONS: Final = frozenset(("=", "<>", "<", ">", "<=", ">="))
+SUMS: Final = frozenset(("+", "-"))
+PRODUCTS: Final = frozenset(("*", "/", "div", "mod"))
+# M: a plain line (without brackets) has at most five operators of one family, a plain condition five comparisons.
+LONGEST_PLAIN: Final = 5
+NUMBERS: Final = NumberStyle(exponent="")
+
+# Instructions with one argument in brackets that stand alone behind the equals sign.
+FUNCTIONS: Final[Mapping[str, str]] = {
+    "abs": "ABS",
+    "sqrt": "SQRT",
+    "sin": "SIN",
+    "cos": "COS",
+    "tan": "TAN",
+    "asin": "ASIN",
+    "acos": "ACOS",
+    "atan": "ATAN",
+    "atan2": "ATAN2",
+    "exp": "EXP",
+    "log": "LN",
+    "round": "ROUND",
+    "trunc": "TRUNC",
+}
+# Functions of texts: a name and its arguments without brackets.
+TEXT_FUNCTIONS: Final[Mapping[str, str]] = {"text_length": "STRLEN", "text_find": "FINDSTR", "text_part": "SUBSTR"}
+# What the position printers say in their own way, as the right side of an assignment or the target of a move.
+POSITION_FUNCTIONS: Final = frozenset(
+    (
+        *("current_target", "current_joints", "element_sum", "element_difference", "offset"),
+        *("displaced", "displaced_in_tool", "pose_of"),
+    )
+)
+
+R: Final = Bank("R", 1, 200)
+PR: Final = Bank("PR", 1, 100)
+SR: Final = Bank("SR", 1, 25)
+F: Final = Bank("F", 1, 1024)
+TIMER: Final = Bank("TIMER", 1, 20)
+POINTS: Final = Bank("P", 1, 1500)  # M: largest number of a taught position
+ARGUMENTS: Final = Bank("AR", 1, 10)
+BANKS: Final[Mapping[str, Bank]] = {bank.name: bank for bank in (R, PR, SR, F, TIMER, POINTS, ARGUMENTS)}
+LAST_LABEL: Final = 32766
+MOST_TOOLS: Final = 9  # M: UTOOL[10] exists on newer controllers only
+MOST_FRAMES: Final = 9
+
+SIGNALS: Final[Mapping[str, str]] = {
+    "digital_in": "DI",
+    "digital_out": "DO",
+    "analog_in": "AI",
+    "analog_out": "AO",
+    "group_in": "GI",
+    "group_out": "GO",
+    "flag": "F",
+}
+# M: last numbers of the signals.
+LAST_SIGNAL: Final[Mapping[str, int]] = {"DI": 32767, "DO": 32767, "AI": 64, "AO": 64, "GI": 100, "GO": 100, "F": 1024}
+NAMED_SIGNALS: Final = ("RI", "RO", "UI", "UO", "SI", "SO", "WI", "WO", "M")
+
+LETTERS: Final[Mapping[str, str]] = {"joint": "J", "linear": "L", "circular": "C"}
+# Components of a position register by their number.
+POSE_ELEMENTS: Final = ("x", "y", "z", "c", "b", "a", "e1", "e2", "e3")
+JOINT_ELEMENTS: Final = ("j1", "j2", "j3", "j4", "j5", "j6", "e1", "e2", "e3")
+
+LONGEST_LINE: Final = 254  # M: characters of one instruction
+LONGEST_REMARK: Final = 32
+LONGEST_COMMENT: Final = 16  # of a register, a label, a position and a program
+LONGEST_MESSAGE: Final = 24
+LONGEST_TEXT: Final = 254
+MOST_ARGUMENTS: Final = 10
+DEEPEST_BLOCK: Final = 10
+# Ranges of the motion settings: M the last places of the units.
+LARGEST_PERCENT: Final = 100
+LARGEST_MM_S: Final = 2000
+LARGEST_DEG_S: Final = 500
+ACCELERATION: Final = (20, 150)
+LARGEST_CORNER_MM: Final = 1000
+MM_PER_CNT: Final = 4.0  # a blend distance at a joint move as CNT; the same measure as for other joint blends
+RESERVED: Final = frozenset(("all", "end", "abort", "pause", "call", "run", "wait", "for", "if", "else", "select"))

@@ -1,0 +1,1 @@
+"""Frame of TP listings; a package so that the wheel holds it."""

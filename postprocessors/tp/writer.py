@@ -1,0 +1,257 @@
+"""A program in TP's terms to listings: one `.LS` file for each routine."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from typing import TYPE_CHECKING
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.passes.scope import ProgramScope
+from rpl.writing.ledger import EmissionLedger
+from rpl.writing.target import OutputFile, WriteContext
+
+from . import tables
+from .expressions import CannotSayError, Expressions
+from .flow import Labels
+from .frames import Frames, highest_free_register
+from .lines import Line
+from .positions import Points, point_number
+from .statements import Printer
+from .texts import comment
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+LOST_DECLARATION = code(
+    "tp-lost-declaration", Severity.LOSS, "TP has no place for {name}: {reason}", "it is left as a remark"
+)
+LOST_ROUTINE = code("tp-lost-routine", Severity.LOSS, "TP cannot say this about {name}: {reason}", "it is left out")
+SAME_NAME = code(
+    "tp-same-name", Severity.ERROR, "two programs would be called {name}", "rename one; TP's programs are all global"
+)
+
+_MOTION = ("J ", "L ", "C ", "A ")
+
+
+@cache
+def _environment() -> Environment:
+    from jinja2 import DictLoader, Environment, StrictUndefined
+
+    text = resources.files(__package__ or "").joinpath("templates", "program.ls.j2").read_text("utf-8")
+    return Environment(
+        loader=DictLoader({"program.ls.j2": text}),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        autoescape=False,
+    )
+
+
+@dataclass(slots=True)
+class Listing:
+    """One program before it becomes text."""
+
+    name: str
+    lines: list[Line]
+    points: Points
+    comment: str = ""
+    kind: str = ""
+    entry: bool = False
+
+
+def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
+    """All programs. Raises InternalError when the ledger finds a node that nobody accounted for."""
+    ledger = EmissionLedger()
+    writer = _Writer(program, context, ledger)
+    listings = [listing for module in program.modules for listing in writer.module(module)]
+    writer.finish(listings)
+    ledger.check(program)
+    return [_file(listing, writer.frames) for listing in listings]
+
+
+class _Writer:
+    def __init__(self, program: ir.Program, context: WriteContext, ledger: EmissionLedger) -> None:
+        self.program, self.context, self.ledger = program, context, ledger
+        self.diagnostics = context.diagnostics
+        self.scopes = ProgramScope(program)
+        self.frames = Frames(highest_free_register(program))
+        self.names = {**_labels_of_registers(program), **context.register_names}
+        self.entries = _entries(program)
+        self.taken: set[str] = set()
+
+    def module(self, module: ir.Module) -> list[Listing]:
+        self.ledger.written(module)
+        remarks: list[Line] = []
+        for declaration in module.declarations:
+            remarks.extend(self.module_declaration(declaration, module))
+        listings = [self.routine(module, routine) for routine in module.routines]
+        if listings and remarks:
+            listings[0].lines[:0] = remarks
+        return listings
+
+    def module_declaration(self, declaration: ir.Declaration, module: ir.Module) -> list[Line]:
+        """Registers need no declaration; what is none has no place."""
+        match declaration:
+            case ir.Variable(name=name) if _is_bank(name):
+                self.ledger.merged(declaration)
+                return []
+            case ir.Unread(text="") | ir.ExternalDeclaration():
+                self.ledger.merged(declaration)
+                return [Line(f"  !{comment(one.text)}") for one in declaration.origin.comments]
+        name = getattr(declaration, "name", "this declaration")
+        self.diagnostics.report(LOST_DECLARATION, declaration.origin, name=name, reason="it has no register")
+        self.ledger.reported(declaration)
+        return []
+
+    # ---- routines
+
+    def routine(self, module: ir.Module, routine: ir.Routine) -> Listing:
+        name = routine.name.upper()
+        if name in self.taken:
+            self.diagnostics.report(SAME_NAME, routine.origin, name=name)
+        self.taken.add(name)
+        scope = self.scopes.routine(module, routine)
+        points = Points()
+        expressions = Expressions(scope, self.names)
+        printer = Printer(expressions, points, self.frames, Labels.of(routine.body), self.ledger, self.diagnostics)
+        self.ledger.written(routine)
+        printer.comments_only(routine.origin)
+        named: dict[str, str] = {}
+        for declaration in routine.declarations:
+            self.declaration(declaration, printer, named)
+        expressions.points = named
+        printer.body(routine.body)
+        self.lost_parts(routine)
+        attributes = dict(module.attributes)
+        about = attributes.get("COMMENT", attributes.get("comment", "")) if len(module.routines) == 1 else ""
+        entry = routine.name.lower() in self.entries
+        return Listing(name, printer.lines, points, comment(about.strip('"')), "", entry)
+
+    def declaration(self, declaration: ir.Declaration, printer: Printer, named: dict[str, str]) -> None:
+        """Points; other data of a routine have registers by now."""
+        try:
+            match declaration:
+                case ir.Variable(name=name) if point_number(name) is not None:
+                    number = printer.points.declare(declaration, printer.expressions.scope)
+                    named[name] = printer.points.place(number)
+                    printer.comments_only(declaration.origin)
+                    self.ledger.written(declaration)
+                    return
+                case ir.Variable(name=name) if _is_bank(name):
+                    self.ledger.merged(declaration)
+                    return
+                case ir.Unread(text=""):
+                    printer.comments_only(declaration.origin)
+                    self.ledger.written(declaration)
+                    return
+            raise CannotSayError("it has no register")
+        except CannotSayError as error:
+            shown = getattr(declaration, "name", "this declaration")
+            self.diagnostics.report(LOST_DECLARATION, declaration.origin, name=shown, reason=str(error))
+            printer.remark(declaration.origin.text or str(shown))
+            self.ledger.reported(declaration)
+
+    def lost_parts(self, routine: ir.Routine) -> None:
+        """What a program has no place for. The passes before carry over what they can."""
+        lost = [statement for handler in routine.handlers for statement in handler.body]
+        lost.extend((*routine.undo, *routine.backward))
+        reasons = [
+            *(["an error handler"] if lost or routine.handlers else []),
+            *(["a result"] if routine.returns is not None else []),
+            *(["parameters by name"] if any(_is_named(one) for one in routine.parameters) else []),
+        ]
+        for reason in reasons:
+            self.diagnostics.report(LOST_ROUTINE, routine.origin, name=routine.name, reason=reason)
+        for statement in lost:
+            self.ledger.reported(statement)
+
+    # ---- the whole
+
+    def finish(self, listings: list[Listing]) -> None:
+        """Constant tools and frames, and tasks that run beside, at the start of each program that may be started."""
+        tasks = [task for task in self.program.tasks if task.kind == "background"]
+        begin = [Line(f"  RUN {task.entry.upper()}") for task in tasks]
+        for listing in listings:
+            if listing.entry:
+                head = next((at for at, line in enumerate(listing.lines) if not line.first.startswith("  !")), 0)
+                listing.lines[head:head] = [*self.frames.setup(), *begin]
+            for task in tasks:
+                if task.cyclic and task.entry.upper() == listing.name:
+                    _repeat(listing)
+
+
+def _repeat(listing: Listing) -> None:
+    """A background program that begins again at its end."""
+    used = {line.first for line in listing.lines}
+    label = next(n for n in range(tables.LAST_LABEL, 0, -1) if not any(f"LBL[{n}" in text for text in used))
+    listing.lines.insert(0, Line(f"  LBL[{label}:again]"))
+    listing.lines.append(Line(f"  JMP LBL[{label}]"))
+
+
+def _is_bank(name: str) -> bool:
+    upper = name.upper()
+    if upper in tables.BANKS or upper in ("UTOOL", "UFRAME"):
+        return True
+    bank = upper.rstrip("0123456789")
+    return bank != upper and bank in (*tables.BANKS, "UTOOL", "UFRAME")
+
+
+def _is_named(parameter: ir.Parameter) -> bool:
+    return not (parameter.name.upper().startswith("AR") and parameter.name[2:].isdigit())
+
+
+def _labels_of_registers(program: ir.Program) -> dict[tuple[str, int], str]:
+    """Comments of registers that are variables of their own."""
+    found: dict[tuple[str, int], str] = {}
+    for module in program.modules:
+        for declaration in module.declarations:
+            if isinstance(declaration, ir.Variable) and declaration.label:
+                bank = declaration.name.upper().rstrip("0123456789")
+                digits = declaration.name[len(bank) :]
+                if digits and bank in tables.BANKS:
+                    found[bank, int(digits)] = declaration.label
+    return found
+
+
+def _entries(program: ir.Program) -> set[str]:
+    """Programs that may be started, folded: the named entry, the tasks', else those that nobody calls."""
+    if program.entry:
+        return {program.entry.lower()}
+    motion = {task.entry.lower() for task in program.tasks if task.kind == "motion"}
+    if motion:
+        return motion
+    from rpl.passes.legalise.datalists import never_called
+
+    return set(never_called(program))
+
+
+def _file(listing: Listing, frames: Frames) -> OutputFile:
+    _settle(listing.points, frames)
+    moves = any(line.first.startswith(_MOTION) or "PR[" in line.first for line in listing.lines)
+    groups = "1,*,*,*,*" if moves else "*,*,*,*,*"
+    text = (
+        _environment()
+        .get_template("program.ls.j2")
+        .render(
+            name=listing.name,
+            kind=listing.kind,
+            comment=listing.comment,
+            lines=listing.lines,
+            groups=groups,
+            positions=list(listing.points.text()),
+        )
+    )
+    return OutputFile(f"{listing.name}.LS", ("\r\n".join(text.splitlines()) + "\r\n").encode("ascii"))
+
+
+def _settle(points: Points, frames: Frames) -> None:
+    """Where the frame in force is not known at a move but the program has only one, it is that one."""
+    frame, tool = frames.only("UFRAME"), frames.only("UTOOL")
+    for number, uses in points.frames.items():
+        points.frames[number] = {
+            (frame if uf == "F" and frame.isdigit() else uf, tool if ut == "F" and tool.isdigit() else ut)
+            for uf, ut in uses
+        }
