@@ -1,0 +1,275 @@
+"""Statements without bodies: assignments, outputs, waits, messages, tasks. Some are several lines."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rpl import ir
+from rpl.ir.walk import expressions as all_expressions
+from rpl.passes.typewords import component_names, word_type
+
+from . import tables
+from .expressions import UnsayableError
+
+if TYPE_CHECKING:
+    from .statements import Printer
+
+_MESSAGES = {"notify": "", "state": "", "write": "", "error": "error=True", "quit": "blocking=True"}
+_LONGEST_KEYS = 9
+
+
+class Actions:
+    """Writes to the printer of one routine."""
+
+    def __init__(self, printer: Printer) -> None:
+        self.printer, self.expressions = printer, printer.expressions
+
+    def write(self, statement: ir.Statement) -> None:
+        printer, origin = self.printer, statement.origin
+        match statement:
+            case ir.Assign():
+                printer.line(self.assignment(statement), origin)
+            case ir.CallRoutine():
+                printer.line(self.call(statement), origin)
+            case ir.NextPass():
+                printer.comments_only(origin)
+                printer.onward("continue")
+            case ir.WaitForMotion():
+                printer.comments_only(origin)  # moves without a blend radius end before the next line
+            case ir.WaitUntil():
+                self.wait_until(statement)
+            case ir.Pulse() | ir.SetAfter():
+                self.later(statement)
+            case ir.Message():
+                self.message(statement)
+            case _:
+                printer.line(self.simple(statement), origin)
+
+    def simple(self, statement: ir.Statement) -> str:
+        match statement:
+            case ir.ExitLoop():
+                return "break"
+            case ir.Return(value=None):
+                return "return"
+            case ir.Return(value=value) if value is not None:
+                return f"return {self.expressions.given(value)}"
+            case ir.Halt(kind="stop" | "exit"):
+                return "halt"
+            case ir.Wait(time=time):
+                return f"sleep({self.expressions.measured(time, 's')})"
+            case ir.StopMotion(hard=hard):
+                return f"stopj({20.0 if hard else 2.0})"
+            case ir.Do(procedure=procedure, arguments=arguments):
+                return self.procedure(procedure, arguments)
+            case ir.Dialog():
+                return self.dialog(statement)
+            case ir.Critical(enter=enter):
+                return "enter_critical" if enter else "exit_critical"
+            case ir.TaskControl(op="start", task=task, arguments=()):
+                return f"{self.handle(task)} = run {task}()"
+            case ir.TaskControl(op="stop" | "join" as op, task=task):
+                return f"{'kill' if op == 'stop' else 'join'} {self.handle(task)}"
+        raise UnsayableError(f"there is no {statement.__class__.__name__}")
+
+    def handle(self, task: str) -> str:
+        """The variable that holds a running thread."""
+        self.printer.output.running.add(task)
+        return f"{task}_run"
+
+    # ---- assignments
+
+    def assignment(self, statement: ir.Assign) -> str:
+        target, value = statement.target, statement.value
+        measured, places = self.expressions.measured, self.expressions.places
+        match target:
+            case ir.System(name=name):
+                return self.setting(name, target.indices, value)
+            case ir.Signal():
+                return places.output(target, value)
+            case ir.Name(id=name) if places.declared(name) is not None:
+                return places.output(ir.Signal("", name=name), value)
+            case ir.Field(base=base, name=name):
+                found = places.component(base, name)
+                if found is not None and found[1] == "deg":
+                    place, axis = self.expressions.text(base), str(tables.EULER[name])
+                    turned = self.expressions.helper("rpl_turned", place, axis, self.expressions.text(value))
+                    return f"{place} = {turned}"
+                if found is not None:
+                    return f"{found[0]} = {measured(value, found[1])}"
+        return f"{self.expressions.text(target)} = {self.expressions.given(value)}"
+
+    def setting(self, name: str, indices: tuple[ir.Expression, ...], value: ir.Expression) -> str:
+        match name:
+            case "tool":
+                return f"set_tcp({self.expressions.text(value)})"
+            case "load":
+                return self.payload(value)
+            case "flag" if len(indices) == 1:
+                return self.expressions.places.output(ir.Signal("flag", indices[0]), value)
+        raise UnsayableError(f"there is no setting for {name.replace('_', ' ')}")
+
+    def payload(self, value: ir.Expression) -> str:
+        """`set_payload(mass, [x, y, z])` in kg and m."""
+        parts = self.parts(value)
+        mass = parts.get("mass")
+        if mass is None:
+            mass, centre = ir.Field(value, "mass"), None
+        else:
+            centre = parts.get("cog")
+        if centre is None:
+            return f"set_payload({self.expressions.measured(mass, 'kg')})"
+        inner = self.parts(centre)
+        place = [inner.get(axis) or ir.Field(centre, axis) for axis in ("x", "y", "z")]
+        shown = ", ".join(self.expressions.measured(one, "m") for one in place)
+        return f"set_payload({self.expressions.measured(mass, 'kg')}, [{shown}])"
+
+    def parts(self, value: ir.Expression) -> dict[str, ir.Expression]:
+        """The components of a written value by their names."""
+        if not isinstance(value, ir.Aggregate):
+            return {}
+        scope = self.expressions.scope
+        type = word_type(value.type_name, scope) if value.type_name else None
+        names = component_names(type, scope) if type is not None else ()
+        return {
+            written or (names[at] if at < len(names) else str(at)): one
+            for at, (written, one) in enumerate(value.entries)
+        }
+
+    def call(self, statement: ir.CallRoutine) -> str:
+        if statement.dynamic is not None:
+            raise UnsayableError("there is no call by a computed name")
+        return f"{statement.name}({self.expressions.arguments(statement.arguments)})"
+
+    def procedure(self, name: str, arguments: tuple[ir.Expression | None, ...]) -> str:
+        given = [argument for argument in arguments if argument is not None]
+        if not given:
+            raise UnsayableError(f"there is no procedure {name}")
+        target = self.expressions.text(given[0])
+        step = self.expressions.atom(given[1]) if len(given) > 1 else "1"
+        match name:
+            case "increment" | "decrement":
+                return f"{target} = {target} {'+' if name == 'increment' else '-'} {step}"
+            case "clear":
+                zero = "0" if isinstance(self.expressions.type(given[0]), ir.IntType) else "0.0"
+                return f"{target} = {zero}"
+            case "text_append" if len(given) == 2:
+                return f"{target} = str_cat({target}, {self.expressions.text(given[1])})"
+            case "text_copy" if len(given) == 2:
+                return f"{target} = {self.expressions.text(given[1])}"
+            case "text_clear":
+                return f'{target} = ""'
+        raise UnsayableError(f"there is no procedure {name}")
+
+    # ---- waiting
+
+    def wait_until(self, wait: ir.WaitUntil) -> None:
+        """A loop that looks again in each step of the controller."""
+        printer = self.printer
+        waiting = self.expressions.text(_negated(wait.condition))
+        if wait.timeout is None:
+            printer.line(f"while {waiting}:", wait.origin)
+            printer.more("  sync()", "end")
+            return
+        if wait.timed_out is None:
+            raise UnsayableError("a wait whose time limit raises an error")
+        flag = self.assignment(ir.Assign(wait.timed_out, _negated(wait.condition)))
+        printer.comments_only(wait.origin)
+        waited = printer.temporary("waited", "0.0")
+        in_time = ir.Binary("<", ir.Name(waited), self.expressions.in_unit(wait.timeout, "s"))
+        printer.more(
+            f"while {self.expressions.text(ir.Binary('cand', _negated(wait.condition), in_time))}:",
+            "  sync()",
+            f"  {waited} = {waited} + get_steptime()",
+            "end",
+            flag,
+        )
+
+    def later(self, statement: ir.Pulse | ir.SetAfter) -> None:
+        """An output that changes while the program goes on: a thread of its own sleeps and sets it."""
+        printer = self.printer
+        scope = self.expressions.scope
+        for node in all_expressions(statement):
+            symbol = scope.value(node.id) if isinstance(node, ir.Name) else None
+            if symbol is not None and symbol.routine is not None and printer.inside:
+                raise UnsayableError("an output that changes later by a variable of the routine")
+        if isinstance(statement, ir.Pulse):
+            printer.line(self.assignment(ir.Assign(statement.signal, statement.value)), statement.origin)
+            back, delay = _negated(statement.value), statement.duration
+        else:
+            printer.comments_only(statement.origin)
+            back, delay = statement.value, statement.delay
+        if _reads(back, statement.signal):
+            raise UnsayableError("an output that changes later to the opposite of what it is")
+        name = printer.output.fresh("output_later")
+        set_back = self.assignment(ir.Assign(statement.signal, back))
+        sleep = f"  sleep({self.expressions.measured(delay, 's')})"
+        printer.output.threads.append((f"thread {name}():", sleep, f"  {set_back}", "end"))
+        printer.more(f"run {name}()")
+
+    # ---- the operator
+
+    def message(self, message: ir.Message) -> None:
+        printer = self.printer
+        if message.kind == "clear":
+            printer.comments_only(message.origin)
+            printer.remark("(the log is not cleared)")
+            return
+        if message.kind not in _MESSAGES:
+            raise UnsayableError(f"there is no message of kind {message.kind}")
+        text = message.text
+        option = _MESSAGES[message.kind]
+        if option:
+            title = self.expressions.text(message.sender) if message.sender is not None else ""
+            heading = f", title={title}" if title else ""
+            printer.line(f"popup({self.expressions.text(text)}{heading}, {option})", message.origin)
+            return
+        if message.sender is not None:
+            text = ir.Binary("&", ir.Binary("&", message.sender, ir.TextLiteral(": ")), text)
+        printer.line(f"textmsg({self.told(text)})", message.origin)
+
+    def told(self, text: ir.Expression) -> str:
+        """One or two pieces of a message; the controller shows numbers by itself."""
+        match text:
+            case ir.Binary(op="&", left=left, right=ir.Builtin(function="value_text", arguments=(value,))):
+                return f"{self.expressions.text(left)}, {self.expressions.text(value)}"
+            case ir.Binary(op="&", left=left, right=right):
+                return f"{self.expressions.text(left)}, {self.expressions.text(right)}"
+        return self.expressions.text(text)
+
+    def dialog(self, dialog: ir.Dialog) -> str:
+        if dialog.timeout is not None or dialog.timed_out is not None:
+            raise UnsayableError("a dialog that ends by time")
+        question: ir.Expression = dialog.text
+        if dialog.sender is not None:
+            question = ir.Binary("&", ir.Binary("&", dialog.sender, ir.TextLiteral(": ")), question)
+        functions = {"keys": "integer", "number": "float", "text": "string"}
+        kind = functions[dialog.kind]
+        if dialog.kind == "number" and isinstance(self.expressions.type(dialog.answer), ir.IntType):
+            kind = "integer"
+        for number, key in enumerate(dialog.keys[:_LONGEST_KEYS], 1):
+            if key is not None:
+                label: ir.Expression = ir.Binary("&", ir.TextLiteral(f" {number}: "), key)
+                if isinstance(key, ir.TextLiteral):
+                    label = ir.TextLiteral(f" {number}: {key.value}")
+                question = _joined(question, label)
+        asked = f"request_{kind}_from_primary_client({self.expressions.text(question)})"
+        return f"{self.expressions.text(dialog.answer)} = {asked}"
+
+
+def _joined(one: ir.Expression, other: ir.Expression) -> ir.Expression:
+    if isinstance(one, ir.TextLiteral) and isinstance(other, ir.TextLiteral):
+        return ir.TextLiteral(one.value + other.value)
+    return ir.Binary("&", one, other)
+
+
+def _negated(condition: ir.Expression) -> ir.Expression:
+    match condition:
+        case ir.Unary(op="not", operand=operand):
+            return operand
+        case ir.BoolLiteral(value=value):
+            return ir.BoolLiteral(not value)
+    return ir.Unary("not", condition)
+
+
+def _reads(value: ir.Expression, signal: ir.Expression) -> bool:
+    return any(node == signal for node in all_expressions(value))

@@ -1,0 +1,112 @@
+"""IR declarations as URScript: a variable begins with its first value, which fixes its type for good."""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.passes.fold import constant_number
+from rpl.passes.scope import Scope
+
+from .expressions import Expressions, UnsayableError
+
+_POSES = (ir.PoseType, ir.TargetType, ir.VectorType, ir.RotationType)
+_DEEPEST = 16
+
+
+def variable_line(variable: ir.Variable, expressions: Expressions, word: str) -> str:
+    """`word name = value`; word is `global`, `local` or empty."""
+    value = first_value(variable, expressions)
+    return f"{word}{' ' if word else ''}{variable.name} = {value}"
+
+
+def first_value(variable: ir.Variable, expressions: Expressions) -> str:
+    """The value given, spelled so that it has the type declared, or that type's neutral value."""
+    scope = expressions.scope
+    type = scope.resolve(variable.type)
+    initial = variable.initial
+    if initial is None:
+        return neutral(type, scope, expressions)
+    if isinstance(initial, ir.Aggregate) and initial.type_name is None and isinstance(type, ir.ArrayType):
+        return expressions.text(_typed(initial, type, scope))
+    return expressions.given(_real(initial, type))
+
+
+def _real(value: ir.Expression, type: ir.Type) -> ir.Expression:
+    """A number as its place needs it: a real one with a point."""
+    if isinstance(type, ir.RealType) and isinstance(value, ir.IntLiteral):
+        return ir.RealLiteral(float(value.value))
+    return value
+
+
+def _typed(value: ir.Aggregate, type: ir.ArrayType, scope: Scope) -> ir.Aggregate:
+    """The numbers of an array's value in the form that its elements need."""
+    element = scope.resolve(type.element)
+    entries = []
+    for name, one in value.entries:
+        inner = isinstance(one, ir.Aggregate) and one.type_name is None
+        entries.append(
+            (name, _typed(one, type, scope) if inner and isinstance(one, ir.Aggregate) else _real(one, element))
+        )
+    return ir.Aggregate(tuple(entries), value.type_name, origin=value.origin)
+
+
+def neutral(type: ir.Type, scope: Scope, expressions: Expressions, depth: int = 0) -> str:
+    """What a variable without a first value begins with."""
+    resolved = scope.resolve(type)
+    match resolved:
+        case ir.IntType():
+            return "0"
+        case ir.RealType():
+            return "0.0"
+        case ir.BoolType():
+            return "False"
+        case ir.StringType() | ir.CharType():
+            return '""'
+        case ir.JointsType() | ir.AxesType():
+            return "[0.0, 0.0, 0.0, 0.0, 0.0, 0.0]"
+        case ir.ArrayType(element=element, dimensions=dimensions):
+            count = 1
+            for bound in dimensions:
+                size = None if bound is None else constant_number(bound, scope)
+                if size is None:
+                    raise UnsayableError("an array whose size is not a constant")
+                count *= int(size)
+            inner = neutral(element, scope, expressions, depth + 1)
+            return f"[{', '.join([inner] * count)}]"
+        case ir.NamedType(name=name) if depth < _DEEPEST:
+            record = scope.type(name)
+            if isinstance(record, ir.RecordDeclaration):
+                fields = [f"{field}={neutral(one, scope, expressions, depth + 1)}" for field, one in record.fields]
+                return f"struct({', '.join(fields)})"
+    if isinstance(resolved, _POSES):
+        return "p[0, 0, 0, 0, 0, 0]"
+    raise UnsayableError(f"there is no type for {resolved.__class__.__name__.removesuffix('Type').lower()}")
+
+
+def header(routine: ir.Routine) -> str:
+    """`def name(a, b):`"""
+    for parameter in routine.parameters:
+        if parameter.optional or parameter.switch:
+            raise UnsayableError("there are no optional parameters")
+        if parameter.mode == "reference" and _assigned(parameter.name, routine):
+            raise UnsayableError(f"the parameter {parameter.name} gives a value back, and arguments are copies")
+    return f"def {routine.name}({', '.join(parameter.name for parameter in routine.parameters)}):"
+
+
+def _assigned(name: str, routine: ir.Routine) -> bool:
+    """May the routine write its parameter?"""
+    from rpl.ir.walk import walk
+
+    for node in walk(routine.body):
+        match node:
+            case ir.Assign(target=target):
+                while isinstance(target, ir.Index | ir.Field):
+                    target = target.base
+                if isinstance(target, ir.Name) and target.id == name:
+                    return True
+            case ir.Do(arguments=arguments) if ir.Name(name) in arguments:
+                return True
+            case ir.For(counter=counter) if counter == name:
+                return True
+            case ir.CallRoutine(arguments=given) if any(one.value == ir.Name(name) for one in given):
+                return True
+    return False

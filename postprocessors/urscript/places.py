@@ -1,0 +1,329 @@
+"""Poses, joints, lists, records, signals and system variables as URScript values, and their parts as places."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rpl import ir
+from rpl.passes import rigid
+from rpl.passes.fold import constant, constant_number
+from rpl.passes.typewords import word_type
+from rpl.passes.values import Target
+from rpl.writing.precedence import Printed
+
+from . import spelling, tables
+
+if TYPE_CHECKING:
+    from .expressions import Expressions
+
+_POSES = (ir.PoseType, ir.TargetType, ir.VectorType, ir.RotationType)
+_FLAT = ("x", "y", "z", "a", "b", "c")
+_ZERO = ir.RealLiteral(0.0)
+_UNUSED = 9e8  # an external axis that does not exist stands at 9E9
+_INTERFACES = {"digital_in": "digital", "digital_out": "digital", "analog_in": "analog", "analog_out": "analog"}
+
+
+class Places:
+    """Structured values of one scope."""
+
+    def __init__(self, expressions: Expressions) -> None:
+        self.expressions = expressions
+
+    def refuse(self, reason: str) -> Exception:
+        from .expressions import UnsayableError
+
+        return UnsayableError(reason)
+
+    def value(self, expression: ir.Expression) -> str | Printed:
+        match expression:
+            case ir.Index():
+                return self.index(expression)
+            case ir.Field(base=base, name=name):
+                found = self.component(base, name)
+                if found is None:
+                    return f"{self.base(base)}.{name}"
+                return self.read(*found)
+            case ir.Aggregate():
+                return self.aggregate(expression)
+            case ir.Signal():
+                return self.signal(expression)
+            case ir.System(name=name):
+                return self.system(name, expression.indices)
+        raise self.refuse("there is no such value")
+
+    def base(self, base: ir.Expression) -> str:
+        """What a component or element is taken of."""
+        return self.expressions.atom(base)
+
+    # ---- elements and components
+
+    def index(self, expression: ir.Index) -> str:
+        """An element; several indices count through the one list that an array is."""
+        type = self.expressions.type(expression.base)
+        indices = expression.indices
+        first = type.base if isinstance(type, ir.ArrayType) else 0
+        shifted = [_less(index, first) for index in indices]
+        flat = shifted[0]
+        sizes = type.dimensions if isinstance(type, ir.ArrayType) else ()
+        for at, index in enumerate(shifted[1:], 1):
+            size = sizes[at] if at < len(sizes) else None
+            if size is None:
+                raise self.refuse("an array of several dimensions whose size is not known here")
+            flat = _plus(_times(flat, size), index)
+        return f"{self.base(expression.base)}[{self.expressions.text(flat)}]"
+
+    def component(self, base: ir.Expression, name: str) -> tuple[str, str] | None:
+        """How a component of a pose or of joints is read, and its unit; None for a field of a record."""
+        type = self.expressions.type(base)
+        match type:
+            case ir.JointsType() | ir.AxesType():
+                if name not in tables.AXES:
+                    raise self.refuse("the controller has no external axes")
+                return f"{self.base(base)}[{tables.AXES.index(name)}]", "rad"
+            case ir.PoseType() | ir.TargetType() | ir.VectorType() | ir.RotationType():
+                if name in tables.PLACES:
+                    return f"{self.base(base)}[{tables.PLACES[name]}]", "m"
+                if name in tables.EULER:
+                    angle = str(tables.EULER[name])
+                    return self.expressions.helper("rpl_angle", self.expressions.text(base), angle), "deg"
+                raise self.refuse(f"a pose has no component {name} of its own")
+        return None
+
+    def read(self, text: str, unit: str) -> str | Printed:
+        """A component in the neutral unit."""
+        if unit == "m":
+            return Printed(f"{text} * 1000.0", tables.PRODUCT)
+        return f"r2d({text})" if unit == "rad" else text
+
+    # ---- structured values
+
+    def constant(self, expression: ir.Expression) -> str | None:
+        """The pose that an expression always is."""
+        value = constant(expression, self.expressions.scope)
+        if isinstance(value, Target):
+            value = value.pose
+        return spelling.pose_text(value) if isinstance(value, rigid.Pose) else None
+
+    def aggregate(self, aggregate: ir.Aggregate) -> str | Printed:
+        scope = self.expressions.scope
+        type = word_type(aggregate.type_name, scope) if aggregate.type_name else None
+        named = {name: value for name, value in aggregate.entries if name is not None}
+        match type:
+            case ir.PoseType() | ir.TargetType() | ir.VectorType() | ir.RotationType():
+                known = self.constant(aggregate)
+                self.no_external(named)
+                return known if known is not None else self.pose(named)
+            case ir.JointsType() | ir.AxesType():
+                self.no_external(named)
+                return self.joints(named)
+        if named and len(named) == len(aggregate.entries):
+            fields = ", ".join(f"{name}={self.expressions.given(value)}" for name, value in named.items())
+            return f"struct({fields})"
+        if named:
+            raise self.refuse("a value with some components named and some not")
+        return f"[{', '.join(self.items(aggregate))}]"
+
+    def items(self, aggregate: ir.Aggregate) -> list[str]:
+        """The elements of a list in order; inner lists of an array of several dimensions follow each other."""
+        shown: list[str] = []
+        for _, value in aggregate.entries:
+            if isinstance(value, ir.Aggregate) and all(name is None for name, _ in value.entries):
+                shown.extend(self.items(value))
+            else:
+                shown.append(self.expressions.given(value))
+        return shown
+
+    def no_external(self, named: dict[str, ir.Expression]) -> None:
+        """External axes may be given where they stand still at zero or do not exist."""
+        for name in tables.EXTERNAL:
+            value = named.get(name)
+            if value is None:
+                continue
+            number = constant_number(value, self.expressions.scope)
+            if number is None or (number != 0 and abs(number) < _UNUSED):
+                raise self.refuse("the controller has no external axes")
+
+    def pose(self, named: dict[str, ir.Expression]) -> str:
+        """A pose of computed components."""
+        if {"trans", "rot"} & set(named):
+            raise self.refuse("a pose whose position and rotation are values of their own")
+        values = {name: named.get(name, _ZERO) for name in _FLAT}
+        angles = [constant_number(values[name], self.expressions.scope) for name in ("a", "b", "c")]
+        if any(angle is None for angle in angles):
+            return self.expressions.helper("rpl_pose", *(self.expressions.text(values[name]) for name in _FLAT))
+        turn = spelling.rotation_vector(rigid.rotation_of_zyx(*(angle or 0.0 for angle in angles)))
+        place = [self.expressions.measured(values[name], "m") for name in ("x", "y", "z")]
+        numbers = [_short(one) for one in place]
+        return f"p[{', '.join((*numbers, *(spelling.plain_text(v, spelling.RADIAN_PLACES) for v in turn)))}]"
+
+    def joints(self, named: dict[str, ir.Expression]) -> str:
+        shown = []
+        for axis in tables.AXES:
+            value = named.get(axis)
+            if value is None:
+                raise self.refuse(f"the axis {axis} is not given")
+            number = constant_number(value, self.expressions.scope)
+            shown.append(
+                spelling.radians(number, point=True) if number is not None else self.expressions.measured(value, "rad")
+            )
+        return f"[{', '.join(shown)}]"
+
+    # ---- functions of poses and joints
+
+    def function(self, name: str, values: tuple[ir.Expression, ...]) -> str | Printed | None:
+        """Geometric functions; None when URScript has no such function."""
+        text = self.expressions.text
+        match name, values:
+            case "pose_of", (one,):
+                return text(one)
+            case "offset", (place, x, y, z):
+                return f"pose_trans({self.shift(x, y, z)}, {text(place)})"
+            case "tool_offset", (place, x, y, z):
+                return f"pose_trans({text(place)}, {self.shift(x, y, z)})"
+            case "displaced", (place, by):
+                return f"pose_trans({text(by)}, {text(place)})"
+            case "displaced_in_tool", (place, by):
+                return f"pose_trans({text(place)}, {text(by)})"
+            case "pose_from_rotation_vector", (x, y, z, rx, ry, rz):
+                place_text = [_short(self.expressions.measured(one, "m")) for one in (x, y, z)]
+                turn = [_short(self.expressions.measured(one, "rad")) for one in (rx, ry, rz)]
+                return f"p[{', '.join((*place_text, *turn))}]"
+            case "distance", (one, other):
+                return Printed(f"point_dist({text(one)}, {text(other)}) * 1000.0", tables.PRODUCT)
+            case "current_target", ():
+                return "get_actual_tcp_pose()"
+            case "current_joints", ():
+                return "get_actual_joint_positions()"
+            case "target_to_joints", (place,):
+                return f"get_inverse_kin({text(place)})"
+            case "joints_to_target", (joints,):
+                return f"get_forward_kin({text(joints)})"
+        return None
+
+    def shift(self, x: ir.Expression, y: ir.Expression, z: ir.Expression) -> str:
+        """A pose that only moves."""
+        place = [_short(self.expressions.measured(one, "m")) for one in (x, y, z)]
+        return f"p[{', '.join(place)}, 0, 0, 0]"
+
+    # ---- signals and system variables
+
+    def declared(self, name: str) -> ir.Signal | None:
+        """The signal that a name is declared for."""
+        symbol = self.expressions.scope.value(name)
+        if symbol is None or not isinstance(symbol.declaration, ir.SignalDeclaration):
+            return None
+        return symbol.declaration.signal
+
+    def numbered(self, signal: ir.Signal) -> ir.Signal:
+        """A signal by its number, where it is declared."""
+        found = self.declared(signal.name) if signal.name is not None and signal.index is None else None
+        return signal if found is None else found
+
+    def flag(self, index: ir.Expression) -> str:
+        """An internal signal's number, counted from 0."""
+        number = constant_number(index, self.expressions.scope)
+        if number is not None and not 1 <= number <= tables.FLAGS:
+            raise self.refuse(f"the controller has {tables.FLAGS} flags, no flag {number:g}")
+        return self.expressions.text(_less(index, 1))
+
+    def signal(self, signal: ir.Signal) -> str | Printed:
+        """The value of a signal."""
+        signal = self.numbered(signal)
+        if signal.kind in ("group_in", "group_out") or signal.last is not None:
+            first, last = self.group(signal)
+            helper = "rpl_group_in" if signal.kind.endswith("_in") else "rpl_group_out"
+            return self.expressions.helper(helper, first, last)
+        if signal.index is None:
+            raise self.refuse(f"signals have numbers; {signal.name} has none")
+        if signal.kind == "flag":
+            return f"get_flag({self.flag(signal.index)})"
+        interface = _INTERFACES.get(signal.kind)
+        if interface is None:
+            raise self.refuse(f"there is no signal of kind {signal.kind.replace('_', ' ')}")
+        way = signal.kind.rpartition("_")[2]
+        number = constant_number(signal.index, self.expressions.scope)
+        if number is None:
+            if interface == "analog":
+                raise self.refuse("an analog signal by a computed number")
+            return self.expressions.helper(f"rpl_digital_{way}", self.expressions.text(signal.index))
+        where, at = self.interface(interface, int(number))
+        return f"get_{where}_{interface}_{way}({at})"
+
+    def interface(self, interface: str, number: int) -> tuple[str, int]:
+        """The controller's interface that a signal belongs to, and the signal's number there (from 0)."""
+        table = tables.DIGITAL if interface == "digital" else tables.ANALOG
+        for first, last, where in table:
+            if first <= number <= last:
+                return where, number - first
+        raise self.refuse(f"the controller has no {interface} signal {number}, only {table[0][0]} to {table[-1][1]}")
+
+    def group(self, signal: ir.Signal) -> tuple[str, str]:
+        if signal.index is None or signal.last is None:
+            raise self.refuse("a group of signals without its first and last number")
+        for bound in (signal.index, signal.last):
+            number = constant_number(bound, self.expressions.scope)
+            if number is not None:
+                self.interface("digital", int(number))
+        return self.expressions.text(signal.index), self.expressions.text(signal.last)
+
+    def output(self, signal: ir.Signal, value: ir.Expression) -> str:
+        """Switching an output."""
+        signal, text = self.numbered(signal), self.expressions.text(value)
+        if signal.kind == "group_out" or (signal.last is not None and signal.kind == "digital_out"):
+            first, last = self.group(signal)
+            return self.expressions.helper("rpl_set_group_out", first, last, text)
+        if signal.index is not None and signal.kind == "flag":
+            return f"set_flag({self.flag(signal.index)}, {text})"
+        if signal.index is None or signal.kind not in ("digital_out", "analog_out"):
+            raise self.refuse("this signal cannot be written")
+        interface = _INTERFACES[signal.kind]
+        number = constant_number(signal.index, self.expressions.scope)
+        if number is None:
+            if interface == "analog":
+                raise self.refuse("an analog signal by a computed number")
+            return self.expressions.helper("rpl_set_digital_out", self.expressions.text(signal.index), text)
+        where, at = self.interface(interface, int(number))
+        if where == "tool" and interface == "analog":
+            raise self.refuse("the tool has no analog output")
+        return f"set_{where}_{interface}_out({at}, {text})"
+
+    def system(self, name: str, indices: tuple[ir.Expression, ...]) -> str | Printed:
+        match name, indices:
+            case "null_frame" | "world", ():
+                return "p[0, 0, 0, 0, 0, 0]"
+            case "actual_pose", ():
+                return "get_actual_tcp_pose()"
+            case "actual_joints", ():
+                return "get_actual_joint_positions()"
+            case "actual_joint", (ir.IntLiteral(value=axis),) if 1 <= axis <= 6:
+                return f"r2d(get_actual_joint_positions()[{axis - 1}])"
+            case "tool", ():
+                return "get_tcp_offset()"
+            case "flag", (number,):
+                return f"get_flag({self.flag(number)})"
+        raise self.refuse(f"there is no system variable for {name.replace('_', ' ')}")
+
+
+def _less(index: ir.Expression, by: int) -> ir.Expression:
+    if by == 0:
+        return index
+    if isinstance(index, ir.IntLiteral):
+        return ir.IntLiteral(index.value - by)
+    return ir.Binary("-", index, ir.IntLiteral(by))
+
+
+def _times(one: ir.Expression, other: ir.Expression) -> ir.Expression:
+    if isinstance(one, ir.IntLiteral) and isinstance(other, ir.IntLiteral):
+        return ir.IntLiteral(one.value * other.value)
+    return ir.Binary("*", one, other)
+
+
+def _plus(one: ir.Expression, other: ir.Expression) -> ir.Expression:
+    if isinstance(one, ir.IntLiteral) and isinstance(other, ir.IntLiteral):
+        return ir.IntLiteral(one.value + other.value)
+    return ir.Binary("+", one, other)
+
+
+def _short(text: str) -> str:
+    """Inside of a pose a whole number needs no point."""
+    return text.removesuffix(".0") if text.endswith(".0") and " " not in text and "(" not in text else text

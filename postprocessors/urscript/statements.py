@@ -1,0 +1,289 @@
+"""IR statements as URScript lines. What URScript cannot say becomes a guarded stop: the original, then `halt`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.walk import walk
+from rpl.passes.fold import constant_number
+from rpl.passes.scope import Scope
+from rpl.source import Comment, Origin
+from rpl.writing.ledger import EmissionLedger
+
+from . import spelling
+from .actions import Actions
+from .expressions import Expressions, Notes, UnsayableError
+from .motion import Motion
+
+if TYPE_CHECKING:
+    from rpl.emulator.model import RobotModel
+
+GUARDED = code(
+    "urscript-guarded-stop",
+    Severity.LOSS,
+    "URScript cannot say this: {reason}",
+    "the program stops there with halt; write the line by hand",
+)
+TEXT_CHANGED = code(
+    "urscript-text",
+    Severity.WARNING,
+    "a text is written in plain ASCII without double quotes: {text}",
+)
+INDENT = "  "
+_BLOCKS = (ir.If, ir.Switch, ir.For, ir.While, ir.Repeat, ir.Loop)
+_TIMED = (ir.Wait, ir.WaitUntil, ir.Move, ir.CallRoutine, ir.Call, ir.Dialog, ir.WaitForMotion, ir.Return, ir.Halt)
+
+
+@dataclass(slots=True)
+class Output:
+    """What all routines of one file share."""
+
+    ledger: EmissionLedger
+    diagnostics: Diagnostics
+    robot: RobotModel | None
+    taken: set[str]
+    notes: Notes = field(default_factory=Notes)
+    threads: list[tuple[str, ...]] = field(default_factory=list)
+    running: set[str] = field(default_factory=set)
+
+    def fresh(self, stem: str) -> str:
+        """A name that nothing in the program has."""
+        name, number = stem, 1
+        while name in self.taken:
+            number += 1
+            name = f"{stem}_{number}"
+        self.taken.add(name)
+        return name
+
+
+class Printer:
+    """Prints the bodies of one routine. `inside`: the routine has variables of its own (the program itself has not)."""
+
+    def __init__(self, scope: Scope, output: Output, inside: bool = True, depth: int = 0) -> None:
+        self.scope, self.output, self.inside, self.depth = scope, output, inside, depth
+        self.ledger, self.diagnostics = output.ledger, output.diagnostics
+        self.lines: list[str] = []
+        self.before_next: list[tuple[str, ...]] = []
+        self.expressions = Expressions(scope, output.notes)
+        self.motion = Motion(self.expressions, output.diagnostics, output.robot)
+        self.actions = Actions(self)
+
+    # ---- lines and comments
+
+    def line(self, text: str, origin: Origin | None = None) -> None:
+        """One line, with the comments that belong to its statement."""
+        behind = ""
+        for comment in origin.comments if origin else ():
+            if comment.behind:
+                behind = f"  # {_one_line(comment.text)}"
+            else:
+                self.comment(comment)
+        self.lines.append(f"{INDENT * self.depth}{text}{behind}")
+
+    def more(self, *texts: str) -> None:
+        """Lines of a statement that is written as several."""
+        self.lines.extend(f"{INDENT * self.depth}{text}" for text in texts)
+
+    def comment(self, comment: Comment) -> None:
+        self.remark(comment.text)
+
+    def remark(self, text: str) -> None:
+        for part in text.splitlines() or [""]:
+            plain = spelling.ascii_text(part.strip())
+            self.lines.append(f"{INDENT * self.depth}# {plain}".rstrip())
+
+    def comments_only(self, origin: Origin) -> None:
+        for comment in origin.comments:
+            self.comment(comment)
+
+    def temporary(self, stem: str, value: str) -> str:
+        """A new variable with its first value."""
+        name = self.output.fresh(stem)
+        self.more(f"{'local ' if self.inside else ''}{name} = {value}")
+        return name
+
+    # ---- bodies
+
+    def body(self, body: ir.Body) -> None:
+        self.depth += 1
+        for at, statement in enumerate(body):
+            self.statement(statement, body[at + 1 :])
+        self.depth -= 1
+
+    def statement(self, statement: ir.Statement, rest: ir.Body = ()) -> None:
+        """One statement, or its guarded stop. `rest`: what follows in the same body."""
+        kept, depth, known = len(self.lines), self.depth, len(self.output.notes.changed_texts)
+        try:
+            self.written(statement, rest)
+        except UnsayableError as error:
+            del self.lines[kept:]
+            self.depth = depth
+            self.guard(statement, str(error))
+        else:
+            self.ledger.written(statement)
+        for text in self.output.notes.changed_texts[known:]:
+            self.diagnostics.report(TEXT_CHANGED, statement.origin, text=text)
+
+    def guard(self, statement: ir.Statement, reason: str) -> None:
+        self.comments_only(statement.origin)
+        self.remark(statement.origin.text or getattr(statement, "text", "") or statement.__class__.__name__)
+        self.more("halt")
+        self.diagnostics.report(GUARDED, statement.origin, reason=reason)
+        self.ledger.reported(statement)
+
+    def written(self, statement: ir.Statement, rest: ir.Body) -> None:
+        match statement:
+            case ir.Nothing(origin=origin):
+                self.comments_only(origin)
+            case ir.Opaque(text=text):
+                raise UnsayableError(f"it was not read ({text.strip()[:40]})")
+            case ir.Vendor(dialect=dialect, text=text, origin=origin):
+                if dialect != "urscript":
+                    raise UnsayableError(f"it belongs to {dialect}")
+                first, *others = text.splitlines() or [""]
+                self.line(first, origin)
+                self.more(*others)
+            case ir.Move(origin=origin):
+                self.line(self.motion.move(statement, not _stands(rest)), origin)
+            case ir.If() | ir.Switch() | ir.For() | ir.While() | ir.Repeat() | ir.Loop():
+                self.block(statement)
+            case _:
+                self.actions.write(statement)
+
+    # ---- blocks
+
+    def block(self, statement: ir.Statement) -> None:
+        origin = statement.origin
+        match statement:
+            case ir.If(branches=branches, otherwise=otherwise):
+                self.branches([(self.expressions.text(c), body) for c, body in branches], otherwise, origin)
+            case ir.Switch():
+                self.switch(statement)
+            case ir.For():
+                self.counting(statement)
+            case ir.While(condition=condition, body=body):
+                self.loop(self.expressions.text(condition), statement, body, ())
+            case ir.Repeat(until=until, body=body):
+                leave = (f"if {self.expressions.text(until)}:", f"{INDENT}break", "end")
+                self.loop("True", statement, body, leave)
+            case ir.Loop(body=body):
+                self.loop("True", statement, body, ())
+
+    def branches(self, branches: list[tuple[str, ir.Body]], otherwise: ir.Body, origin: Origin) -> None:
+        for number, (condition, body) in enumerate(branches):
+            if number:
+                self.line(f"elif {condition}:")
+            else:
+                self.line(f"if {condition}:", origin)
+            self.body(body)
+        if otherwise:
+            self.line("else:")
+            self.body(otherwise)
+        self.line("end")
+
+    def loop(
+        self, condition: str, statement: ir.While | ir.Repeat | ir.Loop, body: ir.Body, behind: tuple[str, ...]
+    ) -> None:
+        """`behind`: what is done after each pass, also one that was cut short."""
+        self.line(f"while {condition}:", statement.origin)
+        self.before_next.append(behind)
+        self.body(body)
+        self.before_next.pop()
+        self.depth += 1
+        if _polls(statement):
+            self.more("sync()")
+        self.more(*behind)
+        self.depth -= 1
+        self.more("end")
+
+    def switch(self, statement: ir.Switch) -> None:
+        """The first branch whose value matches; the selector is looked at once."""
+        selector = statement.selector
+        if not statement.cases:
+            raise UnsayableError("a choice without a case")
+        if isinstance(selector, ir.Name | ir.IntLiteral) or len(statement.cases) == 1 == len(statement.cases[0].values):
+            chosen: ir.Expression = selector
+            self.comments_only(statement.origin)
+        else:
+            self.comments_only(statement.origin)
+            chosen = ir.Name(self.temporary("selected", self.expressions.given(selector)))
+        branches = []
+        for case in statement.cases:
+            tests = [self.expressions.text(ir.Binary("=", chosen, value)) for value in case.values]
+            branches.append((" or ".join(tests), case.body))
+        self.branches(branches, statement.default or (), replace(statement.origin, comments=()))
+
+    def counting(self, loop: ir.For) -> None:
+        """A counting loop as a while with its counter; the counter keeps the first value past the end."""
+        if loop.scoped or loop.automatic or loop.at_least_once or loop.keeps_last:
+            raise UnsayableError("a loop whose counter or first pass follows another language's rule")
+        text, counter = self.expressions.text, ir.Name(loop.counter)
+        step = 1.0 if loop.step is None else constant_number(loop.step, self.scope)
+        self.comments_only(loop.origin)
+        stop = self.fixed(loop.stop, f"{loop.counter}_last")
+        stride: ir.Expression = ir.IntLiteral(1)
+        if loop.step is not None:
+            stride = self.fixed(loop.step, f"{loop.counter}_step")
+        self.more(f"{loop.counter} = {self.expressions.given(loop.start)}")
+        if step is None:
+            up = ir.Binary("cand", ir.Binary(">", stride, ir.IntLiteral(0)), ir.Binary("<=", counter, stop))
+            down = ir.Binary("cand", ir.Binary("<", stride, ir.IntLiteral(0)), ir.Binary(">=", counter, stop))
+            condition = text(ir.Binary("cor", up, down))
+        else:
+            condition = text(ir.Binary("<=" if step > 0 else ">=", counter, stop))
+        onward = f"{loop.counter} = {text(_added(counter, stride))}"
+        self.more(f"while {condition}:")
+        self.before_next.append((onward,))
+        self.body(loop.body)
+        self.before_next.pop()
+        self.more(f"{INDENT}{onward}", "end")
+
+    def fixed(self, value: ir.Expression, stem: str) -> ir.Expression:
+        """A bound that is looked at once."""
+        if constant_number(value, self.scope) is not None:
+            return value
+        return ir.Name(self.temporary(stem, self.expressions.given(value)))
+
+    def onward(self, last: str) -> None:
+        """`continue`, after what its loop does between two passes."""
+        if self.before_next:
+            self.more(*self.before_next[-1])
+        self.more(last)
+
+
+def _stands(rest: ir.Body) -> bool:
+    """Does the next statement want the robot to stand?"""
+    for statement in rest:
+        match statement:
+            case ir.Nothing():
+                continue
+            case ir.WaitForMotion() | ir.Wait(in_position=True) | ir.WaitUntil(in_position=True):
+                return True
+        return False
+    return False
+
+
+def _polls(loop: ir.While | ir.Repeat | ir.Loop) -> bool:
+    """Does the loop look at signals without ever taking time? The controller wants a pause in each pass then."""
+    looks = False
+    for node in walk(loop):
+        if isinstance(node, _TIMED):
+            return False
+        looks = looks or isinstance(node, ir.Signal)
+    return looks
+
+
+def _added(counter: ir.Expression, stride: ir.Expression) -> ir.Expression:
+    match stride:
+        case ir.Unary(op="-", operand=operand):
+            return ir.Binary("-", counter, operand)
+        case ir.IntLiteral(value=value) if value < 0:
+            return ir.Binary("-", counter, ir.IntLiteral(-value))
+    return ir.Binary("+", counter, stride)
+
+
+def _one_line(text: str) -> str:
+    return spelling.ascii_text(" ".join(text.split()))

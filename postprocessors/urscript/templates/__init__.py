@@ -1,0 +1,1 @@
+"""Frames of URScript files; a package so that the wheel holds them."""
