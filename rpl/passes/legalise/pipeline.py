@@ -20,6 +20,7 @@ from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.explicit import explicit_to_modal
 from rpl.passes.legalise.geometry import geometry
 from rpl.passes.legalise.interrupts import interrupts
+from rpl.passes.legalise.labels import structure_to_labels
 from rpl.passes.legalise.logic import decide_logic
 from rpl.passes.legalise.lookahead import stop_blends
 from rpl.passes.legalise.loops import fit_loops
@@ -39,7 +40,8 @@ from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.typing import normalise
 
 # First what asks for the source language's own rules (its prelude, its look-ahead), then signals and control (each may
-# make what a later one rewrites: errors make Repeat, switches make cor), then data and motion, geometry last.
+# make what a later one rewrites: errors make Repeat, switches make cor), then data and motion, geometry last. Labels come
+# behind all that makes or needs blocks.
 PASSES: tuple[Pass, ...] = (
     searches,
     link_prelude,
@@ -71,6 +73,7 @@ PASSES: tuple[Pass, ...] = (
     explicit_to_modal,
     aggregates,
     geometry,
+    structure_to_labels,
     name_errors,
     drop_unused,
 )
