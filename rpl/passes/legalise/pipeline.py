@@ -31,6 +31,7 @@ from rpl.passes.legalise.prelude import link_prelude
 from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.signals import name_signals, number_signals
+from rpl.passes.legalise.spelling import one_spelling
 from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
 from rpl.passes.legalise.timers import timers_to_clocks
@@ -76,6 +77,7 @@ PASSES: tuple[Pass, ...] = (
     structure_to_labels,
     name_errors,
     drop_unused,
+    one_spelling,
 )
 
 
