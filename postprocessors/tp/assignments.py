@@ -148,6 +148,8 @@ def set_output(signal: ir.Signal, value: ir.Expression, expressions: Expressions
     word = shown.partition("[")[0]
     if word in ("DO", "RO", "SO", "UO", "WO", "F", "M"):
         return f"{shown}={truth(value, expressions)}"
+    if word == "GO" and isinstance(value, ir.Convert) and value.how == "trunc":
+        value = value.operand  # the controller cuts the number by itself
     if word in ("GO", "AO"):
         return f"{shown}={expressions.value(value)}"
     raise CannotSayError(f"{word} is no output")

@@ -90,8 +90,8 @@ class Expressions:
         return f"{bank}[{int(value)}{':' + name if name else ''}]"
 
     def index(self, index: ir.Expression) -> str:
-        """A computed number: one register or argument."""
-        if isinstance(index, ir.Convert) and index.how == "real":
+        """A computed number: one register or argument. The controller cuts it to a whole number by itself."""
+        if isinstance(index, ir.Convert) and index.how in ("real", "trunc"):
             return self.index(index.operand)
         shown = self.element(index)
         if shown is None or not shown.startswith(("R[", "AR[")):
@@ -182,6 +182,8 @@ class Expressions:
                 return f"ROUND[{self.operand(operand)}]"
             case ir.Convert(how="real", operand=operand):
                 return self.value(operand)
+            case ir.Unary(op="-", operand=operand):
+                return self.value(ir.Binary("*", ir.IntLiteral(-1), operand))
         return self.plain(expression) or f"({self.mixed(expression)})"
 
     def function(self, call: ir.Builtin) -> str:

@@ -52,7 +52,10 @@ class Labels:
         return self.numbers[name.lower()]
 
     def text(self, name: str) -> str:
-        number = self.number(name)
+        return self.shown(self.number(name))
+
+    def shown(self, number: int) -> str:
+        """The number and its comment, as they stand at the label itself."""
         label = self.comments.get(number, "")
         return f"{number}{':' + label if label else ''}"
 

@@ -330,7 +330,7 @@ class Printer:
             if not _leaves(body) and number_of != places[-1][0]:
                 self.line(jumps_behind)
         if any(line.first.endswith(jumps_behind) for line in self.lines):
-            self.line(f"LBL[{behind}]")
+            self.line(f"LBL[{self.labels.shown(behind)}]")
         self.forget()
 
     def deed(self, body: ir.Body, behind: int, places: list[tuple[int, ir.Body]]) -> str:
