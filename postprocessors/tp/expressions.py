@@ -20,7 +20,7 @@ from . import tables
 from .texts import ascii_text, comment, number
 
 _ELEMENT = re.compile(r"(?P<bank>R|PR|SR|F|AR|P|TIMER)\[?(?P<number>\d+)\]?", re.IGNORECASE)
-_NAMED = re.compile(r"(?P<kind>[A-Z]{1,2})\[?(?P<number>\d+)\]?", re.IGNORECASE)
+_NAMED = re.compile(r"(?P<kind>[A-Z]{1,3})\[?(?P<number>\d+)\]?", re.IGNORECASE)
 _NUMERIC_BANKS = ("R", "AR", "TIMER")
 
 
@@ -61,6 +61,10 @@ class Expressions:
                 return self.numbered("F", index)
             case ir.Convert(how="real" | "bit", operand=operand):
                 return self.place(operand)
+            case ir.Name(id=name) if name.startswith("$"):
+                return name
+            case ir.VendorValue(dialect="tp", text=text):
+                return text
             case ir.Name(id=name):
                 raise CannotSayError(f"{name} has no register")
         raise CannotSayError(f"this is no register: {_what(expression)}")
@@ -145,7 +149,7 @@ class Expressions:
                 return self.simple(operand)
             case ir.Convert(how="bit", operand=ir.Signal() as signal):
                 return self.signal(signal)
-            case ir.Index() | ir.Name() | ir.Signal() | ir.Field():
+            case ir.Index() | ir.Name() | ir.Signal() | ir.Field() | ir.VendorValue():
                 return self.place(expression)
             case ir.System(name="timer" | "flag"):
                 return self.place(expression)

@@ -16,6 +16,7 @@ from .flow import If, Labels, choice, single_jump
 from .frames import Frames
 from .lines import Line
 from .motion import Motion
+from .own import alarm_number, is_own_limit, table_change, table_select, without_trunc
 from .positions import Points
 from .texts import ascii_text, number, remarks
 
@@ -93,26 +94,56 @@ class Printer:
         self.depth -= 1
 
     def pair(self, statement: ir.Statement, following: ir.Statement | None) -> int:
-        """Two statements that TP says as one (a limited wait or a search and the jump when it failed), else one."""
-        label = self.failure_jump(statement, following)
-        if label is None or following is None:
-            self.statement(statement)
-            return 1
+        """Two statements that TP says as one, else one."""
         kept = len(self.lines)
         try:
-            self.comments_only(following.origin)
-            if isinstance(statement, ir.Move):
-                self.searching(statement, label)
-            elif isinstance(statement, ir.WaitUntil):
-                self.limited(statement, label)
-        except CannotSayError as error:
+            done = following is not None and self.as_one(statement, following)
+        except CannotSayError:
             del self.lines[kept:]
-            self.guard(statement, str(error))
-            self.statement(following)
-        else:
-            self.ledger.written(statement)
-            self.ledger.merged(following)
+            done = False
+        if not done or following is None:
+            self.statement(statement)
+            return 1
+        self.ledger.written(statement)
+        self.ledger.merged(following)
         return 2
+
+    def as_one(self, statement: ir.Statement, following: ir.Statement) -> bool:
+        """A limited wait or a search and the jump when it failed; a frame number and what it selects; an alarm and the
+        pause that it makes. False when they are no such pair."""
+        label = self.failure_jump(statement, following)
+        number = table_select(statement, following)
+        alarm = alarm_number(statement) if following == ir.Halt("stop") else None
+        told = table_change(statement, following)
+        if label is None and number is None and alarm is None and told is None:
+            return False
+        self.comments_only(following.origin)
+        if number is not None and isinstance(statement, ir.Assign):
+            word = number[0]
+            shown = self.expressions.operand(without_trunc(statement.value))
+            self.line(f"{word}_NUM={shown}", statement.origin)
+            self.in_force(word, shown)
+        elif told is not None:
+            register = self.assignments.register(told[1])
+            self.line(f"{self.table_place(told[0])}={register}", statement.origin)
+        elif alarm is not None:
+            self.line(f"UALM[{alarm}]", statement.origin)
+        elif isinstance(statement, ir.Move) and label is not None:
+            self.searching(statement, label)
+        elif isinstance(statement, ir.WaitUntil) and label is not None:
+            self.limited(statement, label)
+        return True
+
+    def table_place(self, place: ir.Index) -> str:
+        word = place.base.id.upper() if isinstance(place.base, ir.Name) else ""
+        return f"{word}[{self.expressions.operand(place.indices[0])}]"
+
+    def in_force(self, word: str, number: str) -> None:
+        self.frames.selected[word].add(number)
+        if word == "UTOOL":
+            self.motion.tool = number if number.isdigit() else ""
+        else:
+            self.motion.frame = number if number.isdigit() else ""
 
     def failure_jump(self, statement: ir.Statement, following: ir.Statement | None) -> int | None:
         """The label that the next statement jumps to when this one's condition did not come true."""
@@ -355,10 +386,7 @@ class Printer:
         kind = "UTOOL" if name == "tool" else "UFRAME"
         lines, chosen = self.frames.select(kind, value, self.expressions)
         self.put(lines, origin)
-        if kind == "UTOOL":
-            self.motion.tool = chosen if chosen.isdigit() else ""
-        else:
-            self.motion.frame = chosen if chosen.isdigit() else ""
+        self.in_force(kind, chosen)
 
     def move(self, move: ir.Move) -> None:
         if move.search is not None:
@@ -431,7 +459,10 @@ class Printer:
         shown = self.expressions.condition(wait.condition)
         if wait.timeout is None:
             raise CannotSayError("a wait without a limit")
-        self.line(f"$WAITTMOUT={self.hundredths(wait.timeout)}", wait.origin)
+        if is_own_limit(wait.timeout):
+            self.comments_only(wait.origin)
+        else:
+            self.line(f"$WAITTMOUT={self.hundredths(wait.timeout)}", wait.origin)
         if before:
             self.line(before)
         self.line(f"WAIT {shown} TIMEOUT,LBL[{label}]")

@@ -33,6 +33,8 @@ SAME_NAME = code(
     "tp-same-name", Severity.ERROR, "two programs would be called {name}", "rename one; TP's programs are all global"
 )
 
+# Variables that stand for what the controller has without any declaration, in programs read from listings.
+_CONTROLLERS_OWN = ("UTOOL", "UFRAME", "UTOOL_NUM", "UFRAME_NUM", "WAIT_TIMED_OUT", "SKIP_HIT")
 _MOTION = ("J ", "L ", "C ", "A ")
 
 
@@ -193,7 +195,7 @@ def _repeat(listing: Listing) -> None:
 
 def _is_bank(name: str) -> bool:
     upper = name.upper()
-    if upper in tables.BANKS or upper in ("UTOOL", "UFRAME"):
+    if upper in tables.BANKS or upper in _CONTROLLERS_OWN or upper.startswith("$"):
         return True
     bank = upper.rstrip("0123456789")
     return bank != upper and bank in (*tables.BANKS, "UTOOL", "UFRAME")

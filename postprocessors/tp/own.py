@@ -1,0 +1,62 @@
+"""What only programs read from listings hold: the controller's tables of frames, its wait limit, its alarms.
+
+One TP instruction means two neutral statements there (a number is stored and the frame behind it comes into force);
+here the two are found again.
+"""
+
+from __future__ import annotations
+
+import re
+
+from rpl import ir
+
+WAIT_LIMIT = "$WAITTMOUT"
+_TABLES = {"base": "UFRAME", "tool": "UTOOL"}
+_ALARM = re.compile(r"UALM\[(\d+)\]")
+
+
+def table_select(statement: ir.Statement, following: ir.Statement | None) -> tuple[str, ir.Expression] | None:
+    """`UFRAME_NUM=2`: the number is stored, then the element of the table is selected."""
+    match statement, following:
+        case (
+            ir.Assign(target=ir.Name(id=number)),
+            ir.Assign(target=ir.System(name=system), value=ir.Index(base=ir.Name(id=bank), indices=(index,))),
+        ) if system in _TABLES and bank.upper() == _TABLES[system] and number.upper() == f"{bank.upper()}_NUM":
+            return bank.upper(), index
+    return None
+
+
+def table_change(statement: ir.Statement, following: ir.Statement | None) -> tuple[ir.Index, ir.Expression] | None:
+    """`UFRAME[2]=PR[5]`: an element of the table changes, and at once when it is in force."""
+    match statement, following:
+        case (
+            ir.Assign(target=ir.Index(base=ir.Name(id=bank)) as place, value=value),
+            ir.If(branches=((_, (ir.Assign(target=ir.System(name=system), value=again),)),), otherwise=()),
+        ) if again == place and _TABLES.get(system) == bank.upper():
+            if isinstance(value, ir.Builtin) and value.function == "pose_of":
+                (value,) = value.arguments
+            return place, value
+    return None
+
+
+def alarm_number(statement: ir.Statement) -> str | None:
+    """`UALM[3]`."""
+    match statement:
+        case ir.Message(kind="error", text=ir.TextLiteral(value=text)):
+            found = _ALARM.fullmatch(text)
+            return found[1] if found else None
+    return None
+
+
+def is_own_limit(time: ir.Expression) -> bool:
+    """Is the limit of a wait the one that the controller has anyway?"""
+    match time:
+        case ir.Binary(op="/", left=left, right=ir.RealLiteral(value=100.0) | ir.IntLiteral(value=100)):
+            return without_trunc(left) == ir.Name(WAIT_LIMIT)
+    return False
+
+
+def without_trunc(value: ir.Expression) -> ir.Expression:
+    while isinstance(value, ir.Convert) and value.how in ("trunc", "real"):
+        value = value.operand
+    return value
