@@ -1,0 +1,85 @@
+"""FANUC TP: how its listings (.LS) and variable dumps (.VA) are recognised; the rest is imported when called."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from rpl.diagnostics import Diagnostics
+from rpl.registry import Dialect, ReadResult
+from rpl.source import Source
+
+if TYPE_CHECKING:
+    from rpl.emulator.configuration import Notation
+    from rpl.ir import Module
+    from rpl.ir.rules import Rules
+
+_HEAD = re.compile(r"^[ \t\ufeff]*/PROG\b", re.MULTILINE)
+_BODY = re.compile(r"^[ \t]*/(?:MN|ATTR)\b", re.MULTILINE)
+_DUMP = re.compile(
+    r"^\s*\[\*(?:NUMREG|POSREG|STRREG)\*\]\$\w+|^\s*\[\*SYSTEM\*\]\s*\$MN(?:UFRAME|UTOOL)\b", re.MULTILINE
+)
+
+
+def _recognise(path: str, text: str) -> int:
+    """How sure the content is TP: /PROG with /MN or /ATTR, or a dump of registers or frames. `.LS` is also the ending of
+    logs, so the ending alone says nothing."""
+    head = text[:20_000]
+    if _HEAD.search(head):
+        return 98 if _BODY.search(head) else 70
+    if re.search(r"^[ \t]*/MN\b", head, re.MULTILINE) and re.search(r"^[ \t]*/(?:POS|END)\b", text, re.MULTILINE):
+        return 60
+    return 90 if _DUMP.search(text) else 0
+
+
+def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
+    from .project import read
+
+    return read(sources, diagnostics)
+
+
+def _rules() -> Rules:
+    from .rules import RULES
+
+    return RULES
+
+
+def _prelude() -> Module | None:
+    return None
+
+
+def _notation() -> Notation:
+    from .configuration import NOTATION
+
+    return NOTATION
+
+
+_SIGNALS = {
+    "digital_in": "DI",
+    "digital_out": "DO",
+    "group_in": "GI",
+    "group_out": "GO",
+    "analog_in": "AI",
+    "analog_out": "AO",
+    "flag": "F",
+}
+
+
+def _signal_name(kind: str, number: int) -> str:
+    """How TP spells a physical signal."""
+    return f"{_SIGNALS[kind]}[{number}]"
+
+
+DIALECT = Dialect(
+    name="tp",
+    title="FANUC TP",
+    extensions=(".ls", ".va"),
+    recognise=_recognise,
+    read=_read,
+    rules=_rules,
+    prelude=_prelude,
+    notation=_notation,
+    notation_fields=("flip", "down", "back", "t1", "t4", "t6"),
+    signal_name=_signal_name,
+)

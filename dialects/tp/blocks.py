@@ -1,0 +1,233 @@
+"""Closed TP blocks to IR: IF THEN, FOR, point logic under a move, and the program with its positions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from typing import cast, get_args
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.walk import walk
+from rpl.reading.pieces import Block, Item, ModulePart
+
+from .header import Header
+from .motion import MISSING_POSITION, NOT_TAUGHT
+from .statements import HIT, TIMED_OUT
+
+MISPLACED = code("tp-misplaced", Severity.ERROR, "{what} cannot stand here")
+LOOSE_ARC = code(
+    "tp-arc-points",
+    Severity.WARNING,
+    "the last A point has no partner for an arc; the robot's way to it is not known here",
+)
+_STATEMENTS = get_args(ir.Statement)
+_LOCAL_FLAGS = (HIT, TIMED_OUT)
+
+
+@dataclass(frozen=True, slots=True)
+class Listing:
+    """What a program's part knows of its header."""
+
+    header: Header
+
+
+@dataclass(slots=True)
+class Builder:
+    """Builds closed blocks. `name`: how a program is called in the IR."""
+
+    diagnostics: Diagnostics
+    program: str = ""
+    nested: int = 0
+    routines: list[ir.Routine] = field(default_factory=list)
+
+    def __call__(self, block: Block) -> Item | tuple[Item, ...]:
+        match block.open.kind:
+            case "program":
+                return self.listing(block)
+            case "if":
+                return self.branch(block)
+            case "for":
+                return self.loop(block)
+        return self.point_logic(block)
+
+    def body(self, items: Iterable[Item]) -> ir.Body:
+        done: list[ir.Statement] = []
+        for item in items:
+            if isinstance(item, _STATEMENTS):
+                done.append(item)
+            else:
+                self.diagnostics.report(MISPLACED, item.origin, what="this")
+        return tuple(_grouped(done, self.diagnostics))
+
+    def branch(self, block: Block) -> Item:
+        condition = cast(ir.Expression, block.open.data)
+        bodies = [self.body(section.items) for section in block.sections]
+        otherwise: ir.Body = sum(bodies[1:], ())
+        return ir.If(((condition, bodies[0]),), otherwise, origin=block.open.origin)
+
+    def loop(self, block: Block) -> Item | tuple[Item, ...]:
+        assert isinstance(block.open.data, tuple)
+        counter, start, stop, down = block.open.data
+        body = self.body(item for section in block.sections for item in section.items)
+        origin = block.open.origin
+        if isinstance(counter, ir.Name):
+            step = ir.IntLiteral(-1, origin=origin) if down else None
+            return ir.For(counter.id, start, stop, step, body, keeps_last=True, origin=origin)
+        return self.indexed_loop(counter, start, stop, down, body, block)
+
+    def indexed_loop(
+        self, counter: ir.Expression, start: ir.Expression, stop: ir.Expression, down: bool, body: ir.Body, block: Block
+    ) -> tuple[Item, ...]:
+        """A loop whose counter is an element of the register array: counted by hand, the bound kept aside."""
+        origin = block.open.origin
+        self.nested += 1
+        bound: ir.Expression = stop
+        made: list[Item] = []
+        if not isinstance(stop, ir.IntLiteral | ir.RealLiteral):
+            bound = ir.Name(f"for_bound_{self.nested}", origin=origin)
+            made.append(ir.Assign(bound, stop, origin=origin))
+        made.append(ir.Assign(counter, start, origin=origin))
+        within, last = (">=", "<=") if down else ("<=", ">=")
+        leave = ir.If(((ir.Binary(last, counter, bound, origin=origin), (ir.ExitLoop(origin=origin),)),), origin=origin)
+        step = ir.Binary("-" if down else "+", counter, ir.IntLiteral(1), origin=origin)
+        again = ir.Assign(counter, step, origin=origin)
+        condition = ir.Binary(within, counter, bound, origin=origin)
+        made.append(ir.While(condition, (*body, leave, again), origin=origin))
+        return tuple(made)
+
+    def point_logic(self, block: Block) -> Item:
+        """Statements under a move run as a program of their own, so long before or after its end."""
+        assert isinstance(block.open.data, tuple)
+        move, (_, delay) = block.open.data
+        self.nested += 1
+        name = f"{self.program}_P{self.nested}"
+        body = self.body(item for section in block.sections for item in section.items)
+        self.routines.append(
+            ir.Routine(name, declarations=_local_flags(body), body=body, scope="global", origin=block.open.origin)
+        )
+        action = ir.CallRoutine(name, origin=block.open.origin)
+        trigger = ir.Trigger("end", action, None, delay, origin=block.open.origin)
+        return replace(cast(ir.Move, move), triggers=(*move.triggers, trigger), origin=block.open.origin)
+
+    def listing(self, block: Block) -> Item:
+        header = block.open.data
+        assert isinstance(header, Header)
+        statements: list[Item] = []
+        positions: list[ir.Declaration] = []
+        for section in block.sections:
+            if section.head is None:
+                statements.extend(section.items)
+                continue
+            for item in section.items:
+                match item:
+                    case ir.Variable():
+                        positions.append(item)
+                    case ir.Nothing() | ir.Opaque():
+                        statements.append(item)
+                    case _:
+                        self.diagnostics.report(MISPLACED, item.origin, what="a statement among the positions")
+        body = self.body(statements)
+        declared = (*self.used_positions(positions, body), *_local_flags(body))
+        routine = ir.Routine(
+            self.program, declarations=declared, body=body, scope="global", origin=replace(block.open.origin)
+        )
+        routines = (routine, *self.routines)
+        return ModulePart(self.program, (), routines, Listing(header), block.open.origin)
+
+    def used_positions(self, positions: list[ir.Declaration], body: ir.Body) -> tuple[ir.Declaration, ...]:
+        """The program's positions: constant where no statement writes them. A missing one is declared without value."""
+        written = {_base(node.target) for node in walk(body) if isinstance(node, ir.Assign)}
+        found: dict[str, ir.Variable] = {}
+        for position in positions:
+            assert isinstance(position, ir.Variable)
+            constant = position.initial is not None and position.name not in written
+            storage = "constant" if constant else "persistent"
+            found.setdefault(position.name, replace(position, storage=storage))
+        missing: dict[str, ir.Variable] = {}
+        reported: set[str] = set()
+        for move in (node for node in walk(body, *(r.body for r in self.routines)) if isinstance(node, ir.Move)):
+            for name in (_base(move.target), _base(move.via)):
+                if not name.startswith("P") or not name[1:].isdigit() or name in reported:
+                    continue
+                known = found.get(name)
+                if known is None:
+                    reported.add(name)
+                    self.diagnostics.report(MISSING_POSITION, move.origin, number=name[1:])
+                    missing[name] = ir.Variable(name, ir.TargetType("tp"), None, "persistent", "routine")
+                elif known.initial is None and name not in written:
+                    reported.add(name)
+                    self.diagnostics.report(NOT_TAUGHT, move.origin, number=name[1:])
+        return (*found.values(), *missing.values())
+
+
+def _base(expression: ir.Expression | None) -> str:
+    match expression:
+        case ir.Name(id=name):
+            return name
+        case ir.Field(base=base) | ir.Index(base=base):
+            return _base(base)
+        case ir.Builtin(arguments=(first, *_)):
+            return _base(first)
+    return ""
+
+
+def _local_flags(body: ir.Body) -> tuple[ir.Variable, ...]:
+    """Variables that the reader needs besides the registers."""
+    names = {node.id for node in walk(body) if isinstance(node, ir.Name)}
+    flags = [ir.Variable(name, ir.BoolType(), scope="routine") for name in _LOCAL_FLAGS if name in names]
+    bounds = sorted(name for name in names if name.startswith("for_bound_"))
+    return (*flags, *(ir.Variable(name, ir.RealType(), scope="routine") for name in bounds))
+
+
+def _grouped(statements: list[ir.Statement], diagnostics: Diagnostics) -> Iterable[ir.Statement]:
+    """Consecutive S moves form one spline; consecutive A moves form arcs, two points each behind the first."""
+    place = 0
+    while place < len(statements):
+        run = _run(statements, place)
+        if run <= 1 and not _is_spline(statements[place]):
+            yield statements[place]
+        elif _is_spline(statements[place]):
+            moves = [statement for statement in statements[place : place + run] if isinstance(statement, ir.Move)]
+            last = moves[-1]
+            yield ir.Spline("path", tuple(moves), last.blend, origin=moves[0].origin)
+        else:
+            yield from _arcs([s for s in statements[place : place + run] if isinstance(s, ir.Move)], diagnostics)
+        place += max(run, 1)
+
+
+def _is_spline(statement: ir.Statement) -> bool:
+    return isinstance(statement, ir.Move) and statement.kind == "spline"
+
+
+def _is_arc(statement: ir.Statement) -> bool:
+    if not isinstance(statement, ir.Move) or statement.kind != "linear":
+        return False
+    return letter_of(statement) == "A"
+
+
+def letter_of(move: ir.Move) -> str:
+    """The motion letter in the listing."""
+    head = move.origin.text.partition(":")
+    return (head[2] if head[1] and head[0].strip().isdigit() or not head[0].strip() else head[0]).strip()[:1].upper()
+
+
+def _run(statements: list[ir.Statement], place: int) -> int:
+    """How many moves of the same grouped kind begin here."""
+    test = _is_spline if _is_spline(statements[place]) else _is_arc
+    count = 0
+    while place + count < len(statements) and test(statements[place + count]):
+        count += 1
+    return count
+
+
+def _arcs(moves: list[ir.Move], diagnostics: Diagnostics) -> Iterable[ir.Statement]:
+    """M: the first A point is reached on a line, the next ones in pairs: over one to the other."""
+    yield moves[0]
+    rest = moves[1:]
+    while len(rest) >= 2:
+        via, goal, *rest = rest
+        yield replace(goal, kind="circular", via=via.target)
+    if rest:
+        diagnostics.report(LOOSE_ARC, rest[0].origin)
+        yield ir.Vendor("tp", " ".join(rest[0].origin.text.split()), "unknown", origin=rest[0].origin)

@@ -1,0 +1,41 @@
+"""What FANUC's controller does silently, as data. `M` marks what rests on memory and has its own test."""
+
+from __future__ import annotations
+
+from rpl.ir.rules import AdvanceRules, Rules
+
+_XYZ = {name: name for name in ("x", "y", "z", "a", "b", "c")}
+_WPR = {"w": "c", "p": "b", "r": "a"}
+_EXTERNAL = {f"e{n}": f"e{n}" for n in range(1, 7)}
+_FLAGS = {name: name for name in ("flip", "down", "back", "t1", "t4", "t6")}
+
+COMPONENTS = {
+    "PoseType": {**_XYZ, **_WPR},
+    "TargetType": {**_XYZ, **_WPR, **_EXTERNAL, **_FLAGS},
+    "JointsType": {**{f"j{n}": f"j{n}" for n in range(1, 7)}, **_EXTERNAL},
+}
+
+RULES = Rules(
+    name="tp",
+    # Behind FINE the program goes on when the robot is in position, behind CNT as soon as the move slows down (M: at the
+    # beginning of the corner).
+    advance=AdvanceRules(moves=4, runs_ahead_of="fly_by", lead_s=0.0),
+    real_to_int="trunc",  # M: a register written to a group output or used as a number is cut
+    text_plus=True,
+    components=COMPONENTS,
+    undefined=True,  # a position without values is a fault when it is used
+    call_depth=100,
+    system_defaults={
+        "override": 100.0,
+        "path_speed": 250.0,
+        "joint_speed": 100.0,
+        "joint_acceleration": 100.0,
+        "swivel_speed": 190.0,  # $ROTSPEEDLIM of R-2000iB controller files, deg/s
+        "twist_speed": 190.0,
+        "orientation_mode": "variable",
+        "circle_orientation": "path",
+        "path_limit_rule": "reduce",
+        "joint_configuration_check": True,
+        "path_configuration_check": False,  # M: linear moves keep the posture they start with
+    },
+)

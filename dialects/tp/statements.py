@@ -1,0 +1,414 @@
+"""TP statements to IR: registers and signals, jumps, branches, waits, calls, messages, timers, frames.
+
+Motion stands in its own file. A statement whose place is only known at run time (`J P[R[1]] ...`) becomes a branch for
+each place it can mean.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from lark import Token, Tree
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.reading.pieces import Close, Element, Middle, Open
+from rpl.reading.shapes import StatementError, SyntaxTree
+from rpl.source import Origin
+
+from . import tables
+from .expressions import Choice, Expressions, Pieces, Typed
+from .header import read_header
+from .positions import parse_position, variable
+from .split import without_notes
+
+Lowered = Element | tuple[Element, ...]
+Many = tuple[ir.Statement, ...]
+
+INSTRUCTION = code(
+    "tp-instruction",
+    Severity.INFO,
+    "{text} is an instruction of an application or a macro; only the controller knows what it does",
+    "give the macro's program, or say in the cell file what it stands for ([[vendor]])",
+)
+SKIP_BY_TEXT = code(
+    "tp-condition-by-text",
+    Severity.WARNING,
+    "this program sets {what} in several places; here the one of line {line} is taken",
+)
+_DEEPEST_CHOICE = 4
+TIMED_OUT, HIT = "wait_timed_out", "skip_hit"
+
+
+class Statements(Expressions):
+    """Lowers statement trees."""
+
+    condition: tuple[ir.Expression, int] | None = None
+    conditions = 0
+    offsets: dict[str, Typed]
+    interrupts = 0
+
+    def lower(self, tree: SyntaxTree, pieces: Pieces, origin: Origin) -> Lowered:
+        """The element(s) of one statement."""
+        self.pieces, self.origin, self.chosen = pieces, origin, {}
+        return self.with_choices(lambda: self.statement(tree))
+
+    def with_choices(self, make: Callable[[], Lowered]) -> Lowered:
+        """The statement; a branch for each option where a place is chosen by a computed number."""
+        try:
+            return make()
+        except Choice as choice:
+            if len(self.chosen) >= _DEEPEST_CHOICE:
+                raise StatementError("too many computed numbers choose places here", 0) from None
+            cases = []
+            for option in choice.options:
+                self.chosen[choice.key] = option
+                body = self.as_statements(self.with_choices(make))
+                cases.append(ir.Case((ir.IntLiteral(option),), body, origin=self.origin))
+            del self.chosen[choice.key]
+            default = (self.vendor(self.origin_line(), "unknown"),)
+            return ir.Switch(choice.selector, tuple(cases), default, origin=self.origin)
+
+    def as_statements(self, lowered: Lowered) -> Many:
+        items = lowered if isinstance(lowered, tuple) else (lowered,)
+        for item in items:
+            if isinstance(item, Open | Middle | Close | ir.Variable):
+                raise StatementError("a computed number cannot stand here", 0)
+        return items  # type: ignore[return-value]  # what is left are statements
+
+    def origin_line(self) -> str:
+        """The statement's own text without its number and its end."""
+        text = " ".join(self.origin.text.split())
+        head, colon, rest = text.partition(":")
+        if colon and (not head.strip() or head.strip().isdigit()):
+            text = rest
+        return text.strip().removesuffix(";").strip()
+
+    def vendor(self, text: str, effect: str) -> ir.Vendor:
+        return ir.Vendor("tp", text, effect, origin=self.origin)
+
+    def statement(self, tree: SyntaxTree) -> Lowered:
+        kind = str(tree.data)
+        if kind == "statement":
+            return self.statement(_tree(tree.children[0]))
+        method: Callable[[SyntaxTree], Lowered] | None = getattr(self, f"on_{kind}", None)
+        if method is None:
+            raise StatementError(f"{kind} cannot stand here", 0)
+        return method(tree)
+
+    def action(self, tree: SyntaxTree) -> Many:
+        """What stands behind a condition."""
+        return self.as_statements(self.statement(tree))
+
+    # ---- the file
+
+    def on_header(self, tree: SyntaxTree) -> Lowered:
+        header = read_header(self.origin.text)
+        return Open("program", header, self.origin)
+
+    def on_positions(self, tree: SyntaxTree) -> Lowered:
+        return Middle("program", "positions", self.origin)
+
+    def on_point_data(self, tree: SyntaxTree) -> Lowered:
+        return variable(parse_position(self.origin.text), self.origin)
+
+    def on_end_of_file(self, tree: SyntaxTree) -> Lowered:
+        return Close("program", None, self.origin)
+
+    def on_nested_end(self, tree: SyntaxTree) -> Lowered:
+        return Close("point logic", None, self.origin)
+
+    def on_macro(self, tree: SyntaxTree) -> Lowered:
+        """An instruction whose name is no key word: a macro of the project, or the controller's own business."""
+        written = str(tree.children[0])[1:].strip()
+        plain, _ = without_notes(written)
+        name, _, given = plain.partition("(")
+        key = " ".join(name.lower().split())
+        program = self.facts.macros.get(key) or tables.STANDARD_MACROS.get(key)
+        if program is not None and program.upper() in self.facts.programs and not given:
+            return ir.CallRoutine(program, origin=self.origin)
+        effect = tables.instruction_effect(plain)
+        if effect == "unknown":
+            self.diagnostics.report(INSTRUCTION, self.origin, text=written)
+        return self.vendor(written, effect)
+
+    # ---- assignments
+
+    def on_assign(self, tree: SyntaxTree) -> Lowered:
+        target = self.typed(_tree(tree.children[0]))
+        value = self.typed(_tree(tree.children[1]))
+        match target.node:
+            case ir.VendorValue():
+                return self.vendor(self.origin_line(), "unknown")
+            case ir.System(name="timer"):
+                return ir.Assign(target.node, self.as_number(value), origin=self.origin)
+            case ir.Index(base=ir.Name(id="UFRAME" | "UTOOL")):
+                return self.frame(target.node, value)
+            case ir.Name() | ir.Index() | ir.Field() | ir.Signal() | ir.System():
+                return ir.Assign(target.node, self.converted(value, target.kind), origin=self.origin)
+        raise StatementError("nothing can be assigned to this", 0)
+
+    def converted(self, value: Typed, kind: str) -> ir.Expression:
+        match kind:
+            case "b":
+                return self.as_truth(value)
+            case "t":
+                return self.text(value)
+            case "p" | "j":
+                return self.position(value, kind)
+        return self.as_number(value)
+
+    def frame(self, place: ir.Index, value: Typed) -> Lowered:
+        """UFRAME[n]=PR[m]; where n is the active one the change takes effect at once."""
+        assert isinstance(place.base, ir.Name)
+        name = place.base.id
+        pose = ir.Builtin("pose_of", (self.position(value, "p"),), origin=self.origin)
+        given = value.node if isinstance(value.node, ir.Index) and value.node.base == ir.Name("UFRAME") else pose
+        number = ir.Name(f"{name}_NUM", origin=self.origin)
+        active = ir.Binary("=", number, place.indices[0], origin=self.origin)
+        system = ir.System("base" if name == "UFRAME" else "tool", origin=self.origin)
+        again = ir.If(((active, (ir.Assign(system, place, origin=self.origin),)),), origin=self.origin)
+        return ir.Assign(place, given, origin=self.origin), again
+
+    def on_frame_number(self, tree: SyntaxTree) -> Lowered:
+        name = str(tree.children[0]).upper()
+        bank = name.removesuffix("_NUM")
+        parts = [child for child in tree.children[1:] if isinstance(child, Tree)]
+        if parts[0].data == "group_suffix" and str(parts[0].children[0]).upper() != "GP1":
+            return self.vendor(self.origin_line(), "none")
+        value = self.number(parts[-1])
+        number = ir.Name(name, origin=self.origin)
+        index: ir.Expression = value if isinstance(value, ir.IntLiteral) else number
+        frame = ir.Index(ir.Name(bank, origin=self.origin), (index,), origin=self.origin)
+        system = ir.System("base" if bank == "UFRAME" else "tool", origin=self.origin)
+        whole = value if isinstance(value, ir.IntLiteral) else ir.Convert("trunc", value, origin=self.origin)
+        return ir.Assign(number, whole, origin=self.origin), ir.Assign(system, frame, origin=self.origin)
+
+    def on_watch(self, tree: SyntaxTree) -> Lowered:
+        """TIMER[n]=START | STOP | RESET."""
+        place, word = self.typed(_tree(tree.children[0])).node, str(tree.children[1]).upper()
+        if not isinstance(place, ir.System):
+            raise StatementError(f"only a timer can be set to {word}", 0)
+        if word == "RESET":
+            return ir.Assign(place, ir.IntLiteral(0, origin=self.origin), origin=self.origin)
+        stopped = ir.System("timer_stopped", place.indices, origin=self.origin)
+        return ir.Assign(stopped, ir.BoolLiteral(word == "STOP", origin=self.origin), origin=self.origin)
+
+    def on_pulse(self, tree: SyntaxTree) -> Lowered:
+        signal = self.typed(_tree(tree.children[0])).node
+        if not isinstance(signal, ir.Signal):
+            raise StatementError("only an output can be pulsed", 0)
+        parts = [child for child in tree.children[1:] if isinstance(child, Tree)]
+        time: ir.Expression = self.number(parts[0]) if parts else ir.RealLiteral(tables.PULSE_DEFAULT_S)
+        return ir.Pulse(signal, ir.BoolLiteral(True), time, origin=self.origin)
+
+    def on_override(self, tree: SyntaxTree) -> Lowered:
+        override = ir.System("override", origin=self.origin)
+        return ir.Assign(override, self.number(_tree(tree.children[0])), origin=self.origin)
+
+    # ---- jumps, branches, loops
+
+    def on_label(self, tree: SyntaxTree) -> Lowered:
+        return ir.Label(f"LBL{self.whole(tree.children[0])}", origin=self.origin)
+
+    def on_dead_label(self, tree: SyntaxTree) -> Lowered:
+        """`LBL[*15]`: a label that the editor has switched off."""
+        return self.vendor(self.origin_line(), "none")
+
+    def on_jump(self, tree: SyntaxTree) -> Lowered:
+        return self.jump(_tree(tree.children[0]))
+
+    def jump(self, target: SyntaxTree) -> ir.Statement:
+        if target.data == "dead_target":
+            return self.vendor(self.origin_line(), "unknown")
+        number = self.index(_tree(target.children[0]))
+        if not isinstance(number, ir.IntLiteral):
+            number = ir.IntLiteral(self.choice(number, self.place.labels))
+        return ir.Goto(f"LBL{number.value}", origin=self.origin)
+
+    def on_if_action(self, tree: SyntaxTree) -> Lowered:
+        condition = self.truth(_tree(tree.children[0]))
+        return ir.If(((condition, self.action(_tree(tree.children[1]))),), origin=self.origin)
+
+    def on_if_then(self, tree: SyntaxTree) -> Lowered:
+        return Open("if", self.truth(_tree(tree.children[0])), self.origin)
+
+    def on_else_part(self, tree: SyntaxTree) -> Lowered:
+        return Middle("if", None, self.origin)
+
+    def on_end_if(self, tree: SyntaxTree) -> Lowered:
+        return Close("if", None, self.origin)
+
+    def on_select(self, tree: SyntaxTree) -> Lowered:
+        selector, *parts = [_tree(child) for child in tree.children if isinstance(child, Tree)]
+        chosen = self.typed(selector)
+        cases, default = [], None
+        while parts:
+            if len(parts) == 1:
+                default = self.action(parts.pop(0))
+                break
+            value, branch = parts.pop(0), parts.pop(0)
+            given = self.converted(self.typed(value), "t" if chosen.kind == "t" else "n")
+            cases.append(ir.Case((given,), self.action(branch), origin=self.origin))
+        node = chosen.node if chosen.kind == "t" else self.as_number(chosen)
+        return ir.Switch(node, tuple(cases), default, origin=self.origin)
+
+    def on_for_open(self, tree: SyntaxTree) -> Lowered:
+        counter = self.typed(_tree(tree.children[0]))
+        start, stop = self.number(_tree(tree.children[1])), self.number(_tree(tree.children[3]))
+        down = str(tree.children[2]).upper() == "DOWNTO"
+        if counter.kind != "n":
+            raise StatementError("FOR counts in a numeric register", 0)
+        return Open("for", (counter.node, start, stop, down), self.origin)
+
+    def on_end_for(self, tree: SyntaxTree) -> Lowered:
+        return Close("for", None, self.origin)
+
+    def on_end(self, tree: SyntaxTree) -> Lowered:
+        return ir.Return(origin=self.origin)
+
+    def on_pause(self, tree: SyntaxTree) -> Lowered:
+        return ir.Halt("stop", origin=self.origin)
+
+    def on_abort(self, tree: SyntaxTree) -> Lowered:
+        return ir.Halt("exit", origin=self.origin)
+
+    # ---- calls, tasks, monitors
+
+    def on_call_named(self, tree: SyntaxTree) -> Lowered:
+        name = str(tree.children[0]).split(None, 1)[1]
+        arguments = self.arguments(tree.children[1:], name)
+        return ir.CallRoutine(self.facts.routine_name(name), arguments, origin=self.origin)
+
+    def on_call_dynamic(self, tree: SyntaxTree) -> Lowered:
+        name = self.text(self.typed(_tree(tree.children[0])))
+        return ir.CallRoutine("", self.arguments(tree.children[1:], ""), name, origin=self.origin)
+
+    def arguments(self, children: list[object], name: str) -> tuple[ir.Argument, ...]:
+        trees = [_tree(child) for child in _tree(children[0]).children] if children else []
+        done = []
+        for number, argument in enumerate(trees, 1):
+            if not argument.children:
+                done.append(ir.Argument(None))
+                continue
+            value = self.typed(_tree(argument.children[0]))
+            kind = self.facts.parameter_kind(name, number) if name else value.kind
+            wanted = kind if value.kind in ("n", "b", "t") and kind in ("n", "t") else value.kind
+            done.append(ir.Argument(value.node if wanted == "u" else self.converted(value, wanted)))
+        return tuple(done)
+
+    def on_run(self, tree: SyntaxTree) -> Lowered:
+        name = str(tree.children[0]).split(None, 1)[1]
+        return ir.TaskControl("start", self.facts.routine_name(name), origin=self.origin)
+
+    def on_monitor(self, tree: SyntaxTree) -> Lowered:
+        name = str(tree.children[0]).split(None, 1)[1]
+        return ir.CallRoutine(self.facts.routine_name(name), origin=self.origin)
+
+    def on_monitor_end(self, tree: SyntaxTree) -> Lowered:
+        name = str(tree.children[0]).split()[-1]
+        known = self.facts.monitors.get(name.upper())
+        if known is None:
+            return self.vendor(self.origin_line(), "unknown")
+        first, count = known
+        return tuple(
+            ir.ControlInterrupt("off", ir.IntLiteral(first + place), origin=self.origin) for place in range(count)
+        )
+
+    def on_when(self, tree: SyntaxTree) -> Lowered:
+        """WHEN of a condition program. M: it watches from MONITOR on and comes once."""
+        first, _ = self.facts.monitors.get(self.place.program.upper(), (1, 0))
+        number = ir.IntLiteral(first + self.interrupts)
+        self.interrupts += 1
+        condition = self.truth(_tree(tree.children[0]))
+        (action,) = self.action(_tree(tree.children[1]))
+        if not isinstance(action, ir.CallRoutine | ir.Assign):
+            raise StatementError("a monitored condition can only call a program or set something", 0)
+        declared = ir.DeclareInterrupt(number, condition, action, True, once=True, origin=self.origin)
+        return declared, ir.ControlInterrupt("on", number, origin=self.origin)
+
+    # ---- waiting, conditions
+
+    def on_wait(self, tree: SyntaxTree) -> Lowered:
+        expression = _tree(tree.children[0])
+        target = next((_tree(c) for c in tree.children[1:] if isinstance(c, Tree)), None)
+        edge = self.edge_of(expression)
+        if edge is not None:
+            before, after = edge
+            return self.wait_until(before, None), *self.waited(after, target)
+        value = self.typed(expression)
+        if value.kind == "n" and target is None:
+            return ir.Wait(value.node, origin=self.origin)
+        return self.waited(self.as_truth(value), target)
+
+    def edge_of(self, tree: SyntaxTree) -> tuple[ir.Expression, ir.Expression] | None:
+        """`DI[1]=ON+` waits for the signal to become ON: first it has to be OFF."""
+        if tree.data != "equality" or _tree(tree.children[-1]).data != "edge":
+            return None
+        signal = self.truth(_tree(tree.children[0]))
+        rises = str(_tree(tree.children[-1]).children[0]).upper().startswith("ON")
+        absent = ir.Unary("not", signal, origin=self.origin)
+        return (absent, signal) if rises else (signal, absent)
+
+    def waited(self, condition: ir.Expression, target: SyntaxTree | None) -> Many:
+        if target is None:
+            return (self.wait_until(condition, None),)
+        late = ir.Name(TIMED_OUT, origin=self.origin)
+        jump = ir.If(((late, (self.jump(target),)),), origin=self.origin)
+        return self.wait_until(condition, late), jump
+
+    def wait_until(self, condition: ir.Expression, late: ir.Expression | None) -> ir.WaitUntil:
+        if late is None:
+            return ir.WaitUntil(condition, origin=self.origin)
+        limit = ir.Binary("/", ir.Name(tables.WAIT_TIMEOUT), ir.RealLiteral(100.0), origin=self.origin)
+        return ir.WaitUntil(condition, limit, late, origin=self.origin)
+
+    def on_skip_condition(self, tree: SyntaxTree) -> Lowered:
+        """What later moves with Skip watch. It is part of those moves, so nothing is left here."""
+        expression = _tree(tree.children[0])
+        edge = self.edge_of(expression)
+        self.condition = (edge[1] if edge else self.truth(expression), self.origin.line)
+        self.conditions += 1
+        return ir.Nothing(origin=self.origin)
+
+    def on_offset_condition(self, tree: SyntaxTree) -> Lowered:
+        self.offsets["offset"] = self.typed(_tree(tree.children[0]))
+        return ir.Nothing(origin=self.origin)
+
+    def on_tool_offset_condition(self, tree: SyntaxTree) -> Lowered:
+        self.offsets["tool_offset"] = self.typed(_tree(tree.children[0]))
+        return ir.Nothing(origin=self.origin)
+
+    # ---- the operator, settings
+
+    def on_message(self, tree: SyntaxTree) -> Lowered:
+        text = str(tree.children[0])
+        inner = text[text.index("[") + 1 :].rstrip().removesuffix("]")
+        return ir.Message("notify", ir.TextLiteral(inner, origin=self.origin), origin=self.origin)
+
+    def on_user_alarm(self, tree: SyntaxTree) -> Lowered:
+        """UALM[n]: the alarm's text is controller data; M: by its severity the program pauses."""
+        number = self.index(_tree(tree.children[0]))
+        shown: ir.Expression = ir.TextLiteral("UALM")
+        if isinstance(number, ir.IntLiteral):
+            shown = ir.TextLiteral(f"UALM[{number.value}]", origin=self.origin)
+        return ir.Message("error", shown, origin=self.origin), ir.Halt("stop", origin=self.origin)
+
+    def on_payload(self, tree: SyntaxTree) -> Lowered:
+        self.index(_tree(tree.children[0]))
+        return self.vendor(self.origin_line(), "none")
+
+    def on_preread(self, tree: SyntaxTree) -> Lowered:
+        """LOCK PREG lets position registers be read ahead: no difference to a program that is right."""
+        return self.vendor(self.origin_line(), "none")
+
+    def on_program_setting(self, tree: SyntaxTree) -> Lowered:
+        return self.vendor(self.origin_line(), "none")
+
+
+def _tree(child: object) -> SyntaxTree:
+    assert isinstance(child, Tree)  # the grammar says so
+    return child
+
+
+__all__ = ["HIT", "SKIP_BY_TEXT", "TIMED_OUT", "Lowered", "Many", "Statements", "Token"]

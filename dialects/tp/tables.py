@@ -1,0 +1,142 @@
+"""What TP's own words mean in neutral terms. Data only. `M` marks what rests on memory and has a test of its own."""
+
+from __future__ import annotations
+
+from rpl import ir
+
+# Signals: TP's letter -> neutral kind. The groups without a number space of their own are named signals.
+NUMBERED_SIGNALS: dict[str, str] = {
+    "DI": "digital_in",
+    "DO": "digital_out",
+    "AI": "analog_in",
+    "AO": "analog_out",
+    "GI": "group_in",
+    "GO": "group_out",
+    "F": "flag",
+}
+NAMED_SIGNALS: dict[str, str] = {
+    "RI": "digital_in",
+    "RO": "digital_out",
+    "UI": "digital_in",
+    "UO": "digital_out",
+    "SI": "digital_in",
+    "SO": "digital_out",
+    "WI": "digital_in",
+    "WO": "digital_out",
+    "WSI": "digital_in",
+    "WSO": "digital_out",
+    "M": "flag",
+}
+SIGNAL_LETTERS = {kind: letter for letter, kind in NUMBERED_SIGNALS.items()}
+
+# Register banks: TP's letter -> type of an element, first and last number, value before anything was written.
+# M: counts of a standard controller; a program that uses a higher number makes the bank larger.
+LAST_NUMBER = {"R": 200, "PR": 100, "SR": 25}
+FRAMES = {"UFRAME": 9, "UTOOL": 10}
+
+FUNCTIONS: dict[str, str] = {
+    "SIN": "sin",
+    "COS": "cos",
+    "TAN": "tan",
+    "ASIN": "asin",
+    "ACOS": "acos",
+    "ATAN": "atan",
+    "ATAN2": "atan2",  # M: ATAN2[y,x]
+    "SQRT": "sqrt",
+    "SQR": "sqrt",
+    "EXP": "exp",
+    "LN": "log",
+    "ABS": "abs",
+    "TRUNC": "trunc",
+    "ROUND": "round",
+    "STRLEN": "text_length",
+}
+
+# Elements of a position register by number.
+CARTESIAN_ELEMENTS = ("x", "y", "z", "c", "b", "a", "e1", "e2", "e3")
+JOINT_ELEMENTS = ("j1", "j2", "j3", "j4", "j5", "j6", "e1", "e2", "e3")
+
+# System variables that have a neutral meaning (upper case, without blanks).
+SYSTEM_VARIABLES: dict[str, str] = {
+    "$MCR.$GENOVERRIDE": "override",
+}
+ACTIVE_NUMBERS = {"$MNUFRAMENUM[1]": "UFRAME_NUM", "$MNUTOOLNUM[1]": "UTOOL_NUM"}
+# M: actual position in the world frame, element by element.
+ACTUAL_POSITION = {
+    "$SCR_GRP[1].$MCH_POS_X": "x",
+    "$SCR_GRP[1].$MCH_POS_Y": "y",
+    "$SCR_GRP[1].$MCH_POS_Z": "z",
+    "$SCR_GRP[1].$MCH_POS_W": "c",
+    "$SCR_GRP[1].$MCH_POS_P": "b",
+    "$SCR_GRP[1].$MCH_POS_R": "a",
+}
+WAIT_TIMEOUT = "$WAITTMOUT"
+WAIT_TIMEOUT_DEFAULT = 3000  # M: hundredths of a second
+PULSE_DEFAULT_S = 0.4  # M: $DEFPULSE 4, in tenths of a second
+
+# Path speed that max_speed stands for, mm/s: $SPEEDLIM of R-2000iB controller files; joint moves take 100 percent.
+MAX_SPEED_MM_S = 2000.0
+# WELD_SPEED is data of the weld schedule, which no listing holds: only the controller knows it.
+ONLY_CONTROLLER_SPEEDS = frozenset(("weld_speed",))
+
+UNITS: dict[str, tuple[str, str]] = {
+    # unit -> (field of ir.Speed, unit of the quantity; empty for the base unit)
+    "%": ("joint", ""),
+    "mm/sec": ("path", ""),
+    "mm/s": ("path", ""),
+    "cm/min": ("path", "cm/min"),
+    "inch/min": ("path", "inch/min"),
+    "deg/sec": ("rotation", ""),
+    "deg/s": ("rotation", ""),
+    "sec": ("duration", ""),
+    "msec": ("duration", "ms"),
+}
+
+# CNT: how far before the target a corner begins, as time at the programmed speed for CNT100, and the share of it for
+# CNT 0, 10 .. 100. Made from the corner cuts of an M-20iD/25 at 500 mm/s measured on a virtual controller (CrossArm);
+# the cut of a symmetric corner of 90 degrees is 0.354 of that distance. The distance grows with speed: a time overlap.
+CNT_OVERLAP_S = 0.02377 / 0.354
+CNT_SHARES = (0.0, 0.0384, 0.1053, 0.1911, 0.293, 0.4085, 0.5406, 0.6741, 0.815, 0.9188, 1.0)
+
+# Options of a move without a number that change only speed or smoothness, not where the robot goes.
+HARMLESS_OPTIONS = frozenset(("pth", "break", "mrot", "cjnt"))
+
+# Instructions of applications, by their first words: what a run must know of them. Everything else is unknown.
+INSTRUCTION_EFFECTS: tuple[tuple[str, str], ...] = (
+    ("col detect", "none"),
+    ("col guard", "none"),
+    ("lock preg", "none"),
+    ("unlock preg", "none"),
+    ("lock vreg", "none"),
+    ("unlock vreg", "none"),
+    ("payload", "none"),
+    ("arc start", "unknown"),
+)
+# M: names of the gripper macros as the handling tool comes with them -> their programs.
+STANDARD_MACROS: dict[str, str] = {
+    "open hand 1": "HOPN1",
+    "close hand 1": "HCLS1",
+    "relax hand 1": "HRELX1",
+    "open hand 2": "HOPN2",
+    "close hand 2": "HCLS2",
+    "relax hand 2": "HRELX2",
+}
+
+
+def instruction_effect(text: str) -> str:
+    """The declared effect of an application instruction."""
+    lower = " ".join(text.lower().split())
+    return next((effect for start, effect in INSTRUCTION_EFFECTS if lower.startswith(start)), "unknown")
+
+
+def cnt_distance_s(percent: float) -> float:
+    """Seconds at the programmed speed before the target at which the corner of CNT `percent` begins."""
+    place = min(max(percent, 0.0), 100.0) / 10.0
+    low = min(int(place), len(CNT_SHARES) - 2)
+    share = CNT_SHARES[low] + (CNT_SHARES[low + 1] - CNT_SHARES[low]) * (place - low)
+    return CNT_OVERLAP_S * share
+
+
+NUMBER = ir.RealType()
+TARGET = ir.TargetType("tp")
+JOINTS = ir.JointsType()
