@@ -1,0 +1,70 @@
+"""Yaskawa INFORM: how its jobs are recognised; the heavy parts are imported when called."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from rpl.diagnostics import Diagnostics
+from rpl.registry import Dialect, ReadResult
+from rpl.source import Source
+
+from .signals import signal_name
+
+if TYPE_CHECKING:
+    from rpl.emulator.configuration import Notation
+    from rpl.ir.rules import Rules
+
+_JOB = re.compile(r"^\ufeff?\s*/JOB[ \t]*$", re.MULTILINE)
+_SECTIONS = re.compile(r"^(?://NAME\b|//POS\b|//INST\b|///NPOS\b|///POSTYPE\b|///ATTR\b)", re.MULTILINE)
+_LINES = re.compile(
+    r"^[ \t]*(?:S?MOV[JLCS][ \t]+L?[A-Z]+\d+|DOUT[ \t]+OT#\(|JUMP[ \t]+\*|CALL[ \t]+JOB:|TIMER[ \t]+T=)", re.MULTILINE
+)
+
+
+def _recognise(path: str, text: str) -> int:
+    """How sure the content is a job: its header, then the share of typical lines."""
+    head = text[:100_000]
+    if _JOB.search(head[:2_000]):
+        return 97 if _SECTIONS.search(head) else 85
+    if len(_SECTIONS.findall(head)) >= 2:
+        return 80
+    typical = len(_LINES.findall(head))
+    return 45 if typical >= 2 and typical * 5 >= head.count("\n") else 0
+
+
+def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
+    from .project import read
+
+    return read(sources, diagnostics)
+
+
+def _rules() -> Rules:
+    from .rules import RULES
+
+    return RULES
+
+
+def _prelude() -> None:
+    return None
+
+
+def _notation() -> Notation:
+    from .configuration import NOTATION
+
+    return NOTATION
+
+
+DIALECT = Dialect(
+    name="inform",
+    title="Yaskawa INFORM",
+    extensions=(".jbi",),
+    recognise=_recognise,
+    read=_read,
+    rules=_rules,
+    prelude=_prelude,
+    notation=_notation,
+    notation_fields=("noflip", "lower", "rear", "r180", "t180", "s180"),
+    signal_name=signal_name,
+)

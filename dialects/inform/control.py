@@ -1,0 +1,438 @@
+"""Instructions of control flow, signals, waiting, messages, other jobs and tasks; and the bodies of blocks."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from typing import get_args
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.reading.assemble import UNREADABLE
+from rpl.reading.pieces import Item, ModulePart
+from rpl.reading.shapes import StatementError
+from rpl.source import Origin
+
+from . import tables
+from .arcs import grouped
+from .data import ARITHMETIC, BITS, FUNCTIONS, Statements
+from .kinds import labels_of
+from .motion import MOVES, Motion
+from .operands import tags_of
+from .signals import is_digital
+from .split import code_of
+from .syntax import Command, Formula, Given, Group, JobName, LabelBy, LabelName, Nest, Operand, Relation, Word, value_of
+
+UNKNOWN = code(
+    "inform-unknown-instruction",
+    Severity.WARNING,
+    "{word} is no instruction known here; a run stops at it",
+    "say in the cell file under [[vendor]] what it stands for",
+)
+COUNTER = code("inform-for-counter", Severity.ERROR, "the counter of FOR must be a variable")
+
+_STATEMENTS = get_args(ir.Statement)
+_NUMBERED_JOB = re.compile(r"L?S\d+", re.IGNORECASE)
+START = "*START"  # no label of a job can be called so
+
+
+class Control(Motion):
+    """One job's lines to statements."""
+
+    unread: int = 0
+
+    # ---- bodies
+
+    def body(self, items: Iterable[Item]) -> ir.Body:
+        done: list[ir.Statement] = []
+        for item in items:
+            done.extend(self.item(item))
+        return grouped(tuple(done), self.diagnostics)
+
+    def item(self, item: Item) -> Statements:
+        if isinstance(item, ModulePart):
+            self.origin = replace(item.origin, comments=())
+            made = self.guarded(item)
+            if item.origin.comments:
+                if not made:
+                    return (ir.Nothing(origin=item.origin),)
+                return replace(made[0], origin=item.origin), *made[1:]
+            return made
+        assert isinstance(item, _STATEMENTS)  # labels, comments, what was not read
+        return (item,)
+
+    def guarded(self, item: ModulePart) -> Statements:
+        """A line that cannot be given a meaning costs itself alone."""
+        try:
+            if isinstance(item.data, Nest):
+                return (self.nest(item.data),)
+            assert isinstance(item.data, Command)
+            return self.command(item.data)
+        except StatementError as error:
+            self.unread += 1
+            at = replace(self.origin, start=min(self.origin.start + error.offset, self.origin.end))
+            self.diagnostics.report(UNREADABLE, at, reason=str(error))
+            return (ir.Opaque(code_of(self.origin.text), origin=self.origin),)
+
+    def command(self, command: Command) -> Statements:
+        self.state = self.flow.before.get(id(command), {})
+        head, condition = self.split_condition(command)
+        word = command.word
+        if word in MOVES:
+            done = self.on_move(command)
+        elif word in _METHODS:
+            done = _METHODS[word](self, head)
+        else:
+            done = self.vendor(head)
+        if condition is None:
+            return done
+        return (ir.If(((condition, done),), origin=self.origin),)
+
+    def split_condition(self, command: Command) -> tuple[Command, ir.Expression | None]:
+        """`... IF a=b` behind an instruction."""
+        for at, item in enumerate(command.items):
+            if isinstance(item, Word) and item.text in tables.CONDITION_WORDS:
+                condition = self.condition(command.items[at + 1 :])
+                return Command(command.word, command.items[:at], command.origin), condition
+        return command, None
+
+    def vendor(self, command: Command) -> Statements:
+        effect = tables.vendor_effect(command.word)
+        if effect is None:
+            effect = "unknown"
+            self.report_once(UNKNOWN, command.word, word=command.word)
+        return (ir.Vendor("inform", code_of(self.origin.text), effect, origin=self.origin),)
+
+    # ---- blocks
+
+    def nest(self, nest: Nest) -> ir.Statement:
+        origin, head = self.origin, nest.head
+        self.state = self.flow.before.get(id(head), {})
+        match nest.kind:
+            case "if":
+                return self.if_block(nest, origin)
+            case "while":
+                condition = self.condition(head.items)
+                return ir.While(condition, self.body(nest.sections[0][1]), origin=origin)
+            case "for":
+                return self.for_block(nest, origin)
+        return self.switch_block(nest, origin)
+
+    def if_block(self, nest: Nest, origin: Origin) -> ir.Statement:
+        branches: list[tuple[ir.Expression, ir.Body]] = []
+        otherwise: ir.Body = ()
+        for head, items in nest.sections:
+            command = head or nest.head
+            if command.word == "ELSE":
+                otherwise = self.body(items)
+                continue
+            self.origin = command.origin
+            self.state = self.flow.before.get(id(command), {})
+            condition = self.condition(command.items)
+            branches.append((condition, self.body(items)))
+        return ir.If(tuple(branches), otherwise, origin=origin)
+
+    def for_block(self, nest: Nest, origin: Origin) -> ir.Statement:
+        """FOR I000=0 TO 9 [STEP n]. M: behind the loop the counter holds the first value past the end."""
+        relation, *rest = nest.head.items or (None,)
+        numbers = [item for item in rest if not isinstance(item, Word)]
+        if not isinstance(relation, Relation) or not numbers:
+            raise StatementError("FOR needs a variable, its first and its last value", 0)
+        start, stop = self.value(relation.right), self.value(numbers[0])
+        step = self.value(numbers[1]) if len(numbers) > 1 else None
+        counter = self.value(relation.left)
+        if isinstance(counter, ir.Name):
+            return ir.For(counter.id, start, stop, step, self.body(nest.sections[0][1]), origin=origin)
+        return self.counted(counter, start, stop, step, nest, origin)
+
+    def counted(
+        self,
+        counter: ir.Expression,
+        start: ir.Expression,
+        stop: ir.Expression,
+        step: ir.Expression | None,
+        nest: Nest,
+        origin: Origin,
+    ) -> ir.Statement:
+        """A loop whose counter is an element of an array: counted by its own statements."""
+        if not isinstance(counter, ir.Index):
+            raise StatementError("the counter of FOR must be a variable", 0)
+        down = isinstance(step, ir.IntLiteral) and step.value < 0
+        raised = ir.Assign(counter, ir.Binary("+", counter, step or ir.IntLiteral(1), origin=origin), origin=origin)
+        condition = ir.Binary(">=" if down else "<=", counter, stop, origin=origin)
+        body = (*self.body(nest.sections[0][1]), raised)
+        loop = ir.While(condition, body, origin=origin)
+        first = ir.Assign(counter, start, origin=origin)
+        return ir.If(((ir.BoolLiteral(True), (first, loop)),), origin=origin)
+
+    def switch_block(self, nest: Nest, origin: Origin) -> ir.Statement:
+        selector = self.value(nest.head.items[0]) if nest.head.items else None
+        if selector is None:
+            raise StatementError("SWITCH needs a variable", 0)
+        cases: list[ir.Case] = []
+        default: ir.Body | None = None
+        before = self.body(nest.sections[0][1])
+        for head, items in nest.sections[1:]:
+            assert head is not None  # only the first section has none
+            self.origin = head.origin
+            if head.word == "DEFAULT":
+                default = before + self.body(items)
+            else:
+                values = tuple(self.value(item) for item in head.items)
+                cases.append(ir.Case(values, before + self.body(items), origin=head.origin))
+            before = ()
+        return ir.Switch(selector, tuple(cases), default, origin=origin)
+
+    # ---- jumps and jobs
+
+    def on_nop(self, command: Command) -> Statements:
+        return ()
+
+    def on_jump(self, command: Command) -> Statements:
+        match self.needs(command, 1)[0]:
+            case LabelName(name=name):
+                return (ir.Goto(name, origin=self.origin),)
+            case LabelBy(value=value):
+                return (self.jump_by(value),)
+            case JobName(name=name) as job if not self.is_text_variable(job) and name.upper() == self.job.name.upper():
+                self.restarts = True
+                return (ir.Goto(START, origin=self.origin),)
+            case JobName():
+                return (*self.on_call(command), ir.Return(origin=self.origin))
+        raise StatementError("JUMP needs a label or a job", len(command.word))
+
+    restarts: bool = False
+
+    def jump_by(self, value: ir.Expression) -> ir.Statement:
+        """To the label whose name is the value; without such a label the controller stops with an alarm."""
+        selector = self.final(value)
+        cases: list[ir.Case] = []
+        for label in labels_of(self.job.body):
+            if self.is_text(selector):
+                wanted: ir.Expression = ir.TextLiteral(label, origin=self.origin)
+            elif label.isdigit():
+                wanted = ir.IntLiteral(int(label), origin=self.origin)
+            else:
+                continue
+            cases.append(ir.Case((wanted,), (ir.Goto(label, origin=self.origin),), origin=self.origin))
+        alarm = ir.Message("error", ir.TextLiteral("undefined label"), origin=self.origin)
+        return ir.Switch(selector, tuple(cases), (alarm, ir.Halt(origin=self.origin)), origin=self.origin)
+
+    def is_text(self, value: ir.Expression) -> bool:
+        name = value.id if isinstance(value, ir.Name) else ""
+        if isinstance(value, ir.Index) and isinstance(value.base, ir.Name):
+            name = value.base.id
+        return name.lstrip("L").startswith("S")
+
+    def is_text_variable(self, job: JobName) -> bool:
+        """`JOB:S000`: a job named by a text, unless there is a job of that name."""
+        return job.by is not None or (
+            _NUMBERED_JOB.fullmatch(job.name) is not None and job.name.upper() not in self.shared.project.jobs
+        )
+
+    def on_call(self, command: Command) -> Statements:
+        job = self.needs(command, 1)[0]
+        arguments = tuple(ir.Argument(self.argument(item.value)) for item in command.items if isinstance(item, Given))
+        grouped_values = next((item.values for item in command.items if isinstance(item, Group)), ())
+        arguments += tuple(ir.Argument(self.argument(value)) for value in grouped_values)
+        if not isinstance(job, JobName):
+            value = self.value(job)
+            if not self.is_text(value):
+                raise StatementError("CALL needs JOB:NAME", len(command.word))
+            return (ir.CallRoutine("", arguments, value, origin=self.origin),)
+        if self.is_text_variable(job):
+            if job.by is not None:
+                by = self.final(job.by)
+            else:
+                bank, number = ("LS", job.name[2:]) if job.name[0] in "Ll" else ("S", job.name[1:])
+                by = self.variable(ir.Index(ir.Name(bank), (ir.IntLiteral(int(number)),), origin=self.origin))
+            return (ir.CallRoutine("", arguments, by, origin=self.origin),)
+        return (ir.CallRoutine(self.job_name(job.name), arguments, origin=self.origin),)
+
+    def job_name(self, name: str) -> str:
+        known = self.shared.project.jobs.get(name.upper())
+        return known.name if known is not None else name
+
+    def argument(self, operand: Operand) -> ir.Expression:
+        return self.position(operand)[0] if self.is_position(operand) else self.value(operand)
+
+    def on_ret(self, command: Command) -> Statements:
+        return (ir.Return(origin=self.origin),)
+
+    def on_pause(self, command: Command) -> Statements:
+        return (ir.Halt(origin=self.origin),)
+
+    def on_abort(self, command: Command) -> Statements:
+        return (ir.Halt("exit", origin=self.origin),)
+
+    # ---- signals and waiting
+
+    def on_dout(self, command: Command) -> Statements:
+        signal, value = self.needs(command, 2)[:2]
+        place, given = self.value(signal), self.value(value)
+        if not isinstance(place, ir.Signal):
+            return (ir.Vendor("inform", code_of(self.origin.text), "unknown", origin=self.origin),)
+        if is_digital(place) and not isinstance(given, ir.BoolLiteral):
+            given = self.lowest_bit(given)
+        return (ir.Assign(place, given, origin=self.origin),)
+
+    def on_din(self, command: Command) -> Statements:
+        target, signal = self.needs(command, 2)[:2]
+        place = self.value(signal)
+        value = ir.Convert("bit", place, origin=self.origin) if is_digital(place) else place
+        return self.set(target, value)
+
+    def on_aout(self, command: Command) -> Statements:
+        signal, value = self.needs(command, 2)[:2]
+        return (ir.Assign(self.value(signal), self.value(value), origin=self.origin),)
+
+    def on_pulse(self, command: Command) -> Statements:
+        signal = self.value(self.needs(command, 1)[0])
+        time: ir.Expression = ir.RealLiteral(tables.PULSE_S)
+        for tag, relation in tags_of(command.items):
+            if tag == "T":
+                time = self.seconds(relation.right)
+        return (ir.Pulse(signal, ir.BoolLiteral(True), time, origin=self.origin),)
+
+    def on_timer(self, command: Command) -> Statements:
+        for tag, relation in tags_of(command.items):
+            if tag == "T":
+                return (ir.Wait(self.seconds(relation.right), origin=self.origin),)
+        raise StatementError("TIMER needs T=", len(command.word))
+
+    def on_wait(self, command: Command) -> Statements:
+        """WAIT condition [T=limit] [result]: a limit that passes is no error, the program goes on."""
+        limit: ir.Expression | None = None
+        conditions: list[Operand] = []
+        result: Operand | None = None
+        for item in command.items:
+            if isinstance(item, Relation) and item.left == Word("T"):
+                limit = self.seconds(item.right)
+            elif isinstance(item, Relation | Word):
+                conditions.append(item)
+            else:
+                result = item
+        if not conditions:
+            if limit is None:
+                raise StatementError("WAIT needs a condition or T=", len(command.word))
+            return (ir.Wait(limit, origin=self.origin),)
+        condition = self.condition(tuple(conditions))
+        if limit is None:
+            return (ir.WaitUntil(condition, origin=self.origin),)
+        self.shared.used.scalar(tables.WAIT_LATE, ir.BoolType(), self.origin)
+        late = ir.Name(tables.WAIT_LATE, origin=self.origin)
+        wait = ir.WaitUntil(condition, limit, late, origin=self.origin)
+        if result is None:
+            return (wait,)
+        met = ir.Convert("bit", ir.Unary("not", late, origin=self.origin), origin=self.origin)
+        return wait, *self.set(result, met)
+
+    # ---- operator
+
+    def on_msg(self, command: Command) -> Statements:
+        text = self.value(self.needs(command, 1)[0])
+        return (ir.Message("notify", text, origin=self.origin),)
+
+    def on_cls(self, command: Command) -> Statements:
+        return (ir.Message("clear", ir.TextLiteral(""), origin=self.origin),)
+
+    def on_setualm(self, command: Command) -> Statements:
+        """SETUALM number text axis: an alarm, which stops the job until somebody goes on."""
+        number = self.value(self.needs(command, 1)[0])
+        texts = [item for item in command.items[1:] if isinstance(item, ir.TextLiteral | ir.Index)]
+        text = self.value(texts[0]) if texts else ir.TextLiteral("user alarm", origin=self.origin)
+        return (
+            ir.Message("error", text, number, origin=self.origin),
+            ir.Halt(origin=self.origin),
+        )
+
+    # ---- other tasks
+
+    def task_of(self, command: Command) -> str:
+        word = next((item.text for item in command.items if isinstance(item, Word) and item.text.startswith("SUB")), "")
+        return word or "SUB1"
+
+    def on_pstart(self, command: Command) -> Statements:
+        job = next((item for item in command.items if isinstance(item, JobName)), None)
+        if job is None:
+            raise StatementError("PSTART needs JOB:NAME", len(command.word))
+        task = self.job_name(job.name)
+        self.shared.parallel.setdefault(self.task_of(command), task)
+        return (ir.TaskControl("start", task, origin=self.origin),)
+
+    def on_pwait(self, command: Command) -> Statements:
+        """PWAIT SUBn: until the job that PSTART gave to that task has ended."""
+        task = self.shared.parallel.get(self.task_of(command))
+        if task is None:
+            return (ir.Vendor("inform", code_of(self.origin.text), "unknown", origin=self.origin),)
+        return (ir.TaskControl("join", task, origin=self.origin),)
+
+    def on_tsync(self, command: Command) -> Statements:
+        """TSYNC n [SNUM=m]: m tasks (two) wait here for each other. Each arrival is counted; the count that fills a
+        round lets everybody of it go on."""
+        number = self.needs(command, 1)[0]
+        if not isinstance(number, ir.IntLiteral):
+            raise StatementError("TSYNC needs a number", len(command.word))
+        counts: ir.Expression = ir.IntLiteral(2)
+        for tag, relation in tags_of(command.items):
+            if tag == "SNUM":
+                counts = self.value(relation.right)
+        arrived = ir.Name(f"TSYNC{number.value}", origin=self.origin)
+        mine = ir.Name("TSYNC_ROUND", origin=self.origin)
+        self.shared.used.scalar(arrived.id, ir.IntType(), self.origin)
+        self.used.scalar(mine.id, ir.IntType(), self.origin)
+        more = ir.Binary("+", arrived, ir.IntLiteral(1), origin=self.origin)
+        less = ir.Binary("-", arrived, ir.IntLiteral(1), origin=self.origin)
+        done = ir.Binary("div", less, counts, origin=self.origin)
+        full = ir.Binary("*", ir.Binary("+", done, ir.IntLiteral(1), origin=self.origin), counts, origin=self.origin)
+        return (
+            ir.Assign(arrived, more, origin=self.origin),
+            ir.Assign(mine, full, origin=self.origin),
+            ir.WaitUntil(ir.Binary(">=", arrived, mine, origin=self.origin), origin=self.origin),
+        )
+
+
+_METHODS: dict[str, Callable[[Control, Command], Statements]] = {
+    "NOP": Control.on_nop,
+    "SET": Control.on_set,
+    **dict.fromkeys(ARITHMETIC, Control.arithmetic),
+    **dict.fromkeys(("INC", "DEC"), Control.on_inc),
+    **dict.fromkeys(BITS, Control.bits),
+    "NOT": Control.on_not,
+    **dict.fromkeys(FUNCTIONS, Control.function),
+    "CLEAR": Control.on_clear,
+    **dict.fromkeys(("CAT$", "MID$", "LEN", "ASC", "CHR$", "VAL", "VAL2STR", "STRSTR"), Control.on_text),
+    "GETS": Control.on_gets,
+    **dict.fromkeys(("SETREG", "GETREG"), Control.on_register),
+    "GETPRM": Control.on_getprm,
+    "GETARG": Control.on_getarg,
+    "GETE": Control.on_gete,
+    "SETE": Control.on_sete,
+    "CNVRT": Control.on_cnvrt,
+    "MFRAME": Control.on_mframe,
+    "SETTOOL": Control.on_settool,
+    "MULMAT": Control.on_mulmat,
+    "INVMAT": Control.on_invmat,
+    "MSHIFT": Control.on_mshift,
+    "GETPOS": Control.on_getpos,
+    "SPEED": Control.on_speed,
+    **dict.fromkeys(("SFTON", "SFTOF"), Control.on_shift),
+    "JUMP": Control.on_jump,
+    "CALL": Control.on_call,
+    **dict.fromkeys(("RET", "END"), Control.on_ret),
+    "PAUSE": Control.on_pause,
+    "ABORT": Control.on_abort,
+    "DOUT": Control.on_dout,
+    "DIN": Control.on_din,
+    "AOUT": Control.on_aout,
+    "PULSE": Control.on_pulse,
+    "TIMER": Control.on_timer,
+    "WAIT": Control.on_wait,
+    "MSG": Control.on_msg,
+    "CLS": Control.on_cls,
+    "SETUALM": Control.on_setualm,
+    "PSTART": Control.on_pstart,
+    "PWAIT": Control.on_pwait,
+    "TSYNC": Control.on_tsync,
+}

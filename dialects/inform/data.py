@@ -1,0 +1,355 @@
+"""Instructions on variables: SET, arithmetic, bits, texts, system values, and the elements of positions."""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.reading.shapes import StatementError
+
+from . import tables
+from .kinds import JOINTS, TARGET, Kind, frame_of
+from .operands import Operands
+from .syntax import Command, Formula, Group, Numbered, Operand, SystemName, Word, value_of
+
+EXTERNAL_ELEMENT = code(
+    "inform-external-element",
+    Severity.WARNING,
+    "elements of a station's position are taken as 0.0001 deg (or 0.001 mm); a position in pulses counts otherwise",
+)
+AXES = ("x", "y", "z", "c", "b", "a")
+ARITHMETIC = {"ADD": "+", "SUB": "-", "MUL": "*", "DIV": "/"}
+BITS = {"AND": "band", "OR": "bor", "XOR": "bxor"}
+FUNCTIONS = {"SIN": "sin", "COS": "cos", "ATAN": "atan", "SQRT": "sqrt"}
+Statements = tuple[ir.Statement, ...]
+
+
+class Data(Operands):
+    """Instructions that only change variables."""
+
+    def set(self, place: Operand, value: ir.Expression) -> Statements:
+        return (ir.Assign(self.value(place), value, origin=self.origin),)
+
+    def needs(self, command: Command, count: int) -> tuple[Operand, ...]:
+        if len(command.items) < count:
+            raise StatementError(f"{command.word} needs {count} operands", len(command.word))
+        return command.items
+
+    def call(self, function: str, *arguments: ir.Expression) -> ir.Expression:
+        return ir.Builtin(function, arguments, origin=self.origin)
+
+    # ---- SET and arithmetic
+
+    def on_set(self, command: Command) -> Statements:
+        target, source = self.needs(command, 2)[:2]
+        if self.is_position(target):
+            if isinstance(source, Numbered):
+                return self.set_position(target, self.numbered_pose(source), Kind(TARGET))
+            value, kind = self.position(source)
+            return self.set_position(target, value, kind)
+        if isinstance(target, Numbered) and target.word in ("UF", "TL"):
+            return (ir.Assign(self.numbered_pose(target), self.position(source)[0], origin=self.origin),)
+        return self.set(target, self.value(source))
+
+    def numbered_pose(self, operand: Numbered) -> ir.Expression:
+        if operand.word == "UF":
+            return self.user_frame(operand.number)
+        if operand.word == "TL":
+            return self.tool(operand.number)
+        raise StatementError(f"{operand.word}# is no position", 0)
+
+    def set_position(self, target: Operand, value: ir.Expression, kind: Kind) -> Statements:
+        """A position variable takes the form of what it is given."""
+        if not self.is_position(target):
+            raise StatementError("a position variable is needed here", 0)
+        assert isinstance(target, ir.Index)  # is_position says so
+        return (ir.Assign(self.variable(target, kind.form), value, origin=self.origin),)
+
+    def arithmetic(self, command: Command) -> Statements:
+        """`ADD a b` and kin: a := a op b. Whole numbers divide to whole numbers; positions element by element."""
+        target, source = self.needs(command, 2)[:2]
+        op = ARITHMETIC[command.word]
+        if self.is_position(target):
+            return self.position_arithmetic(command.word, target, source)
+        value = self.value(source)
+        if op == "/" and self.whole(value_of(target)) and not isinstance(source, Formula) and self.whole(value_of(source)):
+            op = "div"
+        place = self.value(target)
+        return self.set(target, ir.Binary(op, place, value, origin=self.origin))
+
+    def position_arithmetic(self, word: str, target: Operand, source: Operand) -> Statements:
+        place, kind = self.position(target)
+        if kind.form == "external":
+            raise StatementError(f"{word} of base or station positions is not read", 0)
+        if self.is_position(source):
+            other, given = self.position(source)
+            if word not in ("ADD", "SUB"):
+                raise StatementError(f"positions cannot be {'multiplied' if word == 'MUL' else 'divided'}", 0)
+            if given.form != kind.form:
+                raise StatementError("a position in pulses and a pose cannot be added", 0)
+            function = "element_sum" if word == "ADD" else "element_difference"
+            return self.set_position(target, self.call(function, place, other), kind)
+        if word not in ("MUL", "DIV"):
+            raise StatementError("only a position can be added to a position", 0)
+        factor = self.value(source)
+        if word == "DIV":
+            one = ir.RealLiteral(1.0)
+            factor = ir.Binary("/", one, factor, origin=self.origin)
+        return self.set_position(target, self.call("element_product", place, factor), kind)
+
+    def on_inc(self, command: Command) -> Statements:
+        place = self.needs(command, 1)[0]
+        op = "+" if command.word == "INC" else "-"
+        return self.set(place, ir.Binary(op, self.value(place), ir.IntLiteral(1), origin=self.origin))
+
+    def on_clear(self, command: Command) -> Statements:
+        """`CLEAR B000 10`: so many variables of the bank, from that one on; ALL: the bank."""
+        first = value_of(self.needs(command, 1)[0])
+        if not (isinstance(first, ir.Index) and isinstance(first.base, ir.Name)):
+            return (ir.Vendor("inform", "CLEAR", "none", origin=self.origin),)
+        count = command.items[1] if len(command.items) > 1 else ir.IntLiteral(1)
+        number = first.indices[0]
+        if not isinstance(count, ir.IntLiteral) or not isinstance(number, ir.IntLiteral) or count.value > 100:
+            raise StatementError("CLEAR is read with a number of variables up to 100", 0)
+        done: list[ir.Statement] = []
+        for each in range(number.value, number.value + count.value):
+            place = ir.Index(first.base, (ir.IntLiteral(each),), origin=self.origin)
+            zero: ir.Expression = ir.IntLiteral(0)
+            if first.base.id.endswith("S"):
+                zero = ir.TextLiteral("")
+            done.extend(self.set(place, zero))
+        return tuple(done)
+
+    def bits(self, command: Command) -> Statements:
+        target, source = self.needs(command, 2)[:2]
+        place = self.value(target)
+        return self.set(target, ir.Binary(BITS[command.word], place, self.value(source), origin=self.origin))
+
+    def on_not(self, command: Command) -> Statements:
+        """NOT a b: a := the byte b with all its bits changed."""
+        target, source = self.needs(command, 2)[:2]
+        return self.set(target, ir.Binary("bxor", self.value(source), ir.IntLiteral(255), origin=self.origin))
+
+    def function(self, command: Command) -> Statements:
+        target, source = self.needs(command, 2)[:2]
+        return self.set(target, self.call(FUNCTIONS[command.word], self.value(source)))
+
+    # ---- texts
+
+    def on_text(self, command: Command) -> Statements:
+        items = self.needs(command, 2)
+        values = [self.value(item) for item in items[1:]]
+        match command.word, values:
+            case "CAT$", [one, other]:
+                return self.set(items[0], ir.Binary("&", one, other, origin=self.origin))
+            case "MID$", [text, begin, length]:
+                return self.set(items[0], self.call("text_part", text, begin, length))
+            case "LEN", [text]:
+                return self.set(items[0], self.call("text_length", text))
+            case "ASC", [text]:
+                return self.set(items[0], self.call("character_code", text))
+            case "CHR$", [number]:
+                return self.set(items[0], self.call("from_code", number))
+            case "VAL", [text]:
+                return self.set(items[0], self.call("text_value", text))
+            case "VAL2STR", [number]:
+                return self.set(items[0], self.call("value_text", number))
+            case "STRSTR", [text, wanted]:
+                return self.set(items[0], self.call("text_find", text, ir.IntLiteral(1), wanted))
+        raise StatementError(f"{command.word} has other operands", 0)
+
+    # ---- system values and registers
+
+    def on_gets(self, command: Command) -> Statements:
+        target, source = self.needs(command, 2)[:2]
+        if not isinstance(source, SystemName):
+            raise StatementError("GETS needs a system variable ($...)", 0)
+        if source.name in tables.POSITIONS and self.is_position(target):
+            what, pulses = tables.POSITIONS[source.name]
+            return self.set_position(target, self.robot_position(what, pulses), Kind(JOINTS if pulses else TARGET))
+        flag = {tables.SEARCH_STATUS: tables.SEARCH_FOUND, tables.WAIT_STATUS: tables.WAIT_LATE}.get(source.name)
+        if flag is not None:
+            self.shared.used.scalar(flag, ir.BoolType(), self.origin)
+            state: ir.Expression = ir.Name(flag, origin=self.origin)
+            if flag == tables.WAIT_LATE:
+                state = ir.Unary("not", state, origin=self.origin)
+            return self.set(target, ir.Convert("bit", state, origin=self.origin))
+        type: ir.Type = ir.IntType()
+        if self.is_position(target):
+            type = ir.TargetType("inform")
+        elif source.name.startswith("S"):
+            type = ir.StringType()
+        value = ir.VendorValue("inform", f"${source.name}", type, origin=self.origin)
+        return self.set_position(target, value, Kind(TARGET)) if self.is_position(target) else self.set(target, value)
+
+    def robot_position(self, what: str, pulses: bool) -> ir.Expression:
+        """Where the robot is, or was when the last search found its signal; poses in the base frame."""
+        tool, base = self.tool(None), ir.System("null_frame", origin=self.origin)
+        if what == "current":
+            return self.call("current_joints") if pulses else self.call("current_target", tool, base)
+        self.shared.used.scalar(tables.SEARCH_PLACE, ir.TargetType("inform"), self.origin)
+        place = ir.Name(tables.SEARCH_PLACE, origin=self.origin)
+        return self.call("target_to_joints", place, tool, base) if pulses else place
+
+    def on_register(self, command: Command) -> Statements:
+        """SETREG MREG#(n) v; GETREG v MREG#(n)."""
+        target, source = self.needs(command, 2)[:2]
+        return self.set(target, self.value(source))
+
+    def on_getprm(self, command: Command) -> Statements:
+        place = self.needs(command, 1)[0]
+        text = " ".join(self.origin.text.split()[2:])
+        return self.set(place, ir.VendorValue("inform", f"GETPRM {text}", ir.IntType(), origin=self.origin))
+
+    def on_getarg(self, command: Command) -> Statements:
+        """GETARG v IARG#(n): the n-th argument of the call."""
+        target, source = self.needs(command, 2)[:2]
+        if not isinstance(source, Numbered) or not isinstance(source.number, ir.IntLiteral):
+            raise StatementError("GETARG needs IARG#(n)", 0)
+        value = ir.Name(f"IARG{source.number.value}", origin=self.origin)
+        if self.is_position(target):
+            key = (self.job.name.upper(), source.number.value)
+            known = self.shared.project.arguments.get(key, Kind(TARGET))
+            return self.set_position(target, value, known)
+        return self.set(target, value)
+
+    # ---- elements of positions
+
+    def element(self, operand: Operand) -> int:
+        if isinstance(operand, Group) and len(operand.values) == 1 and isinstance(operand.values[0], ir.IntLiteral):
+            number = operand.values[0].value
+            if 1 <= number <= 8:
+                return number
+        raise StatementError("the number of an element is needed: (1) to (8)", 0)
+
+    def on_gete(self, command: Command) -> Statements:
+        """GETE D P (n): in 0.001 mm, 0.0001 deg or pulses."""
+        target, source, element = self.needs(command, 3)[:3]
+        return self.set(target, self.element_of(source, self.element(element)))
+
+    def element_of(self, source: Operand, number: int) -> ir.Expression:
+        place, kind = self.position(source)
+        if kind.form == JOINTS:
+            return self.call("joint_pulses", place, ir.IntLiteral(number))
+        field, count = self.field(place, kind, number)
+        scaled = ir.Binary("*", field, ir.RealLiteral(round(1.0 / count, 6)), origin=self.origin)
+        return ir.Convert("round_half_away", scaled, origin=self.origin)
+
+    def field(self, place: ir.Expression, kind: Kind, number: int) -> tuple[ir.Expression, float]:
+        """The component and how much of its unit one count is."""
+        if kind.form == "external":
+            self.report_once(EXTERNAL_ELEMENT, "external element")
+            return ir.Field(place, f"e{min(number, 6)}", origin=self.origin), tables.DEG_PER_COUNT
+        if number > 6:
+            return ir.Field(place, f"e{number - 6}", origin=self.origin), tables.DEG_PER_COUNT
+        count = tables.MM_PER_COUNT if number <= 3 else tables.DEG_PER_COUNT
+        return ir.Field(place, AXES[number - 1], origin=self.origin), count
+
+    def on_sete(self, command: Command) -> Statements:
+        target, element, source = self.needs(command, 3)[:3]
+        number, value = self.element(element), self.value(source)
+        place, kind = self.position(target)
+        if kind.form == JOINTS:
+            pulses = [self.call("joint_pulses", place, ir.IntLiteral(each)) for each in range(1, 7)]
+            if number > 6:
+                raise StatementError("an arm has six axes", 0)
+            pulses[number - 1] = value
+            return (ir.Assign(place, self.call("joints_from_pulses", *pulses), origin=self.origin),)
+        field, count = self.field(place, kind, number)
+        if isinstance(value, ir.IntLiteral):
+            scaled: ir.Expression = ir.RealLiteral(float(f"{value.value * count:.12g}"))
+        else:
+            scaled = ir.Binary("*", value, ir.RealLiteral(count), origin=self.origin)
+        return (ir.Assign(field, scaled, origin=self.origin),)
+
+    # ---- frames
+
+    def on_cnvrt(self, command: Command) -> Statements:
+        """CNVRT a b frame [tool]: position b in another form."""
+        target, source, where = self.needs(command, 3)[:3]
+        value, kind = self.position(source)
+        tools = [item.number for item in command.items if isinstance(item, Numbered) and item.word == "TL"]
+        tool = self.tool(tools[0] if tools else kind.tool)
+        before = self.frame(kind.frame)
+        if where == Word("PULSE"):
+            done = value if kind.form == JOINTS else self.call("target_to_joints", value, tool, before)
+            return self.set_position(target, done, Kind(JOINTS))
+        frame = frame_of(where)
+        if frame is None:
+            raise StatementError("CNVRT needs a frame: BF, RF, UF#(n) or PULSE", 0)
+        after = self.frame(frame)
+        if kind.form == JOINTS:
+            return self.set_position(target, self.call("joints_to_target", value, tool, after), Kind(TARGET, frame))
+        if frame != kind.frame:
+            change: ir.Expression = self.call("inverse", after)
+            if frame.kind != "user":
+                change = before
+            elif kind.frame.kind == "user":
+                change = ir.Binary(":", change, before, origin=self.origin)
+            value = self.call("displaced", value, change)
+        return self.set_position(target, value, Kind(TARGET, frame))
+
+    def in_base(self, operand: Operand) -> ir.Expression:
+        """A position as a pose in the base frame."""
+        value, kind = self.position(operand)
+        if kind.form == JOINTS:
+            base = ir.System("null_frame", origin=self.origin)
+            return self.call("pose_of", self.call("joints_to_target", value, self.tool(kind.tool), base))
+        pose = self.call("pose_of", value)
+        if kind.frame.kind == "user":
+            return ir.Binary(":", self.frame(kind.frame), pose, origin=self.origin)
+        return pose
+
+    def on_mframe(self, command: Command) -> Statements:
+        """MFRAME UF#(n) origin x-axis xy-plane."""
+        target, *points = self.needs(command, 4)[:4]
+        vectors = [ir.Field(self.in_base(point), "trans", origin=self.origin) for point in points]
+        frame = self.call("frame_from_points", *vectors)
+        if isinstance(target, Numbered):
+            return (ir.Assign(self.numbered_pose(target), frame, origin=self.origin),)
+        place = self.position(target)[0]
+        return (ir.Assign(place, self.call("displaced", place, frame), origin=self.origin),)
+
+    def on_settool(self, command: Command) -> Statements:
+        target, source = self.needs(command, 2)[:2]
+        if not isinstance(target, Numbered) or target.word != "TL":
+            raise StatementError("SETTOOL needs TL#(n)", 0)
+        place = self.numbered_pose(target)
+        value, kind = self.position(source)
+        if kind.form == JOINTS:
+            raise StatementError("a tool cannot be a position in pulses", 0)
+        return (ir.Assign(place, self.call("pose_of", value), origin=self.origin),)
+
+    def on_mulmat(self, command: Command) -> Statements:
+        target, one, other = self.needs(command, 3)[:3]
+        product = self.call("displaced", self.target(other), self.call("pose_of", self.target(one)))
+        return self.set_position(target, product, Kind(TARGET))
+
+    def on_invmat(self, command: Command) -> Statements:
+        target, source = self.needs(command, 2)[:2]
+        value = self.target(source)
+        inverse = self.call("inverse", value)
+        # inverse . inverse . value: a target again, whose configuration is that of the value
+        twice = ir.Binary(":", inverse, inverse, origin=self.origin)
+        return self.set_position(target, self.call("displaced", value, twice), Kind(TARGET))
+
+    def target(self, operand: Operand) -> ir.Expression:
+        value, kind = self.position(operand)
+        if kind.form != TARGET:
+            raise StatementError("a position in pulses cannot stand here", 0)
+        return value
+
+    def on_mshift(self, command: Command) -> Statements:
+        """MSHIFT a frame b c: the shift that leads from b to c, in the axes of the frame (M)."""
+        target, where, one, other = self.needs(command, 4)[:4]
+        frame = frame_of(where)
+        if frame is None:
+            raise StatementError("MSHIFT needs a frame", 0)
+        poses = []
+        for point in (one, other):
+            value, kind = self.position(point)
+            if kind.form == JOINTS:
+                value = self.call("joints_to_target", value, self.tool(kind.tool), self.frame(frame))
+            elif kind.frame != frame:
+                raise StatementError("MSHIFT is read for points of its own frame", 0)
+            poses.append(value)
+        return self.set_position(target, self.call("element_difference", poses[1], poses[0]), Kind(TARGET, frame))

@@ -1,0 +1,310 @@
+"""What each position variable holds where: pulses or a pose, in which frame, taken with which tool.
+
+INFORM has one bank of position variables for all of these and decides at run time; the IR decides by type. So the lines
+of every job are gone through in the order they can run (labels, jumps and blocks included) with what each variable
+holds, until nothing changes any more. A variable that holds pulses here and a pose there becomes two in the IR; where
+both could have come, the variable is reported.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import cast
+
+from rpl import ir
+from rpl.reading.pieces import Item, ModulePart
+from rpl.source import NOWHERE, Origin
+
+from . import tables
+from .jobs import POSE, Frame, Job
+from .syntax import Command, Given, Group, JobName, LabelBy, LabelName, Nest, Numbered, Operand, SystemName, Word
+
+JOINTS, TARGET, MIXED, UNKNOWN = "joints", "target", "mixed", "unknown"
+_ROUNDS = 8
+BASE = Frame()
+DIFFERENT = Frame("different")  # which frame depends on the way the program came
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """`form`: joints, target, mixed or unknown; frame and tool of a target (tool None: the job's own)."""
+
+    form: str = UNKNOWN
+    frame: Frame = BASE
+    tool: ir.Expression | None = None
+    origin: Origin = field(default=NOWHERE, compare=False)
+
+
+ON, OFF = "on", "off"
+Key = tuple[str, int | None]
+SHIFTED: Key = ("SHIFT", 0)  # whether positions are shifted (SFTON), kept like what a variable holds
+_CALLER = -1  # the "argument" that tells a job so
+State = dict[Key, Kind]
+NOTHING = Kind()
+
+
+def joined(one: Kind, other: Kind) -> Kind:
+    """What a variable holds where two ways meet."""
+    if one == other or other.form == UNKNOWN:
+        return one
+    if one.form == UNKNOWN:
+        return other
+    if one.form != other.form:
+        return Kind(MIXED, origin=other.origin)
+    frame = one.frame if one.frame == other.frame else DIFFERENT
+    return Kind(one.form, frame, one.tool if one.tool == other.tool else None, one.origin)
+
+
+def key_of(operand: Operand, indirect: frozenset[str]) -> Key | None:
+    """The position variable that an operand is; a bank with computed indices is one variable."""
+    if not isinstance(operand, ir.Index) or not isinstance(operand.base, ir.Name):
+        return None
+    bank, number = operand.base.id, operand.indices[0]
+    if bank not in ("P", "LP"):
+        return None
+    whole = bank in indirect or not isinstance(number, ir.IntLiteral)
+    return bank, None if whole else cast(ir.IntLiteral, number).value
+
+
+@dataclass(slots=True)
+class Project:
+    """What is known of all jobs together."""
+
+    jobs: Mapping[str, Job]
+    indirect: frozenset[str]  # global banks with computed indices
+    globals: dict[Key, Kind] = field(default_factory=dict)
+    arguments: dict[tuple[str, int], Kind] = field(default_factory=dict)
+    forms: dict[tuple[str, Key], dict[str, Origin]] = field(default_factory=dict)  # per job ("" globals) and variable
+    changed: bool = False
+
+    def note(self, job: str, key: Key, kind: Kind) -> None:
+        """The variable is given this somewhere."""
+        if kind.form in (JOINTS, TARGET):
+            home = job if key[0].startswith("L") else ""
+            self.forms.setdefault((home, key), {}).setdefault(kind.form, kind.origin)
+        if not key[0].startswith("L"):
+            self.update(self.globals, key, kind)
+
+    def argument(self, job: str, number: int, kind: Kind) -> None:
+        self.update(self.arguments, (job.upper(), number), kind)
+
+    def update(self, table: dict[tuple[str, int], Kind] | dict[Key, Kind], key: object, kind: Kind) -> None:
+        known = cast("dict[object, Kind]", table)
+        before = known.get(key, NOTHING)
+        now = joined(before, kind)
+        if now != before:
+            known[key] = now
+            self.changed = True
+
+
+def settle(project: Project, locals_of: Mapping[str, frozenset[str]]) -> dict[str, Flow]:
+    """Go through all jobs until what flows between them is stable; gives each job's flow."""
+    for name, job in project.jobs.items():
+        for (bank, number), point in job.points.items():
+            if bank == "P":
+                key: Key = (bank, None if bank in project.indirect else number)
+                project.note(name, key, kind_of_point(point.form, point.frame, point.tool, point.line.origin))
+    flows: dict[str, Flow] = {}
+    for _ in range(_ROUNDS):
+        project.changed = False
+        for name, job in project.jobs.items():
+            flows[name] = Flow(project, job, project.indirect | locals_of[name])
+            flows[name].run()
+        if not project.changed:
+            break
+    return flows
+
+
+def kind_of_point(form: str, frame: Frame, tool: int, origin: Origin) -> Kind:
+    if form == POSE:
+        return Kind(TARGET, frame, ir.IntLiteral(tool), origin)
+    return Kind(JOINTS, BASE, ir.IntLiteral(tool), origin)
+
+
+class Flow:
+    """One job: what its variables hold before each instruction."""
+
+    def __init__(self, project: Project, job: Job, indirect: frozenset[str]) -> None:
+        self.project, self.job, self.indirect = project, job, indirect
+        self.labels: dict[str, State] = {}
+        self.before: dict[int, State] = {}
+        self.moved = False
+
+    def run(self) -> None:
+        for _ in range(_ROUNDS):
+            self.moved = False
+            self.through(self.job.body, {})
+            if not self.moved:
+                return
+
+    def kind(self, operand: Operand, state: State) -> Kind:
+        """What a position operand holds."""
+        key = key_of(operand, self.indirect)
+        return NOTHING if key is None else self.held(key, state)
+
+    def held(self, key: Key, state: State) -> Kind:
+        if key in state:
+            return state[key]
+        if key == SHIFTED:
+            return self.project.arguments.get((self.job.name.upper(), _CALLER), Kind(OFF))
+        if key[0] == "P":
+            return self.project.globals.get(key, NOTHING)
+        return NOTHING
+
+    def join(self, one: State | None, other: State | None) -> State | None:
+        if one is None or other is None:
+            return other if one is None else one
+        return {key: joined(self.held(key, one), self.held(key, other)) for key in {*one, *other}}
+
+    # ---- order
+
+    def through(self, items: Iterable[Item], state: State | None) -> State | None:
+        """The state behind a list of lines; None where it cannot be reached."""
+        for item in items:
+            if isinstance(item, ir.Label):
+                state = self.join(state, self.labels.get(item.name))
+            elif isinstance(item, ModulePart) and isinstance(item.data, Command):
+                state = self.command(item.data, state)
+            elif isinstance(item, ModulePart) and isinstance(item.data, Nest):
+                state = self.nest(item.data, state)
+        return state
+
+    def nest(self, nest: Nest, state: State | None) -> State | None:
+        self.remember(nest.head, state)
+        for head, _ in nest.sections:
+            if head is not None:
+                self.remember(head, state)
+        if nest.kind in ("while", "for"):
+            for _ in range(_ROUNDS):
+                after = self.join(state, self.through(nest.sections[0][1], state))
+                if after == state:
+                    break
+                state = after
+            return state
+        ends: State | None = None
+        complete = False
+        for head, items in nest.sections:
+            complete = complete or (head is not None and head.word in ("ELSE", "DEFAULT"))
+            if nest.kind == "switch" and head is None:
+                continue
+            ends = self.join(ends, self.through(items, None if state is None else dict(state)))
+        return ends if complete else self.join(ends, state)
+
+    def remember(self, command: Command, state: State | None) -> None:
+        known = self.before.get(id(command))
+        self.before[id(command)] = self.join(known, state) or {}
+
+    def command(self, command: Command, state: State | None) -> State | None:
+        self.remember(command, state)
+        if state is None:
+            return None
+        conditional = any(isinstance(item, Word) and item.text in tables.CONDITION_WORDS for item in command.items)
+        match command.word:
+            case "JUMP":
+                self.jump(command, state)
+                if any(isinstance(item, JobName) for item in command.items):
+                    self.call(command, state)
+                return state if conditional else None
+            case "RET" | "END" | "ABORT":
+                return state if conditional else None
+            case "CALL" | "PSTART":
+                return self.call(command, state)
+            case "SFTON" | "SFTOF":
+                return {**state, SHIFTED: Kind(ON if command.word == "SFTON" else OFF)}
+        return self.transfer(command, state)
+
+    def jump(self, command: Command, state: State) -> None:
+        for item in command.items:
+            if isinstance(item, LabelName):
+                self.reach(item.name, state)
+            elif isinstance(item, LabelBy):
+                for label in _labels(self.job.body):
+                    self.reach(label, state)
+
+    def reach(self, label: str, state: State) -> None:
+        before = self.labels.get(label)
+        now = dict(state) if before is None else self.join(before, state) or {}
+        if now != before:
+            self.labels[label] = now
+            self.moved = True
+
+    def call(self, command: Command, state: State) -> State:
+        """The called job may give other values to global variables."""
+        name = next((item.name for item in command.items if isinstance(item, JobName)), "")
+        self.project.argument(name, _CALLER, self.held(SHIFTED, state))
+        given = [item.value for item in command.items if isinstance(item, Given)]
+        for number, value in enumerate(given, 1):
+            self.project.argument(name, number, self.kind(value, state))
+        return {key: kind if key[0] != "P" else joined(kind, self.held(key, {})) for key, kind in state.items()}
+
+    # ---- what instructions do
+
+    def transfer(self, command: Command, state: State) -> State:
+        items = command.items
+        target = key_of(items[0], self.indirect) if items else None
+        if target is None:
+            return state
+        kind = self.result(command, state)
+        if kind is None or kind.form == UNKNOWN:
+            return state
+        if target[1] is None:
+            kind = joined(self.held(target, state), kind)
+        kind = Kind(kind.form, kind.frame, kind.tool, command.origin)
+        self.project.note(self.job.name, target, kind)
+        return {**state, target: kind}
+
+    def result(self, command: Command, state: State) -> Kind | None:
+        """What the first operand holds afterwards; None: as before."""
+        items = command.items
+        match command.word:
+            case "SET" if len(items) > 1:
+                return self.kind(items[1], state)
+            case "GETS" if len(items) > 1 and isinstance(items[1], SystemName):
+                pulses = tables.POSITIONS.get(items[1].name, ("", False))[1]
+                return Kind(JOINTS if pulses else TARGET)
+            case "CNVRT" if len(items) > 2:
+                if items[2] == Word("PULSE"):
+                    return Kind(JOINTS)
+                tool = next((i.number for i in items if isinstance(i, Numbered) and i.word == "TL"), None)
+                before = self.kind(items[1], state)
+                return Kind(TARGET, frame_of(items[2]) or BASE, before.tool if tool is None else tool)
+            case "MULMAT" | "INVMAT" | "MSHIFT" | "CONVSFT":
+                return Kind(TARGET)
+            case "GETPOS" if len(items) > 1 and isinstance(items[1], Numbered):
+                number = items[1].number
+                point = self.job.points.get(("C", number.value)) if isinstance(number, ir.IntLiteral) else None
+                return kind_of_point(point.form, point.frame, point.tool, command.origin) if point else None
+            case "GETARG" if len(items) > 1 and isinstance(items[1], Numbered):
+                number = items[1].number
+                if isinstance(number, ir.IntLiteral):
+                    return self.project.arguments.get((self.job.name.upper(), number.value))
+            case "SETE" if self.kind(items[0], state).form == UNKNOWN and isinstance(items[1], Group):
+                return Kind(TARGET)
+        return None
+
+
+def frame_of(operand: Operand) -> Frame | None:
+    """The frame that an operand of an instruction names."""
+    match operand:
+        case Word(text=text) if text in tables.BASE_WORDS:
+            return BASE
+        case Word(text=text) if text in tables.TOOL_WORDS:
+            return Frame("tool")
+        case Word(text="MTF" | "MTOOL"):
+            return Frame("master")
+        case Numbered(word="UF", number=number):
+            return Frame("user", number)
+    return None
+
+
+def _labels(items: Iterable[Item]) -> Iterable[str]:
+    for item in items:
+        if isinstance(item, ir.Label):
+            yield item.name
+        elif isinstance(item, ModulePart) and isinstance(item.data, Nest):
+            for _, inner in item.data.sections:
+                yield from _labels(inner)
+
+
+labels_of = _labels

@@ -1,0 +1,252 @@
+"""All jobs of a project to modules: a job is a module with one routine of its name, global variables are `registers`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import cache
+from typing import cast
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.walk import walk
+from rpl.reading.assemble import assemble
+from rpl.reading.ledger import FileReport
+from rpl.reading.shapes import ShapeParser
+from rpl.registry import ReadResult
+from rpl.source import Origin, Source
+
+from .control import START, Control
+from .jobs import Job, JobReader, Point, commands
+from .kinds import JOINTS, Kind, Project, kind_of_point, settle
+from .operands import TYPES, Shared, Used, plain_bank
+from .points import external_value, value_of_point
+from .split import SHAPE, SLOTS, split
+from .syntax import Command, Group, Numbered, build, lower
+
+TWICE = code("inform-job-twice", Severity.WARNING, "job {name} is read twice; calls go to the first one")
+OTHER_VALUE = code(
+    "inform-other-value",
+    Severity.INFO,
+    "{name} has another value here than in the job read before; the first one is kept",
+)
+NOT_GIVEN = code(
+    "inform-not-given",
+    Severity.INFO,
+    "{what} are set at the controller, not in a job: they are identity here",
+    "give them in the cell file, for example \"TL[1]\" = {{ x = 0.0, y = 0.0, z = 120.0, a = 0.0, b = 0.0, c = 0.0 }}",
+)
+REGISTERS = "registers"
+
+
+@cache
+def _parser() -> ShapeParser:
+    return ShapeParser("inform.lark", SHAPE, SLOTS)
+
+
+def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
+    """Read all files of one project together."""
+    jobs: dict[str, Job] = {}
+    further: list[Job] = []
+    home: dict[int, int] = {}
+    reports: list[FileReport] = []
+    for number, source in enumerate(sources):
+        done = assemble(source, "inform", split(source), _parser(), lower, build, diagnostics)
+        reports.append(done.report)
+        for job in JobReader(source, diagnostics).read(done.items):
+            home[id(job)] = number
+            if job.name.upper() in jobs:
+                diagnostics.report(TWICE, job.origin, name=job.name)
+                further.append(job)
+            else:
+                jobs[job.name.upper()] = job
+    modules = _Lowering(jobs, diagnostics)
+    for job in (*jobs.values(), *further):
+        unread = modules.job(job)
+        report = reports[home[id(job)]]
+        texts = (*report.unread, *unread)
+        reports[home[id(job)]] = replace(report, opaque=report.opaque + len(unread), unread=texts)
+    return ReadResult(modules.program(), tuple(reports))
+
+
+def _indices(job: Job) -> Iterator[ir.Index]:
+    for command in commands(job.body):
+        for node in walk(command):
+            if isinstance(node, ir.Index) and isinstance(node.base, ir.Name):
+                yield node
+
+
+def _indirect(job: Job, local: bool) -> frozenset[str]:
+    """Banks into which the job computes an index."""
+    found = set()
+    for index in _indices(job):
+        bank = cast(ir.Name, index.base).id
+        if not bank.endswith("[]") and not isinstance(index.indices[0], ir.IntLiteral):
+            if (bank != plain_bank(bank)) == local:
+                found.add(bank)
+    return frozenset(found)
+
+
+class _Lowering:
+    """Gives the jobs their meaning, one after the other, and collects what they use together."""
+
+    def __init__(self, jobs: dict[str, Job], diagnostics: Diagnostics) -> None:
+        self.jobs, self.diagnostics = jobs, diagnostics
+        shared_banks: frozenset[str] = frozenset().union(*(_indirect(job, False) for job in jobs.values()))
+        self.project = Project(jobs, shared_banks)
+        self.flows = settle(self.project, {name: _indirect(job, True) for name, job in jobs.items()})
+        self.shared = Shared(self.project, Used(), diagnostics)
+        self.modules: list[ir.Module] = []
+        self.parallel()
+
+    def parallel(self) -> None:
+        """Which job runs in which sub task, before PWAIT is met."""
+        for job in self.jobs.values():
+            for command in commands(job.body):
+                if command.word == "PSTART":
+                    control = Control(self.shared, job, self.flows[job.name.upper()])
+                    control.origin = command.origin
+                    control.on_pstart(command)
+
+    def job(self, job: Job) -> tuple[str, ...]:
+        """Add the module of a job; gives the texts that could not be read."""
+        key = job.name.upper()
+        flow = self.flows[key]
+        if self.jobs[key] is not job:
+            flow = settle(Project({key: job}, self.project.indirect), {key: _indirect(job, True)})[key]
+        control = Control(self.shared, job, flow)
+        body = control.body(job.body)
+        if body and isinstance(body[-1], ir.Return):  # END
+            last = body[-1]
+            body = body[:-1] + ((ir.Nothing(origin=last.origin),) if last.origin.comments else ())
+        if control.restarts:
+            body = (ir.Label(START, origin=replace(job.origin, comments=())), *body)
+        origin = replace(job.origin, comments=())
+        declarations: list[ir.Declaration] = list(control.points.declarations())
+        declarations.extend(_declared(control.used, "variable", "routine"))
+        routine = ir.Routine(
+            job.name, "procedure", self.parameters(job), None, tuple(declarations), body, scope="global", origin=origin
+        )
+        top: tuple[ir.Declaration, ...] = ()
+        if job.comments:
+            top = (ir.Unread("", origin=replace(origin, comments=tuple(job.comments))),)
+        self.modules.append(ir.Module(job.name, "inform", top, (routine,), tuple(job.header), origin=origin))
+        return tuple(
+            node.text for node in walk(body) if isinstance(node, ir.Opaque) and control.unread
+        )
+
+    def parameters(self, job: Job) -> tuple[ir.Parameter, ...]:
+        """What GETARG takes, by the number of the argument."""
+        types: dict[int, ir.Type] = {}
+        for command in commands(job.body):
+            if command.word != "GETARG" or len(command.items) < 2:
+                continue
+            target, source = command.items[:2]
+            if isinstance(source, Numbered) and isinstance(source.number, ir.IntLiteral):
+                types[source.number.value] = self.parameter_type(job, source.number.value, target)
+        last = max(types, default=0)
+        return tuple(ir.Parameter(f"IARG{n}", types.get(n, ir.IntType()), "value") for n in range(1, last + 1))
+
+    def parameter_type(self, job: Job, number: int, target: object) -> ir.Type:
+        bank = ""
+        if isinstance(target, ir.Index) and isinstance(target.base, ir.Name):
+            bank = plain_bank(target.base.id.rstrip("[]").rstrip("0123456789") or target.base.id)
+        if bank == "P":
+            kind = self.project.arguments.get((job.name.upper(), number), Kind())
+            return ir.JointsType() if kind.form == JOINTS else TYPES["P"]
+        return TYPES.get(bank, ir.IntType())
+
+    def program(self) -> ir.Program:
+        """All modules, with the global variables in front."""
+        used = self.shared.used
+        values = self.saved_values()
+        declarations: list[ir.Declaration] = []
+        for variable in _declared(used, "persistent", "global"):
+            found = values.get(variable.name)
+            if found is not None:
+                variable = replace(variable, type=found[0], initial=found[1])
+            declarations.append(variable)
+        declarations.extend(self.saved_elements())
+        for name, what in (("TL", "tools TL#(n)"), ("UF", "user frames UF#(n)")):
+            if name in used.arrays:
+                self.diagnostics.report(NOT_GIVEN, used.arrays[name][2], what=what)
+        modules = tuple(self.modules)
+        if declarations:
+            modules = (ir.Module(REGISTERS, "inform", tuple(declarations)), *modules)
+        tasks = tuple(
+            ir.Task(task, task, "motion" if task == "" else "background", modules=())
+            for task in ()
+        )
+        return ir.Program(modules, tasks)
+
+    def saved(self) -> Iterator[tuple[str, int, Point, Job]]:
+        """The saved value of each global position variable, the first one that is read."""
+        known: dict[tuple[str, int], Point] = {}
+        for job in self.jobs.values():
+            for (bank, number), point in job.points.items():
+                if bank not in ("P", "BP", "EX"):
+                    continue
+                before = known.setdefault((bank, number), point)
+                if before is point:
+                    yield bank, number, point, job
+                elif (before.form, before.line.values) != (point.form, point.line.values):
+                    self.diagnostics.report(OTHER_VALUE, point.line.origin, name=f"{bank}{number:03d}")
+
+    def saved_values(self) -> dict[str, tuple[ir.Type, ir.Expression]]:
+        found: dict[str, tuple[ir.Type, ir.Expression]] = {}
+        for bank, number, point, job in self.saved():
+            if bank in self.project.indirect:
+                continue
+            name = f"{bank}{number:03d}"
+            if bank != "P":
+                type: ir.Type = ir.ExternalType()
+                value = external_value(point.line.values, point.line.origin)
+            else:
+                name, type, value = *self.typed(name, bank, number, point), value_of_point(point)
+            found[name] = (type, value)
+            self.shared.used.scalar(name, type, point.line.origin)
+        return found
+
+    def typed(self, name: str, bank: str, number: int | None, point: Point) -> tuple[str, ir.Type]:
+        """Name and type of a saved position: pulses have a second name where the variable also holds a pose."""
+        kind = kind_of_point(point.form, point.frame, point.tool, point.line.origin)
+        if kind.form != JOINTS:
+            return name, TYPES["P"]
+        forms = self.project.forms.get(("", (bank, number)), {})
+        return (f"{name}_PULSES" if len(forms) > 1 else name), ir.JointsType()
+
+    def saved_elements(self) -> list[ir.Declaration]:
+        """First values of elements of banks that are arrays."""
+        found: list[ir.Declaration] = []
+        for bank, number, point, _ in self.saved():
+            if bank not in self.project.indirect:
+                continue
+            origin = point.line.origin
+            name = bank
+            value = external_value(point.line.values, origin)
+            if bank == "P":
+                name, type = self.typed(bank, bank, None, point)
+                value = value_of_point(point)
+                self.shared.used.array(name, type, number, origin)
+            place = ir.Index(ir.Name(name, origin=origin), (ir.IntLiteral(number),), origin=origin)
+            found.append(ir.Initialise(ir.Assign(place, value, origin=origin), origin=origin))
+        return found
+
+
+def _declared(used: Used, storage: str, scope: str) -> list[ir.Variable]:
+    """Declarations of what is used, in order."""
+    found = [
+        ir.Variable(name, type, None, storage, scope, origin=_place(origin))
+        for name, (type, origin) in sorted(used.scalars.items())
+    ]
+    for name, (type, last, origin) in sorted(used.arrays.items()):
+        array = ir.ArrayType(type, (ir.IntLiteral(last),), base=0)
+        found.append(ir.Variable(name, array, None, storage, scope, origin=_place(origin)))
+    return found
+
+
+def _place(origin: Origin) -> Origin:
+    return replace(origin, comments=())
+
+
+__all__ = ["Command", "Group", "read"]

@@ -1,0 +1,37 @@
+"""What the controller does, as data. `M` marks what rests on memory and has its own test."""
+
+from __future__ import annotations
+
+from rpl.ir.rules import AdvanceRules, Rules
+
+from . import tables
+
+FIELDS = ("noflip", "lower", "rear", "r180", "t180", "s180")
+
+_EXTERNAL = {f"e{n}": f"e{n}" for n in range(1, 7)}
+_POSE = {**{name: name for name in ("x", "y", "z", "a", "b", "c")}, "rx": "c", "ry": "b", "rz": "a"}
+
+COMPONENTS = {
+    "PoseType": _POSE,
+    "TargetType": {**_POSE, **_EXTERNAL, **{name: name for name in FIELDS}},
+    "JointsType": {**{name: f"j{n}" for n, name in enumerate("slurbt", 1)}, **_EXTERNAL},
+}
+
+RULES = Rules(
+    name="inform",
+    # Instructions behind a move wait until the robot has come to its point, within its positioning level.
+    advance=AdvanceRules(moves=5, runs_ahead_of="fly_by", lead_s=0.0),
+    real_to_int="trunc",  # M: the decimals are dropped
+    components=COMPONENTS,
+    undefined=False,
+    call_depth=100,  # M: a controller allows about 12 nested calls; JUMP JOB does not count there, but does here
+    system_defaults={
+        # M: speeds of a move without one, before SPEED
+        "joint_speed": 10.0,
+        "path_speed": 100.0,
+        "swivel_speed": 180.0,
+        "twist_speed": 180.0,
+        "path_limit_rule": "reduce",
+    },
+    blend_levels=tables.LEVELS,
+)

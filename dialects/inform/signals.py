@@ -1,0 +1,59 @@
+"""Signals: INFORM's names for physical inputs and outputs, and the neutral signals they are.
+
+Groups have eight (IG, OG) or four (IGH, OGH) consecutive signals: IG#(2) is IN#(9)..IN#(16), IGH#(2) is IN#(5)..IN#(8).
+"""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.source import Origin
+
+SINGLE: dict[str, str] = {"IN": "digital_in", "OT": "digital_out", "AO": "analog_out", "AI": "analog_in"}
+GROUPS: dict[str, tuple[str, int]] = {
+    "IG": ("group_in", 8),
+    "OG": ("group_out", 8),
+    "IGH": ("group_in", 4),
+    "OGH": ("group_out", 4),
+}
+# Signals that have a place of their own in the controller: direct inputs, specific inputs and outputs, auxiliary relays.
+NAMED: dict[str, str] = {
+    "RIN": "digital_in",
+    "SIN": "digital_in",
+    "SOUT": "digital_out",
+    "EXIN": "digital_in",
+    "EXOUT": "digital_out",
+    "IU": "digital_in",
+    "OU": "digital_out",
+    "AX": "flag",
+}
+
+
+def numbered(word: str, number: ir.Expression, origin: Origin) -> ir.Signal | None:
+    """`IN#(3)` and the like; None when the word names no signal."""
+    if word in SINGLE:
+        return ir.Signal(SINGLE[word], number, origin=origin)
+    if word in GROUPS:
+        kind, bits = GROUPS[word]
+        return ir.Signal(kind, _line(number, bits, 1 - bits), _line(number, bits, 0), origin=origin)
+    if word in NAMED and isinstance(number, ir.IntLiteral):
+        return ir.Signal(NAMED[word], name=f"{word}{number.value}", origin=origin)
+    return None
+
+
+def _line(number: ir.Expression, bits: int, add: int) -> ir.Expression:
+    """number * bits + add."""
+    if isinstance(number, ir.IntLiteral):
+        return ir.IntLiteral(number.value * bits + add, origin=number.origin)
+    product = ir.Binary("*", number, ir.IntLiteral(bits), origin=number.origin)
+    return ir.Binary("-", product, ir.IntLiteral(-add), origin=number.origin) if add else product
+
+
+def is_digital(signal: ir.Expression) -> bool:
+    return isinstance(signal, ir.Signal) and signal.last is None and not signal.kind.startswith("analog")
+
+
+def signal_name(kind: str, number: int) -> str:
+    """How INFORM spells a physical signal."""
+    words = {"digital_in": "IN", "digital_out": "OT", "analog_in": "AI", "analog_out": "AO"}
+    words |= {"group_in": "IG", "group_out": "OG", "flag": "AX"}
+    return f"{words[kind]}#({number})"

@@ -1,0 +1,100 @@
+"""What INFORM's words mean in neutral terms, and the numbers that differ between controllers. Data only.
+
+Sources are the operator's and data transmission manuals of NX100 to YRC1000. `M` marks what rests on memory or could be
+set otherwise on a controller; each such row has a test that names it.
+"""
+
+from __future__ import annotations
+
+# ---- units of numbers without a unit of their own
+
+# M: elements of a position (GETE, SETE, ADD ... by whole numbers): 0.001 mm and 0.0001 deg. Controllers before the
+# DX100 count angles in 0.01 deg.
+MM_PER_COUNT = 0.001
+DEG_PER_COUNT = 0.0001
+# M: a speed, time or blend that stands in a variable counts in these parts of its unit.
+VARIABLE_UNITS = {"V": 0.1, "VR": 0.1, "VJ": 0.01, "VE": 0.01, "T": 0.01, "CR": 0.1, "DIS": 0.1, "ACC": 1.0, "DEC": 1.0}
+PULSE_S = 0.3  # M: PULSE without a time
+# M: a speed in V= is mm/s (a parameter can make it cm/min, inch/min or mm/min).
+PATH_UNIT = "mm/s"
+
+# ---- positioning levels
+
+# M: distances in mm of PL=0..8; on a controller they are parameters of the arm (S1CxG033 and the following). The last
+# one stands for a move without PL, which a controller rounds by its acceleration.
+LEVELS = (0.0, 12.5, 25.0, 50.0, 100.0, 200.0, 300.0, 400.0, 500.0, 25.0)
+STANDARD_LEVEL = 9
+
+# ---- frames and tools
+
+USER_FRAMES = 63
+TOOLS = 63
+# Words for a frame: the base and the robot's own (M: taken to be the same), the tool.
+BASE_WORDS = ("BF", "RF", "BASE", "ROBOT")
+TOOL_WORDS = ("TF", "TOOL")
+
+# ---- comparison and logic words
+
+AND_WORDS = ("ANDEXP", "ANDIF", "AND", "ANDEXPRESS")
+OR_WORDS = ("OREXP", "ORIF", "OR", "OREXPRESS")
+CONDITION_WORDS = ("IF", "IFEXP", "IFEXPRESS")
+
+# ---- system variables read by GETS
+
+# $PXn: what, and whether in pulses. `current`: where the robot is; `searched`: where the last search found its signal.
+POSITIONS: dict[str, tuple[str, bool]] = {
+    "PX000": ("current", True),
+    "PX001": ("current", False),
+    "PX002": ("searched", True),
+    "PX003": ("searched", False),
+    # M: the place commanded, as against the one measured; here they are one.
+    "PX010": ("current", True),
+    "PX011": ("current", False),
+}
+SEARCH_STATUS = "B002"  # 1: the last SRCH found its signal
+WAIT_STATUS = "B014"  # 1: the last WAIT with a time ended by its condition
+# Global data that stand for these.
+SEARCH_FOUND, SEARCH_PLACE, WAIT_LATE, UNTIL_MET = "SEARCH_FOUND", "SEARCH_PLACE", "WAIT_LATE", "UNTIL_MET"
+SHIFT = "SHIFT"
+
+# ---- instructions that only this controller has: effect none, message, time, unknown
+
+VENDOR: dict[str, str] = {
+    # look-ahead, accuracy, monitoring: no effect on what the program means
+    **dict.fromkeys(("ADVINIT", "ADVSTOP", "HTRAJON", "HTRAJOF", "HPVELON", "HPVELOF", "SMOOTH", "HPMMVON"), "none"),
+    **dict.fromkeys(("HPMMVOF", "SHCKSET", "SHCKRST", "CWAIT", "PRINT", "LATESTJOB", "SAVEJ", "SAVEV"), "none"),
+    **dict.fromkeys(("REFP", "GRPOF", "GRPON", "SETTM", "PMTON", "PMTOF", "FLWOF", "FLWON"), "none"),
+    # arc welding
+    **dict.fromkeys(("ARCON", "ARCOF", "ARCSET", "ARCCUR", "ARCVOL", "AWELD", "VWELD", "WVON", "WVOF"), "none"),
+    **dict.fromkeys(("ARCCTS", "ARCCTE", "COMARCON", "COMARCOF", "WIRRTN", "TAILON", "PRE-TIG"), "none"),
+    # handling, spot, painting, sealing
+    **dict.fromkeys(("HAND", "TOOLON", "TOOLOF", "SPYON", "SPYOF", "GUNON", "GUNOF", "ARATION", "ARATIOF"), "none"),
+    **dict.fromkeys(("GUNCL", "SPOT", "SVSPOT", "SVGUNCL", "STROKE", "SVSTROKE", "GUNCHG"), "unknown"),
+    **dict.fromkeys(("HSEN", "STRWAIT", "ANTOUT"), "unknown"),
+    # whole motions made by the controller itself
+    **dict.fromkeys(("FORMCUT", "FORMAPR", "CIRCUT", "CUTSET", "SYSTART", "SYEND", "CVTON", "CVTOF"), "unknown"),
+    # other tasks and programs
+    "SKILLSND": "message",
+    **dict.fromkeys(("LOADJ", "DELETEJ", "LOADV", "SWAIT", "EI", "DI", "VSTART", "VDET", "VWAIT"), "unknown"),
+    **dict.fromkeys(("SETFILE", "GETFILE", "SETPRM", "GETNAME", "INPUT", "DIALOG"), "unknown"),
+}
+# Application packages by the beginning of a word, where the word itself is not listed.
+VENDOR_BEGINNINGS: tuple[tuple[str, str], ...] = (
+    ("SY", "unknown"),
+    ("ARC", "none"),
+    ("WV", "none"),
+    ("MACRO", "unknown"),
+    ("PAL", "unknown"),
+)
+
+
+def vendor_effect(word: str) -> str | None:
+    """The declared effect of an instruction that only this controller has; None when it is none of them."""
+    if word in VENDOR:
+        return VENDOR[word]
+    return next((effect for beginning, effect in VENDOR_BEGINNINGS if word.startswith(beginning)), None)
+
+
+# Words and tags of a move that change nothing in what it means here.
+PLAIN_MOVE_WORDS = frozenset(("FPT", "REF", "SYNC"))
+PLAIN_MOVE_TAGS = frozenset(("SPDL", "MVF", "CTP", "SEN"))
