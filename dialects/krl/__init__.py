@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 _FRAME = re.compile(
     r"^[ \t\ufeff]*(?:(?:GLOBAL\s+)?DEF(?:FCT\s+[\w$]+(?:\[[^\]]*\])?)?\s+[\w$]+\s*\("
+    r"(?![^()\r\n]*(?:\([^()\r\n]*\)[^()\r\n]*)*\)[ \t]*:)"  # other languages end such a header by a colon
     r"|DEFDAT\s+[\w$]+|&ACCESS\b|&REL\b|&PARAM\b)",
     re.IGNORECASE | re.MULTILINE,
 )

@@ -36,7 +36,8 @@ class Rules:
     RAPID `robax.rax_1` maps step by step. undefined: reading a variable without a value is a fault (else zero values).
     implicit_pose: an undeclared name is a pose. call_depth: nested calls the controller allows.
     system_defaults: modal system variables at the start of a run, in base units. errors: names of error numbers.
-    blend_levels: distance in mm of each numbered blend level (INFORM PL).
+    blend_levels: distance in mm of each numbered blend level (INFORM PL). array_base: index of the first element of a
+    list that is written out.
     """
 
     name: str
@@ -53,3 +54,4 @@ class Rules:
     errors: Mapping[str, int] = field(default_factory=dict)
     type_names: Mapping[str, Type] = field(default_factory=dict)
     blend_levels: tuple[float, ...] = ()
+    array_base: int = 1

@@ -24,6 +24,10 @@ if TYPE_CHECKING:
     from rpl.runtime.machine import Machine
 
 
+# How far a language's own number of a signal may lie below the neutral one.
+_SPELLED_LATER = 17
+
+
 class GlobalSlot:
     """One global variable: its declaration, and how its first value is made."""
 
@@ -198,8 +202,9 @@ class LinkedProgram:
         for dialect in {module.dialect for module in self.program.modules}:
             spell = registry.dialect(dialect).signal_name
             for kind in ir.SIGNAL_KINDS:
-                if spell(kind, int(digits)).lower() == name:
-                    return SignalRef(kind, int(digits))
+                for number in range(int(digits), int(digits) + _SPELLED_LATER):  # some languages count from 0
+                    if spell(kind, number).lower() == name:
+                        return SignalRef(kind, number)
         return None
 
     def alias_names(self, port: SignalRef) -> tuple[str, ...]:

@@ -1,0 +1,105 @@
+"""Universal Robots URScript: how its files are recognised; the heavy parts are imported when called."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rpl.diagnostics import Diagnostics
+from rpl.registry import Dialect, ReadResult
+from rpl.source import Source
+
+if TYPE_CHECKING:
+    from rpl.emulator.configuration import Notation
+    from rpl.ir import Module
+    from rpl.ir.rules import Rules
+
+_HEADER = re.compile(r"^[ \t\ufeff]*(?:def|thread|sec)[ \t]+\w+[ \t]*\([^()\n]*(?:\([^()\n]*\)[^()\n]*)*\)[ \t]*:", re.MULTILINE)
+_END = re.compile(r"^[ \t]*end[ \t]*(?:#.*)?$", re.MULTILINE)
+_TYPICAL = re.compile(
+    r"^[ \t]*(?:movej|movel|movep|movec|servoj|servoc|speedj|speedl|stopj|stopl|set_tcp|set_payload|set_gravity|textmsg"
+    r"|popup|sync|set_(?:standard_|configurable_|tool_)?(?:digital|analog)_out|socket_open|socket_send_\w+"
+    r"|modbus_\w+|write_output_\w+_register|rpc_factory)[ \t]*\("
+    r"|\bget_(?:standard_|configurable_|tool_)?(?:digital|analog)_in\(|=[ \t]*p\[|\bget_inverse_kin\(|\bpose_trans\("
+    r"|^[ \t]*(?:enter_critical|exit_critical|halt)[ \t]*$|^[ \t]*(?:global|local)[ \t]+\w+[ \t]*=(?!=)"
+    r"|^[ \t]*\w+[ \t]*=[ \t]*run[ \t]|^[ \t]*\$[ \t]*\d+[ \t]+\"",
+    re.MULTILINE,
+)
+# What other languages with `def ...:` have and URScript has not.
+_PYTHON = re.compile(r"^[ \t]*(?:import|from|class|with|for|try|except|lambda|async|@\w+)\b.*:?[ \t]*$|\bself\.", re.MULTILINE)
+
+
+def _recognise(path: str, text: str) -> int:
+    """How sure the content is URScript: headers with their ends, and the names of the controller's functions."""
+    head = text[:200_000]
+    if _is_saved_program(head):
+        return 95
+    headers, ends, typical = len(_HEADER.findall(head)), len(_END.findall(head)), len(_TYPICAL.findall(head))
+    if len(_PYTHON.findall(head)) > ends:
+        return 0
+    if headers and ends and typical:
+        return 95
+    if headers and ends:
+        return 80
+    code = [line for line in head.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    if typical and typical * 4 >= len(code):
+        return 60
+    return 35 if typical and Path(path).suffix.lower() in (".script", ".urscript") else 0
+
+
+def _is_saved_program(text: str) -> bool:
+    """A program saved by the teach pendant (.urp, unpacked)."""
+    return text.lstrip("\ufeff \t\r\n").startswith(("<URProgram", "<?xml")) and "<URProgram" in text[:2000]
+
+
+def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
+    from .project import read
+
+    return read(sources, diagnostics)
+
+
+def _rules() -> Rules:
+    from .rules import RULES
+
+    return RULES
+
+
+def _no_prelude() -> Module | None:
+    return None
+
+
+def _notation() -> Notation:
+    from .configuration import NOTATION
+
+    return NOTATION
+
+
+# Neutral numbers of digital and analog signals by the pendant's names: first number, name.
+_DIGITAL = ((17, "tool_{}[{}]"), (9, "config_{}[{}]"), (1, "digital_{}[{}]"))
+_ANALOG = ((3, "tool_analog_{}[{}]"), (1, "analog_{}[{}]"))
+
+
+def _signal_name(kind: str, number: int) -> str:
+    """How the teach pendant names a signal: `digital_out[0]`, `config_in[3]`, `tool_out[1]`, `analog_in[0]`."""
+    what, _, way = kind.partition("_")
+    if what in ("digital", "analog"):
+        for first, name in _DIGITAL if what == "digital" else _ANALOG:
+            if number >= first:
+                return name.format(way, number - first)
+    return f"{kind}[{number - 1}]"
+
+
+DIALECT = Dialect(
+    name="urscript",
+    title="Universal Robots URScript",
+    extensions=(".script", ".urscript", ".ur", ".urp"),
+    recognise=_recognise,
+    read=_read,
+    rules=_rules,
+    prelude=_no_prelude,
+    notation=_notation,
+    notation_fields=(),
+    signal_name=_signal_name,
+)

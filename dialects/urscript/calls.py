@@ -1,0 +1,388 @@
+"""Calls that give a value: own functions, and the controller's functions in neutral words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from rpl import ir
+
+from . import nodes
+from .expressions import BUILTINS, Expressions
+from .functions import BindError, Builtin, bind
+from .kinds import BOOL, INT, REAL, Kind, is_joints, is_number
+from .nodes import Expr
+from .rules import FIRST_SIGNAL, LEGACY_ANALOG, LEGACY_DIGITAL, POSE_DIST_COUNTS_ANGLE, STEP_TIME_S
+from .scopes import Function
+
+Bound = dict[str, Expr | None]
+Make = Callable[["Calls", Bound], ir.Expression | None]
+
+
+class Calls(Expressions):
+    """Adds calls to expressions."""
+
+    def call(self, expression: nodes.Apply, wanted: Kind | None) -> ir.Expression:
+        """The value of a call."""
+        if expression.base is not None:
+            return self.text_of(expression, wanted)
+        if expression.name == "struct":
+            return self.struct(expression)
+        function = self.project.function(expression.name, self.here)
+        if function is not None:
+            return ir.Call(function.name, self.own_arguments(expression, function))
+        builtin = BUILTINS.get(expression.name)
+        if builtin is None:
+            given = tuple(ir.Argument(self.value(value), name) for name, value in expression.arguments)
+            return ir.Call(expression.name, given)
+        make = VALUES.get(expression.name)
+        if builtin.effect or make is None:
+            return self.text_of(expression, wanted)
+        try:
+            bound = bind(builtin, expression.arguments)
+        except BindError as error:
+            return self.refused(expression, str(error), wanted)
+        made = make(self, bound)
+        return made if made is not None else self.refused(expression, "this form has no neutral meaning", wanted)
+
+    def struct(self, expression: nodes.Apply) -> ir.Expression:
+        kind = self.kind(expression)
+        assert kind is not None and kind.word == "struct"  # infer makes it so
+        type = self.type(kind)
+        assert isinstance(type, ir.NamedType)  # a struct's type
+        entries = [(name or "", self.element_value(value, self.kind(value))) for name, value in expression.arguments]
+        return ir.Aggregate(tuple(entries), type.name)
+
+    def own_arguments(self, expression: nodes.Apply, function: Function) -> tuple[ir.Argument, ...]:
+        """All arguments in the order of the parameters; a default is written where none is given."""
+        names = list(function.parameters)
+        given: dict[str, Expr] = {}
+        place = 0
+        extra: list[ir.Argument] = []
+        for name, value in expression.arguments:
+            if name is None:
+                name = names[place] if place < len(names) else None
+                place += 1
+            if name in function.parameters:
+                given[name] = value
+            else:
+                extra.append(ir.Argument(self.value(value)))
+        done = []
+        for name, default in function.node.parameters:
+            symbol = function.parameters[name]
+            value = given.get(name, default)
+            if value is None:
+                done.append(ir.Argument(None))
+            else:
+                done.append(ir.Argument(self.stored(value, symbol.kind, symbol.is_joints)))
+        while done and done[-1].value is None:
+            done.pop()
+        return (*done, *extra)
+
+    # ---- signals
+
+    def signal(self, group: str, direction: str, number: Expr | None) -> ir.Signal:
+        """The signal of a function such as get_standard_digital_in."""
+        assert number is not None  # the parameter has to be given
+        analog = group.endswith("analog")
+        kind = ("analog_" if analog else "digital_") + direction
+        first = FIRST_SIGNAL[group]
+        if isinstance(number, nodes.Number) and isinstance(number.value, int):
+            legacy = LEGACY_ANALOG if analog else LEGACY_DIGITAL
+            place = legacy.get(number.value) if group in ("analog", "digital") else None
+            return ir.Signal(kind, ir.IntLiteral(place if place is not None else number.value + first))
+        return ir.Signal(kind, ir.Binary("+", self.value(number, INT), ir.IntLiteral(first)))
+
+    def register(self, name: str, kind: str, address: Expr | None) -> ir.Signal | None:
+        """A register of the fieldbus or of RTDE is a signal with a name; its number has to be written out."""
+        if not isinstance(address, nodes.Number):
+            return None
+        return ir.Signal(kind, name=f"{name}_{address.spelling}")
+
+    # ---- geometry
+
+    def rotation_of(self, vector: Expr | None) -> ir.Expression | None:
+        """The rotation of a list that is a rotation vector in rad."""
+        parts = self.three(vector)
+        if parts is None:
+            return None
+        zeros = [ir.RealLiteral(0.0, "0.0") for _ in range(3)]
+        turned = ir.Builtin("pose_from_rotation_vector", (*zeros, *(ir.Quantity(part, "rad") for part in parts)))
+        return ir.Field(turned, "rot")
+
+    def three(self, vector: Expr | None) -> list[ir.Expression] | None:
+        if vector is None:
+            return None
+        parts = [self.element(vector, place) for place in range(3)]
+        found = [part for part in parts if part is not None]
+        return found if len(found) == 3 else None
+
+    def pose(self, expression: Expr | None) -> ir.Expression:
+        """A pose; joints in its place mean where the arm would be."""
+        assert expression is not None  # the parameter has to be given
+        if is_joints(self.kind(expression)):
+            return ir.Builtin("pose_of", (ir.Builtin("joints_to_target", (self.joints(expression),)),))
+        return self.value(expression)
+
+
+def _given(calls: Calls, bound: Bound, name: str, wanted: Kind | None = None) -> ir.Expression:
+    value = bound[name]
+    assert value is not None  # the parameter has to be given
+    return calls.value(value, wanted)
+
+
+def _of_angle(function: str) -> Make:
+    """sin, cos, tan of radians."""
+    return lambda calls, bound: ir.Builtin(function, (ir.Quantity(_given(calls, bound, "f"), "rad"),))
+
+
+def _angle(function: str, *names: str) -> Make:
+    """An angle in radians."""
+    return lambda calls, bound: ir.Magnitude(
+        ir.Builtin(function, tuple(_given(calls, bound, name) for name in names)), "rad"
+    )
+
+
+def _plain(function: str, *names: str) -> Make:
+    return lambda calls, bound: ir.Builtin(function, tuple(_given(calls, bound, name) for name in names))
+
+
+def _reading(group: str, direction: str) -> Make:
+    return lambda calls, bound: calls.signal(group, direction, bound["n"])
+
+
+def _register(name: str, kind: str) -> Make:
+    return lambda calls, bound: calls.register(name, kind, bound["address"])
+
+
+def _here(tool: bool) -> Make:
+    """Where the tool centre point is, or the flange."""
+    arguments = () if tool else (ir.Builtin("pose_from_rotation_vector", (ir.RealLiteral(0.0, "0.0"),) * 6),)
+    return lambda calls, bound: ir.Builtin("pose_of", (ir.Builtin("current_target", arguments),))
+
+
+def _forward(calls: Calls, bound: Bound) -> ir.Expression:
+    joints, tool = bound["q"], bound["tcp"]
+    more = (calls.value(tool),) if tool is not None else ()
+    if joints is None:
+        return ir.Builtin("pose_of", (ir.Builtin("current_target", more),))
+    return ir.Builtin("pose_of", (ir.Builtin("joints_to_target", (calls.joints(joints), *more)),))
+
+
+def _inverse(function: str) -> Make:
+    def make(calls: Calls, bound: Bound) -> ir.Expression:
+        target = bound["x"] if "x" in bound else bound["pose"]
+        near, tool = bound["qnear"], bound["tcp"]
+        more = (calls.value(tool),) if tool is not None else ()
+        if near is None and function == "target_to_joints_near":
+            return ir.Builtin("target_to_joints", (calls.pose(target), *more))
+        reference = ir.Builtin("current_joints", ()) if near is None else calls.joints(near)
+        return ir.Builtin(function, (calls.pose(target), reference, *more))
+
+    return make
+
+
+def _pose_add(calls: Calls, bound: Bound) -> ir.Expression:
+    return ir.Builtin("pose_sum", (calls.pose(bound["p_1"]), calls.pose(bound["p_2"])))
+
+
+def _pose_sub(calls: Calls, bound: Bound) -> ir.Expression:
+    return ir.Builtin("pose_difference", (calls.pose(bound["p_to"]), calls.pose(bound["p_from"])))
+
+
+def _distance(angles: bool) -> Make:
+    def make(calls: Calls, bound: Bound) -> ir.Expression:
+        one, other = calls.pose(bound["p_from"]), calls.pose(bound["p_to"])
+        way = ir.Magnitude(ir.Builtin("distance", (ir.Field(one, "trans"), ir.Field(other, "trans"))), "m")
+        if not angles:
+            return way
+        turn = ir.Magnitude(ir.Builtin("rotation_angle", (one, other)), "rad")
+        return ir.Builtin("sqrt", (ir.Binary("+", _squared(way), _squared(turn)),))
+
+    return make
+
+
+def _squared(value: ir.Expression) -> ir.Expression:
+    return ir.Binary("**", value, ir.IntLiteral(2))
+
+
+def _to_angles(calls: Calls, bound: Bound) -> ir.Expression | None:
+    """rotvec2rpy: roll, pitch, yaw of Rz(yaw) Ry(pitch) Rx(roll)."""
+    rotation = calls.rotation_of(bound["rotation_vector"])
+    if rotation is None:
+        return None
+    parts = [ir.Magnitude(ir.Builtin(f"euler_{axis}", (rotation,)), "rad") for axis in "xyz"]
+    return ir.Aggregate(tuple((None, part) for part in parts))
+
+
+def _to_vector(calls: Calls, bound: Bound) -> ir.Expression | None:
+    parts = calls.three(bound["rpy_vector"])
+    if parts is None:
+        return None
+    roll, pitch, yaw = (ir.Quantity(part, "rad") for part in parts)
+    rotation = ir.Builtin("rotation_zyx", (yaw, pitch, roll))
+    found = [ir.Magnitude(ir.Builtin(f"rotation_vector_{axis}", (rotation,)), "rad") for axis in "xyz"]
+    return ir.Aggregate(tuple((None, part) for part in found))
+
+
+def _log(calls: Calls, bound: Bound) -> ir.Expression:
+    base, value = _given(calls, bound, "b"), _given(calls, bound, "f")
+    return ir.Binary("/", ir.Builtin("log", (value,)), ir.Builtin("log", (base,)))
+
+
+def _norm(calls: Calls, bound: Bound) -> ir.Expression | None:
+    """Of a number its size, of a list its length as a vector."""
+    value = bound["a"]
+    assert value is not None  # it has to be given
+    kind = calls.kind(value)
+    if kind is None or is_number(kind):
+        return ir.Builtin("abs", (calls.value(value, REAL),))
+    count = 6 if kind.word == "pose" else kind.length
+    if kind.word not in ("list", "pose") or count is None or not 0 < count <= 12:
+        return None
+    parts = [calls.element(value, place) for place in range(count)]
+    total: ir.Expression | None = None
+    for part in parts:
+        if part is None:
+            return None
+        total = _squared(part) if total is None else ir.Binary("+", total, _squared(part))
+    return ir.Builtin("sqrt", (total,)) if total is not None else None
+
+
+def _length(calls: Calls, bound: Bound) -> ir.Expression | None:
+    value = bound["v"] if "v" in bound else None
+    assert value is not None  # it has to be given
+    kind = calls.kind(value)
+    if kind is not None and kind.word == "pose":
+        return ir.IntLiteral(6)
+    if kind is not None and kind.word == "list" and kind.length is not None:
+        return ir.IntLiteral(kind.length)
+    if kind is not None and kind.word == "text":
+        return ir.Builtin("text_length", (calls.value(value),))
+    return ir.Builtin("length", (calls.array(value),))
+
+
+# ---- texts
+
+
+def as_text(calls: Calls, value: Expr) -> ir.Expression:
+    """Any value as the text the controller makes of it."""
+    kind = calls.kind(value)
+    if kind is not None and kind.word == "text":
+        return calls.value(value)
+    if kind == BOOL:
+        if isinstance(value, nodes.Truth):
+            return ir.TextLiteral("True" if value.value else "False")
+        words = ir.Aggregate(((None, ir.TextLiteral("False")), (None, ir.TextLiteral("True"))))
+        return ir.Index(words, (ir.Convert("bit", calls.value(value, BOOL)),))
+    return ir.Builtin("value_text", (calls.array(value),))
+
+
+def _cat(calls: Calls, bound: Bound) -> ir.Expression:
+    one, other = bound["op1"], bound["op2"]
+    assert one is not None and other is not None  # they have to be given
+    return ir.Binary("&", as_text(calls, one), as_text(calls, other))
+
+
+def _shown(calls: Calls, bound: Bound) -> ir.Expression:
+    value = bound["val"]
+    assert value is not None  # it has to be given
+    return as_text(calls, value)
+
+
+def _character(calls: Calls, bound: Bound) -> ir.Expression:
+    place = one_more(_given(calls, bound, "index", INT))
+    return ir.Builtin("text_part", (_given(calls, bound, "src"), place, ir.IntLiteral(1)))
+
+
+def one_more(number: ir.Expression) -> ir.Expression:
+    """URScript counts characters from 0, the IR from 1."""
+    if isinstance(number, ir.IntLiteral):
+        return ir.IntLiteral(number.value + 1)
+    return ir.Binary("+", number, ir.IntLiteral(1))
+
+
+def _part(calls: Calls, bound: Bound) -> ir.Expression:
+    """str_sub: a length of -1 means up to the end."""
+    text, start = _given(calls, bound, "src"), _given(calls, bound, "index", INT)
+    count = bound["len"]
+    if isinstance(count, nodes.Sign):
+        length: ir.Expression = ir.Binary("-", ir.Builtin("text_length", (text,)), start)
+    else:
+        length = _given(calls, bound, "len", INT)
+    return ir.Builtin("text_part", (text, one_more(start), length))
+
+
+def _find(calls: Calls, bound: Bound) -> ir.Expression:
+    place = one_more(_given(calls, bound, "start_from", INT))
+    found = ir.Builtin("text_find", (_given(calls, bound, "src"), place, _given(calls, bound, "target")))
+    return ir.Binary("-", found, ir.IntLiteral(1))
+
+
+def _empty(calls: Calls, bound: Bound) -> ir.Expression:
+    return ir.Binary("=", ir.Builtin("text_length", (_given(calls, bound, "str"),)), ir.IntLiteral(0))
+
+
+VALUES: dict[str, Make] = {
+    **{
+        f"get_{group}_{direction}": _reading(group, direction)
+        for group in FIRST_SIGNAL
+        for direction in ("in", "out")
+        if f"get_{group}_{direction}" in BUILTINS
+    },
+    "get_flag": lambda calls, bound: ir.Signal("flag", one_more(_given(calls, bound, "n", INT))),
+    **{
+        f"read_{way}_{word}_register": _register(f"{way}_{word}_register", f"{kind}_{way[:-3]}")
+        for way in ("input", "output")
+        for word, kind in (("boolean", "digital"), ("integer", "group"), ("float", "analog"))
+    },
+    "read_port_bit": _register("port_bit", "digital_in"),
+    "read_port_register": _register("port_register", "group_in"),
+    **dict.fromkeys(("get_actual_tcp_pose", "get_target_tcp_pose"), _here(True)),
+    **dict.fromkeys(("get_actual_tool_flange_pose", "get_target_tool_flange_pose"), _here(False)),
+    **dict.fromkeys(
+        ("get_actual_joint_positions", "get_joint_positions", "get_target_joint_positions"),
+        lambda calls, bound: ir.Builtin("current_joints", ()),
+    ),
+    "get_tcp_offset": lambda calls, bound: ir.Field(ir.Builtin("current_tool", ()), "frame"),
+    "get_forward_kin": _forward,
+    "get_inverse_kin": _inverse("target_to_joints_near"),
+    "get_inverse_kin_has_solution": _inverse("is_reachable"),
+    "is_steady": lambda calls, bound: ir.Unary("not", ir.System("moving")),
+    "get_steptime": lambda calls, bound: ir.RealLiteral(STEP_TIME_S, str(STEP_TIME_S)),
+    "time": lambda calls, bound: ir.System("time"),
+    "pose_trans": lambda calls, bound: ir.Binary(":", calls.pose(bound["p_from"]), calls.pose(bound["p_from_to"])),
+    "pose_inv": lambda calls, bound: ir.Builtin("inverse", (calls.pose(bound["p_from"]),)),
+    "pose_add": _pose_add,
+    "pose_sub": _pose_sub,
+    "pose_dist": _distance(POSE_DIST_COUNTS_ANGLE),
+    "point_dist": _distance(False),
+    "interpolate_pose": lambda calls, bound: ir.Builtin(
+        "interpolate_pose", (calls.pose(bound["p_from"]), calls.pose(bound["p_to"]), _given(calls, bound, "alpha"))
+    ),
+    "rotvec2rpy": _to_angles,
+    "rpy2rotvec": _to_vector,
+    "d2r": lambda calls, bound: ir.Magnitude(_given(calls, bound, "d"), "rad"),
+    "r2d": lambda calls, bound: ir.Quantity(_given(calls, bound, "r"), "rad"),
+    **{name: _of_angle(name) for name in ("sin", "cos", "tan")},
+    **{name: _angle(name, "f") for name in ("asin", "acos", "atan")},
+    "atan2": _angle("atan2", "x", "y"),  # the manual names them so; the first is the height
+    "sqrt": _plain("sqrt", "f"),
+    "pow": _plain("power", "base", "exponent"),
+    "log": _log,
+    "floor": _plain("floor", "f"),
+    "ceil": _plain("ceil", "f"),
+    "norm": _norm,
+    "random": _plain("random"),
+    "length": _length,
+    "get_list_length": _length,
+    "str_at": _character,
+    "str_cat": _cat,
+    "str_empty": _empty,
+    "str_find": _find,
+    "str_len": _plain("text_length", "str"),
+    "str_sub": _part,
+    "to_num": _plain("text_value", "str"),
+    "to_str": _shown,
+}
+
+__all__ = ["VALUES", "Builtin", "Calls", "as_text", "one_more"]

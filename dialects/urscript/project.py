@@ -1,0 +1,139 @@
+"""All URScript sources of a project to modules: one per file, nested functions side by side with the others."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics
+from rpl.reading.assemble import assemble
+from rpl.reading.ledger import FileReport
+from rpl.registry import ReadResult
+from rpl.source import Origin, Source
+
+from . import nodes
+from .expressions import Names, returns_joints
+from .infer import Inference
+from .kinds import type_of
+from .scopes import File, Function, Project, Symbol, collect, count_stores
+from .splitter import split
+from .statements import Statements, zero
+from .syntax import Syntax, parser, unwrapped
+
+
+def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
+    """Read all sources of one project together."""
+    syntax = Syntax(diagnostics)
+    contents: list[tuple[Source, nodes.Block]] = []
+    reports: list[FileReport] = []
+    for source in sources:
+        done = assemble(source, "urscript", split(source), parser(), syntax.lower, syntax.build, diagnostics)
+        reports.append(done.report)
+        contents.append((source, tuple([unwrapped(item) for item in done.items])))
+    project = collect(contents)
+    count_stores(project)
+    inference = Inference(project)
+    inference.run(diagnostics)
+    modules = tuple([_module(file, project, inference, diagnostics) for file in project.files])
+    programs = [file.program for file in project.files if file.program is not None]
+    entry = programs[0].name if len(programs) == 1 else ""
+    return ReadResult(ir.Program(modules, entry=entry), tuple(reports))
+
+
+def _module(file: File, project: Project, inference: Inference, diagnostics: Diagnostics) -> ir.Module:
+    names = Names(taken={symbol.name for symbol in project.symbols()})
+    names.taken.update(function.name for function in project.functions())
+    routines = tuple([_routine(function, project, inference, names, diagnostics) for function in file.functions])
+    variables = [_variable(symbol, names, "global") for symbol in file.globals.values()]
+    records = tuple(
+        ir.RecordDeclaration(
+            name,
+            tuple((field, type_of(kind, names.records)) for field, kind in names.record_kinds[key].fields),
+            "global",
+        )
+        for key, name in names.records.items()
+    )
+    remarks = tuple(ir.Unread("", origin=node.origin) for node in file.leading)
+    attributes = (("start", f"{file.start}()"),) if file.start else ()
+    return ir.Module(
+        file.name, "urscript", (*remarks, *records, *variables), routines, attributes, origin=Origin(file.source)
+    )
+
+
+def _variable(symbol: Symbol, names: Names, scope: str) -> ir.Variable:
+    type = ir.JointsType() if symbol.is_joints else type_of(symbol.kind, _known(names, symbol))
+    return ir.Variable(symbol.name, type, scope=scope, origin=replace(symbol.origin, comments=()))
+
+
+def _known(names: Names, symbol: Symbol) -> dict[tuple[str, ...], str]:
+    kind = symbol.kind
+    while kind is not None and kind.word == "list":
+        kind = kind.element
+    if kind is not None and kind.word == "struct":
+        names.record(kind, f"{symbol.name}_struct")
+        for _, inner in kind.fields:
+            if inner is not None and inner.word == "struct":
+                names.record(inner, f"{symbol.name}_part")
+    return names.records
+
+
+def _routine(
+    function: Function, project: Project, inference: Inference, names: Names, diagnostics: Diagnostics
+) -> ir.Routine:
+    for symbol in (*function.parameters.values(), *function.locals.values(), *function.file.globals.values()):
+        _known(names, symbol)
+    lowering = Statements(project, inference, function, names, diagnostics)
+    body = lowering.body()
+    gives = function.gives
+    statements = body.statements
+    returns: ir.Type | None = None
+    if gives:
+        returns = ir.JointsType() if returns_joints(function) else lowering.type(function.returns)
+        if _may_fall_off(statements):
+            statements = (*statements, ir.Return(zero(function.returns), origin=function.node.end))
+    parameters = tuple(
+        ir.Parameter(
+            symbol.name, ir.JointsType() if symbol.is_joints else lowering.type(symbol.kind)
+        )
+        for symbol in function.parameters.values()
+    )
+    declared = tuple(_variable(symbol, names, "routine") for symbol in function.locals.values())
+    return ir.Routine(
+        function.name,
+        "function" if gives else "procedure",
+        parameters,
+        returns,
+        (*declared, *body.helpers),
+        statements,
+        scope="global",
+        origin=function.node.origin,
+    )
+
+
+def _may_fall_off(body: ir.Body) -> bool:
+    """Can the end of the body be reached?"""
+    last = next((s for s in reversed(body) if not isinstance(s, ir.Nothing)), None)
+    match last:
+        case ir.Return() | ir.Halt():
+            return False
+        case ir.If(branches=branches, otherwise=otherwise) if otherwise:
+            return _may_fall_off(otherwise) or any(_may_fall_off(inner) for _, inner in branches)
+        case ir.Loop(body=inner):
+            return _leaves(inner)
+    return True
+
+
+def _leaves(body: ir.Body) -> bool:
+    """Does a statement leave the loop that has this body?"""
+    for statement in body:
+        match statement:
+            case ir.ExitLoop():
+                return True
+            case ir.If(branches=branches, otherwise=otherwise):
+                if _leaves(otherwise) or any(_leaves(inner) for _, inner in branches):
+                    return True
+            case ir.Switch(cases=cases, default=default):
+                if any(_leaves(case.body) for case in cases) or _leaves(default or ()):
+                    return True
+    return False

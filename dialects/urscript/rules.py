@@ -1,0 +1,63 @@
+"""What a Universal Robots controller does, as data. `M` marks what rests on memory and has its own test.
+
+Further facts of this kind stand where they are used and are tested in tests/urscript/test_urscript_facts.py:
+M: precedence from high to low is ^, signs, * / %, + -, comparisons, not, and, xor, or (grammars/urscript.lark).
+M: `and` and `or` do not look at their right side when the left one decides; `/` is real division (expressions.py).
+M: pose_sub is what pose_add undoes: pose_add(b, pose_sub(a, b)) is a, so its rotation is R_b^-1 R_a (calls.py).
+M: `list * list` is element by element; a matrix times a list is the product (infer.py).
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from rpl.ir.rules import AdvanceRules, Rules
+
+# A move without blend has ended before the next statement begins; behind one with a blend the program goes on when the
+# robot enters the blend (M: it does not matter to the path what the program does then).
+_ADVANCE = AdvanceRules(moves=1, runs_ahead_of="fly_by", stop_statements=frozenset(("Halt",)))
+
+# One cycle of an e-Series controller, s (script manual 5.2, threads); CB3 controllers have 0.008.
+STEP_TIME_S: Final = 0.002
+
+# M: the distance of two poses counts the angle between them (rad) like a length (m): the length of the six numbers of
+# pose_sub.
+POSE_DIST_COUNTS_ANGLE: Final = True
+
+# First neutral number of each kind of signal by the function that names it. The numbers of one robot lie side by side:
+# standard 1-8, configurable 9-16, tool 17-18 (analog: standard 1-2, tool 3-4).
+FIRST_SIGNAL: Final = {
+    "standard_digital": 1,
+    "configurable_digital": 9,
+    "tool_digital": 17,
+    "digital": 1,
+    "standard_analog": 1,
+    "tool_analog": 3,
+    "analog": 1,
+}
+# M: the old functions without a word for the kind count on: 8 and 9 are the tool's (16 and 17 on some versions).
+LEGACY_DIGITAL: Final = {8: 17, 9: 18, 16: 17, 17: 18}
+LEGACY_ANALOG: Final = {2: 3, 3: 4}
+
+RULES = Rules(
+    name="urscript",
+    advance=_ADVANCE,
+    case_sensitive=True,
+    text_plus=True,
+    undefined=True,
+    array_base=0,
+    call_depth=100,
+    system_defaults={
+        "path_speed": 250.0,
+        "path_acceleration": 1200.0,
+        "swivel_speed": 180.0,
+        "twist_speed": 180.0,
+        "swivel_acceleration": 720.0,
+        "twist_acceleration": 720.0,
+        "joint_speed": 100.0,
+        "joint_acceleration": 100.0,
+        "override": 100.0,
+        "circle_orientation": "base",
+        "held_work": False,
+    },
+)

@@ -1,0 +1,61 @@
+"""Neutral functions that ask for the arm near given joints, and sums of poses as controllers without frames have them.
+Millimetres and degrees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rpl.passes import rigid
+from rpl.runtime.chain import filled, frames_of, joints_of, joints_value, matrix_of
+from rpl.runtime.faults import ProgramError
+from rpl.runtime.geometry import as_pose
+from rpl.runtime.values import PoseValue, Value, rotation_of
+
+if TYPE_CHECKING:
+    from rpl.emulator.rotations import FloatArray
+    from rpl.runtime.task import Task
+
+
+def _sum(one: Value, other: Value) -> PoseValue:
+    first, second = as_pose(one), as_pose(other)
+    turn = first.rot.rigid().then(second.rot.rigid())
+    return PoseValue(first.trans + second.trans, rotation_of(turn, first.rot.convention))
+
+
+def _difference(one: Value, other: Value) -> PoseValue:
+    first, second = as_pose(one), as_pose(other)
+    turn = second.rot.rigid().inverse.then(first.rot.rigid())
+    return PoseValue(first.trans - second.trans, rotation_of(turn, first.rot.convention))
+
+
+def _near(task: Task, target: Value, joints: Value, tool: Value = None, frame: Value = None) -> FloatArray | None:
+    task.looked = task.looked_at_time = True
+    robot = task.robot
+    if robot is None or robot.model is None:
+        raise ProgramError("motion", "inverse kinematics need a robot")
+    place, moving = frames_of(tool, frame, task.modal, {}).target_in_robot(filled(target, rigid.IDENTITY))
+    near = np.array(joints_of(joints, [0.0] * robot.model.axes, False))
+    found: FloatArray | None = robot.model.nearest(matrix_of(place.then(moving.inverse)), near)
+    return found
+
+
+def _target_to_joints_near(task: Task, target: Value, joints: Value, tool: Value = None, frame: Value = None) -> Value:
+    found = _near(task, target, joints, tool, frame)
+    if found is None:
+        raise ProgramError("unreachable", "the target is out of reach")
+    return joints_value([float(joint) for joint in found], (None,) * 6, task.frame.code.rules)
+
+
+def _is_reachable(task: Task, target: Value, joints: Value, tool: Value = None, frame: Value = None) -> bool:
+    return _near(task, target, joints, tool, frame) is not None
+
+
+PURE: dict[str, Callable[..., Value]] = {"pose_sum": _sum, "pose_difference": _difference}
+OF_TASK: dict[str, Callable[..., Value]] = {
+    "target_to_joints_near": _target_to_joints_near,
+    "is_reachable": _is_reachable,
+}
