@@ -151,14 +151,14 @@ class Motion(Statements):
     def part_time_trigger(self, tree: SyntaxTree, options: Options) -> None:
         word = str(tree.children[0]).upper()
         time = self.number(_tree(tree.children[1]))
+        self.unit(tree.children[2], "sec", "s")
         before = word.endswith(("TB", "BEFORE"))
         delay = _negative(time) if before else time
         self.trigger(_tree(tree.children[-1]), options, None, delay, word)
 
     def part_distance_trigger(self, tree: SyntaxTree, options: Options) -> None:
         distance = self.number(_tree(tree.children[1]))
-        if str(tree.children[2]).lower() != "mm":
-            raise StatementError("DB takes a distance in mm", 0)
+        self.unit(tree.children[2], "mm")
         self.trigger(_tree(tree.children[-1]), options, _negative(distance), None, "DB")
 
     def trigger(
@@ -283,13 +283,14 @@ class Motion(Statements):
     def search(self, options: Options) -> ir.Search | None:
         if options.skip is None:
             return None
-        if self.condition is None:
-            raise StatementError("no SKIP CONDITION stands before this move", 0)
-        if self.conditions > 1:
-            self.diagnostics.report(SKIP_BY_TEXT, self.origin, what="SKIP CONDITION", line=self.condition[1])
+        condition: ir.Expression = ir.VendorValue("tp", "SKIP CONDITION", ir.BoolType(), origin=self.origin)
+        if self.condition is not None:
+            condition = self.condition[0]
+            if self.conditions > 1:
+                self.diagnostics.report(SKIP_BY_TEXT, self.origin, what="SKIP CONDITION", line=self.condition[1])
         latch = options.skip[2]
         found = latch[0].node if latch is not None and latch[1].kind == "p" and latch[0].kind == "p" else None
-        return ir.Search(self.condition[0], found, "stop", "rising", ir.Name(HIT, origin=self.origin))
+        return ir.Search(condition, found, "stop", "rising", ir.Name(HIT, origin=self.origin))
 
     def after(self, options: Options) -> Many:
         """Skip,LBL[n]: without the condition the program jumps; SkipJump jumps with it."""

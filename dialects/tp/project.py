@@ -139,7 +139,7 @@ def _read_listing(
 def _module(part: ModulePart, header: Header, file: _File, facts: Facts) -> ir.Module:
     kinds = facts.arguments.get(file.name.upper(), {})
     parameters = tuple(
-        ir.Parameter(f"AR{number}", ir.StringType() if kinds.get(number) == "t" else tables.NUMBER, optional=True)
+        ir.Parameter(f"AR{number}", ir.StringType() if kinds.get(number) == "t" else tables.NUMBER)
         for number in range(1, max(kinds, default=0) + 1)
     )
     first, *more = part.routines

@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from rpl.reading.pieces import COMMENT, STATEMENT, Piece
+from rpl.reading.pieces import COMMENT, LAYOUT, STATEMENT, Piece
 from rpl.source import Source
 
 from .words import english, is_german
@@ -163,14 +163,18 @@ def _statements(text: str, begin: int, end: int, german: bool) -> Iterator[Piece
     waiting: Piece | None = None
     for line in _lines(text, begin, end):
         body = line.text.strip(_BLANKS)
-        if not body:
-            continue
         if line.remark or body.startswith("//"):
             if waiting is not None:
                 yield waiting
                 waiting = None
             kept = body[2:] if body.startswith("--") else body[1:] if line.remark else body
             yield Piece(COMMENT, line.start, line.end, kept.removesuffix(";").rstrip())
+            continue
+        if body in (";", ""):  # a numbered line with nothing in it
+            if waiting is not None:
+                yield waiting
+                waiting = None
+            yield Piece(LAYOUT, line.start, line.end, "")
             continue
         piece = Piece(STATEMENT, line.start, line.end, readable(body, german))
         if waiting is not None and _SELECT_NEXT.match(piece.text):

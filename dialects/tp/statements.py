@@ -199,10 +199,18 @@ class Statements(Expressions):
         if not isinstance(signal, ir.Signal):
             raise StatementError("only an output can be pulsed", 0)
         parts = [child for child in tree.children[1:] if isinstance(child, Tree)]
+        for unit in tree.children[3:]:
+            self.unit(unit, "sec", "s")
         time: ir.Expression = self.number(parts[0]) if parts else ir.RealLiteral(tables.PULSE_DEFAULT_S)
         return ir.Pulse(signal, ir.BoolLiteral(True), time, origin=self.origin)
 
+    def unit(self, child: object, *wanted: str) -> None:
+        if str(child).lower() not in wanted:
+            raise StatementError(f"the unit here is {wanted[0]}, not {child}", 0)
+
     def on_override(self, tree: SyntaxTree) -> Lowered:
+        for unit in tree.children[1:]:
+            self.unit(unit, "%")
         override = ir.System("override", origin=self.origin)
         return ir.Assign(override, self.number(_tree(tree.children[0])), origin=self.origin)
 
