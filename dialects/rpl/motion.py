@@ -72,7 +72,7 @@ class Settings:
         zone = given.get("zone")
         if zone is not None:
             return ir.BlendZone(zone, given.get("radius"), given.get("settled"))
-        level = given.get("blend level")
+        level = given.get("blend at level")
         if level is not None:
             return ir.BlendLevel(level)
         if "fine" in given:

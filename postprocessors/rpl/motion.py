@@ -93,7 +93,7 @@ def blend_clauses(blend: ir.Blend | None, prefix: str = "") -> Iterator[str]:
             yield f"BLEND PERCENT {expression_text(percent)}"
             yield from blend_clauses(path, "PATH ")
         case ir.BlendLevel(level=level):
-            yield f"BLEND LEVEL {expression_text(level)}"
+            yield f"BLEND AT LEVEL {expression_text(level)}"
         case ir.BlendZone(zone=zone, distance=distance, in_position=in_position):
             yield from _valued(("ZONE", zone), ("RADIUS", distance), ("SETTLED", in_position))
 

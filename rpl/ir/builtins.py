@@ -118,6 +118,10 @@ FUNCTIONS: dict[str, Function] = _table(
     zyz_roll       | p        | n | third angle of the ZYZ Euler angles
     interpolate_pose | ppn    | p | straight and by the shortest rotation from first (0) to second (1), also beyond
     rotation_angle | pp       | n | angle of the rotation between two poses in degrees
+    pose_sum       | pp       | p | positions added, rotations multiplied (first . second)
+    pose_difference | pp      | p | what added to the second gives the first: positions subtracted, second^-1 . first
+    target_to_joints_near | pjx?x? | j | inverse kinematics: the solution nearest to the given joints (tool, frame)
+    is_reachable   | pjx?x?   | b | is there a solution for the target, starting from the given joints (tool, frame)
     """
 )
 
@@ -224,6 +228,5 @@ SYSTEM_VARIABLES: dict[str, SystemVariable] = _system(
     move_duration   | n | rw | - | s    | - | least time of a move (V+ DURATION)
     end_tolerance   | n | rw | - | percent | - | how exactly a stop is waited for (V+ FINE, COARSE)
     blending        | b | rw | - |      | - | FALSE: every move ends in a stop (V+ CPOFF)
-    task_running    | b | r  | i |      | - | does the task of that number run
     """
 )

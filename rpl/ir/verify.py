@@ -45,6 +45,7 @@ from rpl.ir.statements import (
     Loop,
     Message,
     NextPass,
+    OnError,
     OrderInterrupt,
     Repeat,
     Retry,
@@ -84,15 +85,15 @@ _WORDS: dict[type, dict[str, tuple[str, ...]]] = {
     System: {"name": tuple(SYSTEM_VARIABLES)},
     Halt: {"kind": ("stop", "exit", "cycle")},
     Message: {"kind": ("notify", "state", "quit", "write", "error", "clear")},
-    Dialog: {"kind": ("keys", "number")},
+    Dialog: {"kind": ("keys", "number", "text")},
     Clock: {"op": ("reset", "start", "stop")},
-    TaskControl: {"op": ("start", "stop", "pause")},
+    TaskControl: {"op": ("start", "stop", "pause", "resume", "join")},
     OrderInterrupt: {"event": ("edge", "timer", "change", "error")},
-    ControlInterrupt: {"op": ("on", "off", "enable", "disable", "delete")},
+    ControlInterrupt: {"op": ("on", "off", "enable", "disable", "delete", "mask")},
     Trigger: {"reference": ("start", "end", "middle")},
     Search: {"stop": ("none", "stop", "path", "soft"), "edge": ("rising", "falling", "either")},
     Spline: {"kind": ("path", "joint")},
-    Move: {"kind": ("joint", "linear", "circular", "spline"), "motion_class": ("classic", "spline")},
+    Move: {"kind": ("joint", "linear", "circular", "spline"), "motion_class": ("classic", "spline", "process")},
     Variable: {"storage": ("constant", "variable", "persistent"), "scope": SCOPES},
     Parameter: {"mode": ("value", "reference", "readonly")},
     Routine: {"kind": ("procedure", "function", "trap"), "scope": ("module", "task", "global")},
@@ -109,8 +110,11 @@ _PLACES = (Name, Index, Field, System, Signal)
 def verify(program: Program, diagnostics: Diagnostics) -> bool:
     """Check the whole program; report what is wrong. True when nothing was."""
     before = len(diagnostics)
+    traps = frozenset(
+        node.routine.lower() for node in walk(program.modules) if isinstance(node, OnError) and node.routine is not None
+    )
     for module in program.modules:
-        _Checker(diagnostics).module(module)
+        _Checker(diagnostics, traps).module(module)
     _entries(program, diagnostics)
     return len(diagnostics) == before
 
@@ -128,10 +132,12 @@ def _placed(node: object, outer: Origin) -> Origin:
 
 
 class _Checker:
-    """Checks one module. Names are compared without regard to case: no language tells routines apart by it alone."""
+    """Checks one module. Names are compared without regard to case: no language tells routines apart by it alone.
+    `traps`: routines that a task calls for its errors."""
 
-    def __init__(self, diagnostics: Diagnostics) -> None:
+    def __init__(self, diagnostics: Diagnostics, traps: frozenset[str]) -> None:
         self.diagnostics = diagnostics
+        self.traps = traps
 
     def module(self, module: Module) -> None:
         self.names("routine", ((routine.name, routine.origin) for routine in module.routines))
@@ -176,7 +182,7 @@ class _Checker:
                 self.diagnostics.report(NO_LABEL, node.origin, name=node.label)
             if isinstance(node, Return) and node.value is None and routine.kind == "function" and routine.returns:
                 self.diagnostics.report(NO_VALUE, node.origin, name=routine.name)
-        self.body(routine.body, in_loop=False, in_handler=False)
+        self.body(routine.body, in_loop=False, in_handler=routine.name.lower() in self.traps)
         for handler in routine.handlers:
             self.body(handler.body, in_loop=False, in_handler=True)
         self.body(routine.undo, in_loop=False, in_handler=False)

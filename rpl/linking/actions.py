@@ -8,7 +8,7 @@ from rpl import ir
 from rpl.ir.walk import children
 from rpl.linking import interrupts
 from rpl.linking.places import writer
-from rpl.runtime import functions, system
+from rpl.runtime import functions, system, tasks
 from rpl.runtime.code import SWITCHED, Instruction, Read, Values, Write
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.texts import value_text
@@ -16,6 +16,7 @@ from rpl.runtime.values import StopWatch, Value
 
 if TYPE_CHECKING:
     from rpl.linking.assembler import Make
+    from rpl.linking.calls import Fill
     from rpl.linking.routine import RoutineLinker
 
 
@@ -43,7 +44,13 @@ def action(statement: ir.Statement, linker: RoutineLinker) -> Make | None:
         case ir.Opaque(text=text):
             return _failing("opaque", f"this statement could not be read: {text.strip()[:80]}")
         case ir.TaskControl():
-            return _task_control(statement)
+            return _task_control(statement, linker)
+        case ir.Critical(enter=enter):
+            return _critical(enter)
+        case ir.SetForNextMove():
+            return _for_next_move(statement, linker)
+        case ir.OnError(routine=name):
+            return _on_error(name, linker)
     return interrupts.action(statement, linker) or _control(statement, linker)
 
 
@@ -350,14 +357,76 @@ def _raise(code: Read | None) -> Make:
     return make
 
 
-def _task_control(statement: ir.TaskControl) -> Make:
-    op, name = statement.op, statement.task
+def _task_control(statement: ir.TaskControl, linker: RoutineLinker) -> Make:
+    op, name, linked = statement.op, statement.task, linker.linked
+    routine = linked.routine(linker.compiler.scope, name)
+    fills = linker.calls.plan(routine, statement.arguments, statement.origin).fills if routine is not None else ()
 
     def make(here: int, next: int) -> Instruction:
         def control(f: Values) -> int:
-            f[0].machine.control_task(f[0], op, name)
+            task = f[0]
+            if op == "join":
+                return tasks.join(task, name, here, next)
+            if op == "start":
+                code = linked.code_of(routine) if routine is not None else None
+                tasks.start(task.machine, task, name, code, lambda g: _filled(f, g, fills))
+            else:
+                tasks.control(task.machine, task, op, name)
             return next
 
         return control
+
+    return make
+
+
+def _filled(f: Values, g: Values, fills: tuple[Fill, ...]) -> None:
+    for fill in fills:
+        fill(f, g)
+
+
+def _critical(enter: bool) -> Make:
+    def make(here: int, next: int) -> Instruction:
+        def section(f: Values) -> int:
+            tasks.critical(f[0], enter)
+            return next
+
+        return section
+
+    return make
+
+
+def _on_error(name: str | None, linker: RoutineLinker) -> Make:
+    linked = linker.linked
+    routine = linked.routine(linker.compiler.scope, name) if name is not None else None
+
+    def make(here: int, next: int) -> Instruction:
+        def trap(f: Values) -> int:
+            if name is not None and routine is None:
+                raise ProgramError("unknown_routine", f"the routine {name} is not in what was read")
+            f[0].error_routine = linked.code_of(routine) if routine is not None else None
+            return next
+
+        return trap
+
+    return make
+
+
+def _for_next_move(statement: ir.SetForNextMove, linker: RoutineLinker) -> Make:
+    setting, value = statement.setting, statement.value
+    if isinstance(setting, ir.Magnitude):
+        value = ir.Quantity(value, setting.unit)
+        setting = setting.value
+    if not isinstance(setting, ir.System):
+        return _failing("wrong_kind", "only a modal setting can be set for the next move")
+    read, name = linker.compiler.value(value), setting.name
+    index = linker.compiler.value(setting.indices[0]) if setting.indices else None
+
+    def make(here: int, next: int) -> Instruction:
+        def set_once(f: Values) -> int:
+            key = system.modal_key(name, index(f) if index is not None else None)
+            f[0].next_settings[key] = read(f)
+            return next
+
+        return set_once
 
     return make

@@ -144,6 +144,8 @@ class Compiler:
                     return unknown(name)
                 number = place.number
                 return lambda f: f[number] is not None
+            case ir.VendorValue(text=text):
+                return lambda f: f[0].machine.vendor_value(text)
             case ir.Call(name=name):
                 raise InternalError(f"the call of {name} was not moved in front of its statement")
         raise InternalError(f"no code for {expression.__class__.__name__}")
@@ -307,7 +309,8 @@ class Compiler:
         type = self.types.aggregate_type(expression)
         values = [self.copy_of(value) for _, value in expression.entries]
         if type is None or isinstance(type, ir.ArrayType):
-            return lambda f: Array([value(f) for value in values])
+            base = self.scope.rules.array_base
+            return lambda f: Array([value(f) for value in values], base)
         names = self.types.positions(type)
         fold = self.scope.fold if isinstance(type, ir.NamedType) else str
         keys = []

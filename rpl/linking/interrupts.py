@@ -31,10 +31,12 @@ def action(statement: ir.Statement, linker: RoutineLinker) -> Make | None:
 
 
 def _declare(statement: ir.DeclareInterrupt, linker: RoutineLinker) -> Make:
-    """KRL's way: the priority identifies it, condition and action live in the declaring routine."""
+    """Condition and action live in the declaring routine; the priority identifies it where nothing else does."""
     from rpl.linking.actions import depends_on_time
 
     priority = linker.compiler.value(statement.priority)
+    identity = linker.compiler.value(statement.identity if statement.identity is not None else statement.priority)
+    once, stops = statement.once, statement.stops
     condition, polls = linker.compiler.value(statement.condition), depends_on_time(statement.condition)
     code = linker.action(statement.action, "interrupt")
     everywhere = statement.everywhere
@@ -42,8 +44,11 @@ def _declare(statement: ir.DeclareInterrupt, linker: RoutineLinker) -> Make:
     def make(here: int, next: int) -> Instruction:
         def declare(f: Values) -> int:
             task = f[0]
-            key = whole(priority(f))
-            declared = Interrupt(key, key, code, f, task.frame, everywhere, "edge", condition, f, polls)
+            level = None if everywhere else task.frame
+            declared = Interrupt(
+                whole(identity(f)), whole(priority(f)), code, f, level, everywhere, "edge", condition, f, polls
+            )
+            declared.once, declared.stops = once, stops
             task.interrupts.declare(declared)
             return next
 

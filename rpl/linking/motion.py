@@ -11,6 +11,7 @@ from rpl.runtime.code import Instruction, Read, Values
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.orders import BlendOrder, Order, SearchOrder, SpeedOrder, TriggerOrder
 from rpl.runtime.system import modal_key
+from rpl.runtime.tasks import take_robot
 from rpl.runtime.values import Record, Value, whole
 
 if TYPE_CHECKING:
@@ -80,8 +81,8 @@ class MotionStatements:
             def drive(f: Values) -> int:
                 task = f[0]
                 order = Order(kind, target(f), task.frame.code, here, rules)
-                over = overlay(f)
-                order.modal = over
+                order.once = task.take_settings()
+                over = order.modal = {**order.once, **overlay(f)}
                 with_overlay = _Overlaid(task, over) if over else None
                 if via is not None:
                     order.via = via(f)
@@ -131,6 +132,9 @@ class MotionStatements:
             "rotation": self.optional(speed.rotation),
             "joint": self.optional(speed.joint),
             "duration": self.optional(speed.duration),
+            "axis": self.optional(speed.axis),
+            "path_acceleration": self.optional(speed.path_acceleration),
+            "axis_acceleration": self.optional(speed.axis_acceleration),
         }
 
         def make(f: Values) -> SpeedOrder:
@@ -160,15 +164,22 @@ class MotionStatements:
             case ir.BlendSpeed(percent=percent):
                 part = self.value(percent)
                 return lambda f: BlendOrder("speed", percent=float(part(f)))
+            case ir.BlendLevel(level=level):
+                number, distances = self.value(level), self.linker.compiler.scope.rules.blend_levels
+                return lambda f: _level(distances, whole(number(f)))
             case ir.BlendZone(zone=zone, distance=distance):
                 value, radius = self.value(zone), self.optional(distance)
                 return lambda f: _zone(value(f), float(radius(f)) if radius is not None else None)
+        if blend is None:
+            return lambda f: BlendOrder("speed", percent=100.0) if f[0].modal.get("blending") else BlendOrder("stop")
         return lambda f: BlendOrder("stop")
 
     def search(self, search: ir.Search, move: ir.Move) -> Callable[[Values], SearchOrder]:
-        condition, write = self.value(search.condition), writer(self.linker.compiler, search.found, move.origin)
+        compiler, condition = self.linker.compiler, self.value(search.condition)
+        write = writer(compiler, search.found, move.origin) if search.found is not None else None
+        hit = writer(compiler, search.hit, move.origin) if search.hit is not None else None
         stop, edge = search.stop, search.edge
-        return lambda f: SearchOrder(condition, write, f, stop, edge)
+        return lambda f: SearchOrder(condition, write, f, stop, edge, hit)
 
     def external(self, move: ir.MoveExternal) -> Make:
         target, speed, blend = self.target(move.target), self.speed(move.speed), self.blend(move.blend)
@@ -294,6 +305,13 @@ def _modal_distance(f: Values) -> BlendOrder:
     return BlendOrder("distance", float(f[0].modal.get("blend_distance") or 0.0))
 
 
+def _level(distances: tuple[float, ...], level: int) -> BlendOrder:
+    """A numbered blend level; level 0 and one without a distance is a stop."""
+    if not 0 <= level < len(distances):
+        raise ProgramError("out_of_range", f"there is no positioning level {level}")
+    return BlendOrder("distance", distances[level]) if distances[level] > 0.0 else BlendOrder("stop")
+
+
 def _frozen(value: Value, write: Callable[[Values, Value], None]) -> Instruction:
     def act(f: Values) -> int:
         write(f, value)
@@ -310,11 +328,12 @@ def _zone(zone: Value, distance: float | None) -> BlendOrder:
 
 def _submit(task: Any, order: Order, here: int, next: int) -> int:
     """Hand the move over; wait first when the program pointer is too far ahead."""
-    robot = task.robot
-    if robot is None:
+    if task.robot is None and not take_robot(task):
         raise ProgramError("motion", f"task {task.name} has no robot to move")
+    robot = task.robot
     if not robot.has_room() and order.rules.advance.runs_ahead_of != "fly_by":
         task.next_triggers = [t for t in order.triggers if not t.fired]
+        task.next_settings = order.once
         waiting: int = task.wait_for("room", here, here)
         return waiting
     done: int = robot.submit(order, next)

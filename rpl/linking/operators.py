@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import operator
 from collections.abc import Callable
 
@@ -31,6 +32,8 @@ _CONVERSIONS: dict[str, Callable[[Value], Value]] = {
     "truth": _truth,
     "code": lambda v: ord(v[0]) if v else 0,
     "char": lambda v: chr(whole(v) & 0xFF),
+    "minus_bit": lambda v: -1 if v else 0,
+    "floor": math.floor,
 }
 
 

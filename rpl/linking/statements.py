@@ -245,7 +245,10 @@ class Statements:
         self._in_loop(loop.body, leave, again)
         self.assembler.place(again)
         simple = counter.number if not (counter.is_global or counter.is_reference) else None
-        self.emit(_next_pass(read, write, stop, step, begin, simple))
+        if loop.keeps_last:
+            self.emit(_next_if_inside(read, write, stop, step, begin))
+        else:
+            self.emit(_next_pass(read, write, stop, step, begin, simple))
         self.assembler.place(leave)
         if loop.scoped:
             if before is None:
@@ -452,6 +455,25 @@ def _next_pass(read: Read, write: Write, stop: int, step: int, begin: Label, sim
             return target if (value <= f[stop] if by > 0 else value >= f[stop]) else next
 
         return local
+
+    return make
+
+
+def _next_if_inside(read: Read, write: Write, stop: int, step: int, begin: Label) -> Make:
+    """The counter keeps the value of the last pass."""
+
+    def make(here: int, next: int) -> Instruction:
+        target = begin.pc
+
+        def pass_on(f: Values) -> int:
+            by = f[step]
+            value = read(f) + by
+            if value <= f[stop] if by > 0 else value >= f[stop]:
+                write(f, value)
+                return target
+            return next
+
+        return pass_on
 
     return make
 

@@ -35,6 +35,8 @@ CONVERTED: dict[str, ir.Type] = {
     "truth": BOOL,
     "code": INT,
     "char": CHAR,
+    "minus_bit": INT,
+    "floor": INT,
 }
 _TEXTS = (ir.StringType, ir.CharType)
 

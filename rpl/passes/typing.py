@@ -300,6 +300,8 @@ class Typer:
                 return rewrite_parts(expression, self.value), REAL
             case ir.Convert(how=how):
                 return rewrite_parts(expression, self.value), CONVERTED[how]
+            case ir.VendorValue(type=type):
+                return expression, self.scope.resolve(type)
 
     def name(self, expression: ir.Name) -> Typed:
         name = expression.id

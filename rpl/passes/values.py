@@ -172,6 +172,10 @@ def converted(how: str, value: Value | None) -> Value | None:
             return math.trunc(value)
         case "bit", bool():
             return int(value)
+        case "minus_bit", bool():
+            return -int(value)
+        case "floor", int() | float():
+            return math.floor(value)
         case "truth", int() | float():
             return value != 0
         case "code", str() if value:

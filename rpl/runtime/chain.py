@@ -29,7 +29,7 @@ from rpl.runtime.values import (
 )
 
 if TYPE_CHECKING:
-    from rpl.emulator.configuration import Notation
+    from rpl.emulator.configuration import Notation, Selection
     from rpl.emulator.model import RobotModel
     from rpl.emulator.planner import MoveRequest
     from rpl.emulator.rotations import FloatArray
@@ -302,6 +302,9 @@ def _configuration(order: Order, plan: Planning) -> dict[str, Value]:
         exact = setting(plan.modal, order.modal, "joint_configuration_check") is not False
         if order.configuration == "nearest" or (order.configuration is None and not exact):
             flags = {}
+        posture = {name: str(setting(plan.modal, order.modal, name) or "") for name in POSTURE}
+        if any(posture.values()) and not any(value is not None for value in flags.values()):
+            return {"select": lambda flange, near: _in_posture(model, flange, near, posture)}
         return {"select": lambda flange, near: notation.select(model, flange, flags, near)}
     checks = setting(plan.modal, order.modal, "path_configuration_check") is True
     if (
@@ -311,6 +314,40 @@ def _configuration(order: Order, plan: Planning) -> dict[str, Value]:
     ):
         return {}
     return {"check_end": lambda joints: _mismatch(model, notation, flags, joints)}
+
+
+POSTURE = ("posture_shoulder", "posture_elbow", "posture_wrist")
+# Which side of a branch a word asks for: 1 is behind axis 1, elbow down (seen from outside), wrist turned over.
+_SIDES = {"front": 0, "back": 1, "up": 0, "down": 1, "noflip": 0, "flip": 1}
+
+
+def _wanted_branch(model: RobotModel, near: FloatArray, asked: dict[str, str]) -> tuple[int, int, int]:
+    """Shoulder, joint-sided elbow and wrist: as asked for, else as the arm has them. What an arm cannot choose is
+    ignored; an arm whose only choice is the elbow (SCARA) takes what is asked of the shoulder for it (V+ LEFTY)."""
+    now = model.posture(near).branch
+    shoulder, elbow, wrist = (_SIDES.get(asked[name]) for name in POSTURE)
+    shoulders = {branch.shoulder for branch in model.arm.branches}
+    if len(shoulders) == 1:
+        return now.shoulder, now.elbow if shoulder is None else shoulder, now.wrist
+    if shoulder is None:
+        shoulder = now.shoulder
+    outside = now.elbow ^ now.shoulder if elbow is None else elbow
+    return shoulder, outside ^ shoulder, now.wrist if wrist is None else wrist
+
+
+def _in_posture(model: RobotModel, flange: FloatArray, near: FloatArray, asked: dict[str, str]) -> Selection:
+    """The solution in the posture asked for; what is not asked for stays as the arm has it."""
+    from rpl.emulator.configuration import Selection
+
+    wanted = _wanted_branch(model, near, asked)
+    for solution in model.inverse(flange, near):
+        branch = solution.branch
+        if (branch.shoulder, branch.elbow, branch.wrist) == wanted:
+            joints = model.nearest_turn(solution.joints, near)
+            if not model.within_limits(joints):
+                return Selection(joints)
+    words = ", ".join(word for word in asked.values() if word)
+    return Selection(None, f"the target cannot be reached with the posture asked for ({words})")
 
 
 def _mismatch(model: RobotModel, notation: Notation, flags: dict[str, int | None], joints: FloatArray) -> str | None:
@@ -336,7 +373,8 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
 
     over = max(float(value("override")) / 100.0, 1e-3)
     profile_share = over * float(value("speed_percent")) / 100.0
-    effort = max(float(value("acceleration_percent")) / 100.0, 0.01)
+    effort = float(order.acceleration if order.acceleration is not None else value("acceleration_percent"))
+    effort = max(effort / 100.0, 0.01)
     axes = range(1, plan.model.axes + 1)
     options: dict[str, Value] = {}
     if speed.profile is not None:
@@ -349,14 +387,22 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
             options["tcp_speed_for_joint_move"] = path
         joint_share = np.full(plan.model.axes, over)
     else:
-        path = float(speed.path if speed.path is not None else value("path_speed")) * over
+        path = float(speed.path if speed.path is not None else value("path_speed")) * profile_share
         rotation = float(speed.rotation if speed.rotation is not None else value("swivel_speed")) * over
-        joint_share = np.array([float(value("joint_speed", axis)) / 100.0 * over for axis in axes])
+        joint_share = np.array([float(value("joint_speed", axis)) / 100.0 * profile_share for axis in axes])
         if speed.path is not None and order.kind == "joint" and speed.joint is None:
             options["tcp_speed_for_joint_move"] = path
     if speed.joint is not None:
         joint_share = np.full(plan.model.axes, float(speed.joint) / 100.0 * over)
-    acceleration = order.acceleration if order.acceleration is not None else value("path_acceleration")
+    joint_effort = np.array([float(value("joint_acceleration", axis)) / 100.0 * effort for axis in axes])
+    if speed.axis is not None:  # the leading axis runs at this speed, the others with it
+        joint_share = np.minimum(speed.axis * over / plan.model.speeds, 1.0)
+    if speed.axis_acceleration is not None:
+        joint_effort = speed.axis_acceleration / plan.model.accelerations
+    acceleration = value("path_acceleration")
+    if speed.path_acceleration is not None:
+        acceleration, effort = speed.path_acceleration, 1.0
+    least = value("move_duration")
     mode = order.orientation or str(value("orientation_mode"))
     if value("singularity_mode") == "wrist" and order.kind != "joint":
         mode = "wrist"
@@ -367,8 +413,8 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
         "ori_speed_deg_s": rotation if rotation > 0.0 else 1e-3,
         "ori_acc_deg_s2": float(value("swivel_acceleration")) * effort,
         "joint_speed": joint_share,
-        "joint_acc": np.array([float(value("joint_acceleration", axis)) / 100.0 * effort for axis in axes]),
-        "duration_s": speed.duration,
+        "joint_acc": joint_effort,
+        "duration_s": speed.duration if speed.duration is not None or not least else float(least),
         "orientation": _ORIENTATIONS.get(mode, "interpolated"),
         "circle_orientation": order.circle_orientation or str(value("circle_orientation")),
         "reduce_speed_near_singularity": value("path_limit_rule") == "reduce",

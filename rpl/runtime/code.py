@@ -76,9 +76,9 @@ class Handling:
 
 @dataclass(slots=True, eq=False)
 class Frame:
-    """One call. kind: call, interrupt, trigger. `counter` is the next instruction, `at` the one that called; `result`
-    the place in the caller's values that gets the function's value; `priority` of the interrupt; `wait` the suspended
-    wait of the interrupted frame below; `level` the frame that declared the interrupt."""
+    """One call. kind: call, interrupt, trigger, error. `counter` is the next instruction, `at` the one that called;
+    `result` the place in the caller's values that gets the function's value; `priority` of the interrupt; `wait` the
+    suspended wait of the interrupted frame below; `level` the frame that declared the interrupt."""
 
     code: Code
     values: Values

@@ -11,9 +11,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from rpl.passes import rigid
-from rpl.runtime import texts
+from rpl.runtime import geometry, reaching, texts
 from rpl.runtime.chain import convention_of, filled, frames_of, joints_of, joints_value, matrix_of
 from rpl.runtime.faults import ProgramError, name_of
+from rpl.runtime.geometry import as_pose
 from rpl.runtime.values import (
     Array,
     PoseValue,
@@ -76,15 +77,6 @@ def _dimension(value: Value, number: Value) -> int:
 
 
 # ---- geometry
-
-
-def as_pose(value: Value) -> PoseValue:
-    """The pose of a pose or a target."""
-    if isinstance(value, TargetValue):
-        return value.pose
-    if isinstance(value, PoseValue):
-        return value
-    raise ProgramError("no_value" if value is None else "wrong_kind", "a pose is needed here")
 
 
 def compose(left: Value, right: Value) -> Value:
@@ -208,6 +200,11 @@ PURE: dict[str, Callable[..., Value]] = {
     "rotation_zyx": lambda a, b, c: rotation_of(rigid.rotation_of_zyx(a, b, c), "quaternion"),
     "frame_from_points": _frame_from_points,
     "pose_of": as_pose,
+    "sign": lambda value: (value > 0) - (value < 0),
+    "fraction": lambda value: value - math.trunc(value),
+    "log10": math.log10,
+    **geometry.PURE,
+    **reaching.PURE,
     **texts.PURE,
 }
 
@@ -312,6 +309,7 @@ OF_TASK: dict[str, Callable[..., Value]] = {
     "current_position": _current_position,
     "target_to_joints": _target_to_joints,
     "joints_to_target": _joints_to_target,
+    **reaching.OF_TASK,
     "current_tool": _current_tool,
     "current_frame": _current_frame,
     "clock_seconds": _clock_seconds,

@@ -58,9 +58,13 @@ class Imagined:
         search = order.search
         if search is None:
             return
-        if not search.condition(search.values):
+        found = bool(search.condition(search.values))
+        if search.hit is not None:
+            search.hit(search.values, found)
+        elif not found:
             raise ProgramError("search_missed", "the search has found nothing")
-        search.write(search.values, order.target)
+        if found and search.write is not None:
+            search.write(search.values, order.target)
 
     def goal(self, frames: Frames) -> rigid.Pose:
         """The pose in the frames of a move; the origin when no pose is known."""

@@ -21,7 +21,8 @@ UNRANKED = 1000
 @dataclass(slots=True, eq=False)
 class Interrupt:
     """event: edge (condition becomes true), change (the value changes), timer (`period`), error. `level`: the frame
-    that declared it; with it the declaration ends, unless `everywhere`. `last` is the value seen last."""
+    that declared it; with it the declaration ends, unless `everywhere`. `stops`: the robot brakes at once when it acts.
+    `last` is the value seen last."""
 
     key: int
     priority: int
@@ -35,6 +36,7 @@ class Interrupt:
     polls: bool = False
     period: float = 0.0
     once: bool = False
+    stops: bool = False
     on: bool = False
     enabled: bool = True
     last: object = None
@@ -54,11 +56,13 @@ class Interrupt:
 
 @dataclass(slots=True, eq=False)
 class Interrupts:
-    """All interrupts of one task. `pending`: keys in the order they came."""
+    """All interrupts of one task. `pending`: keys in the order they came. `mask`: those that are not more urgent than
+    this wait."""
 
     known: dict[int, Interrupt] = field(default_factory=dict)
     pending: list[int] = field(default_factory=list)
     all_enabled: bool = True
+    mask: int | None = None
     next_key: int = UNRANKED
 
     def new_key(self) -> int:
@@ -102,6 +106,8 @@ class Interrupts:
                 continue
             if running is not None and interrupt.priority >= running:
                 continue
+            if self.mask is not None and interrupt.priority >= self.mask:
+                continue
             if best is None or interrupt.priority < best.priority:
                 best = interrupt
         return best
@@ -114,7 +120,10 @@ class Interrupts:
             self.forget(key)
 
     def control(self, op: str, key: int | None, task: Task) -> None:
-        """on, off, enable, disable, delete; without a key: all of them."""
+        """on, off, enable, disable, delete; without a key: all of them. mask: `key` is the priority, None lifts it."""
+        if op == "mask":
+            self.mask = key
+            return
         if key is None and op in ("enable", "disable"):
             self.all_enabled = op == "enable"
             return

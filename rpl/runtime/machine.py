@@ -13,6 +13,7 @@ from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
 from rpl.errors import RunError
+from rpl.runtime import tasks
 from rpl.runtime.code import Code, Values, Write
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.interrupts import Interrupt
@@ -72,6 +73,8 @@ class Machine:
         self.calls = 0
         self.tokens = 0
         self.answered = 0
+        self.critical: int | None = None
+        self.held: list[int] = []
         self.timers: dict[int, StopWatch] = {}
         self.random = random.Random(cell.seed)
         self.reactions = [(keys_named(r.when, linked.alias(r.when)), r) for r in cell.reactions]
@@ -145,7 +148,7 @@ class Machine:
         match kind:
             case "run":
                 task = self.tasks[index]
-                if task.state == READY:
+                if task.state == READY and tasks.may_run(self, task):
                     task.run()
             case "wake":
                 self._wake(self.tasks[index], data[0])
@@ -458,22 +461,11 @@ class Machine:
                 return meaning.value
         raise ProgramError("vendor", f"nothing says what {text[:80]} gives (see [[vendor]] of a cell file)")
 
-    def control_task(self, asking: Task, op: str, name: str) -> None:
-        """Start, stop or pause another task."""
-        found = next((task for task in self.tasks if task.name.lower() == name.lower()), None)
-        if found is None:
-            raise ProgramError("unknown_routine", f"there is no task {name}")
-        if op == "start" and found.state == ENDED:
-            found.restart()
-            found.state = READY
-            self.ready(found)
-        elif op in ("stop", "pause") and found is not asking:
-            found.state = ENDED
-
     # ---- ends
 
     def task_ended(self, task: Task) -> None:
         """A task has come to its end; the run ends with the last motion task."""
+        self.changed()
         if task.kind == "motion" and self._is_finished():
             self.end("finished")
 

@@ -18,7 +18,7 @@ from rpl.runtime.chain import (
     request_of,
 )
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.orders import Drive, Order, TriggerOrder
+from rpl.runtime.orders import Drive, Order, SearchOrder, TriggerOrder
 from rpl.runtime.pieces import Piece
 from rpl.runtime.robotstate import RobotState
 from rpl.runtime.trace import Leg
@@ -338,7 +338,7 @@ class MotionQueue(RobotState):
         task = self.task
         task.busy = bool(self.queue) or self.piece is not None
         search = drive.order.search
-        if search is not None and stops and not search.found:
+        if search is not None and stops and not search.found and search.hit is None:
             self._search_missed(drive)
             return
         if not task.busy and self.failed is not None:
@@ -411,6 +411,13 @@ class MotionQueue(RobotState):
         if search is None:
             return
         search.last = bool(search.condition(search.values))
+        if search.hit is not None:
+            search.hit(search.values, False)
+            if search.last == (search.edge == "rising"):  # true already: the move ends before it begins
+                search.found = True
+                search.hit(search.values, True)
+                self._reached(drive, search)
+            return
         if search.edge != "either" and search.last == (search.edge == "rising") and search.stop != "none":
             self.queue.remove(drive)
             self.task.busy = bool(self.queue)
@@ -430,9 +437,16 @@ class MotionQueue(RobotState):
         if now == before or (search.edge == "rising" and not now) or (search.edge == "falling" and now):
             return
         search.found = True
-        order = piece.drive.order
-        search.write(search.values, self.target_now(order.tool, order.frame, order.rules))
-        if search.stop != "none":
+        if search.hit is not None:
+            search.hit(search.values, True)
+        self._reached(piece.drive, search)
+
+    def _reached(self, drive: Drive, search: SearchOrder) -> None:
+        """What was searched has come: keep the place and stop as the program asks."""
+        order = drive.order
+        if search.write is not None:
+            search.write(search.values, self.target_now(order.tool, order.frame, order.rules))
+        if search.stop != "none" and self.piece is not None:
             self.halt(search.stop == "stop", True)
 
     def _search_missed(self, drive: Drive) -> None:

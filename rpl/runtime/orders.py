@@ -18,13 +18,16 @@ Modal = dict[str, Value]
 
 @dataclass(slots=True, eq=False)
 class SpeedOrder:
-    """Base units: mm/s, deg/s, percent, s."""
+    """Base units: mm/s, deg/s, percent, s; accelerations mm/s2 and deg/s2. `axis`: deg/s of the leading axis."""
 
     profile: Record | None = None
     path: float | None = None
     rotation: float | None = None
     joint: float | None = None
     duration: float | None = None
+    axis: float | None = None
+    path_acceleration: float | None = None
+    axis_acceleration: float | None = None
 
 
 @dataclass(slots=True, eq=False)
@@ -67,20 +70,23 @@ class TriggerOrder:
 
 @dataclass(slots=True, eq=False)
 class SearchOrder:
-    """`last`: the condition's value when looked at last; `found`: it has come."""
+    """`write` takes the target where it came, `hit` whether it came before the move's end. `last`: the condition's
+    value when looked at last; `found`: it has come."""
 
     condition: Read
-    write: Write
+    write: Write | None
     values: Values
     stop: str
     edge: str
+    hit: Write | None = None
     last: bool = False
     found: bool = False
 
 
 @dataclass(slots=True, eq=False)
 class Order:
-    """One move as the program asks for it. `modal` overlays the task's system variables for this move."""
+    """One move as the program asks for it. `modal` overlays the task's system variables for this move; `once` is what
+    of it statements before the move have set."""
 
     kind: str
     target: Value
@@ -101,6 +107,7 @@ class Order:
     triggers: list[TriggerOrder] = field(default_factory=list)
     search: SearchOrder | None = None
     modal: Modal = field(default_factory=dict)
+    once: Modal = field(default_factory=dict)
     concurrent: bool = False
     external_only: bool = False
 

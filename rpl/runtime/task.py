@@ -28,6 +28,8 @@ SPIN, SPIN_AGAIN = 2000, 500
 # Instructions without time after which a loop that nothing can end is given up.
 MOST_WITHOUT_TIME = 5_000_000
 MOST_BLIND_POLLS = 500_000
+# The priority of a task's error routine: no interrupt is more urgent.
+MOST_URGENT = -1
 
 
 class Task:
@@ -50,6 +52,7 @@ class Task:
         self.interrupts = Interrupts()
         self.robot: MotionQueue | None = None
         self.busy = False
+        self.held = False
         self.aside = 0  # frames of interrupts and triggers: there the program pointer never waits for the main motion
         self.looked = False
         self.looked_at_time = False
@@ -62,6 +65,8 @@ class Task:
         self.spinning_since: float | None = None
         self.triggers: list[Frame] = []
         self.next_triggers: list[TriggerOrder] = []
+        self.next_settings: dict[str, Value] = {}
+        self.error_routine: Code | None = None
         self.last_error: tuple[ProgramError, Origin] | None = None
         self.frame = self._start()
 
@@ -119,6 +124,10 @@ class Task:
             if frame.result is not None:
                 caller.values[frame.result] = value
             return SWITCHED
+        if frame.kind == "error":
+            assert frame.handling is not None  # an error routine always handles one
+            caller.counter = frame.handling.retry
+            return SWITCHED
         self.interrupt_number = 0
         self.aside -= 1
         if frame.level is not None and self.robot is not None:
@@ -140,6 +149,10 @@ class Task:
         self.state = ENDED
         self.machine.task_ended(self)
         return BLOCKED
+
+    @property
+    def has_ended(self) -> bool:
+        return self.state == ENDED
 
     # ---- the loop
 
@@ -300,6 +313,8 @@ class Task:
         else:
             frame = Frame(interrupt.action, values, "interrupt")
         frame.priority, frame.level, frame.number = interrupt.priority, interrupt.level, interrupt.key
+        if interrupt.stops and self.robot is not None:
+            self.robot.halt(True, ends_move=True)
         self.interrupt_number = interrupt.key
         if self.robot is not None:
             self.robot.mark_interrupted()
@@ -318,6 +333,13 @@ class Task:
     def take_triggers(self) -> list[TriggerOrder]:
         """The triggers set for the next move."""
         taken, self.next_triggers = self.next_triggers, []
+        return taken
+
+    def take_settings(self) -> dict[str, Value]:
+        """The system variables that are set for the next move only."""
+        if not self.next_settings:
+            return {}
+        taken, self.next_settings = self.next_settings, {}
         return taken
 
     def watch_time(self, interrupt: Interrupt) -> None:
@@ -355,6 +377,8 @@ class Task:
 
     def _unwind(self, error: ProgramError, origin: Origin, rules: Rules) -> None:
         number = number_of(error, rules.errors)
+        if self._trapped(error, number, origin, rules):
+            return
         while True:
             frame = self.frame
             start = None if error.name in FATAL else self._handler(frame, 0 if number is None else number)
@@ -376,6 +400,22 @@ class Task:
             self.frames.pop()
             self.interrupts.drop_level(frame)
             self.frame = self.frames[-1]
+
+    def _trapped(self, error: ProgramError, number: float | None, origin: Origin, rules: Rules) -> bool:
+        """Call the task's error routine, which nothing interrupts; not for errors inside it."""
+        code, failed = self.error_routine, self.frame
+        if code is None or error.name in FATAL or any(frame.kind == "error" for frame in self.frames):
+            return False
+        retry, following = failed.code.statements[failed.at]
+        name = name_of(number, rules.errors) if number is not None else error.name
+        failed.counter = retry
+        trap = self.new_frame(code, "error")
+        trap.handling = Handling(number or 0, name, error.message, retry, following)
+        trap.priority = MOST_URGENT
+        self.error_number = number or 0
+        self.last_error = (error, origin)
+        self.enter(trap)
+        return True
 
     def _handler(self, frame: Frame, number: float) -> int | None:
         if frame.handling is not None or frame.leaving is not None:
@@ -413,7 +453,12 @@ class Task:
         return self.frame.handling
 
     def handled(self, counter: int) -> int:
-        """Leave the handler for an instruction of the routine."""
+        """Leave the handler for an instruction of the routine; the task's error routine for one of its caller."""
+        if self.frame.kind == "error":
+            self.frames.pop()
+            self.frame = self.frames[-1]
+            self.frame.counter = counter
+            return SWITCHED
         self.frame.handling = None
         return counter
 

@@ -25,7 +25,8 @@ def poll_step(waited_s: float, least_s: float = CYCLE_S) -> float:
 @dataclass(slots=True, eq=False)
 class Wait:
     """kind: time, condition, idle (the robot has driven everything), room (the program pointer may go on), released
-    (move `move` lets the program go on), standing (a stop has ended), tick (a polling loop lets time pass), answer.
+    (move `move` lets the program go on), standing (a stop has ended), tick (a polling loop lets time pass), answer,
+    task (number `move` has ended).
 
     `at` is the waiting instruction, `next` where to go on; `deadline` ends the wait, then `timed_out` is written or the
     error raised. `counts`: whether the deadline is the purpose (a timed wait) or a time-out.
@@ -60,6 +61,8 @@ class Wait:
                 return task.robot is None or task.robot.has_released(self.move)
             case "standing":
                 return task.robot is None or task.robot.is_standing()
+            case "task":
+                return task.machine.tasks[self.move].has_ended
         return False
 
     def describe(self) -> str:
@@ -73,5 +76,6 @@ class Wait:
             "standing": "the robot to stand",
             "tick": "time to pass",
             "answer": "the operator's answer",
+            "task": "another task to end",
         }
         return f"{words[self.kind]} ({self.subject})" if self.subject else words[self.kind]

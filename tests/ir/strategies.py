@@ -213,9 +213,7 @@ simple: st.SearchStrategy[ir.Statement] = st.one_of(
     st.builds(ir.WaitUntil, small, maybe, st.one_of(st.none(), lvalues), st.one_of(st.none(), names), st.booleans()),
     st.builds(ir.Pulse, lvalues, small, small),
     st.builds(ir.SetAfter, lvalues, small, small),
-    st.builds(
-        ir.DeclareInterrupt, small, small, actions, st.booleans(), maybe, st.booleans(), st.booleans()
-    ),
+    st.builds(ir.DeclareInterrupt, small, small, actions, st.booleans(), maybe, st.booleans(), st.booleans()),
     st.builds(ir.ConnectInterrupt, lvalues, names),
     st.builds(
         ir.OrderInterrupt,

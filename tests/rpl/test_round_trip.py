@@ -79,12 +79,13 @@ def test_programs(program: ir.Program) -> None:
 
 # Built by hand, so that the check below does not rest on luck.
 _ONE = ir.Name("x")
-_SPEED = ir.Speed(_ONE, _ONE, _ONE, _ONE, _ONE)
+_SPEED = ir.Speed(*[_ONE] * 8)
 _TRIGGER = ir.Trigger("end", ir.CallRoutine("f", (ir.Argument(_ONE, "n", "o"),), _ONE), _ONE, _ONE, _ONE)
 _BLENDS: tuple[ir.Blend, ...] = (
     ir.BlendStop(),
     ir.BlendPercent(_ONE, ir.BlendDistance(_ONE, _ONE)),
     ir.BlendSpeed(_ONE),
+    ir.BlendLevel(_ONE),
     ir.BlendZone(_ONE, _ONE, _ONE),
 )
 _FULL: tuple[ir.Statement, ...] = (
@@ -106,7 +107,7 @@ _FULL: tuple[ir.Statement, ...] = (
         circle_orientation="path",
         configuration="exact",
         triggers=(_TRIGGER,),
-        search=ir.Search(_ONE, _ONE, "soft", "either"),
+        search=ir.Search(_ONE, _ONE, "soft", "either", _ONE),
         settings=((_ONE, _ONE),),
         concurrent=True,
         without_offsets=True,
@@ -119,7 +120,7 @@ _FULL: tuple[ir.Statement, ...] = (
     ir.DefineTrigger(_ONE, _TRIGGER, _ONE),
     ir.If(((ir.BoolLiteral(True), ()),), (ir.Opaque("?"),)),
     ir.Switch(_ONE, (ir.Case((_ONE,), (ir.Raise(_ONE),)),), (ir.Nothing(),)),
-    ir.For("i", _ONE, _ONE, _ONE, (ir.Halt("cycle"),), True, True, True),
+    ir.For("i", _ONE, _ONE, _ONE, (ir.Halt("cycle"),), True, True, True, True),
     ir.While(_ONE, (ir.Label("l"), ir.Goto("l"))),
     ir.Repeat(_ONE, (ir.Clock("start", _ONE),)),
     ir.Loop((ir.ExitLoop(),)),
@@ -128,7 +129,7 @@ _FULL: tuple[ir.Statement, ...] = (
     ir.WaitUntil(_ONE, _ONE, _ONE, "e", True),
     ir.Pulse(ir.Signal("digital_out", _ONE, _ONE), _ONE, _ONE),
     ir.SetAfter(ir.Signal("analog_out", name="a"), _ONE, _ONE),
-    ir.DeclareInterrupt(_ONE, _ONE, ir.Assign(_ONE, ir.Present("p")), True),
+    ir.DeclareInterrupt(_ONE, _ONE, ir.Assign(_ONE, ir.Present("p")), True, _ONE, True, True),
     ir.ConnectInterrupt(_ONE, "t"),
     ir.OrderInterrupt(_ONE, "edge", _ONE, _ONE, True),
     ir.ControlInterrupt("off", _ONE),
@@ -140,6 +141,10 @@ _FULL: tuple[ir.Statement, ...] = (
     ir.TaskControl("stop", "t", (ir.Argument(_ONE),)),
     ir.Assign(ir.Index(ir.Field(_ONE, "f"), (_ONE,)), ir.Binary("+", ir.IntLiteral(1), ir.System("timer", (_ONE,)))),
     ir.Assign(_ONE, ir.Builtin("sin", (_ONE,))),
+    ir.Assign(_ONE, ir.VendorValue("rapid", "f(1)", ir.RealType())),
+    ir.Critical(True),
+    ir.SetForNextMove(_ONE, _ONE),
+    ir.OnError("f"),
 )
 _TYPES: tuple[ir.Type, ...] = (
     *make.PLAIN_TYPES,

@@ -109,18 +109,24 @@ class _Searches:
         condition = search.condition if search.edge != "falling" else ir.Unary("not", search.condition)
         origin, later = move.origin, replace(move.origin, comments=())
         steps: list[ir.Statement] = [ir.Assign(ir.Name(hit), ir.BoolLiteral(False), origin=origin)]
-        if "ERR_SIGSUPSEARCH" in self.errors:
+        if search.hit is None and "ERR_SIGSUPSEARCH" in self.errors:
             already: ir.Body = (ir.Raise(ir.Name("ERR_SIGSUPSEARCH"), origin=later),)
             steps.append(ir.If(((condition, already),), origin=later))
-        failed: ir.Body = (ir.Raise(ir.Name("ERR_WHLSEARCH"), origin=later),) if "ERR_WHLSEARCH" in self.errors else ()
+        failed: ir.Body = ()
+        if search.hit is None and "ERR_WHLSEARCH" in self.errors:
+            failed = (ir.Raise(ir.Name("ERR_WHLSEARCH"), origin=later),)
+        after: list[ir.Statement] = []
+        if search.hit is not None:
+            after.append(ir.Assign(search.hit, ir.Name(hit), origin=later))
+        if search.found is not None:
+            kept = ir.Assign(search.found, ir.Name(place), origin=later)
+            after.append(ir.If(((ir.Name(hit), (kept,)),), failed, origin=later))
+        elif failed:
+            after.append(ir.If(((ir.Unary("not", ir.Name(hit)), failed),), origin=later))
         return [
             *steps,
             ir.DeclareInterrupt(number, condition, ir.CallRoutine(react), origin=later),
             ir.CallRoutine(travel, (ir.Argument(move.target),), origin=later),
             ir.ControlInterrupt("off", number, origin=later),
-            ir.If(
-                ((ir.Name(hit), (ir.Assign(search.found, ir.Name(place), origin=later),)),),
-                failed,
-                origin=later,
-            ),
+            *after,
         ]

@@ -1,0 +1,108 @@
+"""Tasks that tasks start, end, pause and wait for, sections in which no other task runs, and who has the robot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from rpl.runtime.code import Code, Values
+from rpl.runtime.faults import ProgramError
+from rpl.runtime.task import ENDED, READY, Task
+from rpl.runtime.waits import Wait
+
+if TYPE_CHECKING:
+    from rpl.runtime.machine import Machine
+
+# A task that a program starts has this kind: the run does not wait for its end.
+STARTED = "background"
+
+
+def named(machine: Machine, name: str) -> Task | None:
+    """The task of that name, whatever its state."""
+    return next((task for task in machine.tasks if task.name.lower() == name.lower()), None)
+
+
+def start(machine: Machine, asking: Task, name: str, code: Code | None, fill: Callable[[Values], None]) -> None:
+    """Begin a task, unless it runs already. A routine that is no task yet becomes one; it shares the modal settings of
+    the task that started it."""
+    found = named(machine, name)
+    if found is None:
+        if code is None:
+            raise ProgramError("unknown_routine", f"there is no task or routine {name}")
+        machine.provide(code)
+        found = Task(machine, name, len(machine.tasks), STARTED, code)
+        found.modal = asking.modal
+        machine.tasks.append(found)
+    elif found.state == ENDED:
+        found.restart()
+    else:
+        return
+    fill(found.frame.values)
+    found.state = READY
+    machine.ready(found)
+
+
+def control(machine: Machine, asking: Task, op: str, name: str) -> None:
+    """stop, pause or resume a task. One that was never started is not there to be stopped."""
+    found = named(machine, name)
+    if found is None:
+        return
+    match op:
+        case "stop" if found is asking:
+            raise ProgramError("bad_call", f"task {name} cannot stop itself")
+        case "stop":
+            found.state, found.wait = ENDED, None
+            machine.changed()
+        case "pause" if found.state != ENDED:
+            found.held = True
+        case "resume" if found.held:
+            found.held = False
+            release(machine)
+
+
+def join(asking: Task, name: str, here: int, next: int) -> int:
+    """Wait until a task has ended."""
+    found = named(asking.machine, name)
+    if found is None or found.state == ENDED:
+        return next
+    if found is asking:
+        raise ProgramError("bad_call", f"task {name} cannot wait for its own end")
+    return asking.block(Wait("task", here, next, asking.machine.token(), asking.machine.now, move=found.index))
+
+
+def critical(task: Task, enter: bool) -> None:
+    """Begin or end a section in which no other task runs."""
+    task.machine.critical = task.index if enter else None
+    if not enter:
+        release(task.machine)
+
+
+def may_run(machine: Machine, task: Task) -> bool:
+    """May the task go on, or is it held or another one in a critical section?"""
+    if task.held or machine.critical not in (None, task.index):
+        machine.held.append(task.index)
+        return False
+    return True
+
+
+def release(machine: Machine) -> None:
+    """Let those run that were held."""
+    waiting, machine.held = machine.held, []
+    for index in waiting:
+        task = machine.tasks[index]
+        if task.state == READY:
+            machine.ready(task)
+
+
+def take_robot(task: Task) -> bool:
+    """Give the task the robot of another one that does not use it now."""
+    for other in task.machine.tasks:
+        robot = other.robot
+        if robot is None or other is task:
+            continue
+        if other.busy:
+            raise ProgramError("motion", f"the robot is moved by task {other.name}")
+        other.robot, task.robot = None, robot
+        robot.task_index = task.index
+        return True
+    return False
