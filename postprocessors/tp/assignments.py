@@ -30,11 +30,9 @@ class Assignments:
             case ir.Signal():
                 return [Line(f"  {set_output(target, value, self.expressions)}")]
         place = self.expressions.place(target)
-        if place.startswith("P["):
-            raise CannotSayError("a taught point is not assigned to")
         if place.startswith("AR["):
             raise CannotSayError("an argument is not assigned to")
-        if place.startswith("PR[") and not isinstance(target, ir.Field):
+        if place.startswith(("PR[", "P[")) and not isinstance(target, ir.Field):
             return [Line(f"  {one}") for one in self.position(place, value)]
         if place.startswith("F["):
             return [Line(f"  {place}={truth(value, self.expressions)}")]
@@ -70,7 +68,7 @@ class Assignments:
             case ir.Builtin(function="offset", arguments=(base, *shift)):
                 first = [] if self.same(place, base) else self.position(place, base)
                 return [*first, *self.shifted(place, shift)]
-            case ir.Builtin(function="pose_of", arguments=(base,)):
+            case ir.Builtin(function="pose_of" | "joints_to_target" | "target_to_joints", arguments=(base,)):
                 return self.position(place, base)
             case ir.System(name="null_frame" | "world"):
                 zero = {name: ir.RealLiteral(0.0) for name in ("x", "y", "z", "a", "b", "c")}

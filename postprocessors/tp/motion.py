@@ -83,7 +83,7 @@ class Motion:
             if found:
                 raise CannotSayError(f"a move has no place for {what}")
         left = {
-            "an orientation rule": move.orientation not in (None, "variable"),
+            "an orientation rule": move.orientation not in (None, "variable", "wrist"),
             "a circle's orientation rule": move.circle_orientation not in (None, "base"),
             "an acceleration in mm/s2": move.speed is not None and move.speed.path_acceleration is not None,
             "an acceleration in deg/s2": move.speed is not None and move.speed.axis_acceleration is not None,
@@ -101,6 +101,11 @@ class Motion:
                 shown, more = self.target(move, base)
                 word = "Offset" if how == "displaced" else "Tool_Offset"
                 return shown, f"{more} {word},{self.register(pose)}"
+            case ir.Builtin(function="element_sum", arguments=(base, offset)):
+                shown, more = self.target(move, base)
+                return shown, f"{more} Offset,{self.register(offset)}"
+            case ir.Builtin(function="joints_to_target" | "target_to_joints" | "pose_of", arguments=(base,)):
+                return self.target(move, base)
             case ir.Binary(op=":", left=base, right=pose) | ir.Builtin(function="compose", arguments=(base, pose)):
                 shown, more = self.target(move, base)
                 return shown, f"{more} Tool_Offset,{self.register(pose)}"
@@ -121,6 +126,8 @@ class Motion:
             self.points.used(int(inner), self.frame or "F", self.tool or "F")
 
     def register(self, pose: ir.Expression) -> str:
+        if isinstance(pose, ir.Builtin) and pose.function == "pose_of":
+            (pose,) = pose.arguments
         shown = self.expressions.element(pose)
         if shown is None or not shown.startswith("PR["):
             raise CannotSayError("an offset has to be in a position register")
@@ -252,21 +259,28 @@ class Motion:
             least, most = tables.ACCELERATION
             percent = self.percent(move.acceleration, move, "the acceleration", least, most)
             shown += f" ACC{percent}" if percent.isdigit() else f" ACC {percent}"
+        if move.orientation == "wrist":
+            shown += " Wjnt"
         if move.relative in ("base", "joints"):
             shown += " INC"
         elif move.relative is not None:
             raise CannotSayError(f"a move relative to the {move.relative}")
-        if len(move.triggers) > 1:
-            raise CannotSayError("a move has one action on its path")
-        for trigger in move.triggers:
-            shown += f" {self.trigger(trigger)}"
+        triggers = _pulses(move.triggers)
+        if len(triggers) > tables.MOST_TRIGGERS:
+            raise CannotSayError(f"a move has at most {tables.MOST_TRIGGERS} actions on its path")
+        for trigger, pulse in triggers:
+            shown += f" {self.trigger(trigger, pulse)}"
         return shown
 
-    def trigger(self, trigger: ir.Expression | ir.Trigger) -> str:
+    def trigger(self, trigger: ir.Expression | ir.Trigger, pulse: float | None = None) -> str:
         """`TB .20sec,DO[1]=ON`, `TA`, `DB 10.0mm`: before or after the end of the move."""
         if not isinstance(trigger, ir.Trigger):
             raise CannotSayError("stored actions on the path")
-        action = self.action(trigger.action)
+        if pulse is not None and isinstance(trigger.action, ir.Assign):
+            signal = self.expressions.place(trigger.action.target)
+            action = f"{signal}=PULSE,{number_text(pulse, style=tables.NUMBERS)}sec"
+        else:
+            action = self.action(trigger.action)
         if trigger.reference == "start":
             raise CannotSayError("an action on the path counts from the end of the move")
         if trigger.distance is not None and constant(trigger.distance) != 0:
@@ -280,3 +294,23 @@ class Motion:
         if delay is None:
             raise CannotSayError("an action by time comes at a constant time")
         return f"{'TA' if delay > 0 else 'TB'} {number_text(abs(float(delay)), 2, tables.NUMBERS)}sec,{action}"
+
+
+def _pulses(triggers: tuple[ir.Expression | ir.Trigger, ...]) -> list[tuple[ir.Expression | ir.Trigger, float | None]]:
+    """The triggers, each with the seconds of its pulse: an output that is switched off a constant time later."""
+    done: list[tuple[ir.Expression | ir.Trigger, float | None]] = []
+    for trigger in triggers:
+        match trigger, done[-1][0] if done else None:
+            case (
+                ir.Trigger(
+                    action=ir.Assign(target=ir.Signal() as target, value=ir.BoolLiteral(value=False)), delay=later
+                ),
+                ir.Trigger(action=ir.Assign(target=before, value=ir.BoolLiteral(value=True)), delay=first) as on,
+            ) if target == before and later is not None:
+                width = later.right if isinstance(later, ir.Binary) else later if first is None else None
+                seconds = measured(width, "s") if width is not None else None
+                if seconds is not None:
+                    done[-1] = (on, float(seconds))
+                    continue
+        done.append((trigger, None))
+    return done

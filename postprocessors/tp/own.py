@@ -9,9 +9,11 @@ from __future__ import annotations
 import re
 
 from rpl import ir
+from rpl.source import Origin
 
 WAIT_LIMIT = "$WAITTMOUT"
 _TABLES = {"base": "UFRAME", "tool": "UTOOL"}
+_NUMBERED = re.compile(r"\s*\d*\s*:\s*(.*?)\s*;?\s*\Z", re.DOTALL)
 _ALARM = re.compile(r"UALM\[(\d+)\]")
 
 
@@ -56,7 +58,35 @@ def is_own_limit(time: ir.Expression) -> bool:
     return False
 
 
+def raw_text(origin: Origin) -> str | None:
+    """The instruction as it stands in the listing, without number and closing sign; None when it was read elsewhere."""
+    found = _NUMBERED.match(origin.text)
+    return found[1] if found else None
+
+
 def without_trunc(value: ir.Expression) -> ir.Expression:
     while isinstance(value, ir.Convert) and value.how in ("trunc", "real"):
         value = value.operand
     return value
+
+
+def is_monitor(module: ir.Module) -> bool:
+    """Is it a condition program (`/PROG X Cond`)?"""
+    return dict(module.attributes).get("PROG_TYPE", "").lower().startswith("cond")
+
+
+def monitors_of(program: ir.Program) -> dict[int, tuple[str, int]]:
+    """The condition programs: by the number of the first condition, the name and how many conditions there are."""
+    found: dict[int, tuple[str, int]] = {}
+    for module in program.modules:
+        if not is_monitor(module):
+            continue
+        for routine in module.routines[:1]:
+            numbers = [
+                statement.priority.value
+                for statement in routine.body
+                if isinstance(statement, ir.DeclareInterrupt) and isinstance(statement.priority, ir.IntLiteral)
+            ]
+            if numbers:
+                found[numbers[0]] = (routine.name.upper(), len(numbers))
+    return found

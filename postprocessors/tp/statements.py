@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from rpl import ir
@@ -12,11 +13,12 @@ from rpl.writing.ledger import EmissionLedger
 from . import tables
 from .assignments import Assignments, set_output
 from .expressions import CannotSayError, Expressions, constant, measured
-from .flow import If, Labels, choice, single_jump
+from .flow import If, Labels, choice
 from .frames import Frames
+from .idioms import Idioms
 from .lines import Line
 from .motion import Motion
-from .own import alarm_number, is_own_limit, table_change, table_select, without_trunc
+from .own import is_own_limit
 from .positions import Points
 from .texts import ascii_text, number, remarks
 
@@ -47,12 +49,15 @@ class Printer:
     diagnostics: Diagnostics
     lines: list[Line] = field(default_factory=list)
     depth: int = 0
+    monitors: Mapping[int, tuple[str, int]] = field(default_factory=dict)
     motion: Motion = field(init=False)
     assignments: Assignments = field(init=False)
+    idioms: Idioms = field(init=False)
 
     def __post_init__(self) -> None:
         self.motion = Motion(self.expressions, self.points, self.diagnostics, self.action)
         self.assignments = Assignments(self.expressions, self.points)
+        self.idioms = Idioms(self)
 
     # ---- lines and comments
 
@@ -83,7 +88,10 @@ class Printer:
     def body(self, body: ir.Body) -> None:
         at = 0
         while at < len(body):
-            at += self.pair(body[at], body[at + 1] if at + 1 < len(body) else None)
+            taken = self.idioms.take(body[at:])
+            if not taken:
+                self.statement(body[at])
+            at += taken or 1
 
     def inner(self, body: ir.Body) -> None:
         """A body inside of a block."""
@@ -93,74 +101,12 @@ class Printer:
         self.body(body)
         self.depth -= 1
 
-    def pair(self, statement: ir.Statement, following: ir.Statement | None) -> int:
-        """Two statements that TP says as one, else one."""
-        kept = len(self.lines)
-        try:
-            done = following is not None and self.as_one(statement, following)
-        except CannotSayError:
-            del self.lines[kept:]
-            done = False
-        if not done or following is None:
-            self.statement(statement)
-            return 1
-        self.ledger.written(statement)
-        self.ledger.merged(following)
-        return 2
-
-    def as_one(self, statement: ir.Statement, following: ir.Statement) -> bool:
-        """A limited wait or a search and the jump when it failed; a frame number and what it selects; an alarm and the
-        pause that it makes. False when they are no such pair."""
-        label = self.failure_jump(statement, following)
-        number = table_select(statement, following)
-        alarm = alarm_number(statement) if following == ir.Halt("stop") else None
-        told = table_change(statement, following)
-        if label is None and number is None and alarm is None and told is None:
-            return False
-        self.comments_only(following.origin)
-        if number is not None and isinstance(statement, ir.Assign):
-            word = number[0]
-            shown = self.expressions.operand(without_trunc(statement.value))
-            self.line(f"{word}_NUM={shown}", statement.origin)
-            self.in_force(word, shown)
-        elif told is not None:
-            register = self.assignments.register(told[1])
-            self.line(f"{self.table_place(told[0])}={register}", statement.origin)
-        elif alarm is not None:
-            self.line(f"UALM[{alarm}]", statement.origin)
-        elif isinstance(statement, ir.Move) and label is not None:
-            self.searching(statement, label)
-        elif isinstance(statement, ir.WaitUntil) and label is not None:
-            self.limited(statement, label)
-        return True
-
-    def table_place(self, place: ir.Index) -> str:
-        word = place.base.id.upper() if isinstance(place.base, ir.Name) else ""
-        return f"{word}[{self.expressions.operand(place.indices[0])}]"
-
     def in_force(self, word: str, number: str) -> None:
         self.frames.selected[word].add(number)
         if word == "UTOOL":
             self.motion.tool = number if number.isdigit() else ""
         else:
             self.motion.frame = number if number.isdigit() else ""
-
-    def failure_jump(self, statement: ir.Statement, following: ir.Statement | None) -> int | None:
-        """The label that the next statement jumps to when this one's condition did not come true."""
-        jump = single_jump(following)
-        if jump is None:
-            return None
-        condition, label = jump
-        match statement:
-            case ir.WaitUntil(timed_out=flag, timeout=limit) if limit is not None and flag == condition:
-                return self.labels.number(label) if self.private(flag) else None
-            case ir.Move(search=ir.Search(hit=hit)) if hit is not None and condition == ir.Unary("not", hit):
-                return self.labels.number(label) if self.private(hit) else None
-        return None
-
-    def private(self, flag: ir.Expression | None) -> bool:
-        """Is it a variable that only stands for the outcome, so that no register has to keep it?"""
-        return isinstance(flag, ir.Name) and self.expressions.element(flag) is None
 
     def statement(self, statement: ir.Statement) -> None:
         """One statement, or its guarded stop."""
@@ -264,6 +210,8 @@ class Printer:
 
     def call(self, call: ir.CallRoutine) -> str:
         name = call.name.upper() if call.dynamic is None else self.expressions.place(call.dynamic)
+        if any(name == known for known, _ in self.monitors.values()):
+            return f"MONITOR {name}"
         return f"CALL {name}{self.arguments(call.arguments)}    "
 
     def arguments(self, arguments: tuple[ir.Argument, ...]) -> str:
@@ -412,7 +360,7 @@ class Printer:
             if not chosen.isdigit() or chosen != in_force:
                 self.select(name, value, Origin())
 
-    def searching(self, move: ir.Move, label: int, flag: str = "") -> None:
+    def searching(self, move: ir.Move, label: int, flag: str = "", word: str = "Skip") -> None:
         search = move.search
         if search is None:
             raise CannotSayError("a search without a condition")
@@ -425,7 +373,7 @@ class Printer:
                 raise CannotSayError("a search keeps the place in a position register")
             found = f",{place}=LPOS"
         self.own_frames(move)
-        line = self.motion.move(move, f" Skip,LBL[{label}]{found}")
+        line = self.motion.move(move, f" {word},LBL[{label}]{found}")
         self.line(f"SKIP CONDITION {self.expressions.condition(search.condition)}    ", move.origin)
         if flag:
             self.line(f"{flag}=OFF")

@@ -102,6 +102,7 @@ LONGEST_COMMENT: Final = 16  # of a register, a label, a position and a program
 LONGEST_MESSAGE: Final = 24
 LONGEST_TEXT: Final = 254
 MOST_ARGUMENTS: Final = 10
+MOST_TRIGGERS: Final = 5  # M: actions on the path of one move
 DEEPEST_BLOCK: Final = 10
 # Ranges of the motion settings: M the last places of the units.
 LARGEST_PERCENT: Final = 100

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
@@ -18,6 +19,7 @@ from .expressions import CannotSayError, Expressions
 from .flow import Labels
 from .frames import Frames, highest_free_register
 from .lines import Line
+from .own import monitors_of
 from .positions import Points, point_number
 from .statements import Printer
 from .texts import comment
@@ -33,6 +35,7 @@ SAME_NAME = code(
     "tp-same-name", Severity.ERROR, "two programs would be called {name}", "rename one; TP's programs are all global"
 )
 
+_NO_DATE = "DATE 00-01-01  TIME 00:00:00"  # the same text for the same program
 # Variables that stand for what the controller has without any declaration, in programs read from listings.
 _CONTROLLERS_OWN = ("UTOOL", "UFRAME", "UTOOL_NUM", "UFRAME_NUM", "WAIT_TIMED_OUT", "SKIP_HIT")
 _MOTION = ("J ", "L ", "C ", "A ")
@@ -59,8 +62,7 @@ class Listing:
     name: str
     lines: list[Line]
     points: Points
-    comment: str = ""
-    kind: str = ""
+    header: Mapping[str, str]
     entry: bool = False
 
 
@@ -82,6 +84,7 @@ class _Writer:
         self.frames = Frames(highest_free_register(program))
         self.names = {**_labels_of_registers(program), **context.register_names}
         self.entries = _entries(program)
+        self.monitors = monitors_of(program)
         self.taken: set[str] = set()
 
     def module(self, module: ir.Module) -> list[Listing]:
@@ -127,10 +130,13 @@ class _Writer:
         expressions.points = named
         printer.body(routine.body)
         self.lost_parts(routine)
-        attributes = dict(module.attributes)
-        about = attributes.get("COMMENT", attributes.get("comment", "")) if len(module.routines) == 1 else ""
         entry = routine.name.lower() in self.entries
-        return Listing(name, printer.lines, points, comment(about.strip('"')), "", entry)
+        header = self.header(module, routine)
+        return Listing(header.get("PROG", name), printer.lines, points, header, entry)
+
+    def header(self, module: ir.Module, routine: ir.Routine) -> dict[str, str]:
+        """What the header of its listing said, for the program of a module that was one."""
+        return dict(module.attributes) if routine is module.routines[0] else {}
 
     def declaration(self, declaration: ir.Declaration, printer: Printer, named: dict[str, str]) -> None:
         """Points; other data of a routine have registers by now."""
@@ -142,7 +148,7 @@ class _Writer:
                     printer.comments_only(declaration.origin)
                     self.ledger.written(declaration)
                     return
-                case ir.Variable(name=name) if _is_bank(name):
+                case ir.Variable(name=name) if _is_bank(name) or name.startswith("for_bound_"):
                     self.ledger.merged(declaration)
                     return
                 case ir.Unread(text=""):
@@ -233,16 +239,20 @@ def _entries(program: ir.Program) -> set[str]:
 def _file(listing: Listing, frames: Frames) -> OutputFile:
     _settle(listing.points, frames)
     moves = any(line.first.startswith(_MOTION) or "PR[" in line.first for line in listing.lines)
-    groups = "1,*,*,*,*" if moves else "*,*,*,*,*"
+    header = listing.header
+    about = header.get("COMMENT", header.get("comment", "")).strip('"')
     text = (
         _environment()
         .get_template("program.ls.j2")
         .render(
             name=listing.name,
-            kind=listing.kind,
-            comment=listing.comment,
+            kind=header.get("PROG_TYPE", ""),
+            comment=comment(about),
             lines=listing.lines,
-            groups=groups,
+            created=header.get("CREATE", _NO_DATE),
+            modified=header.get("MODIFIED", _NO_DATE),
+            groups=header.get("DEFAULT_GROUP", "1,*,*,*,*" if moves else "*,*,*,*,*"),
+            application=[part.strip() for part in header.get("APPL", "").split(";") if part.strip()],
             positions=list(listing.points.text()),
         )
     )
