@@ -53,11 +53,12 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     assigned = usage_of(program).assigned
     reported: set[Code] = set()
     entries = never_called(program)
+    looks_ahead = "advance" in context.capabilities.system_variables
     modules = []
     for module in program.modules:
         routines = []
         for routine in module.routines:
-            if routine.name.lower() in entries and routine.body:
+            if looks_ahead and routine.name.lower() in entries and routine.body:
                 routine = _looking_ahead(routine, rules_of(context.target).advance.moves)
             worker = _Modal(context, scopes.routine(module, routine), assigned, reported)
             handlers = tuple(replace(handler, body=worker.body(handler.body, {})) for handler in routine.handlers)

@@ -32,13 +32,13 @@ MM_S_PER_PERCENT = 50.0
 ZONE_MM_PER_PERCENT = 4.0
 _STANDARD_EXTERNAL = (ir.RealLiteral(5000.0), ir.RealLiteral(1000.0))
 # Values with which a dropped setting says what the target does anyway.
-_USUAL = {
+USUAL = {
     "orientation_mode": "variable",
     "circle_orientation": "base",
     "path_limit_rule": "constant",
     "interpolation": "base",
 }
-_DROPPED = frozenset(
+DROPPED_SETTINGS = frozenset(
     {
         *("path_acceleration", "swivel_acceleration", "twist_acceleration", "joint_acceleration", "path_jerk"),
         *("external_speed", "external_acceleration", "blend_rotation", "blend_speed", "orientation_mode"),
@@ -191,7 +191,7 @@ class _Explicit:
 
     def statement(self, statement: ir.Statement, known: Environment) -> list[ir.Statement]:
         match statement:
-            case ir.Assign(target=ir.System(name=name)) if name in _MODAL or name in _DROPPED:
+            case ir.Assign(target=ir.System(name=name)) if name in _MODAL or name in DROPPED_SETTINGS:
                 return self.setting(statement, known)
             case ir.Move():
                 return self.move(statement, known)
@@ -244,10 +244,10 @@ class _Explicit:
         target = statement.target
         assert isinstance(target, ir.System)
         name, value = target.name, self.expression(statement.value)
-        if name in _DROPPED:
+        if name in DROPPED_SETTINGS:
             if name == "circle_orientation" and name in self.context.capabilities.system_variables:
                 return [statement if self.arcs else ir.Nothing(origin=statement.origin)]
-            if _says(value, _USUAL.get(name, "")):
+            if says(value, USUAL.get(name, "")):
                 return [ir.Nothing(origin=statement.origin)]
             if name == "interpolation":  # a tool fixed in the room is another motion: the writer stops there
                 return [statement]
@@ -372,7 +372,7 @@ def _set_inside(statement: ir.Statement, usage: Usage) -> set[str]:
     return found
 
 
-def _says(value: ir.Expression, word: str) -> bool:
+def says(value: ir.Expression, word: str) -> bool:
     """Is it this mode word?"""
     return isinstance(value, ir.EnumLiteral | ir.TextLiteral | ir.Name) and word == _word(value)
 

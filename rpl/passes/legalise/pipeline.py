@@ -25,6 +25,7 @@ from rpl.passes.legalise.logic import decide_logic
 from rpl.passes.legalise.lookahead import stop_blends
 from rpl.passes.legalise.loops import fit_loops
 from rpl.passes.legalise.modal import modal_to_explicit
+from rpl.passes.legalise.movesettings import settings_at_moves
 from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.prelude import link_prelude
@@ -72,6 +73,7 @@ PASSES: tuple[Pass, ...] = (
     enums_to_constants,
     modal_to_explicit,
     explicit_to_modal,
+    settings_at_moves,
     aggregates,
     geometry,
     structure_to_labels,

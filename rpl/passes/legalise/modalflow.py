@@ -1,0 +1,254 @@
+"""What modal settings are at each move: constants carried through branches, loops and calls of the whole program.
+
+A setting is known where every way to the place has set the same constant (a literal, or data that nothing assigns).
+Routines are entered with what all their calls have in common, and leave with what they have set.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from rpl import ir
+from rpl.ir.walk import walk
+from rpl.passes.legalise.datalists import never_called
+from rpl.passes.legalise.usage import Usage, usage_of
+from rpl.passes.scope import ProgramScope, Scope
+
+SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distance", "blend_joint"))
+# Setting -> constant; None: it depends on the run. A place that is never reached has no state.
+State = dict[str, "ir.Expression | None"]
+_UNKNOWN: State = dict.fromkeys(SETTINGS)
+_ROUNDS = 40
+
+
+def joined(*states: State | None) -> State | None:
+    """What is known on every way."""
+    found = [state for state in states if state is not None]
+    if not found:
+        return None
+    first = found[0]
+    return {name: value if all(one[name] == value for one in found) else None for name, value in first.items()}
+
+
+@dataclass(slots=True)
+class Flow:
+    """`start`: the settings at the beginning of a program."""
+
+    usage: Usage
+    start: State
+    moves: dict[int, State] = field(default_factory=dict)
+    repeated: dict[int, bool] = field(default_factory=dict)
+    kept: list[object] = field(default_factory=list)  # keeps the identities alive
+
+    @classmethod
+    def of(cls, program: ir.Program, defaults: dict[str, float | bool | str]) -> Flow:
+        """Follow the program; `defaults` are the system variables of its language at the start."""
+        start: State = {name: _default(name, defaults) for name in SETTINGS}
+        flow = cls(usage_of(program), start)
+        _Follower(program, flow).follow()
+        return flow
+
+    def at(self, move: ir.Move) -> State:
+        """The settings at a move (all unknown where nothing leads)."""
+        return self.moves.get(id(move), _UNKNOWN)
+
+    def again(self, statement: ir.Assign) -> bool:
+        """Is the setting known to have this value already?"""
+        return self.repeated.get(id(statement), False)
+
+
+def _default(name: str, defaults: dict[str, float | bool | str]) -> ir.Expression | None:
+    if name == "base":
+        return ir.System("null_frame")
+    value = defaults.get(name)
+    return ir.RealLiteral(float(value)) if isinstance(value, int | float) else None
+
+
+@dataclass(slots=True)
+class _Loop:
+    breaks: list[State] = field(default_factory=list)
+    passes: list[State] = field(default_factory=list)
+
+
+class _Follower:
+    def __init__(self, program: ir.Program, flow: Flow) -> None:
+        self.program, self.flow = program, flow
+        self.scopes = ProgramScope(program)
+        self.routines = {r.name.lower(): (m, r) for m in reversed(program.modules) for r in m.routines}
+        self.beside = _beside(program)
+        self.entries: dict[str, State | None] = dict.fromkeys(self.routines)
+        self.exits: dict[str, State | None] = dict.fromkeys(self.routines)
+        self.loops: list[_Loop] = []
+        self.returns: list[State] = []
+        self.noting = False
+        for name in self.started():
+            self.entries[name] = dict(flow.start)
+
+    def started(self) -> set[str]:
+        """Routines that a run may begin with."""
+        named = {self.program.entry.lower(), *(task.entry.lower() for task in self.program.tasks)} - {""}
+        return (named or never_called(self.program)) & set(self.routines)
+
+    def follow(self) -> None:
+        for _ in range(_ROUNDS):
+            before = (dict(self.entries), dict(self.exits))
+            for name in self.routines:
+                self.routine(name)
+            if before == (self.entries, self.exits):
+                break
+        else:
+            self.entries = {name: dict(_UNKNOWN) for name in self.entries}
+            self.exits = {name: dict(_UNKNOWN) for name in self.exits}
+        self.noting = True
+        for name in self.routines:
+            self.routine(name)
+
+    def routine(self, name: str) -> None:
+        module, routine = self.routines[name]
+        entry = dict(_UNKNOWN) if name in self.beside else self.entries[name]
+        if entry is None:
+            return
+        self.scope: Scope = self.scopes.routine(module, routine)
+        self.loops, self.returns = [], []
+        end = self.body(routine.body, dict(entry))
+        for handler in routine.handlers:
+            self.returns.extend(state for state in (self.body(handler.body, dict(_UNKNOWN)),) if state is not None)
+        self.exits[name] = joined(end, *self.returns)
+
+    # ---- statements
+
+    def body(self, body: ir.Body, state: State | None) -> State | None:
+        for statement in body:
+            if isinstance(statement, ir.Label):
+                state = dict(_UNKNOWN)
+            if state is None:
+                continue
+            state = self.statement(statement, state)
+        return state
+
+    def statement(self, statement: ir.Statement, state: State) -> State | None:
+        match statement:
+            case ir.If(branches=branches, otherwise=otherwise):
+                ends: list[State | None] = []
+                passed: State | None = state
+                for condition, body in branches:
+                    passed = None if passed is None else self.calls(condition, passed)
+                    ends.append(None if passed is None else self.body(body, dict(passed)))
+                ends.append(None if passed is None else self.body(otherwise, dict(passed)))
+                return joined(*ends)
+            case ir.Switch(selector=selector, cases=cases, default=default):
+                chosen = self.calls(selector, state)
+                if chosen is None:
+                    return None
+                choices = [self.body(case.body, dict(chosen)) for case in cases]
+                return joined(*choices, self.body(default or (), dict(chosen)))
+            case ir.While(condition=ahead) | ir.For(stop=ahead):
+                return self.loop(statement.body, self.calls(ahead, state), True)
+            case ir.Repeat(body=body) | ir.Loop(body=body):
+                return self.loop(body, state, isinstance(statement, ir.Repeat))
+        return self.simple(statement, state)
+
+    def loop(self, body: ir.Body, state: State | None, ends: bool) -> State | None:
+        """`ends`: the loop has an end of its own, not only jumps out of it."""
+        start = state
+        while start is not None:
+            loop = _Loop()
+            self.loops.append(loop)
+            end = self.body(body, dict(start))
+            self.loops.pop()
+            again = joined(start, end, *loop.passes)
+            if again == start:
+                return joined(start if ends else None, *loop.breaks)
+            start = again
+        return None
+
+    def simple(self, statement: ir.Statement, state: State) -> State | None:
+        match statement:
+            case ir.ExitLoop() | ir.NextPass() if self.loops:
+                kept = self.loops[-1].breaks if isinstance(statement, ir.ExitLoop) else self.loops[-1].passes
+                kept.append(state)
+                return None
+            case ir.Return(value=value):
+                left = state if value is None else self.calls(value, state)
+                if left is not None:
+                    self.returns.append(left)
+                return None
+            case ir.Goto():
+                return None
+            case ir.Move():
+                self.note(statement, state)
+            case ir.CallRoutine(name=name, dynamic=None):
+                after = self.calls(statement.arguments, state)
+                return None if after is None else self.called(name, after)
+            case ir.CallRoutine():
+                return dict(_UNKNOWN)
+            case ir.Assign(target=ir.System(name=name), value=value) if name in SETTINGS:
+                new = self.stable(value) if name not in self.flow.usage.interrupting else None
+                self.note_setting(statement, new is not None and state[name] == new)
+                return {**state, name: new}
+        return self.calls(statement, state)
+
+    def note(self, move: ir.Move, state: State) -> None:
+        if self.noting:
+            self.flow.kept.append(move)
+            known = joined(self.flow.moves.get(id(move)), state)
+            self.flow.moves[id(move)] = known if known is not None else state
+
+    def note_setting(self, statement: ir.Assign, same: bool) -> None:
+        if self.noting:
+            self.flow.kept.append(statement)
+            self.flow.repeated[id(statement)] = same and self.flow.repeated.get(id(statement), True)
+
+    # ---- calls
+
+    def calls(self, node: object, state: State) -> State | None:
+        """The state behind the functions that an expression or a plain statement calls."""
+        after: State | None = state
+        for one in walk((node,) if not isinstance(node, tuple) else node):
+            if isinstance(one, ir.Call) and after is not None:
+                after = self.called(one.name, after)
+        return after
+
+    def called(self, name: str, state: State) -> State | None:
+        key = name.lower()
+        if key not in self.routines:
+            return state
+        self.entries[key] = joined(self.entries[key], state)
+        return self.exits[key]
+
+    # ---- constants
+
+    def stable(self, value: ir.Expression) -> ir.Expression | None:
+        """The value when it is the same at every place and time."""
+        match value:
+            case ir.RealLiteral() | ir.IntLiteral():
+                return value
+            case ir.System(name="null_frame" | "world"):
+                return ir.System("null_frame")
+            case ir.Quantity(value=inner) | ir.Unary(operand=inner) | ir.Convert(operand=inner):
+                return value if self.stable(inner) is not None else None
+            case ir.Field(base=base):
+                return value if self.stable(base) is not None else None
+            case ir.Binary(left=left, right=right):
+                return value if self.stable(left) is not None and self.stable(right) is not None else None
+            case ir.Aggregate(entries=entries):
+                return value if all(self.stable(one) is not None for _, one in entries) else None
+            case ir.Name(id=name):
+                symbol = self.scope.value(name)
+                if symbol is None or symbol.routine is not None or not isinstance(symbol.declaration, ir.Variable):
+                    return None
+                fixed = symbol.declaration.storage == "constant" or name.lower() not in self.flow.usage.assigned
+                return value if fixed else None
+        return None
+
+
+def _beside(program: ir.Program) -> set[str]:
+    """Routines that something else than a call may run."""
+    names: set[str] = set()
+    for node in walk(*program.modules):
+        match node:
+            case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)) | ir.Trigger(action=ir.CallRoutine(name=name)):
+                names.add(name.lower())
+            case ir.ConnectInterrupt(routine=name) | ir.TaskControl(task=name) | ir.Routine(name=name, kind="trap"):
+                names.add(name.lower())
+    return names

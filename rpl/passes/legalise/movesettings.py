@@ -1,0 +1,230 @@
+"""Modal speed, frame and blend to settings of each move, as plain quantities, for targets whose moves say them so.
+
+What is known at a move (`flows`) is written there; where it depends on the run, a variable holds it. Runs behind
+explicit_to_modal, so it meets modal motion from every source. Settings that a target keeps modal stay, but setting what
+is set already goes away.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.diagnostics import Code
+from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.modal import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, ZONE_MM_PER_PERCENT, says
+from rpl.passes.legalise.modalflow import SETTINGS, Flow, State
+from rpl.passes.rewrite import rewrite_parts
+
+_TYPES: dict[str, ir.Type] = {"tool": ir.PoseType(), "base": ir.PoseType()}
+# Settings that such a target has no word for, so that they cannot stay modal either.
+_LEFT_OUT = DROPPED_SETTINGS | {"swivel_speed", "twist_speed"}
+_PARTS = {
+    "tool": ("tool",),
+    "base": ("frame",),
+    "path_speed": ("speed",),
+    "joint_speed": ("speed",),
+    "blend_distance": ("blend",),
+    "blend_joint": ("blend",),
+}
+
+
+def settings_at_moves(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets whose moves say some settings and keep the rest modal."""
+    if not context.capabilities.move_settings:
+        return program
+    return _Settings(program, context).program()
+
+
+@dataclass(slots=True)
+class _Settings:
+    source: ir.Program
+    context: Context
+    flow: Flow = field(init=False)
+    variables: dict[str, str] = field(default_factory=dict)
+    reported: set[tuple[Code, str]] = field(default_factory=set)
+
+    def __post_init__(self) -> None:
+        self.flow = Flow.of(self.source, dict(rules_of(self.context.source).system_defaults))
+
+    def says(self, name: str) -> bool:
+        """Do moves of the target say this setting?"""
+        return bool(set(_PARTS[name]) & self.context.capabilities.move_settings)
+
+    def report_once(self, what: Code, statement: ir.Statement, key: str, **arguments: object) -> None:
+        if (what, key) not in self.reported:
+            self.reported.add((what, key))
+            self.context.diagnostics.report(what, statement.origin, **arguments)
+
+    # ---- program
+
+    def program(self) -> ir.Program:
+        modules = self.modules()
+        if self.variables:  # now it is known which settings need a variable: again, with these set everywhere
+            modules = self.modules()
+        program = replace(self.source, modules=modules)
+        if not self.variables:
+            return program
+        data = tuple(self.declared(name, variable) for name, variable in self.variables.items())
+        home = ir.Module(self.context.fresh("rpl_settings"), program.modules[0].dialect, data, public=True)
+        return replace(program, modules=(*program.modules, home))
+
+    def modules(self) -> tuple[ir.Module, ...]:
+        return tuple(
+            replace(
+                module,
+                routines=tuple(
+                    replace(
+                        routine,
+                        body=self.body(routine.body),
+                        handlers=tuple(replace(one, body=self.body(one.body)) for one in routine.handlers),
+                    )
+                    for routine in module.routines
+                ),
+            )
+            for module in self.source.modules
+        )
+
+    def declared(self, name: str, variable: str) -> ir.Variable:
+        initial = self.flow.start.get(name)
+        type = _TYPES.get(name, ir.RealType())
+        value = ir.System("null_frame") if isinstance(type, ir.PoseType) else _number(initial, 0.0)
+        return ir.Variable(variable, type, value, scope="global")
+
+    def variable(self, name: str) -> ir.Name:
+        if name not in self.variables:
+            self.variables[name] = self.context.fresh(f"rpl_{name}")
+        return ir.Name(self.variables[name])
+
+    # ---- statements
+
+    def body(self, body: ir.Body) -> ir.Body:
+        return tuple(one for statement in body for one in self.statement(statement))
+
+    def statement(self, statement: ir.Statement) -> ir.Body:
+        match statement:
+            case ir.Assign(target=ir.System(name=name)) if name in SETTINGS:
+                return self.setting(statement, name)
+            case ir.Assign(target=ir.System(name=name), value=value) if name in _LEFT_OUT:
+                if name in self.context.capabilities.system_variables or name == "interpolation":
+                    if not says(value, USUAL.get(name, "")):
+                        return (rewrite_parts(statement, self.expression, self.body),)
+                elif not says(value, USUAL.get(name, "")):
+                    self.report_once(DROPPED, statement, name, name=name.replace("_", " "))
+                return (ir.Nothing(origin=statement.origin),)
+            case ir.Move():
+                return (self.move(statement),)
+        return (rewrite_parts(statement, self.expression, self.body),)
+
+    def setting(self, statement: ir.Assign, name: str) -> ir.Body:
+        target, value = statement.target, statement.value
+        assert isinstance(target, ir.System)  # as the caller has found
+        if not self.says(name):
+            if self.flow.again(statement):
+                return (ir.Nothing(origin=statement.origin),)
+            return (rewrite_parts(statement, self.expression, self.body),)
+        if name not in self.variables or target.indices not in ((), (ir.IntLiteral(1),)):
+            return (ir.Nothing(origin=statement.origin),)
+        return (replace(statement, target=self.variable(name), value=plain(self.expression(value))),)
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        if isinstance(expression, ir.System) and expression.name in SETTINGS and self.says(expression.name):
+            return self.variable(expression.name)
+        return rewrite_parts(expression, self.expression)
+
+    # ---- moves
+
+    def move(self, move: ir.Move) -> ir.Move:
+        state = self.flow.at(move)
+        own = {place.name: value for place, value in move.settings if isinstance(place, ir.System)}
+        for name in own.keys() - SETTINGS:
+            self.report_once(DROPPED, move, name, name=name.replace("_", " "))
+        done = rewrite_parts(replace(move, settings=(), blend=None), self.expression, self.body)
+        says = self.context.capabilities.move_settings
+        blend = self.blend(move, state, own) if "blend" in says else move.blend
+        done = replace(done, blend=blend)
+        if "frame" in says and move.frame is None:
+            frame = self.value("base", state, own)
+            done = replace(done, frame=None if frame == ir.System("null_frame") else frame)
+        if "tool" in says and move.tool is None:
+            done = replace(done, tool=self.value("tool", state, own))
+        if "speed" in says and move.speed is None:
+            done = replace(done, speed=self.speed(move, state, own))
+        return done
+
+    def value(self, name: str, state: State, own: dict[str, ir.Expression]) -> ir.Expression:
+        """What the setting is at a move: a constant, or the variable that holds it."""
+        found = own.get(name) or state.get(name)
+        return self.variable(name) if found is None else plain(self.expression(found))
+
+    def speed(self, move: ir.Move, state: State, own: dict[str, ir.Expression]) -> ir.Speed:
+        if move.kind == "joint":
+            return ir.Speed(joint=self.value("joint_speed", state, own))
+        return ir.Speed(path=self.value("path_speed", state, own))
+
+    def blend(self, move: ir.Move, state: State, own: dict[str, ir.Expression]) -> ir.Blend | None:
+        if move.blend.__class__.__name__ in self.context.capabilities.blends and not _modal(move.blend):
+            return rewrite_parts(move.blend, self.expression)
+        size: ir.Expression
+        match move.blend:
+            case None | ir.BlendStop():
+                return move.blend
+            case ir.BlendDistance():
+                size = self.value("blend_distance", state, own)
+            case ir.BlendLevel(level=ir.IntLiteral(value=level)):
+                levels = rules_of(self.context.source).blend_levels
+                size = ir.RealLiteral(levels[level] if level < len(levels) else 0.0)
+                self.report_once(JOINT_BLEND, move, f"level {level}", size=f"{size.value:g} mm")
+            case ir.BlendPercent(percent=percent):
+                size = self.by_percent(move, percent, state, own)
+            case ir.BlendSpeed():
+                size = self.value("blend_distance", state, own)
+                self.report_once(JOINT_BLEND, move, "speed", size="the modal size")
+            case _:
+                return rewrite_parts(move.blend, self.expression)
+        if isinstance(size, ir.RealLiteral | ir.IntLiteral) and size.value == 0:
+            return ir.BlendStop()
+        return ir.BlendDistance(size)
+
+    def by_percent(
+        self, move: ir.Move, percent: ir.Expression, state: State, own: dict[str, ir.Expression]
+    ) -> ir.Expression:
+        """A size in mm for a blend that the source measures in percent."""
+        if isinstance(percent, ir.System):
+            percent = self.value("blend_joint", state, own)
+        size = plain(self.expression(percent))
+        if isinstance(size, ir.RealLiteral | ir.IntLiteral):
+            size = ir.RealLiteral(float(f"{size.value * ZONE_MM_PER_PERCENT:.12g}"))
+            if size.value:
+                self.report_once(JOINT_BLEND, move, str(size.value), size=f"{size.value:g} mm")
+            return size
+        self.report_once(JOINT_BLEND, move, "computed", size=f"{ZONE_MM_PER_PERCENT:g} mm a percent")
+        return ir.Binary("*", size, ir.RealLiteral(ZONE_MM_PER_PERCENT))
+
+
+def _modal(blend: ir.Blend | None) -> bool:
+    """Is its size a modal one?"""
+    match blend:
+        case ir.BlendDistance(distance=None) | ir.BlendDistance(distance=ir.System()):
+            return True
+        case ir.BlendPercent(percent=ir.System()) | ir.BlendSpeed(percent=ir.System()):
+            return True
+    return False
+
+
+def _number(value: ir.Expression | None, other: float) -> ir.Expression:
+    return value if isinstance(value, ir.RealLiteral | ir.IntLiteral) else ir.RealLiteral(other)
+
+
+def plain(value: ir.Expression) -> ir.Expression:
+    """A quantity as a number in base units."""
+    match value:
+        case ir.Quantity(value=inner, unit=unit):
+            factor = ir.UNITS[unit]
+            match inner:
+                case ir.RealLiteral(value=number) | ir.IntLiteral(value=number):
+                    return ir.RealLiteral(float(f"{number * factor:.12g}"), origin=inner.origin)
+            return inner if factor == 1.0 else ir.Binary("*", inner, ir.RealLiteral(factor))
+        case ir.IntLiteral(value=number):
+            return ir.RealLiteral(float(number), origin=value.origin)
+    return value
