@@ -17,7 +17,7 @@ from rpl.source import Origin
 from . import tables
 from .arcs import grouped
 from .data import ARITHMETIC, BITS, FUNCTIONS, Statements
-from .kinds import labels_of
+from .kinds import JOINTS, TARGET, labels_of
 from .motion import MOVES, Motion
 from .operands import tags_of
 from .signals import is_digital
@@ -233,9 +233,10 @@ class Control(Motion):
 
     def on_call(self, command: Command) -> Statements:
         job = self.needs(command, 1)[0]
-        arguments = tuple(ir.Argument(self.argument(item.value)) for item in command.items if isinstance(item, Given))
-        grouped_values = next((item.values for item in command.items if isinstance(item, Group)), ())
-        arguments += tuple(ir.Argument(self.argument(value)) for value in grouped_values)
+        given: list[Operand] = [item.value for item in command.items if isinstance(item, Given)]
+        given.extend(next((item.values for item in command.items if isinstance(item, Group)), ()))
+        name = job.name.upper() if isinstance(job, JobName) else ""
+        arguments = tuple(ir.Argument(self.argument(item, name, n)) for n, item in enumerate(given, 1))
         if not isinstance(job, JobName):
             value = self.value(job)
             if not self.is_text(value):
@@ -254,8 +255,13 @@ class Control(Motion):
         known = self.shared.project.jobs.get(name.upper())
         return known.name if known is not None else name
 
-    def argument(self, operand: Operand) -> ir.Expression:
-        return self.position(operand)[0] if self.is_position(operand) else self.value(operand)
+    def argument(self, operand: Operand, job: str, number: int) -> ir.Expression:
+        if not self.is_position(operand):
+            return self.value(operand)
+        value, kind = self.position(operand)
+        if kind.form in (JOINTS, TARGET) and (job, ("ARGUMENT", number)) in self.shared.project.unified:
+            return self.as_target(value, kind)
+        return value
 
     def on_ret(self, command: Command) -> Statements:
         return (ir.Return(origin=self.origin),)

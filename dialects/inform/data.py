@@ -7,8 +7,8 @@ from rpl.diagnostics import Severity, code
 from rpl.reading.shapes import StatementError
 
 from . import tables
-from .kinds import JOINTS, TARGET, Kind, frame_of
-from .operands import Operands
+from .kinds import JOINTS, TARGET, Kind, frame_of, key_of
+from .operands import UNIFIED, Operands
 from .syntax import Command, Formula, Group, Numbered, Operand, SystemName, Word, value_of
 
 EXTERNAL_ELEMENT = code(
@@ -62,7 +62,18 @@ class Data(Operands):
         if not self.is_position(target):
             raise StatementError("a position variable is needed here", 0)
         assert isinstance(target, ir.Index)  # is_position says so
+        key = key_of(target)
+        if key is not None and self.shared.project.is_unified(self.job.name, key):
+            self.report_once(UNIFIED, f"unified {key}", name=self.spelled(target))
+            value, kind = self.as_target(value, kind), Kind(TARGET)
         return (ir.Assign(self.variable(target, kind.form), value, origin=self.origin),)
+
+    def as_target(self, value: ir.Expression, kind: Kind) -> ir.Expression:
+        """Joints, or a target of any frame, as a target in the base frame."""
+        if kind.form == TARGET:
+            return self.call("displaced", value, self.frame(kind.frame)) if kind.frame.kind == "user" else value
+        base = ir.System("null_frame", origin=self.origin)
+        return self.call("joints_to_target", value, self.tool(kind.tool), base)
 
     def arithmetic(self, command: Command) -> Statements:
         """`ADD a b` and kin: a := a op b. Whole numbers divide to whole numbers; positions element by element."""

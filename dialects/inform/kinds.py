@@ -3,26 +3,28 @@
 INFORM has one bank of position variables for all of these and decides at run time; the IR decides by type. So the lines
 of every job are gone through in the order they can run (labels, jumps and blocks included) with what each variable
 holds, until nothing changes any more. A variable that holds pulses here and a pose there becomes two in the IR; where
-both could have come, the variable is reported.
+both could have come, it is always a pose: pulses are converted where they are stored.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import cast
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.reading.pieces import Item, ModulePart
 from rpl.source import NOWHERE, Origin
 
 from . import tables
-from .jobs import POSE, Frame, Job
+from .jobs import POSE, Frame, Job, commands
 from .syntax import Command, Given, Group, JobName, LabelBy, LabelName, Nest, Numbered, Operand, SystemName, Word
 
 JOINTS, TARGET, MIXED, UNKNOWN = "joints", "target", "mixed", "unknown"
 _ROUNDS = 8
 BASE = Frame()
+DIFFERENT_TOOL = ir.IntLiteral(-1)
 DIFFERENT = Frame("different")  # which frame depends on the way the program came
 
 
@@ -53,18 +55,23 @@ def joined(one: Kind, other: Kind) -> Kind:
     if one.form != other.form:
         return Kind(MIXED, origin=other.origin)
     frame = one.frame if one.frame == other.frame else DIFFERENT
-    return Kind(one.form, frame, one.tool if one.tool == other.tool else None, one.origin)
+    tool = one.tool if one.tool == other.tool or other.tool is None else DIFFERENT_TOOL
+    return Kind(one.form, frame, other.tool if one.tool is None else tool, one.origin)
 
 
-def key_of(operand: Operand, indirect: frozenset[str]) -> Key | None:
-    """The position variable that an operand is; a bank with computed indices is one variable."""
+def is_mixed(kind: Kind) -> bool:
+    """Does it depend on the way the program came what a position is or in which frame it is given?"""
+    return kind.form == MIXED or (kind.form == TARGET and kind.frame == DIFFERENT)
+
+
+def key_of(operand: Operand) -> Key | None:
+    """The position variable that an operand is; what computed indices reach is one variable (number None)."""
     if not isinstance(operand, ir.Index) or not isinstance(operand.base, ir.Name):
         return None
     bank, number = operand.base.id, operand.indices[0]
     if bank not in ("P", "LP"):
         return None
-    whole = bank in indirect or not isinstance(number, ir.IntLiteral)
-    return bank, None if whole else cast(ir.IntLiteral, number).value
+    return bank, number.value if isinstance(number, ir.IntLiteral) else None
 
 
 @dataclass(slots=True)
@@ -76,7 +83,14 @@ class Project:
     globals: dict[Key, Kind] = field(default_factory=dict)
     arguments: dict[tuple[str, int], Kind] = field(default_factory=dict)
     forms: dict[tuple[str, Key], dict[str, Origin]] = field(default_factory=dict)  # per job ("" globals) and variable
+    # Variables and arguments that hold pulses or a pose, one cannot tell which: their pulses are stored as a pose.
+    unified: set[tuple[str, Key]] = field(default_factory=set)
     changed: bool = False
+
+    def is_unified(self, job: str, key: Key) -> bool:
+        """Is what is put there stored as a pose in the base frame, whatever it was?"""
+        home = job if key[0] != "P" else ""
+        return (home, key) in self.unified or (home, (key[0], None)) in self.unified
 
     def note(self, job: str, key: Key, kind: Kind) -> None:
         """The variable is given this somewhere."""
@@ -87,6 +101,8 @@ class Project:
             self.update(self.globals, key, kind)
 
     def argument(self, job: str, number: int, kind: Kind) -> None:
+        if (job.upper(), ("ARGUMENT", number)) in self.unified:
+            kind = replace(kind, form=TARGET, frame=BASE)
         self.update(self.arguments, (job.upper(), number), kind)
 
     def update(self, table: dict[tuple[str, int], Kind] | dict[Key, Kind], key: object, kind: Kind) -> None:
@@ -100,10 +116,24 @@ class Project:
 
 def settle(project: Project, locals_of: Mapping[str, frozenset[str]]) -> dict[str, Flow]:
     """Go through all jobs until what flows between them is stable; gives each job's flow."""
+    for _ in range(_ROUNDS):
+        flows = _settled(project, locals_of)
+        mixed = {each for flow in flows.values() for each in flow.mixed()}
+        if mixed <= project.unified:
+            break
+        project.unified |= mixed
+    return flows
+
+
+def _settled(project: Project, locals_of: Mapping[str, frozenset[str]]) -> dict[str, Flow]:
+    """The same with what is known to be stored as a pose."""
+    project.globals.clear()
+    project.arguments.clear()
+    project.forms.clear()
     for name, job in project.jobs.items():
         for (bank, number), point in job.points.items():
             if bank == "P":
-                key: Key = (bank, None if bank in project.indirect else number)
+                key: Key = (bank, number)
                 project.note(name, key, kind_of_point(point.form, point.frame, point.tool, point.line.origin))
     flows: dict[str, Flow] = {}
     for _ in range(_ROUNDS):
@@ -140,7 +170,7 @@ class Flow:
 
     def kind(self, operand: Operand, state: State) -> Kind:
         """What a position operand holds."""
-        key = key_of(operand, self.indirect)
+        key = key_of(operand)
         return NOTHING if key is None else self.held(key, state)
 
     def held(self, key: Key, state: State) -> Kind:
@@ -148,9 +178,30 @@ class Flow:
             return state[key]
         if key == SHIFTED:
             return self.project.arguments.get((self.job.name.upper(), _CALLER), Kind(OFF))
-        if key[0] == "P":
-            return self.project.globals.get(key, NOTHING)
+        if key[0] == "P" and key in self.project.globals:
+            return self.project.globals[key]
+        if key[1] is not None:  # nobody names it: what computed indices have put there
+            return self.held((key[0], None), state)
         return NOTHING
+
+    def mixed(self) -> set[tuple[str, Key]]:
+        """Variables and arguments of which one cannot tell what they hold where they are read."""
+        found: set[tuple[str, Key]] = set()
+        for command in commands(self.job.body):
+            state = self.before.get(id(command), {})
+            for node in walk(command):
+                key = key_of(cast(ir.Expression, node)) if isinstance(node, ir.Index) else None
+                if key is not None and is_mixed(self.held(key, state)):
+                    found.add((self.job.name if key[0] != "P" else "", self.holder(key, state)))
+        for (job, number), kind in self.project.arguments.items():
+            if is_mixed(kind) and number >= 0:
+                found.add((job, ("ARGUMENT", number)))
+        return found
+
+    def holder(self, key: Key, state: State) -> Key:
+        """The variable whose value this is: itself, or all that computed indices reach."""
+        known = key in state or key in self.project.globals
+        return key if known or key[1] is None else (key[0], None)
 
     def join(self, one: State | None, other: State | None) -> State | None:
         if one is None or other is None:
@@ -242,16 +293,18 @@ class Flow:
 
     def transfer(self, command: Command, state: State) -> State:
         items = command.items
-        target = key_of(items[0], self.indirect) if items else None
+        target = key_of(items[0]) if items else None
         if target is None:
             return state
         kind = self.result(command, state)
         if kind is None or kind.form == UNKNOWN:
             return state
+        kind = replace(kind, origin=command.origin)
+        if self.project.is_unified(self.job.name, target):
+            kind = replace(kind, form=TARGET, frame=BASE)
+        self.project.note(self.job.name, target, kind)
         if target[1] is None:
             kind = joined(self.held(target, state), kind)
-        kind = Kind(kind.form, kind.frame, kind.tool, command.origin)
-        self.project.note(self.job.name, target, kind)
         return {**state, target: kind}
 
     def result(self, command: Command, state: State) -> Kind | None:

@@ -18,18 +18,24 @@ from rpl.source import Origin
 
 from . import tables
 from .jobs import Frame, Job
-from .kinds import BASE, DIFFERENT, JOINTS, MIXED, TARGET, Flow, Kind, Project, State, key_of
+from .kinds import BASE, DIFFERENT, DIFFERENT_TOOL, JOINTS, MIXED, TARGET, Flow, Kind, Project, State, key_of
 from .signals import is_digital
 from .syntax import Formula, Group, Numbered, Operand, Relation, Word, value_of
 
 MIXED_POSITION = code(
     "inform-mixed-position",
     Severity.ERROR,
-    "{name} may hold pulses (from line {pulses}) or a pose (from line {pose}) here; it is taken as a pose",
+    "{name} may hold pulses ({pulses}) or a pose ({pose}) here; it is taken as a pose",
     "use two position variables",
 )
+UNIFIED = code(
+    "inform-pulses-as-pose",
+    Severity.INFO,
+    "{name} holds pulses or a pose, or poses in several frames, depending on the way the program comes; it is stored as a"
+    " pose in the base frame",
+)
 MIXED_FRAME = code(
-    "inform-mixed-frame", Severity.WARNING, "{name} may be given in different frames here; the base frame is taken"
+    "inform-mixed-frame", Severity.WARNING, "{name} may come with different {what}; here the base frame and the job's tool are taken"
 )
 MASTER = code(
     "inform-tool-frame",
@@ -141,12 +147,15 @@ class Operands:
 
     def suffix(self, index: ir.Index, form: str) -> str:
         """A variable that holds pulses here and a pose there has a second name for its pulses."""
-        if form != JOINTS:
+        key = key_of(index)
+        if form != JOINTS or key is None:
             return ""
-        key = key_of(index, self.flow.indirect)
-        home = self.job.name if key is not None and key[0].startswith("L") else ""
-        forms = self.shared.project.forms.get((home, key), {}) if key is not None else {}
-        return "_PULSES" if TARGET in forms else ""
+        home = self.job.name if key[0].startswith("L") else ""
+        forms = self.shared.project.forms
+        if key[0] in self.flow.indirect or key[1] is None:  # one array: does any of it hold a pose?
+            both = any(TARGET in found for (place, (bank, _)), found in forms.items() if (place, bank) == (home, key[0]))
+            return "_PULSES" if both else ""
+        return "_PULSES" if TARGET in forms.get((home, key), {}) else ""
 
     def array_element(self, index: ir.Index) -> ir.Expression:
         """`B000[2]`: a user array of its own name."""
@@ -184,20 +193,21 @@ class Operands:
             self.mixed(operand)
         if kind.form not in (JOINTS, TARGET):
             kind = replace(kind, form=TARGET, frame=BASE)
-        if kind.frame == DIFFERENT:
-            self.report_once(MIXED_FRAME, f"frame {self.spelled(operand)}", name=self.spelled(operand))
-            kind = replace(kind, frame=BASE)
+        if kind.frame == DIFFERENT or kind.tool == DIFFERENT_TOOL:
+            what = "tools" if kind.tool == DIFFERENT_TOOL else "frames"
+            self.report_once(MIXED_FRAME, f"{what} {self.spelled(operand)}", name=self.spelled(operand), what=what)
+            frame = BASE if kind.frame == DIFFERENT else kind.frame
+            kind = replace(kind, frame=frame, tool=None if kind.tool == DIFFERENT_TOOL else kind.tool)
         return kind
 
     def mixed(self, operand: Operand) -> None:
-        key = key_of(operand, self.flow.indirect)
+        key = key_of(operand)
         home = self.job.name if key is not None and key[0].startswith("L") else ""
         forms = self.shared.project.forms.get((home, key), {}) if key is not None else {}
         name = self.spelled(operand)
-        places = {form: origin.line for form, origin in forms.items()}
-        self.report_once(
-            MIXED_POSITION, f"mixed {name}", name=name, pulses=places.get(JOINTS, "?"), pose=places.get(TARGET, "?")
-        )
+        places = {form: f"line {origin.line} of {origin.file}" for form, origin in forms.items()}
+        pulses, pose = (places.get(form, "from another job") for form in (JOINTS, TARGET))
+        self.report_once(MIXED_POSITION, f"mixed {name}", name=name, pulses=pulses, pose=pose)
 
     def spelled(self, operand: Operand) -> str:
         match operand:

@@ -22,7 +22,7 @@ from .kinds import JOINTS, Kind, Project, kind_of_point, settle
 from .operands import TYPES, Shared, Used, plain_bank
 from .points import external_value, value_of_point
 from .split import SHAPE, SLOTS, split
-from .syntax import Command, Group, Numbered, build, lower
+from .syntax import Numbered, build, lower
 
 TWICE = code("inform-job-twice", Severity.WARNING, "job {name} is read twice; calls go to the first one")
 OTHER_VALUE = code(
@@ -173,11 +173,7 @@ class _Lowering:
         modules = tuple(self.modules)
         if declarations:
             modules = (ir.Module(REGISTERS, "inform", tuple(declarations)), *modules)
-        tasks = tuple(
-            ir.Task(task, task, "motion" if task == "" else "background", modules=())
-            for task in ()
-        )
-        return ir.Program(modules, tasks)
+        return ir.Program(modules)
 
     def saved(self) -> Iterator[tuple[str, int, Point, Job]]:
         """The saved value of each global position variable, the first one that is read."""
@@ -212,7 +208,12 @@ class _Lowering:
         kind = kind_of_point(point.form, point.frame, point.tool, point.line.origin)
         if kind.form != JOINTS:
             return name, TYPES["P"]
-        forms = self.project.forms.get(("", (bank, number)), {})
+        forms = {
+            form
+            for (home, key), found in self.project.forms.items()
+            if home == "" and key[0] == bank and number in (None, key[1])
+            for form in found
+        }
         return (f"{name}_PULSES" if len(forms) > 1 else name), ir.JointsType()
 
     def saved_elements(self) -> list[ir.Declaration]:
@@ -248,5 +249,3 @@ def _declared(used: Used, storage: str, scope: str) -> list[ir.Variable]:
 def _place(origin: Origin) -> Origin:
     return replace(origin, comments=())
 
-
-__all__ = ["Command", "Group", "read"]

@@ -15,9 +15,10 @@ GROUPS: dict[str, tuple[str, int]] = {
     "IGH": ("group_in", 4),
     "OGH": ("group_out", 4),
 }
-# Signals that have a place of their own in the controller: direct inputs, specific inputs and outputs, auxiliary relays.
+# Direct inputs have numbers of their own; here they follow behind all others, so that they can be computed too.
+DIRECT_INPUTS = 9000
+# Signals that have a place of their own in the controller: specific inputs and outputs, auxiliary relays.
 NAMED: dict[str, str] = {
-    "RIN": "digital_in",
     "SIN": "digital_in",
     "SOUT": "digital_out",
     "EXIN": "digital_in",
@@ -35,6 +36,8 @@ def numbered(word: str, number: ir.Expression, origin: Origin) -> ir.Signal | No
     if word in GROUPS:
         kind, bits = GROUPS[word]
         return ir.Signal(kind, _line(number, bits, 1 - bits), _line(number, bits, 0), origin=origin)
+    if word == "RIN":
+        return ir.Signal("digital_in", _line(number, 1, DIRECT_INPUTS), origin=origin)
     if word in NAMED and isinstance(number, ir.IntLiteral):
         return ir.Signal(NAMED[word], name=f"{word}{number.value}", origin=origin)
     return None
@@ -44,8 +47,10 @@ def _line(number: ir.Expression, bits: int, add: int) -> ir.Expression:
     """number * bits + add."""
     if isinstance(number, ir.IntLiteral):
         return ir.IntLiteral(number.value * bits + add, origin=number.origin)
-    product = ir.Binary("*", number, ir.IntLiteral(bits), origin=number.origin)
-    return ir.Binary("-", product, ir.IntLiteral(-add), origin=number.origin) if add else product
+    product = number if bits == 1 else ir.Binary("*", number, ir.IntLiteral(bits), origin=number.origin)
+    if not add:
+        return product
+    return ir.Binary("+" if add > 0 else "-", product, ir.IntLiteral(abs(add)), origin=number.origin)
 
 
 def is_digital(signal: ir.Expression) -> bool:
@@ -54,6 +59,8 @@ def is_digital(signal: ir.Expression) -> bool:
 
 def signal_name(kind: str, number: int) -> str:
     """How INFORM spells a physical signal."""
+    if kind == "digital_in" and number > DIRECT_INPUTS:
+        return f"RIN#({number - DIRECT_INPUTS})"
     words = {"digital_in": "IN", "digital_out": "OT", "analog_in": "AI", "analog_out": "AO"}
     words |= {"group_in": "IG", "group_out": "OG", "flag": "AX"}
     return f"{words[kind]}#({number})"

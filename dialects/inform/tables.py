@@ -47,6 +47,7 @@ POSITIONS: dict[str, tuple[str, bool]] = {
     "PX001": ("current", False),
     "PX002": ("searched", True),
     "PX003": ("searched", False),
+    "PX007": ("searched", True),  # M: as its use in touch sensing jobs shows
     # M: the place commanded, as against the one measured; here they are one.
     "PX010": ("current", True),
     "PX011": ("current", False),
@@ -76,7 +77,7 @@ VENDOR: dict[str, str] = {
     # other tasks and programs
     "SKILLSND": "message",
     **dict.fromkeys(("LOADJ", "DELETEJ", "LOADV", "SWAIT", "EI", "DI", "VSTART", "VDET", "VWAIT"), "unknown"),
-    **dict.fromkeys(("SETFILE", "GETFILE", "SETPRM", "GETNAME", "INPUT", "DIALOG"), "unknown"),
+    **dict.fromkeys(("SETFILE", "GETFILE", "SETPRM", "GETNAME", "INPUT", "DIALOG", "CONVSFT"), "unknown"),
 }
 # Application packages by the beginning of a word, where the word itself is not listed.
 VENDOR_BEGINNINGS: tuple[tuple[str, str], ...] = (
