@@ -21,6 +21,7 @@ BRANCH: Final = ("flip", "down", "back")
 TURN_AXES: Final = {"t1": 0, "t4": 3, "t6": 5}
 # A computed angle this close to half a turn counts as exactly half a turn, degrees.
 SNAP_DEG: Final = 1e-6
+_LISTED: Final = 6
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _COMPONENT = re.compile(rf"\bR?([XYZWPR])\s*[:=]\s*({_NUMBER})", re.IGNORECASE)
@@ -120,15 +121,15 @@ class TpNotation:
         )
 
     def _refusal(self, model: RobotModel, solutions: tuple[Solution, ...], wanted: Flags) -> str:
-        possible = {
-            config_text(self.encode(model, joints))
-            for solution in solutions
-            for joints in model.expand_turns(solution)
-        }
+        shown = [
+            self.encode(model, joints) for solution in solutions for joints in model.expand_turns(solution)
+        ]
+        shown.sort(key=lambda flags: (sum(abs(flags[name]) for name in TURN_AXES), config_text(flags)))
+        possible = list(dict.fromkeys(config_text(flags) for flags in shown))
         asked = config_text(wanted)
         if not possible:
             return f"'{asked}' cannot be reached: every solution exceeds a joint limit"
-        listed = "; ".join(f"'{text}'" for text in sorted(possible))
+        listed = "; ".join(f"'{text}'" for text in possible[:_LISTED]) + (" ..." if len(possible) > _LISTED else "")
         return f"'{asked}' cannot be reached: the arm reaches this position with {listed}"
 
     def format_pose(self, model: RobotModel, matrix: FloatArray, joints: FloatArray | None) -> str:

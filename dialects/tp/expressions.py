@@ -213,7 +213,10 @@ class Expressions:
 
     def function(self, tree: SyntaxTree) -> Typed:
         name = str(tree.children[0]).upper()
-        values = [self.typed(_tree(child)) for child in tree.children[1:]]
+        return self.called(name, [self.typed(_tree(child)) for child in tree.children[1:]])
+
+    def called(self, name: str, values: list[Typed]) -> Typed:
+        """A function by its TP name."""
         if name == "FINDSTR" and len(values) == 2:
             parts = (self.text(values[0]), ir.IntLiteral(1), self.text(values[1]))
             return Typed(ir.Builtin("text_find", parts, origin=self.origin), "n")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -139,7 +140,7 @@ class Motion(Statements):
         options.offsets.append((word, given))
 
     def part_vision_offset(self, tree: SyntaxTree, options: Options) -> None:
-        options.vendor.append((f"VOFFSET of {self.origin_line()}", "unknown"))
+        options.vendor.append((self.written(r"VOFFSET[^ ]*(?:\s*\[[^\]]*\])?"), "unknown"))
 
     def part_skip(self, tree: SyntaxTree, options: Options) -> None:
         jumps = str(tree.children[0]).lower() == "skipjump"
@@ -189,7 +190,7 @@ class Motion(Statements):
     def part_external_velocity(self, tree: SyntaxTree, options: Options) -> None:
         """EV and Ind.EV: speed of extended axes in percent."""
         self.number(_tree(tree.children[1]))
-        options.vendor.append((f"{tree.children[0]} of {self.origin_line()}", "none"))
+        options.vendor.append((self.written(r"(?:\bInd\.)?\bEV\s*[^%]*%"), "none"))
 
     def part_coordinated(self, tree: SyntaxTree, options: Options) -> None:
         options.vendor.append(("COORD", "unknown"))
@@ -207,10 +208,12 @@ class Motion(Statements):
     def part_number_option(self, tree: SyntaxTree, options: Options) -> None:
         self.number(_tree(tree.children[1]))
         word = str(tree.children[0])
-        options.vendor.append((f"{word} of {self.origin_line()}", "none" if word.upper() == "PSPD" else "unknown"))
+        text = self.written(rf"\b{word}\s*\S+")
+        options.vendor.append((text, "none" if word.upper() == "PSPD" else "unknown"))
 
     def part_other_option(self, tree: SyntaxTree, options: Options) -> None:
-        options.vendor.append((str(tree.children[0]).strip(), "unknown"))
+        name = str(tree.children[0]).partition("[")[0].strip()
+        options.vendor.append((self.written(rf"\b{re.escape(name)}(?:\s*\[[^\]]*\])?"), "unknown"))
 
     # ---- the move
 

@@ -23,7 +23,8 @@ RULES = Rules(
     real_to_int="trunc",  # M: a register written to a group output or used as a number is cut
     text_plus=True,
     components=COMPONENTS,
-    undefined=True,  # a position without values is a fault when it is used
+    undefined=True,
+    whole_targets=True,  # a position that was not taught is a fault when it is used
     call_depth=100,
     system_defaults={
         "override": 100.0,

@@ -6,6 +6,7 @@ each place it can mean.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
 from lark import Token, Tree
@@ -84,6 +85,12 @@ class Statements(Expressions):
             text = rest
         return text.strip().removesuffix(";").strip()
 
+    def written(self, pattern: str) -> str:
+        """The part of the statement's own text that fits; numbers in the tree of a shape are not the statement's."""
+        line = self.origin_line()
+        found = re.search(pattern, line, re.IGNORECASE)
+        return found[0].strip() if found else line
+
     def vendor(self, text: str, effect: str) -> ir.Vendor:
         return ir.Vendor("tp", text, effect, origin=self.origin)
 
@@ -97,8 +104,8 @@ class Statements(Expressions):
         return method(tree)
 
     def action(self, tree: SyntaxTree) -> Many:
-        """What stands behind a condition."""
-        return self.as_statements(self.statement(tree))
+        """What stands behind a condition. A place chosen by a computed number is chosen behind the condition too."""
+        return self.as_statements(self.with_choices(lambda: self.statement(tree)))
 
     # ---- the file
 
@@ -147,6 +154,13 @@ class Statements(Expressions):
             case ir.Name() | ir.Index() | ir.Field() | ir.Signal() | ir.System():
                 return ir.Assign(target.node, self.converted(value, target.kind), origin=self.origin)
         raise StatementError("nothing can be assigned to this", 0)
+
+    def on_assign_text_function(self, tree: SyntaxTree) -> Lowered:
+        """`R[1]=STRLEN SR[2]`: text functions are written without brackets."""
+        target = self.typed(_tree(tree.children[0]))
+        values = [self.typed(_tree(child)) for child in tree.children[2:]]
+        value = self.called(str(tree.children[1]).upper(), values)
+        return ir.Assign(target.node, self.converted(value, target.kind), origin=self.origin)
 
     def converted(self, value: Typed, kind: str) -> ir.Expression:
         match kind:
@@ -227,6 +241,10 @@ class Statements(Expressions):
         return self.jump(_tree(tree.children[0]))
 
     def jump(self, target: SyntaxTree) -> ir.Statement:
+        (done,) = self.as_statements(self.with_choices(lambda: self.goto(target)))
+        return done
+
+    def goto(self, target: SyntaxTree) -> ir.Statement:
         if target.data == "dead_target":
             return self.vendor(self.origin_line(), "unknown")
         number = self.index(_tree(target.children[0]))

@@ -34,6 +34,7 @@ class Rules:
     or empty when the language refuses it. char_numbers: CHAR compares with numbers by code. text_plus: `+` joins texts.
     components: per built-in type class name, the language's component names (lower case) -> neutral names; a nested
     RAPID `robax.rax_1` maps step by step. undefined: reading a variable without a value is a fault (else zero values).
+    whole_targets: a move to a position of which a component has no value is a fault (FANUC), else the component stays.
     implicit_pose: an undeclared name is a pose. call_depth: nested calls the controller allows.
     system_defaults: modal system variables at the start of a run, in base units. errors: names of error numbers.
     blend_levels: distance in mm of each numbered blend level (INFORM PL). array_base: index of the first element of a
@@ -48,6 +49,7 @@ class Rules:
     text_plus: bool = False
     components: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     undefined: bool = False
+    whole_targets: bool = False
     wait_poll_s: float = 0.0
     call_depth: int = 100
     system_defaults: Mapping[str, float | bool | str] = field(default_factory=dict)

@@ -12,7 +12,7 @@ from rpl.runtime.faults import ProgramError
 from rpl.runtime.orders import BlendOrder, Order, SearchOrder, SpeedOrder, TriggerOrder
 from rpl.runtime.system import modal_key
 from rpl.runtime.tasks import take_robot
-from rpl.runtime.values import Record, Value, whole
+from rpl.runtime.values import JointsValue, PoseValue, Record, TargetValue, Value, whole
 
 if TYPE_CHECKING:
     from rpl.linking.assembler import Make
@@ -35,8 +35,10 @@ class MotionStatements:
         return self.value(expression) if expression is not None else None
 
     def target(self, expression: ir.Expression) -> Read:
-        """A motion target: components without a value are no fault here, they stay as they are."""
-        return self.linker.compiler.raw(expression)
+        """A motion target: components without a value are no fault here, they stay as they are, if the language's rules
+        do not demand whole positions."""
+        read = self.linker.compiler.raw(expression)
+        return _whole(read) if self.linker.compiler.scope.rules.whole_targets else read
 
     def statement(self, statement: ir.Statement) -> None:
         emit = self.linker.assembler.emit
@@ -318,6 +320,25 @@ def _frozen(value: Value, write: Callable[[Values, Value], None]) -> Instruction
         return 0
 
     return act
+
+
+def _whole(read: Read) -> Read:
+    """Demands a position in which every component has a value."""
+
+    def checked(f: Values) -> Value:
+        value = read(f)
+        match value:
+            case TargetValue(pose=pose) | (PoseValue() as pose):
+                parts: tuple[Value, ...] = (*pose.trans, *pose.rot.parts)
+            case JointsValue(axes=axes):
+                parts = axes.values
+            case _:
+                parts = (value,)
+        if None in parts:
+            raise ProgramError("no_value", "the position has no value: it was never taught or set")
+        return value
+
+    return checked
 
 
 def _zone(zone: Value, distance: float | None) -> BlendOrder:
