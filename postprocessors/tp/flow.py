@@ -14,6 +14,7 @@ from . import tables
 from .expressions import CannotSayError, Expressions
 from .texts import comment
 
+_COMMENTED = re.compile(r"\bLBL\s*\[\s*\d+\s*:([^\]]*)\]", re.IGNORECASE)
 _NUMBERED = re.compile(r"(?:lbl|label|l)?[_\[]?(\d+)\]?", re.IGNORECASE)
 
 
@@ -34,13 +35,16 @@ class Labels:
     def of(cls, body: ir.Body) -> Labels:
         """Numbers for all labels of a body."""
         found = cls()
-        names = list(_label_names(body))
-        for name in names:
+        labels = list(_labels(body))
+        names = [label.name for label in labels]
+        for label in labels:
+            name = label.name
             match = _NUMBERED.fullmatch(name)
             number = int(match[1]) if match is not None else 0
             if 0 < number <= tables.LAST_LABEL and number not in found.comments:
                 found.numbers[name.lower()] = number
-                found.comments[number] = ""
+                written = _COMMENTED.search(label.origin.text)
+                found.comments[number] = comment(written[1]) if written else ""
         for name in names:
             if name.lower() not in found.numbers:
                 found.numbers[name.lower()] = found.fresh(name.replace("_", " "))
@@ -68,13 +72,13 @@ class Labels:
         return number
 
 
-def _label_names(body: ir.Body) -> Iterator[str]:
-    found: list[str] = []
+def _labels(body: ir.Body) -> Iterator[ir.Label]:
+    found: list[ir.Label] = []
 
     def look(statements: ir.Body) -> ir.Body:
         for statement in statements:
             if isinstance(statement, ir.Label):
-                found.append(statement.name)
+                found.append(statement)
             rewrite_parts(statement, lambda expression: expression, look)
         return statements
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.passes.fold import constant
@@ -26,6 +26,9 @@ _POSE = ("x", "y", "z", "a", "b", "c")
 _JOINTS = ("j1", "j2", "j3", "j4", "j5", "j6")
 _EXTERNAL = ("e1", "e2", "e3", "e4", "e5", "e6")
 _POINT = re.compile(r"P\[?(\d+)\]?", re.IGNORECASE)
+_POINT_TEXT = re.compile(r"\s*P\s*\[", re.IGNORECASE)
+_FRAMES = re.compile(r"\bUF\s*:\s*(\w+)\s*,\s*UT\s*:\s*(\w+)", re.IGNORECASE)
+_EXTENDED = re.compile(r"\bE\d\s*=", re.IGNORECASE)
 _UNSET = 8e9  # RAPID's mark of an external axis that is not there
 _DECIMALS, _MOST_DECIMALS = 3, 6
 
@@ -43,6 +46,26 @@ class Position:
         return Position(self.kind, self.values, tuple(flags.items()), self.external)
 
 
+@dataclass(frozen=True, slots=True)
+class Recorded:
+    """What a point of a listing said besides its values: frame and tool, how many extended axes its first group has,
+    the text of its further groups."""
+
+    frame: str
+    tool: str
+    externals: int
+    groups: str
+
+
+def _recorded(text: str) -> Recorded | None:
+    found = _FRAMES.search(text) if _POINT_TEXT.match(text) else None
+    if found is None:
+        return None
+    arm, mark, others = text.partition("GP2")
+    groups = f"{mark}{others}".rpartition("}")[0].strip() if mark else ""
+    return Recorded(found[1].upper(), found[2].upper(), len(_EXTENDED.findall(arm)), groups)
+
+
 @dataclass(slots=True)
 class Points:
     """The positions of one program by number."""
@@ -51,6 +74,7 @@ class Points:
     labels: dict[int, str] = field(default_factory=dict)
     frames: dict[int, set[tuple[str, str]]] = field(default_factory=dict)
     anonymous: dict[Position, int] = field(default_factory=dict)
+    recorded: dict[int, Recorded] = field(default_factory=dict)
 
     def declare(self, variable: ir.Variable, scope: Scope) -> int:
         """A variable that is a point: by the number in its name."""
@@ -63,6 +87,9 @@ class Points:
         label = comment(variable.label)
         if label:
             self.labels[number] = label
+        recorded = _recorded(variable.origin.text)
+        if recorded is not None:
+            self.recorded[number] = recorded
         return number
 
     def add(self, position: Position) -> int:
@@ -89,9 +116,18 @@ class Points:
         for number in sorted(self.found):
             uses = self.frames.get(number, set())
             frame, tool = next(iter(uses)) if len(uses) == 1 else ("F", "F")
+            position, groups = self.found[number], ""
+            known = self.recorded.get(number)
+            if known is not None:
+                frame, tool, groups = known.frame, known.tool, known.groups
+                position = replace(position, external=position.external[: known.externals])
             label = self.labels.get(number, "")
             head = f"P[{number}{f':{chr(34)}{label}{chr(34)}' if label else ''}]{{"
-            yield "\n".join((head, "   GP1:", *_lines(self.found[number], frame, tool), "};"))
+            further = [
+                f"   {part.strip()}" if part.strip()[:2] == "GP" else f"\t{part.strip()}"
+                for part in groups.splitlines()
+            ]
+            yield "\n".join((head, "   GP1:", *_lines(position, frame, tool), *further, "};"))
 
 
 def point_number(name: str) -> int | None:
