@@ -22,7 +22,7 @@ CAPABILITIES = Capabilities(
             *("offset", "tool_offset", "displaced", "displaced_in_tool", "distance", "magnitude", "pose_of"),
             *("current_target", "current_joints", "target_to_joints", "joints_to_target"),
             *("rotation_vector_x", "rotation_vector_y", "rotation_vector_z", "pose_from_rotation_vector"),
-            *("dimension", "element_sum"),
+            *("dimension", "target_to_joints_near", "is_reachable", "pose_sum", "pose_difference"),
         )
     ),
     procedures=tables.words("increment decrement clear text_append text_copy text_clear"),
@@ -48,4 +48,5 @@ CAPABILITIES = Capabilities(
     move_settings=frozenset(("frame", "speed", "blend")),
     speeds=frozenset(("joint", "axis", "path", "duration", "path_acceleration", "axis_acceleration")),
     blends=frozenset(("BlendDistance",)),
+    postures="joints",
 )

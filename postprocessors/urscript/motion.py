@@ -77,6 +77,9 @@ class Motion:
     def place(self, move: ir.Move, target: ir.Expression) -> str:
         """A target in the robot's base."""
         frame = self.frame(move.frame)
+        if isinstance(target, ir.Builtin) and target.function == "target_to_joints_near" and len(target.arguments) == 2:
+            inner, near = target.arguments
+            return self.expressions.places.solution(target.function, self.place(move, inner), near)
         if frame is None or isinstance(self.expressions.type(target), ir.JointsType):
             return self.expressions.text(target)
         if isinstance(target, ir.Aggregate) and isinstance(frame, ir.Aggregate):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from rpl import ir
@@ -196,9 +197,29 @@ class Places:
                 return "get_actual_joint_positions()"
             case "target_to_joints", (place,):
                 return f"get_inverse_kin({text(place)})"
+            case "target_to_joints_near" | "is_reachable", (place, near):
+                return self.solution(name, text(place), near)
+            case "pose_sum" | "pose_difference", (one, other):
+                return f"{'pose_add' if name == 'pose_sum' else 'pose_sub'}({text(one)}, {text(other)})"
             case "joints_to_target", (joints,):
                 return f"get_forward_kin({text(joints)})"
         return None
+
+    def solution(self, name: str, place: str, near: ir.Expression) -> str:
+        """Inverse kinematics of a pose's text, nearest to joints; without these, to where the arm is."""
+        function = "get_inverse_kin" if name == "target_to_joints_near" else "get_inverse_kin_has_solution"
+        if near == ir.Builtin("current_joints", ()):
+            return f"{function}({place})"
+        return f"{function}({place}, qnear={self.near(near)})"
+
+    def near(self, joints: ir.Expression) -> str:
+        """Joints that only choose a solution: three decimals are plenty where they are constants."""
+        if isinstance(joints, ir.Aggregate):
+            values = [constant_number(value, self.expressions.scope) for _, value in joints.entries]
+            if len(values) == len(tables.AXES) and all(value is not None for value in values):
+                shown = [spelling.real_text(round(math.radians(value or 0.0), 3)) for value in values]
+                return f"[{', '.join(shown)}]"
+        return self.expressions.text(joints)
 
     def shift(self, x: ir.Expression, y: ir.Expression, z: ir.Expression) -> str:
         """A pose that only moves."""

@@ -36,6 +36,7 @@ class Capabilities:
     functions, procedures, system_variables: neutral names (ir.builtins) the writer prints.
     operators: operators printed as they are. modal_motion: tool, frame, speed and blend are modal (KRL); otherwise each
     move names them (RAPID). for_at_least_once / for_scoped / for_automatic: the target's FOR has exactly that rule.
+    postures: `flags` of the notation in a target, or `joints` that a joint move solves near to (targets have none).
     notation: arm configuration notation; rotation: `zyx` (a, b, c) or `quaternion` (rot) components.
     types: names of type classes that can be declared. signal_prefixes: empty when signals have numbers (KRL); otherwise
     signals have names (RAPID), and a number 5 of a kind is called prefix + 5. named_aggregates: members are named (else
@@ -130,3 +131,4 @@ class Capabilities:
     move_settings: frozenset[str] = frozenset()
     speeds: frozenset[str] = frozenset()
     blends: frozenset[str] = frozenset()
+    postures: str = "flags"

@@ -72,6 +72,7 @@ class _Configurations(Rewriter):
         self.side_by_side = True  # are the flags of the target written now beside its position?
         self.arm, self.to_arm = context.robot, context.to_robot or context.robot
         self.other_arm = bool(self.arm and self.to_arm and self.arm.name != self.to_arm.name)
+        self.near = self.foreign and context.capabilities.postures == "joints"
         self.results: dict[int, dict[str, int] | _Refused] = trial.results if trial else {}
         self.exact, self.nearest = False, False  # are there joint moves to converted, to other targets?
         self.uses: Uses
@@ -124,9 +125,19 @@ class _Configurations(Rewriter):
             return done
         if not any(isinstance(one, _Refused) for one in found):
             self.exact = True
-            return done
+            return self.solved_near(done, found) if self.near else done
         self.nearest = True
         return self.unchecked(done)
+
+    def solved_near(self, done: list[ir.Statement], found: list[dict[str, int] | _Refused]) -> list[ir.Statement]:
+        """The joint move goes to the solution nearest to the joints of the source's posture (to the degree)."""
+        first, last = found[0], done[-1]
+        same = all(one == first for one in found)
+        if not same or not isinstance(first, dict) or set(first) != set(_AXES) or not isinstance(last, ir.Move):
+            return done
+        entries = tuple((name, ir.RealLiteral(float(value))) for name, value in first.items())
+        joints = ir.Aggregate(entries, type_name="joints")
+        return [*done[:-1], replace(last, target=ir.Builtin("target_to_joints_near", (last.target, joints)))]
 
     def unchecked(self, done: list[ir.Statement]) -> list[ir.Statement]:
         """Moves without the check of the flags, where other moves are to be checked."""
@@ -337,6 +348,8 @@ class _Configurations(Rewriter):
                 return _Refused(self.why_not(matrix), fatal=True)
         if joints is None:
             return _Refused(selection.reason)
+        if self.near:
+            return {name: round(float(value)) for name, value in zip(_AXES, joints, strict=False)}
         wanted = _notation(self.target_notation)
         return wanted.encode(_any(self.to_arm), joints) if wanted is not None else {}
 

@@ -122,6 +122,8 @@ class _Whole:
             match statement:
                 case ir.Move(target=target, relative=None, search=None):
                     same = statement.tool == move.tool and statement.frame == move.frame and not statement.settings
+                    if isinstance(target, ir.Builtin) and target.function == "target_to_joints_near":
+                        target = target.arguments[0]  # the same place, in a posture of its own
                     if not same or isinstance(type_of(target, self.scope), ir.JointsType | None):
                         return None
                     return target if isinstance(target, ir.Aggregate | ir.Builtin) or _is_place(target) else None
