@@ -181,6 +181,14 @@ class Hoister:
             return before, rebuilt
         return self._ruled(before, rebuilt)
 
+    def condition(self, expression: ir.Expression) -> Lowered:
+        """A condition of a branch or a loop (a pass may know another form for it)."""
+        return self.lower(expression)
+
+    def opposite(self, condition: ir.Expression) -> ir.Expression:
+        """The opposite of a condition in its last form."""
+        return negation(condition)
+
     def flat(self, expression: ir.Expression) -> ir.Expression:
         """Rewritten as far as it goes without statements before it (conditions that a controller watches)."""
         rebuilt = rewrite_parts(expression, self.flat)
@@ -332,7 +340,7 @@ class Hoister:
         return (*done[:-1], replace(last, search=rewrite_parts(search, self.flat)))
 
     def _if(self, statement: ir.If) -> ir.Body:
-        lowered = [(self.lower(condition), body) for condition, body in statement.branches]
+        lowered = [(self.condition(condition), body) for condition, body in statement.branches]
         branches: list[tuple[ir.Expression, ir.Body]] = []
         otherwise = self.body(statement.otherwise)
         for at in range(len(lowered) - 1, -1, -1):
@@ -352,16 +360,16 @@ class Hoister:
         return self._finished(statement, lowered[0][0][0], new)
 
     def _while(self, statement: ir.While) -> ir.Body:
-        before, condition = self.lower(statement.condition)
+        before, condition = self.condition(statement.condition)
         body = self.body(statement.body)
         if not before:
             same = condition is statement.condition and body is statement.body
             return (statement if same else replace(statement, condition=condition, body=body),)
-        leave = ir.If(((negation(condition), (ir.ExitLoop(),)),))
+        leave = ir.If(((self.opposite(condition), (ir.ExitLoop(),)),))
         return (ir.Loop((*self.ready(before), *self.failed(), leave, *body), origin=statement.origin),)
 
     def _repeat(self, statement: ir.Repeat) -> ir.Body:
-        before, until = self.lower(statement.until)
+        before, until = self.condition(statement.until)
         body = self.body(statement.body)
         if not before:
             same = until is statement.until and body is statement.body

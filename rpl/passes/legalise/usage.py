@@ -87,6 +87,22 @@ def usage_of(program: ir.Program) -> Usage:
     return usage
 
 
+def assigned_in(body: ir.Body) -> set[str]:
+    """Names that the statements assign or pass where they could be changed (not what called routines assign)."""
+    usage = Usage()
+
+    def look(statement: ir.Statement) -> None:
+        _assigned(statement, usage)
+        each_expression(statement, call)
+
+    def call(expression: ir.Expression) -> None:
+        if isinstance(expression, ir.Call):
+            _arguments(expression.arguments, usage)
+
+    each_statement(body, look)
+    return usage.assigned
+
+
 def _statement(statement: ir.Statement, key: str, usage: Usage, calls: dict[str, set[str]], handlers: set[str]) -> None:
     _assigned(statement, usage)
     match statement:

@@ -1,0 +1,363 @@
+"""Nested expressions as steps, for targets whose assignments, conditions and statements take simple operands only.
+
+What a statement cannot hold is assigned to a temporary of the routine in front of it; the temporaries of one statement
+serve the next one again. Order of evaluation is kept, a short circuit stays one. Conditions become comparisons that
+and/or join. A wait whose operands may change while it waits is a loop that looks again and again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion, negation
+from rpl.passes.legalise.effects import children, everything, is_constant
+from rpl.passes.legalise.operands import changing, is_operand, opposite, stands_still
+from rpl.passes.legalise.usage import assigned_in
+
+POLLED = code(
+    "polled-wait",
+    Severity.WARNING,
+    "the target cannot wait for this condition; it is computed every {seconds:g} s until it holds",
+)
+TIMED = code("timed-wait-computed", Severity.LOSS, "a wait for a computed condition loses its time limit")
+
+# How often a condition is computed that the target cannot wait for, s. Controllers scan every 8 to 16 ms.
+POLL_S = 0.012
+_COMPARISONS = ("=", "<>", "<", ">", "<=", ">=")
+_JOINING = {"and": "and", "or": "or", "cand": "and", "cor": "or"}
+_STRUCTURES = (ir.If, ir.While, ir.Repeat, ir.For, ir.Switch, ir.Loop)
+
+
+def steps(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets that do not take any expression anywhere."""
+    can = context.capabilities
+    any_place = can.calculated_places and can.conditions == "any" and not can.functions_alone
+    if can.expressions == "any" and any_place:
+        return program
+    changes = changing(program)
+
+    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        return edit_bodies(routine, _Steps(editor, changes).body)
+
+    return edit_routines(program, context, work)
+
+
+class _Steps(Hoister):
+    def __init__(self, editor: Editor, changes: frozenset[str] | None) -> None:
+        super().__init__(editor, lambda _: None)
+        self.can = editor.capabilities
+        self.by_steps = self.can.expressions == "steps"
+        self.changes = changes
+        self.pool: dict[ir.Type, list[ir.Name]] = {}
+        self.lent: list[tuple[ir.Type, ir.Name]] = []
+        self.lasting = False
+
+    # ---- temporaries
+
+    def temporary(self, type: ir.Type) -> ir.Name:
+        """A variable for a value that this statement needs; free again behind it."""
+        if self.lasting:
+            return self.editor.temporary("bound", type)
+        free = self.pool.setdefault(type, [])
+        name = free.pop(0) if free else self.editor.temporary("step", type)
+        self.lent.append((type, name))
+        return name
+
+    def give_back(self, since: int) -> None:
+        for type, name in reversed(self.lent[since:]):
+            self.pool[type].insert(0, name)
+        del self.lent[since:]
+
+    # ---- expressions
+
+    def lower(self, expression: ir.Expression, lvalue: bool = False) -> Lowered:
+        """The expression where it is one part of something: an operand, an argument, a subscript."""
+        if isinstance(expression, ir.Binary) and expression.op in ("cand", "cor") and not self.by_steps:
+            return self._deciding(expression)
+        if is_operand(expression):
+            return (), expression
+        before, value = self.whole(expression, lvalue)
+        if lvalue or is_operand(value) or not self.must_stand_alone(value):
+            return before, value
+        return self.stored(before, value)
+
+    def operand(self, expression: ir.Expression) -> Lowered:
+        """The expression where only a constant or a variable can stand."""
+        before, value = self.lower(expression)
+        return (before, value) if is_operand(value) else self.stored(before, value)
+
+    def stored(self, before: ir.Body, value: ir.Expression) -> Lowered:
+        type = self.editor.type_of(value)
+        if type is None or isinstance(value, ir.Aggregate) or isinstance(type, ir.ArrayType | ir.SignalType):
+            return before, value
+        if isinstance(type, ir.StringType) and not self.can.texts:
+            return before, value
+        name = self.temporary(type)
+        if isinstance(type, ir.BoolType) and self.by_steps and not isinstance(value, ir.Call | ir.Builtin):
+            return (*before, *self.decided(name, value)), name
+        return (*before, ir.Assign(name, value)), name
+
+    def must_stand_alone(self, value: ir.Expression) -> bool:
+        """Does the target take this only as the whole right side of an assignment?"""
+        if isinstance(value, ir.Aggregate | ir.Quantity):
+            return False
+        return self.by_steps or isinstance(value, ir.Call | ir.Builtin)
+
+    def whole(self, expression: ir.Expression, lvalue: bool = False) -> Lowered:
+        """The expression itself with parts that the target takes in it."""
+        function = isinstance(expression, ir.Call | ir.Builtin)
+        strict = function or isinstance(expression, ir.Index | ir.Signal | ir.System) or self.by_steps
+        if not strict:
+            return super()._operands(expression, lvalue)
+        outer, self.simple_parts = self.simple_parts, True
+        done = super()._operands(expression, lvalue)
+        self.simple_parts = outer
+        return done
+
+    simple_parts = False
+
+    def several(self, parts: Sequence[ir.Expression], in_place: Sequence[bool]) -> tuple[ir.Body, list[ir.Expression]]:
+        """Operands in order of evaluation; simple ones where the target wants them so."""
+        if not self.simple_parts:
+            return super().several(parts, in_place)
+        self.simple_parts = False
+        befores, values = [], []
+        for part, place in zip(parts, in_place, strict=True):
+            before, value = self.lower(part, True) if place else self.operand(part)
+            befores.append(before)
+            values.append(value)
+        self.simple_parts = True
+        return self.ordered(befores, values, in_place)
+
+    def ordered(
+        self, befores: list[ir.Body], values: list[ir.Expression], in_place: Sequence[bool]
+    ) -> tuple[ir.Body, list[ir.Expression]]:
+        """Lowered operands one behind the other: what a later one's statements would change is saved first."""
+        last = max((at for at, before in enumerate(befores) if before), default=-1)
+        done: list[ir.Statement] = []
+        for at, value in enumerate(values):
+            done.extend(befores[at])
+            later = tuple(one for before in befores[at + 1 :] for one in before)
+            if at < last and not in_place[at] and not self.settled(value, later):
+                type = self.editor.type_of(value)
+                if type is not None:
+                    values[at] = self.temporary(type)
+                    done.append(ir.Assign(values[at], value))
+        return tuple(done), values
+
+    def settled(self, value: ir.Expression, later: ir.Body) -> bool:
+        """Also a variable of the routine that these statements do not name as a place they write."""
+        if super().settled(value, later):
+            return True
+        if not isinstance(value, ir.Name):
+            return False
+        symbol = self.editor.scope.value(value.id)
+        if symbol is None or symbol.routine is None:
+            return False
+        declared = symbol.declaration
+        own = not isinstance(declared, ir.Parameter) or declared.mode != "reference"
+        return own and value.id.lower() not in assigned_in(later)
+
+    # ---- truth values
+
+    def decided(self, place: ir.Expression, value: ir.Expression) -> ir.Body:
+        """place := value, by a branch where the target cannot assign a comparison."""
+        before, condition = self.condition(value)
+        if isinstance(condition, ir.BoolLiteral):
+            return (*before, ir.Assign(place, condition))
+        yes, no = ir.Assign(place, ir.BoolLiteral(True)), ir.Assign(place, ir.BoolLiteral(False))
+        return (*before, ir.If(((condition, (yes,)),), (no,)))
+
+    def condition(self, expression: ir.Expression) -> Lowered:
+        """A condition as the target takes it."""
+        if self.can.conditions == "any":
+            return self.operand(expression) if self.by_steps else self.lower(expression)
+        match expression:
+            case ir.BoolLiteral():
+                return (), expression
+            case ir.Unary(op="not", operand=operand):
+                return self.denied(expression, operand)
+            case ir.Binary(op=op) if op in _JOINING:
+                return self.joined(expression)
+            case ir.Binary(op="xor", left=left, right=right):
+                return self.condition(ir.Binary("<>", left, right, origin=expression.origin))
+            case ir.Binary(op=op, left=left, right=right) if op in _COMPARISONS:
+                return self.compared(expression, left, right)
+            case ir.Convert(how="truth", operand=operand):
+                zero = ir.IntLiteral(0) if isinstance(self.editor.type_of(operand), ir.IntType) else ir.RealLiteral(0.0)
+                return self.condition(ir.Binary("<>", operand, zero, origin=expression.origin))
+        before, value = self.operand(expression)
+        return before, ir.Binary("=", value, ir.BoolLiteral(True), origin=expression.origin)
+
+    def opposite(self, condition: ir.Expression) -> ir.Expression:
+        return negation(condition) if self.can.conditions == "any" else opposite(condition)
+
+    def denied(self, expression: ir.Expression, operand: ir.Expression) -> Lowered:
+        """`not`: pushed down to the comparisons."""
+        match operand:
+            case ir.Binary(op="and" | "or" | "cand" | "cor" as op, left=left, right=right):
+                other = {"and": "or", "or": "and", "cand": "cor", "cor": "cand"}[op]
+                return self.condition(replace(operand, op=other, left=negation(left), right=negation(right)))
+            case ir.Binary(op="xor", left=left, right=right):
+                return self.condition(ir.Binary("=", left, right, origin=operand.origin))
+            case ir.Binary() | ir.BoolLiteral() | ir.Unary(op="not"):
+                return self.condition(negation(operand))
+            case ir.Convert(how="truth"):
+                before, shown = self.condition(operand)
+                return before, negation(shown)
+        before, value = self.operand(operand)
+        return before, ir.Binary("=", value, ir.BoolLiteral(False), origin=expression.origin)
+
+    def compared(self, expression: ir.Binary, left: ir.Expression, right: ir.Expression) -> Lowered:
+        """A comparison of two operands; the constant stands on the right."""
+        (before, one), (further, other) = self.operand(left), self.operand(right)
+        done, (one, other) = self.ordered([before, further], [one, other], [False, False])
+        turned = {"<": ">", ">": "<", "<=": ">=", ">=": "<="}
+        op = expression.op
+        if is_constant(one) and not is_constant(other):
+            one, other, op = other, one, turned.get(op, op)
+        return done, replace(expression, op=op, left=one, right=other)
+
+    def joined(self, expression: ir.Binary) -> Lowered:
+        before, left = self.condition(expression.left)
+        further, right = self.condition(expression.right)
+        deciding = expression.op in ("cand", "cor")
+        if deciding and (further or not self.editor.effects.safe(expression.right)):
+            result = self.temporary(ir.BoolType())
+            goes_on = ir.Binary("=", result, ir.BoolLiteral(expression.op == "cand"))
+            second = (*further, *self.branch(result, right))
+            chosen = ir.If(((goes_on, second),))
+            return (*before, *self.branch(result, left), chosen), ir.Binary("=", result, ir.BoolLiteral(True))
+        op = expression.op if expression.op in self.can.operators else _JOINING[expression.op]
+        if further and not self.settled(left, further):
+            result = self.temporary(ir.BoolType())
+            before, left = (*before, *self.branch(result, left)), ir.Binary("=", result, ir.BoolLiteral(True))
+        return (*before, *further), replace(expression, op=op, left=left, right=right)
+
+    def branch(self, place: ir.Expression, condition: ir.Expression) -> ir.Body:
+        """place := a condition that is in its last form."""
+        if not self.by_steps:
+            return (ir.Assign(place, condition),)
+        match condition:
+            case ir.Binary(op="=", left=left, right=ir.BoolLiteral(value=True)):
+                return (ir.Assign(place, left),)
+        yes, no = ir.Assign(place, ir.BoolLiteral(True)), ir.Assign(place, ir.BoolLiteral(False))
+        return (ir.If(((condition, (yes,)),), (no,)),)
+
+    # ---- statements
+
+    def statement(self, statement: ir.Statement) -> ir.Body:
+        since = len(self.lent)
+        done = self.stepped(statement)
+        self.give_back(since)
+        return done
+
+    def stepped(self, statement: ir.Statement) -> ir.Body:
+        match statement:
+            case ir.Assign(target=target, value=value):
+                return self.assigned(statement, target, value)
+            case ir.For():
+                return self.counted(statement)
+            case ir.WaitUntil():
+                return self.waiting(statement)
+        if isinstance(statement, _STRUCTURES):
+            return super().statement(statement)
+        if self.can.calculated_places and not self.by_steps:
+            return super().statement(statement)
+        self.simple_parts = True
+        done = super().statement(statement)
+        self.simple_parts = False
+        return done
+
+    def counted(self, statement: ir.For) -> ir.Body:
+        """Bounds are read once, but a loop made of labels reads them again: their temporaries last."""
+        given = [statement.start, statement.stop] + ([] if statement.step is None else [statement.step])
+        self.lasting, self.simple_parts = True, self.by_steps or not self.can.calculated_places
+        before, values = self.several(given, [False] * len(given))
+        self.lasting = self.simple_parts = False
+        with self.editor.counting(statement):
+            body = self.body(statement.body)
+        if body is statement.body and all(new is old for new, old in zip(values, given, strict=True)):
+            return (statement,)
+        step = values[2] if len(values) > 2 else None
+        return self._finished(
+            statement, before, replace(statement, start=values[0], stop=values[1], step=step, body=body)
+        )
+
+    def _switch(self, statement: ir.Switch) -> ir.Body:
+        simple = self.by_steps or not self.can.calculated_places
+        before, selector = self.operand(statement.selector) if simple else self.lower(statement.selector)
+        cases = tuple(replace(case, body=self.body(case.body)) for case in statement.cases)
+        default = None if statement.default is None else self.body(statement.default)
+        return self._finished(statement, before, replace(statement, selector=selector, cases=cases, default=default))
+
+    def assigned(self, statement: ir.Assign, target: ir.Expression, value: ir.Expression) -> ir.Body:
+        first, place = self.lower(target, True)
+        if isinstance(target, ir.Signal) and not self.can.calculated_places:
+            before, value = self.operand(value)
+        elif self.by_steps and isinstance(self.editor.type_of(target), ir.BoolType) and _is_logic(value):
+            return expansion(statement.origin, (*first, *self.decided(place, value)))
+        elif is_operand(value):
+            before = ()
+        elif isinstance(value, ir.Binary) and value.op in ("cand", "cor") and not self.by_steps:
+            before, value = self.lower(value)
+        else:
+            before, value = self.whole(value)
+        if place is target and value is statement.value:
+            return (statement,)
+        return self._finished(statement, (*first, *before), replace(statement, target=place, value=value))
+
+    def waiting(self, statement: ir.WaitUntil) -> ir.Body:
+        """The condition is looked at while waiting: only what stands still may be computed before."""
+        before, condition = self.condition(statement.condition)
+        if not before and (statement.timeout is None or is_operand(statement.timeout)):
+            return (statement if condition == statement.condition else replace(statement, condition=condition),)
+        if all(self.stands_still(one) for one in _read_by(before)):
+            limit = () if statement.timeout is None else (statement.timeout,)
+            further, values = self.operand(limit[0]) if limit else ((), None)
+            new = replace(statement, condition=condition, timeout=values)
+            return self._finished(statement, (*before, *further), new)
+        if statement.timeout is not None:
+            self.editor.context.diagnostics.report(TIMED, statement.origin)
+        self.editor.context.diagnostics.report(POLLED, statement.origin, seconds=POLL_S)
+        leave = ir.If(((condition, (ir.ExitLoop(),)),))
+        pause = ir.Wait(ir.RealLiteral(POLL_S))
+        loop = ir.Loop((*before, leave, pause))
+        first = (ir.WaitForMotion(),) if statement.in_position else ()
+        return expansion(statement.origin, (*first, loop))
+
+    def stands_still(self, value: ir.Expression) -> bool:
+        own = isinstance(value, ir.Name) and value.id.lower() in self.editor.own
+        return own or stands_still(value, self.changes)
+
+
+def _is_logic(value: ir.Expression) -> bool:
+    """Is it a truth value that is computed here (not a variable, a constant or what a function gives)?"""
+    match value:
+        case ir.Binary(op=op):
+            return op in _COMPARISONS or op in _JOINING or op == "xor"
+        case ir.Unary(op="not") | ir.Convert(how="truth"):
+            return True
+    return False
+
+
+def _read_by(body: ir.Body) -> list[ir.Expression]:
+    """Everything that the statements in front of a wait read."""
+    found: list[ir.Expression] = []
+    for statement in body:
+        match statement:
+            case ir.Assign(value=value):
+                found.extend(everything(value))
+            case ir.If(branches=branches, otherwise=otherwise):
+                for condition, inner in branches:
+                    found.extend(everything(condition))
+                    found.extend(_read_by(inner))
+                found.extend(_read_by(otherwise))
+            case _:
+                for one in children(statement):
+                    found.extend(everything(one))
+    return found
