@@ -591,6 +591,13 @@ def _trunc(x: float, decimals: int = 0) -> float:
     return int(x * 10**decimals) / 10**decimals
 
 
+def _product(a: Any, b: Any) -> Any:
+    """Whole numbers stay short: generated loops multiply them without end."""
+    product = a * b
+    return product % 2**31 if isinstance(product, int) and abs(product) > 2**60 else product
+
+
+
 FUNCTIONS: dict[str, Any] = {
     "abs": abs,
     "sqrt": math.sqrt,
@@ -633,7 +640,7 @@ FUNCTIONS: dict[str, Any] = {
 BINARY: dict[str, Any] = {
     "+": lambda a, b: a + b,
     "-": lambda a, b: a - b,
-    "*": lambda a, b: a * b,
+    "*": _product,
     "/": lambda a, b: a / b,
     "div": lambda a, b: int(a / b),
     "mod": lambda a, b: a - b * int(a / b),
