@@ -137,6 +137,10 @@ def truth(value: ir.Expression, expressions: Expressions) -> str:
     """What a flag or an output is set to: ON, OFF, or mixed logic."""
     if isinstance(value, ir.BoolLiteral):
         return "ON" if value.value else "OFF"
+    if isinstance(value, ir.Convert) and value.how == "truth":
+        shown = expressions.simple(value.operand)
+        if shown is not None:
+            return shown  # any number but zero is ON
     return f"({expressions.mixed(value)})"
 
 

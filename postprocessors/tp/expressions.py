@@ -21,7 +21,8 @@ from .texts import ascii_text, comment, number
 
 _ELEMENT = re.compile(r"(?P<bank>R|PR|SR|F|AR|P|TIMER)\[?(?P<number>\d+)\]?", re.IGNORECASE)
 _NAMED = re.compile(r"(?P<kind>[A-Z]{1,3})\[?(?P<number>\d+)\]?", re.IGNORECASE)
-_NUMERIC_BANKS = ("R", "AR", "TIMER")
+_LAST = 99999
+_ACTIVE = {"UFRAME_NUM": "$MNUFRAMENUM[1]", "UTOOL_NUM": "$MNUTOOLNUM[1]"}
 
 
 class CannotSayError(RplError):
@@ -30,11 +31,13 @@ class CannotSayError(RplError):
 
 @dataclass(slots=True)
 class Expressions:
-    """Prints expressions inside of one scope. `names` are the comments of registers; `labels` those of points."""
+    """Prints expressions inside of one scope. `names` are the comments of registers, `points` the points by the
+    names of their variables. `limited`: only the numbers that a controller has as it is delivered."""
 
     scope: Scope
     names: Mapping[tuple[str, int], str] = field(default_factory=dict)
     points: Mapping[str, str] = field(default_factory=dict)
+    limited: bool = True
     printer: ExpressionPrinter = field(init=False)
 
     def __post_init__(self) -> None:
@@ -63,6 +66,8 @@ class Expressions:
                 return self.place(operand)
             case ir.Name(id=name) if name.startswith("$"):
                 return name
+            case ir.Name(id="UFRAME_NUM" | "UTOOL_NUM" as name):
+                return _ACTIVE[name]
             case ir.VendorValue(dialect="tp", text=text):
                 return text
             case ir.Name(id=name):
@@ -88,8 +93,9 @@ class Expressions:
         if value is None:
             return f"{bank}[{self.index(index)}]"
         limits = tables.BANKS[bank]
-        if value != int(value) or not limits.first <= value <= limits.last:
-            raise CannotSayError(f"{bank}[{value:g}] is outside of {limits.first}..{limits.last}")
+        last = limits.last if self.limited else _LAST
+        if value != int(value) or not limits.first <= value <= last:
+            raise CannotSayError(f"{bank}[{value:g}] is outside of {limits.first}..{last}")
         name = comment(self.names.get((bank, int(value)), ""))
         return f"{bank}[{int(value)}{':' + name if name else ''}]"
 
@@ -128,8 +134,9 @@ class Expressions:
         value = constant(signal.index)
         if value is None:
             return f"{word}[{self.index(signal.index)}]"
-        if not 1 <= value <= tables.LAST_SIGNAL[word]:
-            raise CannotSayError(f"{word}[{value:g}] is outside of 1..{tables.LAST_SIGNAL[word]}")
+        last = tables.LAST_SIGNAL[word] if self.limited else _LAST
+        if not 1 <= value <= last:
+            raise CannotSayError(f"{word}[{value:g}] is outside of 1..{last}")
         name = comment(self.names.get((word, int(value)), ""))
         return f"{word}[{int(value)}{':' + name if name else ''}]"
 

@@ -152,6 +152,8 @@ class Motion:
         speed = move.speed or ir.Speed()
         if speed.profile is not None:
             raise CannotSayError("speed data have no register")
+        if isinstance(speed.duration, ir.Quantity) and speed.duration.unit == "ms":
+            return self.measured_in(speed.duration, "ms", "msec", move, 0)
         if speed.duration is not None:
             return self.measured_in(speed.duration, "s", "sec", move, 1)
         if move.kind == "joint":

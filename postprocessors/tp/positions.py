@@ -121,6 +121,8 @@ class Points:
             if known is not None:
                 frame, tool, groups = known.frame, known.tool, known.groups
                 position = replace(position, external=position.external[: known.externals])
+            elif not any(position.external):
+                position = replace(position, external=())
             label = self.labels.get(number, "")
             head = f"P[{number}{f':{chr(34)}{label}{chr(34)}' if label else ''}]{{"
             further = [
@@ -184,12 +186,9 @@ def numbers(parts: Mapping[str, ir.Expression], names: tuple[str, ...]) -> list[
 
 
 def external(parts: Mapping[str, ir.Expression]) -> tuple[float, ...]:
-    """Positions of external axes; those that are not there, and zeros behind the last other one, are left out."""
+    """Positions of external axes; those that are not there are left out."""
     values = [number_of(parts[name]) for name in _EXTERNAL if name in parts]
-    found = [float(one) for one in values if one is not None and abs(one) < _UNSET]
-    while found and found[-1] == 0:
-        found.pop()
-    return tuple(found)
+    return tuple(float(one) for one in values if one is not None and abs(one) < _UNSET)
 
 
 def _flags(parts: Mapping[str, ir.Expression]) -> tuple[tuple[str, int], ...]:

@@ -120,7 +120,7 @@ class _Writer:
         self.taken.add(name)
         scope = self.scopes.routine(module, routine)
         points = Points()
-        expressions = Expressions(scope, self.names)
+        expressions = Expressions(scope, self.names, limited="PROG" not in dict(module.attributes))
         printer = Printer(expressions, points, self.frames, Labels.of(routine.body), self.ledger, self.diagnostics)
         self.ledger.written(routine)
         printer.comments_only(routine.origin)
