@@ -23,8 +23,8 @@ _DUMP = re.compile(
 
 
 def _recognise(path: str, text: str) -> int:
-    """How sure the content is TP: /PROG with /MN or /ATTR, or a dump of registers or frames. `.LS` is also the ending of
-    logs, so the ending alone says nothing."""
+    """How sure the content is TP: /PROG with /MN or /ATTR, or a dump of registers or frames. `.LS` is also the ending
+    of logs, so the ending alone says nothing."""
     head = text[:20_000]
     if _HEAD.search(head):
         return 98 if _BODY.search(head) else 70

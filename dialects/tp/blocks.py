@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import cast, get_args
@@ -208,8 +209,7 @@ def _is_arc(statement: ir.Statement) -> bool:
 
 def letter_of(move: ir.Move) -> str:
     """The motion letter in the listing."""
-    head = move.origin.text.partition(":")
-    return (head[2] if head[1] and head[0].strip().isdigit() or not head[0].strip() else head[0]).strip()[:1].upper()
+    return re.sub(r"^\s*\d*\s*:", "", move.origin.text).strip()[:1].upper()
 
 
 def _run(statements: list[ir.Statement], place: int) -> int:

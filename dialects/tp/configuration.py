@@ -1,7 +1,7 @@
 """FANUC's CONFIG string 'N U T, 0, 0, 0': which posture of the arm a position means, and the text of a position.
 
-F (flip): J5 above zero. U: the elbow is above the line of the stretched arm, D below. T: wrist centre in front of axis 1,
-B behind it. The digits are the turns of J1, J4 and J6: 0 for angles between -180 and 180, both ends open, 1 from 180
+F (flip): J5 above zero. U: the elbow is above the line of the stretched arm, D below. T: wrist centre in front of axis
+1, B behind it. The digits are the turns of J1, J4 and J6: 0 for angles between -180 and 180, both ends open, 1 from 180
 (inclusive) to 540, -1 from -180 (inclusive) downwards. Sources: joint/pose pairs of virtual controllers (CrossArm) and
 taught points of public backups; the pair N U T / F U T of an R-2000iB published at onerobotics.com.
 """
@@ -121,9 +121,7 @@ class TpNotation:
         )
 
     def _refusal(self, model: RobotModel, solutions: tuple[Solution, ...], wanted: Flags) -> str:
-        shown = [
-            self.encode(model, joints) for solution in solutions for joints in model.expand_turns(solution)
-        ]
+        shown = [self.encode(model, joints) for solution in solutions for joints in model.expand_turns(solution)]
         shown.sort(key=lambda flags: (sum(abs(flags[name]) for name in TURN_AXES), config_text(flags)))
         possible = list(dict.fromkeys(config_text(flags) for flags in shown))
         asked = config_text(wanted)

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from .words import attribute_name
 
 _PROGRAM = re.compile(r"/PROG[ \t]+(\S+)[ \t]*([A-Za-z]*)")
-_ATTRIBUTE = re.compile(r"^[ \t]*(?:TCD:)?[ \t]*([A-Za-z_.\u0080-\uffff]+)[ \t]*=[ \t]*([^;]*?)[ \t]*[,;]?[ \t]*\r?$", re.MULTILINE)
+_ATTRIBUTE = re.compile(
+    r"^[ \t]*(?:TCD:)?[ \t]*([A-Za-z_.\u0080-\uffff]+)[ \t]*=[ \t]*([^;]*?)[ \t]*[,;]?[ \t]*\r?$", re.MULTILINE
+)
 
 
 @dataclass(frozen=True, slots=True)

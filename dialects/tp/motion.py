@@ -20,7 +20,7 @@ from .statements import HIT, SKIP_BY_TEXT, Lowered, Many, Statements
 OTHER_FRAME = code(
     "tp-other-frame",
     Severity.WARNING,
-    "P[{number}] was recorded with {name} {recorded}, but {active} is active here; the controller stops with an alarm",
+    "P[{number}] was recorded with {name} {recorded}, but {active} is active here; controllers stop there",
     "record the point again or select {name} {recorded}",
 )
 NOT_TAUGHT = code(
@@ -252,7 +252,9 @@ class Motion(Statements):
             raise StatementError("J takes a speed in percent or a time", 0)
         if letter != "J" and options.speed.joint is not None:
             raise StatementError("only J takes a speed in percent", 0)
-        speed = ir.Speed(joint=ir.IntLiteral(100)) if letter == "J" and options.path_speed is not None else options.speed
+        speed = options.speed
+        if letter == "J" and options.path_speed is not None:
+            speed = ir.Speed(joint=ir.IntLiteral(100, origin=self.origin))
         kind = KINDS[letter]
         return ir.Move(
             kind,
@@ -274,7 +276,8 @@ class Motion(Statements):
         node, kind = point.node, point.kind
         for word, offset in offsets:
             if offset.kind == "j":
-                node = ir.Builtin("element_sum", (self.position(Typed(node, kind), "j"), offset.node), origin=self.origin)
+                joints = self.position(Typed(node, kind), "j")
+                node = ir.Builtin("element_sum", (joints, offset.node), origin=self.origin)
                 kind = "j"
                 continue
             function = "displaced" if word == "offset" else "displaced_in_tool"

@@ -138,7 +138,7 @@ def externals(position: Position) -> list[float | None]:
     for number, group in sorted(position.groups.items()):
         if number != 1:
             values += [value for name, value in sorted(group.values.items()) if name[0] in "JE"]
-    return [value if value is not None else 0.0 for value in values][:EXTERNALS]
+    return values[:EXTERNALS]
 
 
 def type_of_kind(kind: str) -> ir.Type:

@@ -31,11 +31,14 @@ MIXED_REGISTER = code(
 MODULE = "registers"
 
 _REFERENCE = re.compile(r"(?<![\w$.])(R|PR|SR)\s*\[\s*(?:GP\d+\s*:?\s*)?(?:(\d+)\s*(?=[\],]))?", re.IGNORECASE)
-_ELEMENT = re.compile(r"(?<![\w$.])PR\s*\[\s*(\d+)\s*,", re.IGNORECASE)
-_ASSIGNED = re.compile(r"(?:^|,)\s*PR\s*\[\s*(?:GP1\s*:?\s*)?([^\[\],]*(?:\[[^\]]*\])?)\s*\]\s*=\s*(.*)\Z", re.IGNORECASE)
+_ASSIGNED = re.compile(
+    r"(?:^|,)\s*PR\s*\[\s*(?:GP1\s*:?\s*)?([^\[\],]*(?:\[[^\]]*\])?)\s*\]\s*=\s*(.*)\Z", re.IGNORECASE
+)
 _LATCHED = re.compile(r"(?<![\w$.])PR\s*\[\s*(\d+)\s*\]\s*=\s*([LJ]POS)", re.IGNORECASE)
 _FRAME_FROM = re.compile(r"^U(?:FRAME|TOOL)\s*\[[^=]*=\s*PR\s*\[\s*(\d+)\s*\]", re.IGNORECASE)
-_OPERAND = re.compile(r"(?<![\w$.])(LPOS|JPOS|P\s*\[\s*\d+|PR\s*\[\s*(?:GP1\s*:?\s*)?\d+\s*\]|UFRAME|UTOOL)", re.IGNORECASE)
+_OPERAND = re.compile(
+    r"(?<![\w$.])(LPOS|JPOS|P\s*\[\s*\d+|PR\s*\[\s*(?:GP1\s*:?\s*)?\d+\s*\]|UFRAME|UTOOL)", re.IGNORECASE
+)
 _CALL = re.compile(r"(?:CALL|RUN)\s+([A-Za-z_\u0080-\uffff][-\w]*)\s*(?:\((.*)\))?", re.IGNORECASE)
 _ARGUMENT = re.compile(r"(?<![\w$.])AR\s*\[\s*(\d+)", re.IGNORECASE)
 _TEXT_ARGUMENT = re.compile(r"AR\s*\[\s*(\d+)\s*\]\s*(?:=|<>)\s*'|'\s*(?:=|<>)\s*AR\s*\[\s*(\d+)", re.IGNORECASE)
@@ -134,7 +137,8 @@ def _positions(facts: Facts, text: str, points: dict[int, str], origin: Origin) 
             if index.isdigit():
                 facts.links.add((int(index), int(number[0])))
             continue
-        kind = "j" if word == "JPOS" or (word.startswith("P[") and number and points.get(int(number[0])) == "j") else "p"
+        is_joint_point = word.startswith("P[") and number is not None and points.get(int(number[0])) == "j"
+        kind = "j" if word == "JPOS" or is_joint_point else "p"
         if index.isdigit():
             (facts.joints if kind == "j" else facts.cartesian).setdefault(int(index), origin)
         else:
@@ -211,8 +215,8 @@ def conclude(facts: Facts, dump: Dump, diagnostics: Diagnostics) -> None:
         if len(facts.joints) + len(facts.cartesian) == before:
             break
     for number in sorted(facts.joints.keys() & facts.cartesian.keys()):
-        other = facts.cartesian[number]
-        place = f"{other.file}:{other.line}"
+        elsewhere = facts.cartesian[number]
+        place = f"{elsewhere.file}:{elsewhere.line}"
         diagnostics.report(MIXED_REGISTER, facts.joints[number], number=number, other=place)
     facts.labels = {**dump.labels, **facts.labels}
 

@@ -17,8 +17,8 @@ COMPONENTS = {
 
 RULES = Rules(
     name="tp",
-    # Behind FINE the program goes on when the robot is in position, behind CNT as soon as the move slows down (M: at the
-    # beginning of the corner).
+    # Behind FINE the program goes on when the robot is in position, behind CNT as soon as the move slows down (M: at
+    # the beginning of the corner).
     advance=AdvanceRules(moves=4, runs_ahead_of="fly_by", lead_s=0.0),
     real_to_int="trunc",  # M: a register written to a group output or used as a number is cut
     text_plus=True,

@@ -218,7 +218,8 @@ def _lines(text: str, begin: int, end: int) -> Iterator[_Line]:
         numbered = _NUMBERED.match(raw)
         fresh = numbered is not None and bool(numbered[2])
         content = raw[numbered.end() :] if numbered else raw
-        if current is not None and not current.done and not (fresh or (numbered and current.remark and current.text[0] == "!")):
+        next_remark = numbered is not None and current is not None and current.remark and current.text[0] == "!"
+        if current is not None and not current.done and not (fresh or next_remark):
             current.text = f"{current.text} {content.strip(_BLANKS)}"
             current.end = match.end()
         else:

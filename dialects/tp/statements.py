@@ -7,7 +7,7 @@ each place it can mean.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from lark import Token, Tree
 
@@ -67,8 +67,13 @@ class Statements(Expressions):
                 body = self.as_statements(self.with_choices(make))
                 cases.append(ir.Case((ir.IntLiteral(option),), body, origin=self.origin))
             del self.chosen[choice.key]
-            default = (self.vendor(self.origin_line(), "unknown"),)
+            default = self.alarm(f"there is no such place: {self.origin_line()}")
             return ir.Switch(choice.selector, tuple(cases), default, origin=self.origin)
+
+    def alarm(self, text: str) -> Many:
+        """An alarm of the controller that pauses the program."""
+        message = ir.Message("error", ir.TextLiteral(text, origin=self.origin), origin=self.origin)
+        return message, ir.Halt("stop", origin=self.origin)
 
     def as_statements(self, lowered: Lowered) -> Many:
         items = lowered if isinstance(lowered, tuple) else (lowered,)
@@ -310,7 +315,7 @@ class Statements(Expressions):
         name = self.text(self.typed(_tree(tree.children[0])))
         return ir.CallRoutine("", self.arguments(tree.children[1:], ""), name, origin=self.origin)
 
-    def arguments(self, children: list[object], name: str) -> tuple[ir.Argument, ...]:
+    def arguments(self, children: Sequence[object], name: str) -> tuple[ir.Argument, ...]:
         trees = [_tree(child) for child in _tree(children[0]).children] if children else []
         done = []
         for number, argument in enumerate(trees, 1):

@@ -1,0 +1,139 @@
+/PROG  CALCULATION
+/ATTR
+OWNER		= MNEDITOR;
+COMMENT		= "self checking";
+PROG_SIZE	= 0;
+CREATE		= DATE 24-03-04  TIME 08:00:00;
+MODIFIED	= DATE 24-03-04  TIME 08:00:00;
+FILE_NAME	= ;
+VERSION		= 0;
+LINE_COUNT	= 104;
+MEMORY_SIZE	= 0;
+PROTECT		= READ_WRITE;
+TCD:  STACK_SIZE	= 0,
+      TASK_PRIORITY	= 50,
+      TIME_SLICE	= 0,
+      BUSY_LAMP_OFF	= 0,
+      ABORT_REQUEST	= 0,
+      PAUSE_REQUEST	= 0;
+DEFAULT_GROUP	= 1,*,*,*,*;
+CONTROL_CODE	= 00000000 00000000;
+/MN
+   1:  !Calculations that check themselves ;
+   2:  !each output is on when its line is right ;
+   3:  R[1:one]=7 ;
+   4:  R[2:two]=2 ;
+   5:  R[3:result]=R[1]/R[2] ;
+   6:  IF (R[3]=3.5),DO[1]=(ON) ;
+   7:  R[3]=R[1] DIV R[2] ;
+   8:  IF (R[3]=3),DO[2]=(ON) ;
+   9:  R[3]=R[1] MOD R[2] ;
+  10:  IF (R[3]=1),DO[3]=(ON) ;
+  11:  R[3]=(R[1]+R[2]*(3+5)) ;
+  12:  IF (R[3]=23),DO[4]=(ON) ;
+  13:  R[3]=R[2]-R[1] ;
+  14:  IF (R[3]=(-5)),DO[5]=(ON) ;
+  15:  R[3]=SIN[30] ;
+  16:  IF (R[3]>.499 AND R[3]<.501),DO[6]=(ON) ;
+  17:  R[3]=ATAN2[R[1],R[1]] ;
+  18:  IF (R[3]>44.999 AND R[3]<45.001),DO[7]=(ON) ;
+  19:  R[3]=TRUNC[3.7] ;
+  20:  IF (R[3]=3),DO[8]=(ON) ;
+  21:  R[3]=ROUND[3.7] ;
+  22:  IF (R[3]=4),DO[9]=(ON) ;
+  23:  R[3]=SQRT[9] ;
+  24:  IF (R[3]=3),DO[10]=(ON) ;
+  25:  R[3]=0 ;
+  26:  FOR R[4:count]=1 TO 3 ;
+  27:  R[3]=R[3]+R[4] ;
+  28:  ENDFOR ;
+  29:  IF (R[3]=6 AND R[4]=3),DO[11]=(ON) ;
+  30:  R[3]=0 ;
+  31:  FOR R[4]=5 TO 1 ;
+  32:  R[3]=R[3]+1 ;
+  33:  ENDFOR ;
+  34:  IF (R[3]=0 AND R[4]=5),DO[12]=(ON) ;
+  35:  R[3]=0 ;
+  36:  FOR R[4]=3 DOWNTO 1 ;
+  37:  R[3]=R[3]*10+R[4] ;
+  38:  ENDFOR ;
+  39:  IF (R[3]=321 AND R[4]=1),DO[13]=(ON) ;
+  40:  F[1]=(R[1]>R[2] AND !(R[1]=R[2])) ;
+  41:  F[2]=(R[1]<R[2] OR F[3]) ;
+  42:  IF (!F[2] AND F[1]),DO[14]=(ON) ;
+  43:  R[5]=2 ;
+  44:  SELECT R[5]=1,JMP LBL[1] ;
+  45:         =2,JMP LBL[2] ;
+  46:         ELSE,JMP LBL[3] ;
+  47:  LBL[1] ;
+  48:  LBL[3] ;
+  49:  R[3]=0 ;
+  50:  JMP LBL[4] ;
+  51:  LBL[2] ;
+  52:  R[3]=1 ;
+  53:  LBL[4] ;
+  54:  IF (R[3]=1),DO[15]=(ON) ;
+  55:  R[6:pointer]=1 ;
+  56:  R[3]=R[R[6]] ;
+  57:  IF (R[3]=7),DO[16]=(ON) ;
+  58:  R[6]=8 ;
+  59:  R[R[6]]=99 ;
+  60:  IF (R[8]=99),DO[17]=(ON) ;
+  61:  SR[1]='robot' ;
+  62:  R[3]=STRLEN SR[1] ;
+  63:  IF (R[3]=5),DO[18]=(ON) ;
+  64:  SR[2]='b' ;
+  65:  R[3]=FINDSTR SR[1],SR[2] ;
+  66:  IF (R[3]=3),DO[19]=(ON) ;
+  67:  SR[3]=SUBSTR SR[1],1,3 ;
+  68:  SR[5]='7' ;
+  69:  SR[4]=SR[1]+SR[5] ;
+  70:  IF (SR[3]='rob' AND SR[4]='robot7'),DO[20]=(ON) ;
+  71:  CALL ADD(10,21) ;
+  72:  IF (R[3]=31),DO[21]=(ON) ;
+  73:  PR[1:here]=P[1] ;
+  74:  R[3]=PR[1,1] ;
+  75:  PR[1,2]=PR[1,2]+50 ;
+  76:  R[7]=PR[1,2] ;
+  77:  IF (R[3]=400 AND R[7]=150),DO[22]=(ON) ;
+  78:  PR[2]=PR[1]+P[1] ;
+  79:  R[3]=PR[2,1] ;
+  80:  PR[2]=PR[2]-PR[1] ;
+  81:  R[7]=PR[2,2] ;
+  82:  IF (R[3]=800 AND R[7]=100),DO[23]=(ON) ;
+  83:  PR[3]=P[2] ;
+  84:  R[3]=PR[3,5] ;
+  85:  PR[3,1]=5 ;
+  86:  R[7]=PR[3,1] ;
+  87:  IF (R[3]=(-90) AND R[7]=5),DO[24]=(ON) ;
+  88:  R[3]=0 ;
+  89:  IF R[1]=7 AND R[2]=2,JMP LBL[5] ;
+  90:  JMP LBL[6] ;
+  91:  LBL[5] ;
+  92:  R[3]=R[3]+2 ;
+  93:  LBL[6] ;
+  94:  IF (R[3]=2),DO[25]=(ON) ;
+  95:  R[6]=7 ;
+  96:  JMP LBL[R[6]] ;
+  97:  LBL[8] ;
+  98:  R[3]=0 ;
+  99:  JMP LBL[9] ;
+ 100:  LBL[7] ;
+ 101:  R[3]=1 ;
+ 102:  LBL[9] ;
+ 103:  IF (R[3]=1),DO[26]=(ON) ;
+ 104:  DO[40]=ON ;
+/POS
+P[1]{
+   GP1:
+	UF : 0, UT : 1,		CONFIG : 'N U T, 0, 0, 0',
+	X =   400.000  mm,	Y =   100.000  mm,	Z =   200.000  mm,
+	W =   180.000 deg,	P =     0.000 deg,	R =     0.000 deg
+};
+P[2]{
+   GP1:
+	UF : 0, UT : 1,	
+	J1=     0.000 deg,	J2=     0.000 deg,	J3=     0.000 deg,
+	J4=     0.000 deg,	J5=   -90.000 deg,	J6=     0.000 deg
+};
+/END

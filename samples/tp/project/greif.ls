@@ -1,0 +1,28 @@
+/PROG  GREIF
+/ATTR
+EIGN.		= MNEDITOR;
+KOMMENTAR	= "Greifer";
+PROG_GRÖßE	= 0;
+ERSTELL		= TAG 24-03-04  ZEIT 08:00:00;
+GEÄNDERT	= TAG 24-03-04  ZEIT 08:00:00;
+DATEI_NAME	= ;
+VERSION		= 0;
+ZEILEN		= 8;
+SPEICHERGR.	= 0;
+SCHUTZ		= LESEN_SCHREIB;
+TCD:  STACK_GRÖßE	= 0,
+      TASK_PRIORITY	= 50,
+      HALT_ANFRAGE	= 0;
+DEFAULT_GRUP	= 1,*,*,*,*;
+KONTROLLCODE	= 00000000 00000000;
+/MN
+   1:  !AR 1: 1 zu, 0 auf ;
+   2:  WENN AR[1]=1,SPRUNG LABEL[1] ;
+   3:  A[3:Greifer]=AUS ;
+   4:  WARTE    .10(sec) ;
+   5:  ENDE ;
+   6:  LABEL[1] ;
+   7:  A[3]=AN ;
+   8:  WARTE    .10(sec) ;
+/POS
+/END
