@@ -13,7 +13,14 @@ from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 
 SHORT_ARC = code(
-    "inform-short-arc", Severity.ERROR, "an arc needs three MOVC points in a row; the controller stops with an alarm here"
+    "inform-short-arc",
+    Severity.ERROR,
+    "an arc needs three MOVC points in a row; the controller stops with an alarm here",
+)
+# What a run of points cannot go over.
+_ENDS = (
+    *(ir.Move, ir.MoveExternal, ir.Spline, ir.Label, ir.Goto, ir.If, ir.While, ir.For, ir.Switch),
+    *(ir.CallRoutine, ir.Return, ir.Halt),
 )
 
 
@@ -49,38 +56,35 @@ def _run(body: ir.Body, at: int, kind: str) -> int:
         statement = body[end]
         if _is(statement, kind):
             last = end
-        elif isinstance(
-            statement,
-            ir.Move | ir.MoveExternal | ir.Spline | ir.Label | ir.Goto | ir.If | ir.While | ir.For | ir.Switch,
-        ) or isinstance(statement, ir.CallRoutine | ir.Return | ir.Halt):
+        elif isinstance(statement, _ENDS):
             break
         end += 1
     return last + 1
 
 
 def _arcs(run: ir.Body, diagnostics: Diagnostics) -> list[ir.Statement]:
-    places = [at for at, statement in enumerate(run) if isinstance(statement, ir.Move)]
-    moves = [statement for statement in run if isinstance(statement, ir.Move)]
-    done: list[ir.Statement] = [replace(moves[0], kind="linear")]
+    """The moves of a run; what stands between two points stays there."""
+    legs: list[tuple[ir.Move, list[ir.Statement]]] = []  # each point with what follows it
+    for statement in run:
+        if isinstance(statement, ir.Move):
+            legs.append((statement, []))
+        else:
+            legs[-1][1].append(statement)
+    moves = [move for move, _ in legs]
     if len(moves) < 3:
         diagnostics.report(SHORT_ARC, moves[0].origin)
         return [replace(each, kind="linear") if isinstance(each, ir.Move) else each for each in run]
-    done.extend(run[places[0] + 1 : places[1]])
+    done: list[ir.Statement] = [replace(moves[0], kind="linear"), *legs[0][1]]
     number = 1
     while number < len(moves):
-        move = moves[number]
-        between = run[places[number] + 1 : places[number + 1]] if number + 1 < len(moves) else ()
-        if number + 1 < len(moves) and all(isinstance(each, ir.Nothing) for each in between):
-            done.extend(between)
-            end = moves[number + 1]
-            done.append(replace(end, via=move.target))
+        move, behind = legs[number]
+        if number + 1 < len(moves) and all(isinstance(each, ir.Nothing) for each in behind):
+            end, after = legs[number + 1]
+            done += [*behind, replace(end, via=move.target), *after]
             number += 2
         else:
-            done.append(replace(move, via=_middle(moves, number)))
-            done.extend(between)
+            done += [replace(move, via=_middle(moves, number)), *behind]
             number += 1
-        if number < len(moves) and done[-1] is not between:
-            done.extend(run[places[number - 1] + 1 : places[number]] if isinstance(done[-1], ir.Move) else ())
     return done
 
 

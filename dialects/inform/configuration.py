@@ -18,13 +18,15 @@ from rpl.errors import SourceError
 
 from .rules import FIELDS
 
-# M: what decides about flip. `b`: the sign of B (no-flip: B negative), as the points of newer controllers' jobs show it.
+# M: what decides about flip. `b`: the sign of B (no-flip: B negative), as the points of newer jobs show it.
 # `r`: R between -90 and 90 degrees is flip (NX100 operator's manual).
 FLIP_BY = "b"
 TURN_AXES: Final = {"r180": 3, "t180": 5, "s180": 0}
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
-_POINT = re.compile(rf"(?:\w+\s*=\s*)?({_NUMBER}(?:\s*,\s*{_NUMBER}){{5,}})\s*(?:;?\s*RCONF\s+([\d,\s]+))?", re.IGNORECASE)
+_POINT = re.compile(
+    rf"(?:\w+\s*=\s*)?({_NUMBER}(?:\s*,\s*{_NUMBER}){{5,}})\s*(?:;?\s*RCONF\s+([\d,\s]+))?", re.IGNORECASE
+)
 
 
 def is_flip(joints: FloatArray, by: str = FLIP_BY) -> bool:

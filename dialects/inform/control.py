@@ -22,7 +22,7 @@ from .motion import MOVES, Motion
 from .operands import tags_of
 from .signals import is_digital
 from .split import code_of
-from .syntax import Command, Formula, Given, Group, JobName, LabelBy, LabelName, Nest, Operand, Relation, Word, value_of
+from .syntax import Command, Given, Group, JobName, LabelBy, LabelName, Nest, Operand, Relation, Word
 
 UNKNOWN = code(
     "inform-unknown-instruction",
@@ -30,7 +30,6 @@ UNKNOWN = code(
     "{word} is no instruction known here; a run stops at it",
     "say in the cell file under [[vendor]] what it stands for",
 )
-COUNTER = code("inform-for-counter", Severity.ERROR, "the counter of FOR must be a variable")
 
 _STATEMENTS = get_args(ir.Statement)
 _NUMBERED_JOB = re.compile(r"L?S\d+", re.IGNORECASE)

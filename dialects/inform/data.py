@@ -82,7 +82,12 @@ class Data(Operands):
         if self.is_position(target):
             return self.position_arithmetic(command.word, target, source)
         value = self.value(source)
-        if op == "/" and self.whole(value_of(target)) and not isinstance(source, Formula) and self.whole(value_of(source)):
+        if (
+            op == "/"
+            and self.whole(value_of(target))
+            and not isinstance(source, Formula)
+            and self.whole(value_of(source))
+        ):
             op = "div"
         place = self.value(target)
         return self.set(target, ir.Binary(op, place, value, origin=self.origin))

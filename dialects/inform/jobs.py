@@ -17,10 +17,10 @@ from rpl.source import Comment, Origin, Source
 
 from .syntax import Command, HeaderLine, Nest, PointLine
 
-OUTSIDE = code(
-    "inform-outside-job", Severity.WARNING, "lines before the first /JOB", "they are read as job {name}"
+OUTSIDE = code("inform-outside-job", Severity.WARNING, "lines before the first /JOB", "they are read as job {name}")
+BAD_HEADER = code(
+    "inform-bad-header", Severity.ERROR, "{what}", "compare with the header of a job saved by a controller"
 )
-BAD_HEADER = code("inform-bad-header", Severity.ERROR, "{what}", "compare with the header of a job saved by a controller")
 SEVENTH = code(
     "inform-seventh-axis", Severity.WARNING, "values behind the sixth are read as further axes of the arm (e1 ...)"
 )

@@ -184,9 +184,7 @@ class Motion(Data):
 
     def dynamics(
         self, main: _Segment
-    ) -> tuple[
-        ir.Speed | None, ir.Blend, tuple[tuple[ir.Expression, ir.Expression], ...], ir.Expression | None
-    ]:
+    ) -> tuple[ir.Speed | None, ir.Blend, tuple[tuple[ir.Expression, ir.Expression], ...], ir.Expression | None]:
         """Speed, blend, settings of this move only, acceleration."""
         parts: dict[str, ir.Expression] = {}
         level: ir.Expression = ir.IntLiteral(tables.STANDARD_LEVEL)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from typing import cast
 
 from rpl import ir
-from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.diagnostics import Code, Diagnostics, Severity, code
 from rpl.passes.rewrite import rewrite_parts
 from rpl.reading.shapes import StatementError
 from rpl.source import Origin
@@ -31,11 +31,13 @@ MIXED_POSITION = code(
 UNIFIED = code(
     "inform-pulses-as-pose",
     Severity.INFO,
-    "{name} holds pulses or a pose, or poses in several frames, depending on the way the program comes; it is stored as a"
-    " pose in the base frame",
+    "{name} holds pulses or a pose, or poses in several frames, depending on the way the program comes;"
+    " it is stored as a pose in the base frame",
 )
 MIXED_FRAME = code(
-    "inform-mixed-frame", Severity.WARNING, "{name} may come with different {what}; here the base frame and the job's tool are taken"
+    "inform-mixed-frame",
+    Severity.WARNING,
+    "{name} may come with different {what}; here the base frame and the job's tool are taken",
 )
 MASTER = code(
     "inform-tool-frame",
@@ -120,8 +122,7 @@ class Operands:
         """The expression with every numbered variable under its own name."""
         if isinstance(expression, ir.Index) and isinstance(expression.base, ir.Name):
             return self.variable(expression, form)
-        done = rewrite_parts(expression, self.final)
-        return done
+        return rewrite_parts(expression, self.final)
 
     def variable(self, index: ir.Index, form: str = TARGET) -> ir.Expression:
         bank = cast(ir.Name, index.base).id
@@ -153,7 +154,7 @@ class Operands:
         home = self.job.name if key[0].startswith("L") else ""
         forms = self.shared.project.forms
         if key[0] in self.flow.indirect or key[1] is None:  # one array: does any of it hold a pose?
-            both = any(TARGET in found for (place, (bank, _)), found in forms.items() if (place, bank) == (home, key[0]))
+            both = any(TARGET in found for (at, (bank, _)), found in forms.items() if (at, bank) == (home, key[0]))
             return "_PULSES" if both else ""
         return "_PULSES" if TARGET in forms.get((home, key), {}) else ""
 
@@ -306,10 +307,11 @@ class Operands:
 
     # ---- reports
 
-    def report_once(self, what: object, key: str, **arguments: object) -> None:
+    def report_once(self, what: Code, key: str, /, **arguments: object) -> None:
+        """One report of a kind about one thing of this job."""
         if key not in self.reported:
             self.reported.add(key)
-            self.diagnostics.report(what, self.origin, **arguments)  # type: ignore[arg-type]
+            self.diagnostics.report(what, self.origin, **arguments)
 
 
 def tags_of(items: tuple[Operand, ...]) -> Iterator[tuple[str, Relation]]:

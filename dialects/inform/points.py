@@ -43,9 +43,7 @@ def value_of_point(point: Point, external: tuple[Literal, ...] = ()) -> ir.Expre
         entries: list[tuple[str | None, ir.Expression]] = [
             (name, real(value)) for name, value in zip(_POSE_FIELDS, values, strict=False)
         ]
-        entries.extend(
-            (name, ir.IntLiteral(flag)) for name, flag in zip(FIELDS, point.flags, strict=False)
-        )
+        entries.extend((name, ir.IntLiteral(flag)) for name, flag in zip(FIELDS, point.flags, strict=False))
         return ir.Aggregate((*entries, *beyond), origin=origin)
     if point.form == ANGLE:
         joints = tuple((name, real(value)) for name, value in zip(_JOINT_FIELDS, values, strict=False))

@@ -1,4 +1,4 @@
-"""All jobs of a project to modules: a job is a module with one routine of its name, global variables are `registers`."""
+"""All jobs of a project to modules: a job is a module with one routine of its name; `registers` has the global data."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ NOT_GIVEN = code(
     "inform-not-given",
     Severity.INFO,
     "{what} are set at the controller, not in a job: they are identity here",
-    "give them in the cell file, for example \"TL[1]\" = {{ x = 0.0, y = 0.0, z = 120.0, a = 0.0, b = 0.0, c = 0.0 }}",
+    'give them in the cell file, for example "TL[1]" = {{ x = 0.0, y = 0.0, z = 120.0, a = 0.0, b = 0.0, c = 0.0 }}',
 )
 REGISTERS = "registers"
 
@@ -81,9 +81,9 @@ def _indirect(job: Job, local: bool) -> frozenset[str]:
     found = set()
     for index in _indices(job):
         bank = cast(ir.Name, index.base).id
-        if not bank.endswith("[]") and not isinstance(index.indices[0], ir.IntLiteral):
-            if (bank != plain_bank(bank)) == local:
-                found.add(bank)
+        computed = not bank.endswith("[]") and not isinstance(index.indices[0], ir.IntLiteral)
+        if computed and (bank != plain_bank(bank)) == local:
+            found.add(bank)
     return frozenset(found)
 
 
@@ -131,9 +131,7 @@ class _Lowering:
         if job.comments:
             top = (ir.Unread("", origin=replace(origin, comments=tuple(job.comments))),)
         self.modules.append(ir.Module(job.name, "inform", top, (routine,), tuple(job.header), origin=origin))
-        return tuple(
-            node.text for node in walk(body) if isinstance(node, ir.Opaque) and control.unread
-        )
+        return tuple(node.text for node in walk(body) if isinstance(node, ir.Opaque) and control.unread)
 
     def parameters(self, job: Job) -> tuple[ir.Parameter, ...]:
         """What GETARG takes, by the number of the argument."""
@@ -175,7 +173,7 @@ class _Lowering:
             modules = (ir.Module(REGISTERS, "inform", tuple(declarations)), *modules)
         return ir.Program(modules)
 
-    def saved(self) -> Iterator[tuple[str, int, Point, Job]]:
+    def saved(self) -> Iterator[tuple[str, int, Point]]:
         """The saved value of each global position variable, the first one that is read."""
         known: dict[tuple[str, int], Point] = {}
         for job in self.jobs.values():
@@ -184,13 +182,13 @@ class _Lowering:
                     continue
                 before = known.setdefault((bank, number), point)
                 if before is point:
-                    yield bank, number, point, job
+                    yield bank, number, point
                 elif (before.form, before.line.values) != (point.form, point.line.values):
                     self.diagnostics.report(OTHER_VALUE, point.line.origin, name=f"{bank}{number:03d}")
 
     def saved_values(self) -> dict[str, tuple[ir.Type, ir.Expression]]:
         found: dict[str, tuple[ir.Type, ir.Expression]] = {}
-        for bank, number, point, job in self.saved():
+        for bank, number, point in self.saved():
             if bank in self.project.indirect:
                 continue
             name = f"{bank}{number:03d}"
@@ -219,7 +217,7 @@ class _Lowering:
     def saved_elements(self) -> list[ir.Declaration]:
         """First values of elements of banks that are arrays."""
         found: list[ir.Declaration] = []
-        for bank, number, point, _ in self.saved():
+        for bank, number, point in self.saved():
             if bank not in self.project.indirect:
                 continue
             origin = point.line.origin
@@ -248,4 +246,3 @@ def _declared(used: Used, storage: str, scope: str) -> list[ir.Variable]:
 
 def _place(origin: Origin) -> Origin:
     return replace(origin, comments=())
-

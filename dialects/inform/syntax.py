@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass
 from typing import cast, get_args
 
-from lark import Token, Tree
+from lark import Tree
 
 from rpl import ir
 from rpl.reading.pieces import Block, Close, Element, Item, Middle, ModulePart, Open
@@ -356,7 +356,6 @@ class _Reading:
 
 def _is_comma(child: object) -> bool:
     return isinstance(child, Tree) and child.data == "comma"
-
 
 
 def _tree(child: object) -> SyntaxTree:

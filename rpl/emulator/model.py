@@ -110,6 +110,7 @@ class RobotModel:
     arm_to_pendant: FloatArray
     offsets: FloatArray
     unit: FloatArray
+    pulses_per_degree: FloatArray | None = None  # motor pulses, of arms whose controller counts positions in them
 
     @property
     def axes(self) -> int:
@@ -280,6 +281,7 @@ def _assembled(
         arm_to_pendant=_fixed(np.linalg.inv(pendant_to_arm)),
         offsets=_fixed(offsets),
         unit=_fixed([np.pi / 180.0 if joint == "revolute" else 1.0 for joint in kinds]),
+        pulses_per_degree=None if file.pulses_per_degree is None else _fixed(file.pulses_per_degree),
     )
 
 

@@ -63,6 +63,7 @@ class RobotFile:
     home: Vector
     urdf: Path | None
     tip: str | None
+    pulses_per_degree: Vector | None = None
 
 
 def robot_names() -> list[str]:
@@ -139,7 +140,18 @@ def _parse(text: str, place: str, folder: Path | None) -> RobotFile:
         home=axes.numbers("home", count),
         urdf=(folder / urdf) if urdf and folder is not None else None,
         tip=geometry.text("tip", "") or None,
+        pulses_per_degree=_pulses(axes, count),
     )
+
+
+def _pulses(axes: "_Reader", count: int) -> Vector | None:
+    """Motor pulses per degree of each axis, where somebody has published them."""
+    if "pulses_per_degree" not in axes.data:
+        return None
+    numbers = axes.numbers("pulses_per_degree", count)
+    if min(numbers) <= 0.0:
+        raise axes.fail("pulses_per_degree", "a list of numbers above 0")
+    return numbers
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,38 +161,38 @@ class _Reader:
     data: dict[str, object]
     place: str
 
-    def _fail(self, key: str, wanted: str) -> RobotError:
+    def fail(self, key: str, wanted: str) -> RobotError:
         found = repr(self.data[key]) if key in self.data else "nothing"
         return RobotError(f"robot file {self.place}: '{key}' must be {wanted}, found {found}")
 
     def table(self, key: str) -> "_Reader":
         value = self.data.get(key)
         if not isinstance(value, dict):
-            raise self._fail(key, "a table")
+            raise self.fail(key, "a table")
         return _Reader(value, self.place)
 
     def text(self, key: str, default: str | None = None) -> str:
         value = self.data.get(key, default)
         if not isinstance(value, str):
-            raise self._fail(key, "a text")
+            raise self.fail(key, "a text")
         return value
 
     def texts(self, key: str) -> tuple[str, ...]:
         value = self.data.get(key, [])
         if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
-            raise self._fail(key, "a list of texts")
+            raise self.fail(key, "a list of texts")
         return tuple(value)
 
     def flag(self, key: str) -> bool:
         value = self.data.get(key, False)
         if not isinstance(value, bool):
-            raise self._fail(key, "true or false")
+            raise self.fail(key, "true or false")
         return value
 
     def number(self, key: str) -> float:
         value = self.data.get(key)
         if isinstance(value, bool) or not isinstance(value, int | float):
-            raise self._fail(key, "a number")
+            raise self.fail(key, "a number")
         return float(value)
 
     def numbers(self, key: str, count: int | None, default: Vector | None = None) -> Vector:
@@ -189,7 +201,7 @@ class _Reader:
             return default
         numbers = _numbers(value)
         if numbers is None or (count is not None and len(numbers) != count):
-            raise self._fail(key, "a list of numbers" if count is None else f"a list of {count} numbers")
+            raise self.fail(key, "a list of numbers" if count is None else f"a list of {count} numbers")
         return numbers
 
     def pairs(self, key: str, count: int) -> tuple[Vector, ...]:
@@ -197,7 +209,7 @@ class _Reader:
         rows = [_numbers(row) for row in value] if isinstance(value, list) else []
         pairs = tuple(row for row in rows if row is not None and len(row) == 2 and row[0] <= row[1])
         if len(pairs) != count or len(rows) != count:
-            raise self._fail(key, f"a list of {count} pairs [lower, upper]")
+            raise self.fail(key, f"a list of {count} pairs [lower, upper]")
         return pairs
 
 

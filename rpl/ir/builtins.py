@@ -118,6 +118,11 @@ FUNCTIONS: dict[str, Function] = _table(
     zyz_roll       | p        | n | third angle of the ZYZ Euler angles
     interpolate_pose | ppn    | p | straight and by the shortest rotation from first (0) to second (1), also beyond
     rotation_angle | pp       | n | angle of the rotation between two poses in degrees
+    joints_from_pulses | nnnnnnn? | j | joints of motor pulses, by the arm's pulses per degree
+    joint_pulses   | ji       | i | motor pulses of one axis (1 ...)
+    with_external  | xx       | 0 | a target or joints with the given external axes
+    element_product | xn      | 0 | each component times a number, like element_sum
+    arc_middle     | ppp      | 2 | halfway from second to third on the circle through all three, where first is not
     pose_sum       | pp       | p | positions added, rotations multiplied (first . second)
     pose_difference | pp      | p | what added to the second gives the first: positions subtracted, second^-1 . first
     target_to_joints_near | pjx?x? | j | inverse kinematics: the solution nearest to the given joints (tool, frame)

@@ -11,10 +11,11 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from rpl.passes import rigid
-from rpl.runtime import geometry, reaching, texts
+from rpl.runtime import arcs, axes, geometry, reaching, texts
 from rpl.runtime.chain import convention_of, filled, frames_of, joints_of, joints_value, matrix_of
 from rpl.runtime.faults import ProgramError, name_of
 from rpl.runtime.geometry import as_pose
+from rpl.runtime.tasks import robot_of
 from rpl.runtime.values import (
     Array,
     PoseValue,
@@ -205,6 +206,8 @@ PURE: dict[str, Callable[..., Value]] = {
     "log10": math.log10,
     **geometry.PURE,
     **reaching.PURE,
+    **arcs.PURE,
+    **axes.PURE,
     **texts.PURE,
 }
 
@@ -226,9 +229,10 @@ def _current_joints(task: Task) -> Value:
 
 def _robot(task: Task) -> Value:
     task.looked = task.looked_at_time = True
-    if task.robot is None:
+    robot = robot_of(task)
+    if robot is None:
         raise ProgramError("motion", f"task {task.name} has no robot")
-    return task.robot
+    return robot
 
 
 def _target_to_joints(task: Task, target: Value, tool: Value = None, frame: Value = None) -> Value:
@@ -309,6 +313,7 @@ OF_TASK: dict[str, Callable[..., Value]] = {
     "current_position": _current_position,
     "target_to_joints": _target_to_joints,
     "joints_to_target": _joints_to_target,
+    **axes.OF_TASK,
     **reaching.OF_TASK,
     "current_tool": _current_tool,
     "current_frame": _current_frame,
