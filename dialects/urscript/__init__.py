@@ -16,7 +16,9 @@ if TYPE_CHECKING:
     from rpl.ir import Module
     from rpl.ir.rules import Rules
 
-_HEADER = re.compile(r"^[ \t\ufeff]*(?:def|thread|sec)[ \t]+\w+[ \t]*\([^()\n]*(?:\([^()\n]*\)[^()\n]*)*\)[ \t]*:", re.MULTILINE)
+_HEADER = re.compile(
+    r"^[ \t\ufeff]*(?:def|thread|sec)[ \t]+\w+[ \t]*\([^()\n]*(?:\([^()\n]*\)[^()\n]*)*\)[ \t]*:", re.MULTILINE
+)
 _END = re.compile(r"^[ \t]*end[ \t]*(?:#.*)?$", re.MULTILINE)
 _TYPICAL = re.compile(
     r"^[ \t]*(?:movej|movel|movep|movec|servoj|servoc|speedj|speedl|stopj|stopl|set_tcp|set_payload|set_gravity|textmsg"
@@ -28,7 +30,9 @@ _TYPICAL = re.compile(
     re.MULTILINE,
 )
 # What other languages with `def ...:` have and URScript has not.
-_PYTHON = re.compile(r"^[ \t]*(?:import|from|class|with|for|try|except|lambda|async|@\w+)\b.*:?[ \t]*$|\bself\.", re.MULTILINE)
+_PYTHON = re.compile(
+    r"^[ \t]*(?:import|from|class|with|for|try|except|lambda|async|@\w+)\b.*:?[ \t]*$|\bself\.", re.MULTILINE
+)
 
 
 def _recognise(path: str, text: str) -> int:

@@ -69,11 +69,11 @@ class Calls(Expressions):
         done = []
         for name, default in function.node.parameters:
             symbol = function.parameters[name]
-            value = given.get(name, default)
-            if value is None:
+            passed = given.get(name, default)
+            if passed is None:
                 done.append(ir.Argument(None))
             else:
-                done.append(ir.Argument(self.stored(value, symbol.kind, symbol.is_joints)))
+                done.append(ir.Argument(self.stored(passed, symbol.kind, symbol.is_joints)))
         while done and done[-1].value is None:
             done.pop()
         return (*done, *extra)
@@ -249,7 +249,7 @@ def _norm(calls: Calls, bound: Bound) -> ir.Expression | None:
 
 
 def _length(calls: Calls, bound: Bound) -> ir.Expression | None:
-    value = bound["v"] if "v" in bound else None
+    value = bound["v"]
     assert value is not None  # it has to be given
     kind = calls.kind(value)
     if kind is not None and kind.word == "pose":

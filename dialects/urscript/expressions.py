@@ -1,4 +1,4 @@
-"""Expressions to the IR. The language counts in metres and radians, the IR in millimetres and degrees; positions of lists
+"""Expressions to the IR. The language counts in metres and radians, the IR in millimetres and degrees; parts of lists
 become elements of arrays from 0, parts of poses components with a unit, six angles joints of the arm.
 
 A list in arithmetic is written out element by element; what has to be evaluated once for that goes in front of its

@@ -1,8 +1,8 @@
 """URScript's own functions: their parameters with names and defaults, and the kind of their result.
 
-A parameter is `name:letter` with `=default` where it may be left out: b bool, i whole number, n number, t text, p pose,
-q joints, m joints or pose, l list, x anything. Results: the same letters, v a number without known fraction, h a handle,
-- none, ? unknown, l6 a list of six numbers, li a list of whole numbers.
+A parameter is `name:letter` with `=default` where it may be left out: b bool, i whole number, n number, t text,
+p pose, q joints, m joints or pose, l list, x anything. Results: the same letters, h a handle, - none, ? unknown,
+l3 and l6 lists of three and six numbers, m6 a matrix, li and lb lists of whole numbers and of bools.
 What has an effect word (none, message, time, unknown) is a Vendor statement or value; all others have a neutral meaning
 in `calls`, `moves` or `procedures`. Sources: script manuals 3.5 and 5.2; defaults of moves from there.
 """

@@ -1,7 +1,7 @@
 """The kinds of all names, found by going over the project until nothing changes.
 
-A variable's kind comes from what is assigned to it, a parameter's from the calls and its default, a function's from what
-it returns. What is still unknown then takes the kind that its use asks for.
+A variable's kind comes from what is assigned to it, a parameter's from the calls and its default, a function's from
+what it returns. What is still unknown then takes the kind that its use asks for.
 """
 
 from __future__ import annotations
@@ -59,11 +59,10 @@ class Inference:
         seen: set[tuple[int, int]] = set()
         for symbol, kind, store in self.clashes:
             key = (id(symbol), store.origin.start)
-            if key not in seen and symbol.kind is not None and not joined(symbol.kind, kind)[1]:
+            old = symbol.kind
+            if key not in seen and old is not None and old.word != kind.word and not joined(old, kind)[1]:
                 seen.add(key)
-                diagnostics.report(
-                    CHANGED, store.origin, name=symbol.name, old=word_of(symbol.kind), new=word_of(kind)
-                )
+                diagnostics.report(CHANGED, store.origin, name=symbol.name, old=word_of(old), new=word_of(kind))
 
     def _settle(self) -> None:
         for _ in range(_MOST_ROUNDS):
@@ -341,6 +340,8 @@ def arithmetic(op: str, left: Kind | None, right: Kind | None) -> Kind | None:
         return _list_arithmetic(op, lists[0], lists[1])
     if lists:
         other = right if lists[0] is left else left
+        if other is None:
+            return None if _is_matrix(lists[0]) else lists[0]
         element, _ = joined(lists[0].element, other)
         return list_of(element if is_number(element) else lists[0].element, lists[0].length)
     if POSE in (left, right):

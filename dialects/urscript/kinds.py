@@ -1,5 +1,5 @@
-"""What a URScript value can be, before it becomes a type of the IR. Kinds only grow together: a name that gets 1 and 1.5
-is a real number, a list of changing length has no fixed length.
+"""What a URScript value can be, before it becomes a type of the IR. Kinds only grow together: a name that gets 1 and
+1.5 is a real number, a list of changing length has no fixed length.
 """
 
 from __future__ import annotations

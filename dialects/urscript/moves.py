@@ -13,8 +13,9 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 
 from .calls import Bound, Calls
+from .expressions import pose_literal
 from .kinds import REAL, is_joints, is_number
-from .nodes import Expr, Number, Sign
+from .nodes import Expr, ListOf, Number, PoseOf, Sign
 from .rules import STEP_TIME_S
 
 SERVO = code(
@@ -142,7 +143,7 @@ def _rates(calls: Calls, value: Expr | None, time: Expr | None) -> tuple[list[ir
     if len(found) < 6:
         return None
     span = calls.value(time, REAL)
-    listed = list(value.items) if hasattr(value, "items") else None
+    listed = list(value.items) if isinstance(value, ListOf | PoseOf) else None
     return [ir.Binary("*", part, span) for part in found], listed
 
 
@@ -177,8 +178,6 @@ def _speedl(calls: Calls, bound: Bound) -> Made | None:
     if ways is None:
         return None
     calls.diagnostics.report(RATE, calls.origin, name="speedl")
-    from .expressions import pose_literal
-
     goal = pose_literal(ways[0])
     listed = ways[1]
     straight = listed is not None and all(literal(item) == 0 for item in listed[3:])

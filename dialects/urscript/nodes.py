@@ -1,7 +1,7 @@
 """URScript as it is written: expressions and statements before their types are known.
 
-The language declares nothing; what a name is follows from the whole project. So reading has two steps: statements become
-these nodes, and when all are there, `infer` finds the types and `statements` writes the IR.
+The language declares nothing; what a name is follows from the whole project. So reading has two steps: statements
+become these nodes, and when all are there, `infer` finds the types and `statements` writes the IR.
 """
 
 from __future__ import annotations
@@ -99,9 +99,7 @@ class Hole:
     text: str
 
 
-Expr = (
-    Number | Text | Truth | Var | At | Member | Sign | Operation | Apply | PoseOf | ListOf | Run | Hole
-)
+Expr = Number | Text | Truth | Var | At | Member | Sign | Operation | Apply | PoseOf | ListOf | Run | Hole
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,20 +190,7 @@ class Define:
     end: Origin = field(default=NOWHERE)
 
 
-Node = (
-    Store
-    | Declare
-    | Perform
-    | Branches
-    | Repeat
-    | Give
-    | Word
-    | Thread
-    | Template
-    | Define
-    | ir.Nothing
-    | ir.Opaque
-)
+Node = Store | Declare | Perform | Branches | Repeat | Give | Word | Thread | Template | Define | ir.Nothing | ir.Opaque
 Block = tuple[Node, ...]
 
 

@@ -93,9 +93,7 @@ def _routine(
         if _may_fall_off(statements):
             statements = (*statements, ir.Return(zero(function.returns), origin=function.node.end))
     parameters = tuple(
-        ir.Parameter(
-            symbol.name, ir.JointsType() if symbol.is_joints else lowering.type(symbol.kind)
-        )
+        ir.Parameter(symbol.name, ir.JointsType() if symbol.is_joints else lowering.type(symbol.kind))
         for symbol in function.parameters.values()
     )
     declared = tuple(_variable(symbol, names, "routine") for symbol in function.locals.values())

@@ -1,5 +1,5 @@
-"""Whose variable a name is. URScript decides it by one rule (script manual, scoping): what the program itself assigns is
-global; inside a function a name is global if the project has such a global, else local; `local` and `global` say it.
+"""Whose variable a name is. URScript decides it by one rule (script manual, scoping): what the program itself assigns
+is global; inside a function a name is global if the project has such a global, else local; `local` and `global` say it.
 A nested function sees the globals, not its outer function's variables, so functions can stand side by side in the IR.
 """
 
@@ -258,9 +258,8 @@ def _find_program(file: File, called: set[str]) -> None:
     else:
         candidates = [f for f in file.top.values() if f.kind == "def" and not f.node.parameters]
         uncalled = [function for function in candidates if function.node.name not in called]
-        if len(uncalled) == 1 and len(candidates) == len(file.top):
-            file.program = uncalled[0]
-        elif len(uncalled) == 1 and any(function.inner for function in uncalled):
+        alone = len(candidates) == len(file.top) or any(function.inner for function in uncalled)
+        if len(uncalled) == 1 and alone:
             file.program = uncalled[0]
         elif not candidates and len(file.top) == 1:
             file.program = next((f for f in file.top.values() if f.kind == "sec"), None)
@@ -272,9 +271,10 @@ def _stored(function: Function) -> Iterator[tuple[str, str, Origin]]:
     """Scope word, name and place of what a function declares or assigns as a whole."""
     for node in statements(function.node.body):
         match node:
-            case nodes.Store(scope=scope, target=nodes.Var(name=name), origin=origin):
-                yield scope, name, origin
-            case nodes.Declare(scope=scope, name=name, origin=origin):
+            case (
+                nodes.Store(scope=scope, target=nodes.Var(name=name), origin=origin)
+                | nodes.Declare(scope=scope, name=name, origin=origin)
+            ):
                 yield scope, name, origin
 
 

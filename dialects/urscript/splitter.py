@@ -1,8 +1,8 @@
 """URScript text to statements. Lines end statements only where one is complete, and a line may hold several.
 
-A statement is complete where brackets are closed and an operand, a closing bracket or a word that stands alone came last;
-a new one begins where an operand follows an operand (`a = 1 b = 2`), behind the colon of a header, and at every word that
-can only begin a statement. So the damage of a missing bracket ends at the next such word.
+A statement is complete where brackets are closed and an operand, a closing bracket or a word that stands alone came
+last; a new one begins where an operand follows an operand (`a = 1 b = 2`), behind the colon of a header, and at every
+word that can only begin a statement. So the damage of a missing bracket ends at the next such word.
 """
 
 from __future__ import annotations
@@ -33,8 +33,10 @@ _TOKEN = re.compile(
 )
 # Words that can only begin a statement, wherever they stand.
 STARTERS = frozenset(
-    """def sec thread if elif else while end break continue halt return global local join kill
-    enter_critical exit_critical""".split()
+    (
+        *("def", "sec", "thread", "if", "elif", "else", "while", "end", "break", "continue", "halt", "return"),
+        *("global", "local", "join", "kill", "enter_critical", "exit_critical"),
+    )
 )
 # Words that are a whole statement; an empty pair of brackets may follow some.
 _ALONE = frozenset(("end", "break", "continue", "halt", "enter_critical", "exit_critical"))
@@ -109,11 +111,11 @@ class _Splitter:
         starts = kind == "name" and word in STARTERS
         operand = kind in ("text", "number", "hole", "tag", "label") or (kind == "name" and word not in _INFIX)
         follows = operand and now.complete and not now.open_word
-        if starts or (follows and now.depth == 0) or (word == ";" and now.depth == 0):
-            if self.starts_line(match.start()) or now.depth == 0:
-                yield self.finish()
-                yield from self.begin(kind, match)
-                return
+        outside = now.depth == 0
+        if (starts and (outside or self.starts_line(match.start()))) or (outside and (follows or word == ";")):
+            yield self.finish()
+            yield from self.begin(kind, match)
+            return
         yield from self.take(kind, match)
 
     def starts_line(self, at: int) -> bool:
@@ -145,9 +147,9 @@ class _Splitter:
 
     def alone(self, at: int) -> Iterator[Piece]:
         """A word that is a statement: it ends here, unless empty brackets follow."""
-        if re.compile(r"[ \t]*\([ \t]*\)").match(self.text, at) is None and not re.compile(
-            r"[ \t]*(#|$|[\r\n])"
-        ).match(self.text, at):
+        if re.compile(r"[ \t]*\([ \t]*\)").match(self.text, at) is None and not re.compile(r"[ \t]*(#|$|[\r\n])").match(
+            self.text, at
+        ):
             yield self.finish()
 
     def finish(self) -> Piece:

@@ -12,7 +12,7 @@ from rpl.source import Origin
 
 from . import nodes
 from .calls import Bound, Calls, as_text, one_more
-from .expressions import BUILTINS, pose_part
+from .expressions import BUILTINS, pose_literal, pose_part
 from .functions import BindError, bind
 from .kinds import BOOL, INT, REAL, Kind
 from .moves import MOVES, Made, Make, literal
@@ -133,7 +133,7 @@ class Statements(Calls):
         if kind is None or kind.word not in ("pose", "list", "struct"):
             return self.vendor(f"{shown(target)} = {shown(value)}", "unknown")
         place = self.value(base)
-        if kind.word == "struct" or kind.word == "list" and not self.as_joints_kept(base):
+        if kind.word == "struct" or (kind.word == "list" and not self.as_joints_kept(base)):
             stored = self.value(value, self.kind(target))
             part = self.at(target, None)
             if isinstance(part, ir.VendorValue):
@@ -158,8 +158,6 @@ class Statements(Calls):
             return ir.Assign(ir.Field(place, "xyz"[number]), ir.Quantity(given, "m"), origin=self.origin)
         parts = [pose_part(place, each) for each in range(6)]
         parts[number] = given
-        from .expressions import pose_literal
-
         return ir.Assign(place, pose_literal(parts), origin=self.origin)
 
     def given(self, value: Expr | None) -> ir.Expression | None:
@@ -254,15 +252,14 @@ class Statements(Calls):
             return (start,)
         number = ir.IntLiteral(self.thread_number(name))
         if not isinstance(target, nodes.Var):
-            return (start, *self.store_part(target, nodes.Number(number.value, ""))) if isinstance(
-                target, nodes.At
-            ) else (start,)
+            handle = nodes.Number(number.value, str(number.value))
+            return (start, *self.store_part(target, handle)) if isinstance(target, nodes.At) else (start,)
         return (start, ir.Assign(ir.Name(target.name), number, origin=self.origin))
 
     def thread_number(self, name: str) -> int:
         """Threads of the project are numbered from 1; 0 is no thread."""
-        return 1 + [function.name for function in self.project.functions() if function.kind == "thread"].index(name) \
-            if any(function.name == name and function.kind == "thread" for function in self.project.functions()) else 1
+        threads = [function.name for function in self.project.functions() if function.kind == "thread"]
+        return 1 + threads.index(name) if name in threads else 1
 
     def thread(self, op: str, handle: Expr) -> Made:
         word = {"join": "join", "kill": "stop"}[op]

@@ -36,6 +36,11 @@ BLOCK: Final = "block"
 _LOGIC: Final = {"either": "or", "exclusive": "xor", "both": "and"}
 _WORDS: Final = frozenset(("break", "continue", "halt", "pass", "enter_critical", "exit_critical"))
 
+_CARRIED = (
+    *(nodes.Store, nodes.Declare, nodes.Perform, nodes.Branches, nodes.Repeat),
+    *(nodes.Give, nodes.Word, nodes.Thread, nodes.Template, nodes.Define),
+)
+
 Children = list[SyntaxTree | Token | Slot]
 Numbers = tuple[str, ...]
 
@@ -66,8 +71,7 @@ def unwrapped(item: Item) -> Node:
     """The node, with the origin that carries its comments."""
     if isinstance(item, ModulePart):
         node = item.data
-        assert isinstance(node, nodes.Store | nodes.Declare | nodes.Perform | nodes.Branches | nodes.Repeat
-                          | nodes.Give | nodes.Word | nodes.Thread | nodes.Template | nodes.Define)  # our own
+        assert isinstance(node, _CARRIED)  # our own
         return replace(node, origin=item.origin)
     assert isinstance(item, ir.Nothing | ir.Opaque)  # nothing else is made
     return item
@@ -133,14 +137,13 @@ class Syntax:
             case "declare":
                 return nodes.Declare(str(children[0]), str(children[1]), origin)
             case "declare_hole":
-                target = nodes.Var(str(children[1]))
-                return nodes.Store(str(children[0]), target, self.hole(""), origin)
+                return nodes.Store(str(children[0]), nodes.Var(str(children[1])), self.hole(""), origin)
             case "declare_value":
                 value = self.expression(children[2], numbers)
                 return nodes.Store(str(children[0]), nodes.Var(str(children[1])), value, origin)
             case "assign":
                 target, value = self.expression(children[0], numbers), self.expression(children[1], numbers)
-                if not isinstance(target, nodes.Var | nodes.At | nodes.Member):
+                if not isinstance(target, nodes.Var | nodes.At | nodes.Member):  # not `3 = x`
                     raise StatementError("a value cannot be stored here", 0)
                 return nodes.Store("", target, value, origin)
             case "run_alone":

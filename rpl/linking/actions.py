@@ -318,7 +318,7 @@ def _stop_motion(hard: bool) -> Make:
     def make(here: int, next: int) -> Instruction:
         def stop(f: Values) -> int:
             task = f[0]
-            if task.robot is None:
+            if task.robot is None and not tasks.take_robot(task, moving=True):
                 return next
             task.robot.halt(hard)
             done: int = task.wait_for("standing", here, next)

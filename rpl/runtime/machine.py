@@ -162,7 +162,7 @@ class Machine:
                 self.timed_outputs -= 1
                 self.set_output(self.tasks[index], data[0], data[1], data[2].origin(data[3]))
             case "motion":
-                robot = self.tasks[index].robot
+                robot = tasks.robot_of(self.tasks[index])  # the one that asked may have given it to another task
                 if robot is not None:
                     robot.happen(*data)
 

@@ -13,6 +13,7 @@ from rpl.passes import rigid
 from rpl.runtime.chain import filled, frames_of, joints_of, joints_value, matrix_of
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.geometry import as_pose
+from rpl.runtime.tasks import robot_of
 from rpl.runtime.values import PoseValue, Value, rotation_of
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ def _difference(one: Value, other: Value) -> PoseValue:
 
 def _near(task: Task, target: Value, joints: Value, tool: Value = None, frame: Value = None) -> FloatArray | None:
     task.looked = task.looked_at_time = True
-    robot = task.robot
+    robot = robot_of(task)
     if robot is None or robot.model is None:
         raise ProgramError("motion", "inverse kinematics need a robot")
     place, moving = frames_of(tool, frame, task.modal, {}).target_in_robot(filled(target, rigid.IDENTITY))

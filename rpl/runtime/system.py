@@ -11,6 +11,7 @@ from rpl import ir
 from rpl.runtime.chain import DEFAULTS
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.functions import identity
+from rpl.runtime.tasks import robot_of
 from rpl.runtime.values import Member, StopWatch, Value, copied, whole
 
 if TYPE_CHECKING:
@@ -23,9 +24,10 @@ Write = Callable[["Task", int, Value], None]
 
 def _robot(task: Task) -> MotionQueue:
     task.looked = task.looked_at_time = True
-    if task.robot is None:
+    robot = robot_of(task)
+    if robot is None:
         raise ProgramError("motion", f"task {task.name} has no robot")
-    return task.robot
+    return robot
 
 
 def _rules(task: Task) -> Value:
@@ -125,7 +127,14 @@ def _moving(task: Task, index: int) -> Value:
     return _robot(task).piece is not None
 
 
+def _home_joints(task: Task, index: int) -> Value:
+    robot = _robot(task)
+    home = robot.model.home if robot.model is not None else None
+    return robot.joints_as_value(_rules(task), home)
+
+
 _SPECIAL: dict[str, Read] = {
+    "home_joints": _home_joints,
     "world": lambda task, index: identity(task),
     "null_frame": lambda task, index: identity(task),
     "actual_pose": lambda task, index: _robot(task).target_now(None, None, _rules(task)),
@@ -150,7 +159,7 @@ _SPECIAL: dict[str, Read] = {
     "date": lambda task, index: task.machine.now,
     "moving": _moving,
 }
-_SPECIAL_WRITE: dict[str, Write] = {
+SPECIAL_WRITE: dict[str, Write] = {
     "timer": _write_timer,
     "timer_stopped": _write_timer_stopped,
     "flag": _write_flag("flag"),
@@ -190,10 +199,21 @@ READ: dict[str, Read] = {
     for row in ir.SYSTEM_VARIABLES.values()
 }
 WRITE: dict[str, Write] = {
-    row.name: _SPECIAL_WRITE.get(row.name) or _modal_write(row.name, row.indexed)
+    row.name: SPECIAL_WRITE.get(row.name) or _modal_write(row.name, row.indexed)
     for row in ir.SYSTEM_VARIABLES.values()
     if row.access == "rw"
 }
+
+
+def write_all(name: str) -> Callable[[Task, Value], None]:
+    """Write an indexed modal variable for all its indices at once (V+ SPEED: all joints)."""
+
+    def write(task: Task, value: Value) -> None:
+        for key in [key for key in task.modal if key.startswith(f"{name}[")]:
+            del task.modal[key]
+        task.modal[name] = copied(value)
+
+    return write
 
 
 def modal_key(name: str, index: Value) -> str:
@@ -201,4 +221,4 @@ def modal_key(name: str, index: Value) -> str:
     return name if index is None else f"{name}[{whole(index)}]"
 
 
-__all__ = ["READ", "TIME_DEPENDENT", "WRITE", "modal_key"]
+__all__ = ["READ", "TIME_DEPENDENT", "WRITE", "modal_key", "write_all"]

@@ -12,6 +12,7 @@ from rpl.runtime.waits import Wait
 
 if TYPE_CHECKING:
     from rpl.runtime.machine import Machine
+    from rpl.runtime.motion import MotionQueue
 
 # A task that a program starts has this kind: the run does not wait for its end.
 STARTED = "background"
@@ -94,15 +95,23 @@ def release(machine: Machine) -> None:
             machine.ready(task)
 
 
-def take_robot(task: Task) -> bool:
-    """Give the task the robot of another one that does not use it now."""
+def robot_of(task: Task) -> MotionQueue | None:
+    """The robot that the task sees: its own, else the one that another task has now."""
+    if task.robot is not None:
+        return task.robot
+    return next((other.robot for other in task.machine.tasks if other.robot is not None), None)
+
+
+def take_robot(task: Task, moving: bool = False) -> bool:
+    """Give the task the robot of another one that does not use it now, or that has ended; with `moving` in any case."""
     for other in task.machine.tasks:
         robot = other.robot
         if robot is None or other is task:
             continue
-        if other.busy:
+        if other.busy and not moving and not other.has_ended:
             raise ProgramError("motion", f"the robot is moved by task {other.name}")
         other.robot, task.robot = None, robot
+        task.busy, other.busy = other.busy, False
         robot.task_index = task.index
         return True
     return False
