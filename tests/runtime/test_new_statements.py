@@ -1,5 +1,5 @@
-"""Statements and clauses that only some languages have, run from RPL: tasks that start tasks, critical sections, settings
-for one move, error routines, masks, one-shot interrupts, postures, speeds of the leading axis, searches that tell."""
+"""Statements and clauses that only some languages have, run from RPL: tasks, critical sections, settings
+for one move, error routines, masks, one-shot interrupts, postures, speed of the leading axis, searches that tell."""
 
 import math
 
