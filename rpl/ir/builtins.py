@@ -118,6 +118,7 @@ FUNCTIONS: dict[str, Function] = _table(
     zyz_roll       | p        | n | third angle of the ZYZ Euler angles
     interpolate_pose | ppn    | p | straight and by the shortest rotation from first (0) to second (1), also beyond
     rotation_angle | pp       | n | angle of the rotation between two poses in degrees
+    aligned        | p        | p | turned by the least angle so that z lies along an axis of the frame
     joints_from_pulses | nnnnnnn? | j | joints of motor pulses, by the arm's pulses per degree
     joint_pulses   | ji       | i | motor pulses of one axis (1 ...)
     with_external  | xx       | 0 | a target or joints with the given external axes
@@ -232,6 +233,7 @@ SYSTEM_VARIABLES: dict[str, SystemVariable] = _system(
     posture_wrist   | x | rw | - |      | - | asked of joint moves to poses without flags: flip, noflip or empty
     move_duration   | n | rw | - | s    | - | least time of a move (V+ DURATION)
     end_tolerance   | n | rw | - | percent | - | how exactly a stop is waited for (V+ FINE, COARSE)
+    home_joints     | J | r  | - |       | - | the joints of the robot's ready position
     blending        | b | rw | - |      | - | FALSE: every move ends in a stop (V+ CPOFF)
     """
 )

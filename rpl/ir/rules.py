@@ -13,7 +13,8 @@ class AdvanceRules:
     """How the program pointer runs ahead of the motion.
 
     moves: how many moves ahead at most (`advance` system variable overrides it where the language has it).
-    runs_ahead_of: `all` moves (KRL) or `fly_by` only (RAPID: a stop point halts the program until the robot is there).
+    runs_ahead_of: `all` moves (KRL), `fly_by` only (RAPID: a stop point halts the program until the robot is there), or
+        `begun` ones (V+: a move holds the program until the robot has begun to drive it).
     lead_s: with `fly_by`, logic behind a fly-by move runs this long before the corner path begins.
     stop_statements: names of IR statement classes before which the controller waits for the motion to end.
     signals_stop: reading or writing a signal or an actual position waits for the motion to end.

@@ -47,6 +47,9 @@ def writer(compiler: Compiler, target: ir.Expression, origin: Origin) -> Write:
             if write is None:
                 return _refused(f"the system variable {name} cannot be written")
             if not indices:
+                if ir.SYSTEM_VARIABLES[name].indexed and name not in system.SPECIAL_WRITE:
+                    write_all = system.write_all(name)
+                    return lambda f, value: write_all(f[0], value)
                 return lambda f, value: write(f[0], 1, value)
             index = compiler.value(indices[0])
             return lambda f, value: write(f[0], whole(index(f)), value)

@@ -170,7 +170,25 @@ def _angle_between(one: Value, two: Value) -> float:
     return math.hypot(*rotation_vector(turn))
 
 
+def _aligned(value: Value) -> PoseValue:
+    """The pose turned by as little as it takes to lay its z axis along an axis of its frame."""
+    pose = as_pose(value)
+    here = pose.rigid()
+    z = here.rotation.turn(rigid.Vector(0.0, 0.0, 1.0))
+    parts = (z.x, z.y, z.z)
+    longest = max(range(3), key=lambda axis: abs(parts[axis]))
+    goal = rigid.Vector(*(math.copysign(1.0, parts[axis]) if axis == longest else 0.0 for axis in range(3)))
+    across = z.cross(goal)
+    angle = math.degrees(math.atan2(across.length, z.dot(goal)))
+    if across.length < 1e-12:
+        return pose
+    about = across.times(angle / across.length)
+    turn = rotation_of_vector(about.x, about.y, about.z).then(here.rotation)
+    return PoseValue(pose.trans, rotation_of(turn, pose.rot.convention))
+
+
 PURE: dict[str, Callable[..., Value]] = {
+    "aligned": _aligned,
     "element_sum": _element_wise(1.0),
     "element_difference": _element_wise(-1.0),
     "displaced": _displaced,

@@ -118,6 +118,8 @@ class MotionQueue(RobotState):
             return task.wait_for("released", order.at, next, drive.number)
         if self.most_ahead() == 0 or task.aside:
             return task.wait_for("idle", order.at, next)
+        if advance.runs_ahead_of == "begun":
+            return task.wait_for("released", order.at, next, drive.number)
         return next
 
     def most_ahead(self) -> int:
@@ -239,6 +241,7 @@ class MotionQueue(RobotState):
         self.generation += 1
         self._schedule(piece.end_s, "arrive")
         drive = piece.drive
+        self._begun(drive if piece.corner is None else piece.corner.following)
         lead = drive.order.rules.advance.lead_s
         if drive.blending or piece.ahead is not None:
             if not drive.released and drive.order.rules.advance.runs_ahead_of == "fly_by":
@@ -252,6 +255,12 @@ class MotionQueue(RobotState):
                 trigger.due = pieces.time_of_trigger(piece, trigger)
                 if trigger.due is not None:
                     self._schedule(max(now, trigger.due), "fire", drive.number, place)
+
+    def _begun(self, drive: Drive) -> None:
+        """A move is driven, or the corner into it: its program may go on where the language waits for that."""
+        if drive.order.rules.advance.runs_ahead_of == "begun" and not drive.released:
+            drive.released = True
+            self._look()
 
     def _schedule(self, time: float, what: str, *data: int) -> None:
         self.machine.schedule(time, ARRIVALS, "motion", self.task_index, what, self.generation, *data)

@@ -1,0 +1,89 @@
+"""Adept/Omron V+: how its files are recognised; the heavy parts are imported when called."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rpl.diagnostics import Diagnostics
+from rpl.registry import Dialect, ReadResult
+from rpl.source import Source
+
+if TYPE_CHECKING:
+    from rpl.emulator.configuration import Notation
+    from rpl.ir.rules import Rules
+
+_FRAME = re.compile(r"^[ \t\ufeff]*\.PROGRAM[ \t]+[A-Za-z_][\w.]*", re.IGNORECASE | re.MULTILINE)
+_STATEMENTS = re.compile(
+    r"^[ \t]*(?:\d+[ \t]+)?(?:MOVE[STF]*\b|APPROS?\b|DEPARTS?\b|SIGNAL\b|SET[ \t]+[#\w]|AUTO\b|LOCAL\b|FOPEN\b|ATTACH\b"
+    r"|DETACH\b|OPENI\b|CLOSEI\b|SPEED\b|ACCEL[ \t(]|WAIT\.EVENT\b|TYPE\b|CALL\b|EXECUTE\b|BREAK\b|\.END\b"
+    r"|IF\b.*\bTHEN\b|WHILE\b.*\bDO\b|VALUE\b.*:|FOR\b.*\bTO\b|END[ \t]*$)",
+    re.IGNORECASE | re.MULTILINE,
+)
+# Kawasaki AS has the same frame: its own moves, waits, local names and sections tell it apart.
+_KAWASAKI = re.compile(
+    r"^[ \t]*(?:JMOVE|LMOVE|JAPPRO|LAPPRO|LDEPART|JDEPART|C1MOVE|C2MOVE|SWAIT|TWAIT|ACCURACY|POINT|DRAW|TDRAW|HOME"
+    r"|CLAMP|PULSE|UWRIST|DWRIST|PRINT)\b|^[ \t]*\.\$?[a-z_]\w*[ \t]*=|^\.(?:TRANS|JOINTS|AUXDATA|ROBOTDATA|NETCONF"
+    r"|SYSDATA|INTER_PANEL\w*)\b|^[ \t]*\w+:[ \t]*$|\bJOINT[ \t]+SPEED\d",
+    re.IGNORECASE | re.MULTILINE,
+)
+_SECTION = re.compile(r"^[ \t]*\.(?:LOCATIONS|REALS|DOUBLES|STRINGS)\b", re.IGNORECASE | re.MULTILINE)
+
+
+def _recognise(path: str, text: str) -> int:
+    """How sure the content is V+: the frame of a program without any word of Kawasaki's language."""
+    head = text[:200_000]
+    frames = len(_FRAME.findall(head))
+    foreign, typical = len(_KAWASAKI.findall(head)), len(_STATEMENTS.findall(head))
+    if frames and foreign * 4 <= typical:
+        return 92 if typical > 1 else 60
+    if not frames and not foreign and _SECTION.search(head) and re.search(r"^\.END\b", head, re.MULTILINE | re.I):
+        return 70
+    lines = head.count("\n") + 1
+    if not frames and not foreign and Path(path).suffix.lower() in (".v2", ".pg") and typical * 3 >= lines:
+        return 40
+    return 0
+
+
+def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
+    from .project import read
+
+    return read(sources, diagnostics)
+
+
+def _rules() -> Rules:
+    from .rules import RULES
+
+    return RULES
+
+
+def _notation() -> Notation:
+    from .configuration import NOTATION
+
+    return NOTATION
+
+
+_OFFSETS = {"digital_in": 1000, "group_in": 1000, "flag": 2000}
+
+
+def _signal_name(kind: str, number: int) -> str:
+    """How V+ spells a physical signal."""
+    if kind == "analog_in":
+        return f"AIO.IN({number})"
+    return f"AIO.OUT {number}" if kind == "analog_out" else str(number + _OFFSETS.get(kind, 0))
+
+
+DIALECT = Dialect(
+    name="vplus",
+    title="Adept V+",
+    extensions=(".v2", ".pg", ".lc", ".re", ".st"),
+    recognise=_recognise,
+    read=_read,
+    rules=_rules,
+    prelude=lambda: None,
+    notation=_notation,
+    notation_fields=("shoulder", "elbow", "wrist"),
+    signal_name=_signal_name,
+)

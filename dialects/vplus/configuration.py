@@ -1,0 +1,117 @@
+"""V+ postures: LEFTY or RIGHTY, ABOVE or BELOW, FLIP or NOFLIP, and the text of a location.
+
+A location carries none of them: a move keeps the posture the arm is in, unless the step before asks for another one.
+Flags: shoulder 0 RIGHTY, 1 LEFTY; elbow 0 ABOVE, 1 BELOW; wrist 0 NOFLIP, 1 FLIP (joint 5 negative). RIGHTY is the arm
+with its elbow to the right of the line from shoulder to wrist: on a SCARA joint 2 positive, on a six-axis arm the wrist
+in front of axis 1 (M: the vendor's table depends on the model). ABOVE is seen from outside, so behind axis 1 it is the
+other side of the elbow's joint.
+"""
+
+import re
+from typing import Final
+
+import numpy as np
+
+from rpl.emulator.configuration import Flags, Selection, format_number
+from rpl.emulator.model import RobotModel
+from rpl.emulator.rotations import FloatArray, pose_matrix, zyx_to_matrix
+from rpl.errors import SourceError
+
+WORDS: Final = {"shoulder": ("RIGHTY", "LEFTY"), "elbow": ("ABOVE", "BELOW"), "wrist": ("NOFLIP", "FLIP")}
+_TRANS = re.compile(r"TRANS\s*\(([^()]*)\)", re.IGNORECASE)
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)?\s*")
+
+
+def _only_elbow(model: RobotModel) -> bool:
+    """Has the arm no other choice than its elbow (a SCARA)? That is its handedness."""
+    return len({branch.shoulder for branch in model.arm.branches}) == 1
+
+
+class VplusNotation:
+    """Handedness, elbow, wrist."""
+
+    name: Final = "vplus"
+    fields: Final = ("shoulder", "elbow", "wrist")
+
+    def encode(self, model: RobotModel, joints: FloatArray) -> dict[str, int]:
+        """The posture of these joints (n,)."""
+        branch = model.posture(joints).branch
+        return self._of_branch(model, (branch.shoulder, branch.elbow, branch.wrist))
+
+    def _of_branch(self, model: RobotModel, branch: tuple[int, int, int]) -> dict[str, int]:
+        shoulder, elbow, wrist = branch
+        if _only_elbow(model):
+            return {"shoulder": elbow, "elbow": 0, "wrist": 0}
+        return {"shoulder": shoulder, "elbow": elbow ^ shoulder, "wrist": wrist}
+
+    def select(self, model: RobotModel, flange: FloatArray, flags: Flags, reference: FloatArray | None) -> Selection:
+        """The solution in the posture asked for; what is not asked for stays as the arm has it, and each axis takes
+        its shortest way. Without a reference everything not asked for is free."""
+        near = model.home if reference is None else reference
+        solutions = model.inverse(flange, near)
+        if not solutions:
+            return Selection(None, "the location is out of range")
+        wanted = dict.fromkeys(self.fields) if reference is None else dict(self.encode(model, near))
+        wanted.update({name: value for name, value in flags.items() if value is not None and name in wanted})
+        best: tuple[float, FloatArray] | None = None
+        for solution in solutions:
+            branch = solution.branch
+            shown = self._of_branch(model, (branch.shoulder, branch.elbow, branch.wrist))
+            if not all(
+                wanted[name] in (None, shown[name]) or (solution.singular and name == "wrist") for name in self.fields
+            ):
+                continue
+            joints = model.nearest_turn(solution.joints, near)
+            travel = float(np.linalg.norm((joints - near) / model.speeds))
+            if not model.within_limits(joints) and (best is None or travel < best[0]):
+                best = travel, joints
+        if best is not None:
+            return Selection(best[1])
+        asked = " ".join(WORDS[name][value] for name, value in wanted.items() if value is not None)
+        return Selection(None, f"the location cannot be reached {asked}".rstrip())
+
+    def format_pose(self, model: RobotModel, matrix: FloatArray, joints: FloatArray | None) -> str:
+        """`TRANS(x, y, z, yaw, pitch, roll)`; with joints the posture's words behind it, as a comment."""
+        values = [*matrix[:3, 3], *matrix_to_zyz(matrix)]
+        text = "TRANS(" + ", ".join(format_number(float(value), 6) for value in values) + ")"
+        if joints is None:
+            return text
+        flags = self.encode(model, joints)
+        used = ("shoulder",) if _only_elbow(model) else self.fields
+        return f"{text} ;{' '.join(WORDS[name][flags[name]] for name in used)}"
+
+    def parse_pose(self, text: str) -> tuple[FloatArray, dict[str, int | None]]:
+        """Pose and posture of `TRANS(...) ;LEFTY ...`; `SourceError` when it is none."""
+        found = _TRANS.search(text)
+        if found is None:
+            raise SourceError(f"'{text.strip()}' is no V+ location: expected TRANS(x, y, z, yaw, pitch, roll)")
+        parts = found[1].split(",")
+        numbers = [_NUMBER.fullmatch(part) for part in parts]
+        if len(parts) > 6 or not all(numbers):
+            raise SourceError(f"'{found[0]}' is no V+ location: up to six numbers are expected")
+        values = [float(number[1] or 0.0) if number else 0.0 for number in numbers]
+        x, y, z, yaw, pitch, roll = values + [0.0] * (6 - len(values))
+        rest = set(text[found.end() :].upper().replace(";", " ").split())
+        flags = {
+            name: next((value for value, word in enumerate(words) if word in rest), None)
+            for name, words in WORDS.items()
+        }
+        turn = zyx_to_matrix([yaw, pitch, 0.0]) @ zyx_to_matrix([roll, 0.0, 0.0])
+        return pose_matrix([x, y, z], turn), flags
+
+
+def matrix_to_zyz(matrix: FloatArray) -> tuple[float, float, float]:
+    """Yaw, pitch, roll of Rz(yaw)·Ry(pitch)·Rz(roll), degrees; pitch in [0, 180]. Where the pitch is 0 or 180 the yaw
+    is 0 and the roll has all of the turn, as the controller shows it."""
+    turn = matrix[:3, :3]
+    sine = float(np.hypot(turn[0, 2], turn[1, 2]))
+    if sine < 1e-9:
+        pitch = 0.0 if turn[2, 2] > 0.0 else 180.0
+        return 0.0, pitch, float(np.degrees(np.arctan2(-turn[0, 1], turn[1, 1])))
+    yaw = float(np.degrees(np.arctan2(turn[1, 2], turn[0, 2])))
+    roll = float(np.degrees(np.arctan2(turn[2, 1], -turn[2, 0])))
+    return yaw, float(np.degrees(np.arctan2(sine, turn[2, 2]))), roll
+
+
+NOTATION: Final = VplusNotation()
+__all__ = ["NOTATION", "VplusNotation", "matrix_to_zyz"]

@@ -1,0 +1,247 @@
+"""V+ built-in functions in neutral terms. What only the controller can tell becomes a `VendorValue`."""
+
+from __future__ import annotations
+
+from lark import Token, Tree
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.reading.shapes import StatementError, SyntaxTree
+
+from . import formats, signals, tables
+from .expressions import Expressions, subtree
+from .formats import Item
+
+UNKNOWN_FUNCTION = code(
+    "vplus-unknown-function",
+    Severity.WARNING,
+    "there is no function {name} that is known here; its value is left to the cell file",
+)
+Values = list[ir.Expression | None]
+
+
+class Functions(Expressions):
+    """Lowers calls of built-in functions."""
+
+    def call(self, tree: SyntaxTree) -> ir.Expression:
+        name = str(tree.children[0]).lower()
+        arguments = subtree(tree.children[1])
+        if name == "$encode":
+            return formats.text_of(self.items(arguments), self.origin)
+        if name in ("switch", "parameter"):
+            return self.vendor(tree)
+        values = self.values(arguments)
+        found = self.neutral(name, values) or self.special(name, values)
+        if found is not None:
+            return found
+        if not any(values):
+            constant = self.constant(name)
+            if constant is not None:
+                return constant
+        return self.vendor(tree)
+
+    def values(self, arguments: SyntaxTree) -> Values:
+        """The arguments in order; those left out are None. `t BY x` counts as two."""
+        values: Values = []
+        for child in arguments.children:
+            parts = subtree(child).children
+            if any(isinstance(part, Token) for part in parts):
+                raise StatementError("a format control stands only in $ENCODE, TYPE and WRITE", 0)
+            if not parts:
+                values.append(None)
+            values.extend(self.expression(subtree(part)) for part in parts)
+        while values and values[-1] is None:
+            values.pop()
+        return values
+
+    def items(self, tree: SyntaxTree) -> list[Item]:
+        """The items of TYPE, WRITE or $ENCODE."""
+        items = []
+        for child in tree.children:
+            parts = subtree(child).children
+            controls = tuple(str(part) for part in parts if isinstance(part, Token))
+            value = next((self.expression(part) for part in parts if isinstance(part, Tree)), None)
+            items.append(Item(controls, value))
+        return items
+
+    def built(self, function: str, *arguments: ir.Expression) -> ir.Builtin:
+        return ir.Builtin(function, arguments, origin=self.origin)
+
+    def vendor(self, tree: SyntaxTree) -> ir.Expression:
+        """A value that only the controller has."""
+        name = str(tree.children[0]).lower()
+        type = tables.CONTROLLER_VALUES.get(name)
+        if type is None:
+            self.diagnostics.report(UNKNOWN_FUNCTION, self.origin, name=str(tree.children[0]))
+            type = tables.OF_SIGIL.get(name[0], tables.REAL)
+        return ir.VendorValue("vplus", self.written(tree), type, origin=self.origin)
+
+    def neutral(self, name: str, values: Values) -> ir.Expression | None:
+        """Functions that only have another name."""
+        row = tables.FUNCTIONS.get(name)
+        given = [value for value in values if value is not None]
+        if row is None or len(given) != row[1] or len(values) != row[1]:
+            return None
+        return self.built(row[0], *given)
+
+    def special(self, name: str, values: Values) -> ir.Expression | None:
+        """Functions that are made of several neutral ones."""
+        return self.location(name, values) or self.signal_value(name, values) or self.text(name, values) or (
+            self.arithmetic(name, [value for value in values if value is not None])
+        )  # fmt: skip
+
+    # ---- locations
+
+    def location(self, name: str, values: Values) -> ir.Expression | None:
+        zero = ir.IntLiteral(0)
+        match name, values:
+            case "trans", _ if len(values) <= 6:
+                return self.built("pose_zyz", *[values[n] or zero if n < len(values) else zero for n in range(6)])
+            case "#ppoint", _ if len(values) <= 6:
+                return joints_of([values[n] or zero if n < len(values) else zero for n in range(6)])
+            case (("rx" | "ry" | "rz"), [ir_value]) if ir_value is not None:
+                angles = {"rx": "c", "ry": "b", "rz": "a"}
+                entries = tuple((key, ir_value if key == angles[name] else zero) for key in ("x", "y", "z", *"abc"))
+                return ir.Aggregate(entries, "pose", origin=self.origin)
+            case (("dx" | "dy" | "dz"), [place]) if place is not None:
+                return ir.Field(place, name[1], origin=self.origin)
+            case "shift", [place, *shift] if place is not None and len(shift) <= 3:
+                moved = [shift[n] or zero if n < len(shift) else zero for n in range(3)]
+                return self.built("offset", place, *moved)
+            case "distance", [one, two] if one is not None and two is not None:
+                return self.built("distance", self.position(one), self.position(two))
+            case "frame", [one, two, three, origin] if one and two and three and origin:
+                return self.frame(one, two, three, origin)
+            case "normal", [place] if place is not None:
+                return self.built("pose_of", place)
+            case "inrange", [place] if place is not None:  # M: 0 in reach; which bits say why not is not imitated
+                reached = self.built("is_reachable", place, self.built("current_joints"))
+                return ir.Convert("minus_bit", ir.Unary("not", reached, origin=self.origin), origin=self.origin)
+        return None
+
+    def position(self, place: ir.Expression) -> ir.Expression:
+        return ir.Field(place, "trans", origin=self.origin)
+
+    def frame(
+        self, one: ir.Expression, two: ir.Expression, three: ir.Expression, origin: ir.Expression
+    ) -> ir.Expression:
+        """FRAME(a, b, c, d): x from a to b, c on the side of positive y, the origin at d."""
+        turned = self.built("frame_from_points", *[self.position(place) for place in (one, two, three)])
+        if origin == one:
+            return turned
+        steps = [
+            ir.Binary("-", ir.Field(origin, axis), ir.Field(one, axis), origin=self.origin) for axis in ("x", "y", "z")
+        ]
+        return self.built("offset", turned, *steps)
+
+    # ---- signals, timers, errors, what is defined
+
+    def signal_value(self, name: str, values: Values) -> ir.Expression | None:
+        given = [value for value in values if value is not None]
+        origin = self.origin
+        match name, given:
+            case "sig", _:
+                return signals.reading(given, self.facts, origin)
+            case "bits", [first, *count] if len(count) <= 1:
+                return signals.group(first, count[0] if count else None, self.facts, origin)
+            case "timer", [ir.Unary(op="-")]:
+                return ir.System("time", origin=origin)  # M: the negative timers count the time since the start
+            case "timer", [number]:
+                return ir.System("timer", (number,), origin=origin)
+            case "aio.in", [number]:
+                return ir.Signal("analog_in", number, origin=origin)
+            case "error", [ir.Unary(op="-", operand=ir.IntLiteral(value=1))]:
+                return ir.System("error_number", origin=origin)
+            case "$error", [number]:
+                return self.built("error_text", number)
+            case "defined", [variable]:
+                return ir.Unary("not", self.built("is_uninitialised", variable), origin=origin)
+            case "random", []:
+                return self.built("random")
+        return None
+
+    # ---- texts
+
+    def text(self, name: str, values: Values) -> ir.Expression | None:
+        one = ir.IntLiteral(1)
+        match name, values:
+            case "asc", [text, *at] if text is not None and len(at) <= 1:
+                place = (at[0] if at else None) or None
+                return self.built("character_code", self.part(text, place, one) if place is not None else text)
+            case "$mid", [text, first, count] if text is not None:
+                return self.part(text, first or one, count or one)
+            case "pos", [text, wanted, *start] if text is not None and wanted is not None and len(start) <= 1:
+                return self.built("text_find", text, (start[0] if start else None) or one, wanted)
+        return None
+
+    def part(self, text: ir.Expression, first: ir.Expression, count: ir.Expression) -> ir.Expression:
+        """M: $MID gives what is there when fewer characters are left; one character is taken as it is."""
+        if isinstance(count, ir.IntLiteral) and count.value == 1:
+            return self.built("text_part", text, first, count)
+        length = self.built("text_length", text)
+        rest: ir.Expression = length
+        if first != ir.IntLiteral(1):
+            rest = ir.Binary("-", length, signals.less(first, 1), origin=self.origin)
+        return self.built("text_part", text, first, self.built("min", count, rest))
+
+    # ---- numbers
+
+    def arithmetic(self, name: str, given: list[ir.Expression]) -> ir.Expression | None:
+        origin = self.origin
+        match name, given:
+            case "sqr", [ir.Name() | ir.IntLiteral() | ir.RealLiteral() as value]:
+                return ir.Binary("*", value, value, origin=origin)
+            case "sqr", [value]:
+                return self.built("power", value, ir.IntLiteral(2))
+            case (("min" | "max"), [first, *rest]) if rest:
+                done = first
+                for value in rest:
+                    done = self.built(name, done, value)
+                return done
+            case "sign", [value]:  # 1 at zero, unlike the neutral one
+                negative = ir.Binary("<", value, ir.IntLiteral(0), origin=origin)
+                twice = ir.Binary("*", ir.IntLiteral(2), ir.Convert("bit", negative, origin=origin), origin=origin)
+                return ir.Binary("-", ir.IntLiteral(1), twice, origin=origin)
+            case "outside", [low, test, high]:
+                below, above = ir.Binary("<", test, low, origin=origin), ir.Binary(">", test, high, origin=origin)
+                return ir.Binary("or", below, above, origin=origin)
+            case "bmask", [_, *_]:
+                bits = [self.built("bit_shift_left", ir.IntLiteral(1), signals.less(bit, 1)) for bit in given]
+                mask: ir.Expression = bits[0]
+                for bit in bits[1:]:
+                    mask = ir.Binary("bor", mask, bit, origin=origin)
+                return mask
+        return None
+
+    # ---- text of a tree
+
+    def written(self, node: object) -> str:
+        """A call as it is written, for values that only the controller has."""
+        if isinstance(node, Tree):
+            parts = [self.written(child) for child in node.children]
+            match str(node.data):
+                case "call":
+                    return f"{parts[0]}{parts[1]}"
+                case "arguments":
+                    return f"({', '.join(parts)})"
+                case "argument":
+                    return " BY ".join(parts)
+                case "brackets":
+                    return f"[{', '.join(parts)}]"
+                case "group":
+                    return f"({parts[0]})"
+                case "compose":
+                    return ":".join(parts)
+                case "reference" | "optional" | "integer" | "real" | "based" | "character" | "text":
+                    return "".join(parts)
+            if len(parts) == 2 and not parts[0][:1].isalpha():
+                return "".join(parts)
+            return " ".join(parts)
+        return self.spelling(node)
+
+
+def joints_of(values: list[ir.Expression]) -> ir.Aggregate:
+    return ir.Aggregate(tuple((f"j{number}", value) for number, value in enumerate(values, 1)), "joints")
+
+
+__all__ = ["Functions", "joints_of"]

@@ -1,0 +1,365 @@
+"""What kind of value each V+ name has, found from how the whole project uses it.
+
+The sign in front of a name says text (`$`), precision point (`#`) or belt (`%`). A name without one is a number or a
+transformation: it is a transformation where it is moved to, composed, or given to a function of locations, or passed to
+a parameter that is. Arrays have as many dimensions as they are used with, and last indices as their indices can be.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.walk import walk
+from rpl.source import NOWHERE, Origin
+
+from . import tables
+from .blocks import DataPart, ProgramPart
+from .expressions import root_name, significant
+
+TWO_KINDS = code(
+    "vplus-two-kinds",
+    Severity.ERROR,
+    "{name} is a location here and a number in {file}:{line}",
+    "use different names for them",
+)
+
+Symbol = tuple[str, str]  # program ("" for all), significant name
+POSE, REAL = "pose", "real"
+_DEEPEST = 8
+_KIND_TYPES: dict[str, ir.Type] = {
+    "text": tables.TEXT,
+    "joints": tables.JOINTS,
+    "belt": ir.VendorType("vplus", "belt"),
+    POSE: tables.POSE,
+}
+
+
+@dataclass(slots=True)
+class Entry:
+    """What is known of one name."""
+
+    name: str
+    pose: Origin | None = None
+    number: Origin | None = None
+    rank: int = 0
+    last: dict[int, int] = field(default_factory=dict)  # dimension -> largest index
+    unforeseen: set[int] = field(default_factory=set)  # dimensions with an index nobody can foresee
+    origin: Origin = NOWHERE
+    double: bool = False
+
+
+@dataclass(slots=True)
+class Symbols:
+    """All names of a project. `own`: program -> names that belong to it alone (parameters, AUTO, LOCAL)."""
+
+    entries: dict[Symbol, Entry] = field(default_factory=dict)
+    own: dict[str, dict[str, str]] = field(default_factory=dict)
+    links: list[tuple[Symbol, Symbol]] = field(default_factory=list)
+    # what each simple variable is given, with the program where it is; None: something that cannot be seen
+    sources: dict[Symbol, list[tuple[str, ir.Expression | None]]] = field(default_factory=dict)
+
+    def symbol(self, program: str, name: str) -> Symbol:
+        key = significant(name)
+        return (program, key) if key in self.own.get(program, ()) else ("", key)
+
+    def entry(self, program: str, name: str) -> Entry:
+        symbol = self.symbol(program, name)
+        found = self.entries.get(symbol)
+        if found is None:
+            found = self.entries[symbol] = Entry(name)
+        return found
+
+    def kind(self, program: str, name: str) -> str:
+        """pose, real, text, joints or belt."""
+        sigils = {"$": "text", "#": "joints", "%": "belt"}
+        if name[0] in sigils:
+            return sigils[name[0]]
+        found = self.entries.get(self.symbol(program, name))
+        return POSE if found is not None and found.pose is not None else REAL
+
+    def type(self, program: str, name: str) -> ir.Type:
+        """The type of a variable, arrays with their last indices."""
+        element = element_type(self.kind(program, name))
+        found = self.entries.get(self.symbol(program, name))
+        if found is None or not found.rank:
+            return element
+        bounds = tuple(ir.IntLiteral(last_index(found, dimension)) for dimension in range(found.rank))
+        return ir.ArrayType(element, bounds, base=0)
+
+
+def element_type(kind: str) -> ir.Type:
+    """The neutral type of a kind."""
+    return _KIND_TYPES.get(kind, tables.REAL)
+
+
+def last_index(entry: Entry, dimension: int) -> int:
+    known = entry.last.get(dimension, 0)
+    return max(known, tables.LAST_INDEX) if dimension in entry.unforeseen else known
+
+
+def infer(programs: dict[str, ProgramPart], data: list[DataPart], diagnostics: Diagnostics) -> Symbols:
+    """Look at every program; `programs` by their significant names."""
+    symbols = Symbols()
+    for key, part in programs.items():
+        own = symbols.own.setdefault(key, {})
+        for name, count in part.header.parameters:
+            own[significant(name)] = "parameter"
+            symbols.entries[key, significant(name)] = Entry(name, rank=count)
+        _declared(symbols, key, part)
+    lookers = [_Looker(symbols, key, part, programs) for key, part in programs.items()]
+    for looker in lookers:
+        looker.look()
+    for section in data:
+        _stored(symbols, section)
+    _connect(symbols)
+    for entry in symbols.entries.values():
+        if entry.pose is not None and entry.number is not None:
+            diagnostics.report(TWO_KINDS, entry.pose, name=entry.name, file=entry.number.file, line=entry.number.line)
+            entry.pose = None
+    return symbols
+
+
+def _declared(symbols: Symbols, key: str, part: ProgramPart) -> None:
+    """AUTO and LOCAL names are the program's own; GLOBAL ones everybody's."""
+    own = symbols.own[key]
+    for declared in part.declared:
+        for name, bounds in declared.names:
+            known = significant(name)
+            if declared.kind == "global":
+                own.pop(known, None)
+                entry = symbols.entries.setdefault(("", known), Entry(name))
+            else:
+                own.setdefault(known, declared.kind)
+                entry = symbols.entries.setdefault((key, known), Entry(name))
+            entry.rank = max(entry.rank, len(bounds))
+            entry.double = entry.double or declared.type == "double"
+            for dimension, bound in enumerate(bounds):
+                if isinstance(bound, ir.IntLiteral):
+                    entry.last[dimension] = max(entry.last.get(dimension, 0), bound.value)
+            if declared.type == "loc" and name[0] not in "$#%":
+                entry.pose = entry.pose or NOWHERE
+
+
+def _stored(symbols: Symbols, section: DataPart) -> None:
+    for datum, part in section.values:
+        entry = symbols.entry("", datum.name)
+        if section.section == ".LOCATIONS" and datum.name[0] not in "$#%":
+            entry.pose = entry.pose or part.origin
+        entry.rank = max(entry.rank, len(datum.indices))
+        for dimension, index in enumerate(datum.indices):
+            entry.last[dimension] = max(entry.last.get(dimension, 0), index)
+
+
+def _connect(symbols: Symbols) -> None:
+    """What is passed by reference is of one kind on both sides."""
+    changed = True
+    while changed:
+        changed = False
+        for one, other in symbols.links:
+            first, second = symbols.entries[one], symbols.entries[other]
+            for source, target in ((first, second), (second, first)):
+                if source.pose is not None and target.pose is None:
+                    target.pose = source.pose
+                    changed = True
+            if first.rank and second.rank:
+                changed = _same_size(first, second) or changed
+
+
+def _same_size(first: Entry, second: Entry) -> bool:
+    """Arrays that are passed have the larger size on both sides."""
+    before = (dict(first.last), set(first.unforeseen), dict(second.last), set(second.unforeseen))
+    for dimension in range(max(first.rank, second.rank)):
+        most = max(first.last.get(dimension, 0), second.last.get(dimension, 0))
+        first.last[dimension] = second.last[dimension] = most
+    both = first.unforeseen | second.unforeseen
+    first.unforeseen, second.unforeseen = set(both), set(both)
+    return before != (first.last, first.unforeseen, second.last, second.unforeseen)
+
+
+class _Looker:
+    """Looks at one program."""
+
+    def __init__(self, symbols: Symbols, key: str, part: ProgramPart, programs: dict[str, ProgramPart]) -> None:
+        self.symbols, self.key, self.part, self.programs = symbols, key, part, programs
+        self.nodes = list(walk(part.body))
+        for name, value in _given(self.nodes):
+            symbols.sources.setdefault(symbols.symbol(key, name), []).append((key, value))
+
+    def look(self) -> None:
+        here = NOWHERE
+        for node in self.nodes:
+            origin = getattr(node, "origin", NOWHERE)
+            here = origin if origin.source is not None else here
+            self.node(node, here)
+
+    def entry(self, name: str, here: Origin) -> Entry:
+        entry = self.symbols.entry(self.key, name)
+        if entry.origin is NOWHERE:
+            entry.origin = here
+        return entry
+
+    def node(self, node: object, here: Origin) -> None:
+        match node:
+            case ir.Name(id=name):
+                self.entry(name, here)
+            case ir.Index(base=ir.Name(id=name), indices=indices):
+                self.indexed(name, indices, here)
+            case ir.Assign(target=target, value=value):
+                self.assigned(target, value, here)
+            case ir.For(counter=counter):
+                self.number(ir.Name(counter), here)
+            case ir.Move(target=target, via=via):
+                self.place(target, here)
+                self.place(via, here)
+            case ir.Binary(op=":", left=left, right=right):
+                self.place(left, here)
+                self.place(right, here)
+            case ir.Binary(op="-" | "*" | "/" | "mod" | "band" | "bor" | "bxor", left=left, right=right):
+                self.number(left, here)
+                self.number(right, here)
+            case ir.Builtin(function=function, arguments=arguments):
+                row = ir.FUNCTIONS.get(function)
+                letters = row.parameters.replace("?", "") if row is not None else ""
+                for letter, argument in zip(letters, arguments, strict=False):
+                    if letter == "p":
+                        self.place(argument, here)
+            case ir.Field(base=base):
+                self.place(base, here)
+            case ir.CallRoutine(name=name, arguments=arguments) if name:
+                self.called(name, arguments, here)
+            case ir.TaskControl(task=name, arguments=arguments):
+                self.called(name, arguments, here)
+
+    def place(self, expression: ir.Expression | None, here: Origin) -> None:
+        """The expression must be a location."""
+        name = root_name(expression)
+        if name is not None and name[0] not in "$#%":
+            entry = self.entry(name, here)
+            entry.pose = entry.pose or here
+
+    def number(self, expression: ir.Expression, here: Origin) -> None:
+        name = root_name(expression)
+        if name is not None and name[0] not in "$#%":
+            entry = self.entry(name, here)
+            entry.number = entry.number or here
+
+    def assigned(self, target: ir.Expression, value: ir.Expression, here: Origin) -> None:
+        if isinstance(target, ir.System) and target.name in ("tool", "base"):
+            self.place(value, here)
+            return
+        if root_name(target) is None:
+            return
+        if is_location(value):
+            self.place(target, here)
+        elif not isinstance(value, ir.Name | ir.Index):
+            self.number(target, here)
+
+    def indexed(self, name: str, indices: tuple[ir.Expression, ...], here: Origin) -> None:
+        entry = self.entry(name, here)
+        entry.rank = max(entry.rank, len(indices))
+        for dimension, index in enumerate(indices):
+            most = largest(self.symbols, self.key, index, 0)
+            if most is None:
+                entry.unforeseen.add(dimension)
+            else:
+                entry.last[dimension] = max(entry.last.get(dimension, 0), most)
+
+    def called(self, name: str, arguments: tuple[ir.Argument, ...], here: Origin) -> None:
+        """Arguments and parameters are of one kind."""
+        key = significant(name)
+        part = self.programs.get(key)
+        if part is None:
+            return
+        for (parameter, count), argument in zip(part.header.parameters, arguments, strict=False):
+            value = argument.value
+            if isinstance(value, ir.Unary | ir.Builtin) and is_location(value):
+                self.symbols.entry(key, parameter).pose = here
+            if isinstance(value, ir.Unary):
+                value = value.operand
+            given = root_name(value)
+            if given is None or (given[0] in "$#%" and not count):
+                if value is not None and is_location(value):
+                    entry = self.symbols.entry(key, parameter)
+                    entry.pose = entry.pose or here
+                continue
+            entry = self.entry(given, here)
+            if count and isinstance(value, ir.Name):
+                entry.rank = max(entry.rank, count)
+            if (count > 0) == (entry.rank > 0 and isinstance(value, ir.Name)) or not count:
+                self.symbols.links.append((self.symbols.symbol(self.key, given), (key, significant(parameter))))
+
+
+def largest(symbols: Symbols, program: str, index: ir.Expression, depth: int) -> int | None:
+    """The largest value an index can have; None when nobody can foresee it."""
+    if depth > _DEEPEST:
+        return None
+    match index:
+        case ir.IntLiteral(value=value) | ir.RealLiteral(value=value):
+            return int(value)
+        case ir.Unary(op="-", operand=ir.IntLiteral(value=value)):
+            return -value
+        case ir.Binary(op="+" | "*" as op, left=left, right=right):
+            one = largest(symbols, program, left, depth + 1)
+            other = largest(symbols, program, right, depth + 1)
+            if one is None or other is None:
+                return None
+            return one + other if op == "+" else one * other
+        case ir.Binary(op="-", left=left, right=ir.IntLiteral(value=value)):
+            one = largest(symbols, program, left, depth + 1)
+            return None if one is None else one - value
+        case ir.Binary(op="mod", right=ir.IntLiteral(value=value)):
+            return value - 1
+        case ir.Name(id=name) if symbols.own.get(program, {}).get(significant(name)) != "parameter":
+            return _largest_given(symbols, symbols.symbol(program, name), depth + 1)
+    return None
+
+
+def _largest_given(symbols: Symbols, symbol: Symbol, depth: int) -> int | None:
+    """The largest value a variable is ever given; None when it gets any that cannot be foreseen."""
+    most: int | None = None
+    for program, value in symbols.sources.get(symbol, (("", None),)):
+        found = largest(symbols, program, value, depth) if value is not None else None
+        if found is None:
+            return None
+        most = found if most is None else max(most, found)
+    return most
+
+
+def is_location(expression: ir.Expression) -> bool:
+    """Is the value certainly a transformation?"""
+    match expression:
+        case ir.Binary(op=":"):
+            return True
+        case ir.Builtin(function=function, arguments=arguments):
+            row = ir.FUNCTIONS.get(function)
+            if row is None:
+                return False
+            return row.result == "p" or ((row.result == "0" and row.parameters.startswith("p")) and bool(arguments))
+        case ir.Aggregate(type_name="pose") | ir.System(name="null_frame" | "tool" | "base"):
+            return True
+        case ir.VendorValue(type=type):
+            return isinstance(type, ir.PoseType)
+    return False
+
+
+def _given(nodes: list[object]) -> Iterator[tuple[str, ir.Expression | None]]:
+    """Everything that is given to each simple variable: values, bounds of loops, None for what cannot be seen."""
+    for node in nodes:
+        match node:
+            case ir.Assign(target=ir.Name(id=name), value=value):
+                yield name, value
+            case ir.For(counter=name, start=start, stop=stop, step=step):
+                down = isinstance(step, ir.Unary) and step.op == "-"
+                yield name, start if down else stop
+            case ir.CallRoutine(arguments=arguments) | ir.TaskControl(arguments=arguments):
+                for argument in arguments:
+                    if isinstance(argument.value, ir.Name):
+                        yield argument.value.id, None
+            case ir.Dialog(answer=ir.Name(id=name)):
+                yield name, None
+
+
+__all__ = ["Entry", "Symbols", "element_type", "infer", "is_location"]

@@ -1,0 +1,240 @@
+"""All V+ files of a project to one program: a quick look first, then statement by statement, then types."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import PureWindowsPath
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.reading.assemble import assemble
+from rpl.reading.ledger import FileReport
+from rpl.reading.pieces import Item, ModulePart
+from rpl.reading.shapes import ShapeParser
+from rpl.registry import ReadResult
+from rpl.source import Origin, Source
+
+from .blocks import Builder, DataPart, ProgramPart
+from .expressions import Facts, significant
+from .inference import Symbols, element_type, infer
+from .resolve import Resolver
+from .settings import Settings
+from .split import SHAPE, Outline, split
+from .statements import Header
+
+OUTSIDE = code(
+    "vplus-outside-program", Severity.WARNING, "steps outside of .PROGRAM ... .END", "they are read as program {name}"
+)
+TWICE = code("vplus-program-twice", Severity.ERROR, "a second program named {name}; only the first one is kept")
+
+_PROGRAM = re.compile(r"^[ \t]*\.PROGRAM[ \t]+([A-Za-z_][\w.]*)", re.IGNORECASE | re.MULTILINE)
+_ASSIGNED = re.compile(
+    r"^[ \t]*(?:\d+[ \t]+)?([A-Za-z_][\w.]*)[ \t]*(?:\[[^\]\r\n]*\])?[ \t]*=(?!=)[ \t]*([^;\r\n]*)",
+    re.IGNORECASE | re.MULTILINE,
+)
+_COUNTED = re.compile(r"^[ \t]*FOR[ \t]+([A-Za-z_][\w.]*)[ \t]*=", re.IGNORECASE | re.MULTILINE)
+_PARAMETERS = re.compile(r"^[ \t]*\.PROGRAM[ \t]+[\w.]+[ \t]*\(([^)\r\n]*)\)", re.IGNORECASE | re.MULTILINE)
+_PASSED = re.compile(
+    r"^[ \t]*(?:\d+[ \t]+)?(?:CALLS?|EXECUTE|READ|PROMPT|ATTACH)\b([^;\r\n]*)", re.IGNORECASE | re.MULTILINE
+)
+_EXECUTED = re.compile(
+    r"^[ \t]*(?:\d+[ \t]+)?EXECUTE[ \t]+(?:/C[ \t]+)?(\d+|[A-Za-z_][\w.]*)[ \t]+([A-Za-z_][\w.]*)",
+    re.IGNORECASE | re.MULTILINE,
+)
+_JOINS = re.compile(
+    r"^[ \t]*(?:\d+[ \t]+)?(?:CPON|CPOFF)\b|^[ \t]*(?:\d+[ \t]+)?(?:ENABLE|DISABLE)\b[^;\r\n]*\bCP\b",
+    re.IGNORECASE | re.MULTILINE,
+)
+_NAME = re.compile(r"[$#%]?[A-Za-z_][\w.]*")
+
+
+@cache
+def _parser() -> ShapeParser:
+    return ShapeParser("vplus.lark", SHAPE)
+
+
+def facts_of(texts: Iterable[str]) -> Facts:
+    """A quick look: programs, names that only ever stand for whole numbers, programs executed in each task."""
+    programs: set[str] = set()
+    numbers: dict[str, set[int] | None] = {}
+    executed: dict[str, set[str]] = {}
+    joins = False
+    for text in texts:
+        programs.update(significant(name) for name in _PROGRAM.findall(text))
+        for name, value in _ASSIGNED.findall(text):
+            _number(numbers, significant(name), value.strip())
+        unknown = [*_COUNTED.findall(text)]
+        for inner in (*_PARAMETERS.findall(text), *_PASSED.findall(text)):
+            unknown.extend(_NAME.findall(inner))
+        for name in unknown:
+            numbers[significant(name)] = None
+        for task, program in _EXECUTED.findall(text):
+            executed.setdefault(task.lower(), set()).add(program)
+        joins = joins or _JOINS.search(text) is not None
+    known = {name: frozenset(values) for name, values in numbers.items() if values}
+    return Facts(frozenset(programs), known, {task: frozenset(names) for task, names in executed.items()}, joins)
+
+
+def _number(numbers: dict[str, set[int] | None], name: str, value: str) -> None:
+    known = numbers.setdefault(name, set())
+    if known is None:
+        return
+    if value.isdigit() and len(value) < 9:
+        known.add(int(value))
+    else:
+        numbers[name] = None
+
+
+@dataclass(slots=True)
+class _File:
+    """What one file holds."""
+
+    source: Source
+    programs: list[tuple[str, ProgramPart, Origin]] = field(default_factory=list)
+    data: list[DataPart] = field(default_factory=list)
+    comments: list[ir.Declaration] = field(default_factory=list)
+
+
+def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
+    """Read all files of one project together."""
+    lowering = Settings(facts_of(source.text for source in sources), diagnostics)
+    build = Builder(diagnostics)
+    files: list[_File] = []
+    reports: list[FileReport] = []
+    programs: dict[str, ProgramPart] = {}
+    for source in sources:
+        lowering.outline = Outline()
+        pieces = split(source, lowering.outline)
+        done = assemble(source, "vplus", pieces, _parser(), lowering.lower, build, diagnostics)
+        reports.append(done.report)
+        files.append(_sorted(source, done.items, programs, diagnostics))
+    symbols = infer(programs, [part for file in files for part in file.data], diagnostics)
+    homes = _homes(files, symbols)
+    modules = tuple(_module(file, symbols, homes.get(position, []), lowering) for position, file in enumerate(files))
+    return ReadResult(ir.Program(modules), tuple(reports))
+
+
+def _sorted(
+    source: Source, items: tuple[Item, ...], programs: dict[str, ProgramPart], diagnostics: Diagnostics
+) -> _File:
+    """Put a file's top-level items where they belong."""
+    file = _File(source)
+    loose: list[ir.Statement] = []
+    for item in items:
+        match item:
+            case ModulePart(data=ProgramPart() as part):
+                key = significant(part.header.name)
+                if key in programs:
+                    diagnostics.report(TWICE, item.origin, name=part.header.name)
+                    continue
+                programs[key] = part
+                file.programs.append((key, part, item.origin))
+            case ModulePart(data=DataPart() as data):
+                file.data.append(data)
+            case ir.Nothing():
+                file.comments.append(ir.Unread("", origin=item.origin))
+            case _ if not isinstance(item, ModulePart | ir.Routine) and hasattr(item, "origin"):
+                loose.append(item)  # type: ignore[arg-type]  # whatever else stands there is a statement
+    if loose:
+        name = _stem(source)
+        diagnostics.report(OUTSIDE, loose[0].origin, name=name)
+        part = ProgramPart(Header(name, ()), (), tuple(loose))
+        programs[significant(name)] = part
+        file.programs.append((significant(name), part, loose[0].origin))
+    return file
+
+
+def _stem(source: Source) -> str:
+    stem = re.sub(r"[^\w.]", "_", PureWindowsPath(source.path).stem)
+    return stem if stem[:1].isalpha() else f"file_{stem}"
+
+
+def _homes(files: list[_File], symbols: Symbols) -> dict[int, list[tuple[str, str]]]:
+    """Which file's module declares each global name: the one that gives it a first value, else the first that uses
+    it."""
+    place: dict[str, int] = {}
+    for position, file in enumerate(files):
+        for section in file.data:
+            for datum, _ in section.values:
+                place.setdefault(significant(datum.name), position)
+    homes: dict[int, list[tuple[str, str]]] = {}
+    paths = {file.source.path: position for position, file in enumerate(files)}
+    for (program, key), entry in symbols.entries.items():
+        if not program:
+            at = place.get(key, paths.get(entry.origin.file, 0))
+            homes.setdefault(at, []).append((key, entry.name))
+    return homes
+
+
+def _module(file: _File, symbols: Symbols, names: list[tuple[str, str]], lowering: Settings) -> ir.Module:
+    """One file as a module: global variables, then its programs."""
+    first = {
+        significant(datum.name): _initial(section.section, datum.values)
+        for section in file.data
+        for datum, _ in section.values
+        if not datum.indices
+    }
+    declared: list[ir.Declaration] = list(file.comments)
+    for key, name in names:
+        origin = symbols.entries["", key].origin
+        declared.append(
+            ir.Variable(
+                name,
+                symbols.type("", name),
+                first.get(key),
+                "persistent",
+                "global",
+                origin=Origin(origin.source, origin.start, origin.end),
+            )
+        )
+    for section in file.data:
+        for datum, part in section.values:
+            if datum.indices:
+                place = ir.Index(ir.Name(datum.name), tuple(ir.IntLiteral(index) for index in datum.indices))
+                assign = ir.Assign(place, _initial(section.section, datum.values), origin=part.origin)
+                declared.append(ir.Initialise(assign, origin=part.origin))
+    routines = tuple(_routine(key, part, symbols, origin, lowering) for key, part, origin in file.programs)
+    return ir.Module(_stem(file.source), "vplus", tuple(declared), routines, origin=Origin(file.source))
+
+
+def _initial(section: str, values: tuple[ir.Expression, ...]) -> ir.Expression:
+    """The value of a line in a data section."""
+    if section != ".LOCATIONS":
+        return values[0]
+    if len(values) == 6:
+        return ir.Builtin("pose_zyz", values)
+    return values[0]
+
+
+def _routine(key: str, part: ProgramPart, symbols: Symbols, origin: Origin, lowering: Settings) -> ir.Routine:
+    """A program with its parameters and its own variables."""
+    parameters = []
+    for name, count in part.header.parameters:
+        type = element_type(symbols.kind(key, name))
+        if count:
+            type = ir.ArrayType(type, (None,) * count, base=0)
+        parameters.append(ir.Parameter(name, type, "reference"))
+    taken = {significant(name) for name, _ in part.header.parameters}
+    declared = []
+    for declaration in part.declared:
+        for name, _ in declaration.names:
+            if declaration.kind == "global" or significant(name) in taken:
+                continue
+            taken.add(significant(name))
+            storage = "persistent" if declaration.kind == "local" else "variable"
+            declared.append(ir.Variable(name, symbols.type(key, name), None, storage, "routine", origin=origin))
+    body = Resolver(symbols, key).body(part.body)
+    return ir.Routine(
+        lowering.names.of(part.header.name, origin),
+        parameters=tuple(parameters),
+        declarations=tuple(declared),
+        body=body,
+        scope="global",
+        origin=origin,
+    )
+
+
+__all__ = ["facts_of", "read"]

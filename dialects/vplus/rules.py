@@ -1,0 +1,38 @@
+"""What the V+ controller does, as data. `M` marks what rests on memory and has its own test."""
+
+from __future__ import annotations
+
+from rpl.ir.rules import AdvanceRules, Rules
+
+from . import tables
+
+_XYZABC = {name: name for name in ("x", "y", "z", "a", "b", "c")}
+
+# A move starts and the program goes on at once; at the next move it waits until the present one has ended or goes over
+# into it. So a step behind a move acts just after that move has begun (user's guide, forward processing). Signals and
+# waits do not hold the program. A halt lets the motion end first.
+ADVANCE = AdvanceRules(moves=1, runs_ahead_of="begun", stop_statements=frozenset(("Halt",)))
+
+RULES = Rules(
+    name="vplus",
+    advance=ADVANCE,
+    components={"PoseType": _XYZABC, "TargetType": _XYZABC},
+    text_plus=True,
+    undefined=True,
+    wait_poll_s=tables.CYCLE_S,
+    # SPEED 100,100 ALWAYS, ACCEL 100,100, continuous path: the state in which every program starts.
+    system_defaults={
+        "override": 100.0,
+        "joint_speed": 100.0,
+        "joint_acceleration": 100.0,
+        "path_speed": tables.FULL_PATH_SPEED_MM_S,
+        "swivel_speed": tables.FULL_ROTATION_SPEED_DEG_S,
+        "twist_speed": tables.FULL_ROTATION_SPEED_DEG_S,
+        "acceleration_percent": 100.0,
+        "deceleration_percent": 100.0,
+        "blending": True,
+        "end_tolerance": 100.0,
+        "circle_orientation": "path",
+        "held_work": False,
+    },
+)

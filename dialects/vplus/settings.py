@@ -1,0 +1,376 @@
+"""V+ instructions that set something, wait, react or switch: speeds, frames, signals, reactions, stops, parameters.
+
+A setting without ALWAYS holds for the next move only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.reading.shapes import StatementError, SyntaxTree
+from rpl.source import Origin
+
+from . import signals, tables
+from .expressions import root_name, subtree
+from .motion import Motion
+from .split import code_of
+from .statements import ALWAYS_TRUE, Instruction, Lowered
+
+INPUT_WRITTEN = code(
+    "vplus-input-written",
+    Severity.WARNING,
+    "{text} writes an input; a controller does that only when its inputs are imitated",
+)
+JOINT_SPEED = code(
+    "vplus-speed-of-joints",
+    Severity.INFO,
+    "a tool speed holds for straight lines; moves in joints get {percent} percent of their speed",
+)
+PROFILE = code("vplus-acceleration-profile", Severity.INFO, "acceleration profile {number} is not imitated")
+
+
+class Settings(Motion):
+    """Lowers everything that is no move and no control flow."""
+
+    def instruction(self, given: Instruction) -> Lowered:
+        found = self.motion(given) or self.modal(given) or self.control(given) or self.other(given)
+        if found is None:
+            raise StatementError(f"{given.word.upper()} cannot stand here", 0)
+        return found
+
+    def kept(self, given: Instruction) -> ir.Vendor:
+        """An instruction that nothing here can feel."""
+        return ir.Vendor("vplus", code_of(given.origin.text), "none", origin=given.origin)
+
+    # ---- modal settings
+
+    def modal(self, given: Instruction) -> Lowered | None:
+        word, origin = given.word, given.origin
+        if word in tables.SETTLING:
+            return self.kept(given)
+        if word in tables.POSTURES:
+            name, value = tables.POSTURES[word]
+            return ir.SetForNextMove(ir.System(name, origin=origin), ir.EnumLiteral(value), origin=origin)
+        match word:
+            case "speed":
+                return self.speed(given)
+            case "accel":
+                return self.acceleration(given)
+            case "duration":
+                time = self.operand(given, 0) or ir.IntLiteral(0)
+                return self.set_to([("move_duration", time)], given.always, origin)
+            case "cpon" | "cpoff":
+                return self.set_to([("blending", ir.BoolLiteral(word == "cpon"))], given.always, origin)
+            case "fine" | "coarse":
+                percent = self.operand(given, 0) or ir.IntLiteral(100)
+                factor = tables.COARSE_FACTOR if word == "coarse" else 1.0
+                return self.set_to([("end_tolerance", scaled(percent, factor, origin))], given.always, origin)
+            case "tool":
+                return self.framed("tool", self.operand(given, 0), origin)
+            case "base":
+                return self.framed("base", self.base(given), origin)
+        return None
+
+    def set_to(
+        self, settings: Iterable[tuple[str, ir.Expression]], always: bool, origin: Origin
+    ) -> tuple[ir.Statement, ...]:
+        """Modal variables set for good or for the next move."""
+        if always:
+            return tuple(ir.Assign(ir.System(n, origin=origin), value, origin=origin) for n, value in settings)
+        return tuple(ir.SetForNextMove(ir.System(n, origin=origin), value, origin=origin) for n, value in settings)
+
+    def speed(self, given: Instruction) -> Lowered:
+        """SPEED value, rotation {MMPS | IPS | MONITOR} {ALWAYS}. M: a percentage without the second one governs the
+        turning of the tool too; a tool speed gives joint moves the same share of their full speed."""
+        origin = given.origin
+        value, turning = self.needed(given, 0, "a speed"), self.operand(given, 1)
+        if given.unit == "monitor":
+            return ir.Assign(ir.System("override", origin=origin), value, origin=origin)
+        if not given.unit:
+            turning = turning if turning is not None else value
+            settings = [
+                ("joint_speed", value),
+                ("path_speed", share(value, tables.FULL_PATH_SPEED_MM_S, origin)),
+                ("swivel_speed", share(turning, tables.FULL_ROTATION_SPEED_DEG_S, origin)),
+            ]
+            return self.set_to(settings, given.always, origin)
+        factor = tables.MM_PER_INCH if given.unit == "ips" else 1.0
+        path = scaled(value, factor, origin)
+        percent = scaled(value, factor * 100.0 / tables.FULL_PATH_SPEED_MM_S, origin)
+        settings = [("joint_speed", percent), ("path_speed", path)]
+        if turning is not None:
+            settings.append(("swivel_speed", share(turning, tables.FULL_ROTATION_SPEED_DEG_S, origin)))
+        if isinstance(percent, ir.RealLiteral | ir.IntLiteral):
+            self.diagnostics.report(JOINT_SPEED, origin, percent=f"{percent.value:g}")
+        return self.set_to(settings, given.always, origin)
+
+    def acceleration(self, given: Instruction) -> Lowered:
+        """ACCEL (profile) acceleration, deceleration: until changed."""
+        origin = given.origin
+        if given.brackets is not None:
+            self.diagnostics.report(PROFILE, origin, number=self.written(given.brackets).strip("()"))
+        settings = [
+            (name, value)
+            for name, value in (
+                ("acceleration_percent", self.operand(given, 0)),
+                ("deceleration_percent", self.operand(given, 1)),
+            )
+            if value is not None
+        ]
+        if not settings:
+            return self.kept(given)
+        return self.set_to(settings, True, origin)
+
+    def framed(self, name: str, value: ir.Expression | None, origin: Origin) -> Lowered:
+        """TOOL and BASE wait for the robot first."""
+        frame = value if value is not None else ir.System("null_frame", origin=origin)
+        setting = ir.Assign(ir.System(name, origin=origin), frame, origin=origin)
+        return ir.WaitForMotion(origin=origin), setting
+
+    def base(self, given: Instruction) -> ir.Expression | None:
+        """BASE x, y, z, rotation, or BASE location."""
+        values = [self.operand(given, position) for position in range(len(given.operands))]
+        if len(values) == 1:
+            tree = given.operands[0]
+            if tree is not None and tree.data not in ("integer", "real", "unary"):
+                return values[0]
+        if not any(values):
+            return None
+        zero = ir.IntLiteral(0)
+        x, y, z, turn = ((values + [None] * 4)[n] or zero for n in range(4))
+        return ir.Builtin("pose_zyz", (x, y, z, turn, zero, zero), origin=given.origin)
+
+    # ---- waiting, reactions, stops, tasks
+
+    def control(self, given: Instruction) -> Lowered | None:
+        origin = given.origin
+        match given.word:
+            case "wait":
+                return self.wait(given)
+            case "wait.event":
+                return self.wait_event(given)
+            case "react" | "reacti":
+                return self.react(given)
+            case "reacte":
+                tree = given.operands[0] if given.operands else None
+                return ir.OnError(self.routine_named(tree) if tree is not None else None, origin=origin)
+            case "ignore":
+                return ir.ControlInterrupt("delete", self.needed(given, 0, "a signal"), origin=origin)
+            case "lock":
+                level = self.operand(given, 0) or ir.IntLiteral(0)
+                return ir.ControlInterrupt("mask", urgency(level, origin), origin=origin)
+            case "return":
+                return ir.Return(origin=origin)
+            case "returne":
+                return ir.TryNext(origin=origin)
+            case "stop" | "halt":
+                return ir.Halt("exit", origin=origin)
+            case "pause":
+                return ir.Halt(origin=origin)
+            case "abort" | "kill" | "cycle.end":
+                return self.task_of(given.operands, "stop", origin)
+            case "proceed" | "retry":
+                return self.task_of(given.operands, "resume", origin)
+            case "set.event" | "clear.event" | "runsig" | "reset":
+                return ir.Vendor("vplus", code_of(origin.text), "unknown", origin=origin)
+            case "release":
+                return ir.Vendor("vplus", code_of(origin.text), "none", origin=origin)
+        return None
+
+    def wait(self, given: Instruction) -> Lowered:
+        origin = given.origin
+        condition = self.operand(given, 0)
+        if condition is None:
+            return ir.Wait(ir.RealLiteral(tables.CYCLE_S), origin=origin)
+        if isinstance(condition, ir.IntLiteral | ir.RealLiteral) and condition.value != 0:
+            self.diagnostics.report(ALWAYS_TRUE, origin, text=self.written(given.operands[0]))
+        return ir.WaitUntil(condition, origin=origin)
+
+    def wait_event(self, given: Instruction) -> Lowered:
+        """WAIT.EVENT mask, seconds: without a mask a plain wait."""
+        mask, time = self.operand(given, 0), self.operand(given, 1)
+        if time is not None and mask in (None, ir.IntLiteral(0)):
+            return ir.Wait(time, origin=given.origin)
+        return ir.Vendor("vplus", code_of(given.origin.text), "unknown", origin=given.origin)
+
+    def react(self, given: Instruction) -> Lowered:
+        """REACT signal, program, priority: the edge of the signal calls the program. REACTI stops the robot as well."""
+        origin = given.origin
+        number = self.needed(given, 0, "a signal")
+        tree = given.operands[1] if len(given.operands) > 1 else None
+        if tree is None:
+            raise StatementError(f"{given.word.upper()} needs a program", 0)
+        priority = self.operand(given, 2) or ir.IntLiteral(tables.REACT_PRIORITY)
+        declared = ir.DeclareInterrupt(
+            urgency(priority, origin),
+            signals.reading([number], self.facts, origin),
+            ir.CallRoutine(self.routine_named(tree), origin=origin),
+            identity=number,
+            stops=given.word == "reacti",
+            origin=origin,
+        )
+        return declared, ir.ControlInterrupt("on", number, origin=origin)
+
+    # ---- signals, switches, the rest
+
+    def other(self, given: Instruction) -> Lowered | None:
+        origin = given.origin
+        match given.word:
+            case "signal":
+                return self.signal(given)
+            case "here":
+                return self.here(given)
+            case "prompt":
+                return self.prompt(given)
+            case "enable" | "disable":
+                return self.switches(given)
+        return ir.Vendor("vplus", code_of(origin.text), "unknown", origin=origin)
+
+    def signal(self, given: Instruction) -> Lowered:
+        done: list[ir.Statement] = []
+        for tree in given.operands:
+            if tree is None:
+                continue
+            switched = signals.switching(self.expression(tree), self.facts, given.origin)
+            if switched is None:
+                text = f"SIGNAL {self.written(tree)}"
+                self.diagnostics.report(INPUT_WRITTEN, given.origin, text=text)
+                done.append(ir.Vendor("vplus", text, "unknown", origin=given.origin))
+            else:
+                done.extend(switched)
+        if not done:
+            raise StatementError("SIGNAL needs a signal number", 0)
+        return tuple(done)
+
+    def prompt(self, given: Instruction) -> Lowered:
+        """PROMPT "text", variable, ...: one question per variable (M: several are typed in one line)."""
+        origin = given.origin
+        text: ir.Expression = ir.TextLiteral("")
+        trees: list[SyntaxTree] = [tree for tree in given.operands if tree is not None]
+        if given.operands and given.operands[0] is not None and self.is_prompt(given.operands[0], len(trees)):
+            text = self.expression(trees.pop(0))
+        if not trees:
+            return ir.Message("write", text, origin=origin)
+        done = []
+        for tree in trees:
+            place = self.place(tree)
+            kind = "text" if (root_name(place) or "").startswith("$") else "number"
+            done.append(ir.Dialog(place, text, kind=kind, origin=origin))
+        return tuple(done)
+
+    def is_prompt(self, tree: SyntaxTree, count: int) -> bool:
+        """Is the first operand the question? A lone variable is what is asked for."""
+        return count > 1 or tree.data not in ("reference",)
+
+    def switches(self, given: Instruction) -> Lowered:
+        """ENABLE and DISABLE of system switches."""
+        on, origin = given.word == "enable", given.origin
+        done: list[ir.Statement] = []
+        for tree in given.operands:
+            if tree is None:
+                continue
+            text = self.written(tree)
+            name = text.partition("[")[0].lower()
+            if name == "cp":
+                done.extend(self.set_to([("blending", ir.BoolLiteral(on))], True, origin))
+                continue
+            harmless = name in tables.SWITCHES_WITHOUT_EFFECT
+            statement = f"{given.word.upper()} {text.upper()}"
+            done.append(ir.Vendor("vplus", statement, "none" if harmless else "unknown", origin=origin))
+        if not done:
+            raise StatementError(f"{given.word.upper()} needs a switch", 0)
+        return tuple(done)
+
+    def on_setting(self, tree: SyntaxTree, origin: Origin) -> Lowered:
+        """`WORD operands = values`."""
+        word = str(tree.children[0]).lower()
+        left, right = (
+            [subtree(part).children[0] if subtree(part).children else None for part in subtree(side).children]
+            for side in tree.children[1:]
+        )
+        places = [subtree(part) for part in left if part is not None]
+        values = [self.expression(subtree(part)) for part in right if part is not None]
+        if len(places) == len(left) and len(values) == len(right) == 1:
+            found = self.setting(word, places, values[0], origin)
+            if found is not None:
+                return found
+        effect = "none" if word in ("defbelt", "setbelt", "parameter") else "unknown"
+        return ir.Vendor("vplus", code_of(origin.text), effect, origin=origin)
+
+    def setting(self, word: str, places: list[SyntaxTree], value: ir.Expression, origin: Origin) -> Lowered | None:
+        match word, places:
+            case "timer", [number]:
+                place = ir.System("timer", (self.expression(number),), origin=origin)
+                return ir.Assign(place, value, origin=origin)
+            case "bits", [first, *count] if len(count) <= 1:
+                size = self.expression(count[0]) if count else None
+                found = signals.group(self.expression(first), size, self.facts, origin)
+                if found is not None and found.kind == "group_out":
+                    return ir.Assign(found, value, origin=origin)
+            case "aio.out", [number]:
+                return ir.Assign(ir.Signal("analog_out", self.expression(number), origin=origin), value, origin=origin)
+            case "decompose", [place]:
+                return self.decompose(place, value, origin)
+        return None
+
+    def decompose(self, tree: SyntaxTree, value: ir.Expression, origin: Origin) -> Lowered:
+        """DECOMPOSE array[first] = location: its numbers one after the other."""
+        place = self.place(tree)
+        base: ir.Expression = place
+        outer: tuple[ir.Expression, ...] = ()
+        first: ir.Expression = ir.IntLiteral(0)
+        if isinstance(place, ir.Index):
+            base, outer, first = place.base, place.indices[:-1], place.indices[-1]
+        joints = _are_joints(value)
+        parts = [ir.Field(value, f"j{n}", origin=origin) for n in range(1, 7)] if joints else _numbers(value, origin)
+        done = []
+        for step, part in enumerate(parts):
+            index = (*outer, signals.less(first, -step))
+            done.append(ir.Assign(ir.Index(base, index, origin=origin), part, origin=origin))
+        return tuple(done)
+
+
+def _are_joints(value: ir.Expression) -> bool:
+    name = root_name(value)
+    if name is not None:
+        return name.startswith("#")
+    match value:
+        case ir.Aggregate(type_name="joints"):
+            return True
+        case ir.Builtin(function="current_joints" | "target_to_joints"):
+            return True
+    return False
+
+
+def _numbers(value: ir.Expression, origin: Origin) -> list[ir.Expression]:
+    """x, y, z, yaw, pitch, roll of a transformation."""
+    found: list[ir.Expression] = [ir.Field(value, axis, origin=origin) for axis in ("x", "y", "z")]
+    found.extend(ir.Builtin(f"zyz_{name}", (value,), origin=origin) for name in ("yaw", "pitch", "roll"))
+    return found
+
+
+def scaled(value: ir.Expression, factor: float, origin: Origin) -> ir.Expression:
+    """A value times a constant, calculated at once where it is a number."""
+    if factor == 1.0:
+        return value
+    if isinstance(value, ir.IntLiteral | ir.RealLiteral):
+        product = round(value.value * factor, 9)
+        return ir.IntLiteral(int(product)) if product.is_integer() else ir.RealLiteral(product)
+    return ir.Binary("*", value, ir.RealLiteral(factor), origin=origin)
+
+
+def share(percent: ir.Expression, full: float, origin: Origin) -> ir.Expression:
+    """A percentage of a full speed."""
+    return scaled(percent, full / 100.0, origin)
+
+
+def urgency(priority: ir.Expression, origin: Origin) -> ir.Expression:
+    """V+ priorities grow with their urgency, the neutral ones the other way."""
+    if isinstance(priority, ir.IntLiteral):
+        return ir.IntLiteral(tables.PRIORITY_TOP - priority.value)
+    return ir.Binary("-", ir.IntLiteral(tables.PRIORITY_TOP), priority, origin=origin)
+
+
+__all__ = ["Settings"]

@@ -1,0 +1,143 @@
+"""V+ signal numbers: which physical signal a number means, when the number is written out and when it is not.
+
+A number's size tells what it is: output, input, software signal, signal of the robot; its sign tells which state is
+meant. A variable that only ever gets whole numbers of one kind is of that kind; of any other nothing is known before
+the program runs, so the expression asks for all kinds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rpl import ir
+from rpl.reading.shapes import StatementError
+from rpl.source import Origin
+
+from . import tables
+from .expressions import Facts, significant
+
+_RANGES = tables.SIGNAL_RANGES
+
+
+def kind_of(number: int) -> tuple[str, int] | None:
+    """Neutral kind and what is taken off the number; None when there is no such signal."""
+    for first, last, kind, offset in _RANGES:
+        if first <= abs(number) <= last:
+            return kind, offset
+    return None
+
+
+def split_sign(expression: ir.Expression) -> tuple[ir.Expression, bool]:
+    """The number without its sign, and whether the sign asks for the signal to be on."""
+    match expression:
+        case ir.Unary(op="-", operand=operand):
+            return operand, False
+    return expression, True
+
+
+def numbers_of(expression: ir.Expression, facts: Facts) -> frozenset[int]:
+    """All values the expression can have; empty when nobody can tell."""
+    match expression:
+        case ir.IntLiteral(value=value):
+            return frozenset((value,))
+        case ir.Name(id=name) | ir.Index(base=ir.Name(id=name)):
+            return facts.numbers.get(significant(name), frozenset())
+        case ir.Binary(op="+" | "-" as op, left=left, right=ir.IntLiteral(value=value)):
+            step = value if op == "+" else -value
+            return frozenset(number + step for number in numbers_of(left, facts))
+    return frozenset()
+
+
+def port(expression: ir.Expression, facts: Facts, origin: Origin) -> ir.Signal | None:
+    """The physical signal of a number without sign; None when it could be of several kinds."""
+    values = numbers_of(expression, facts)
+    kinds = {kind_of(value) for value in values}
+    if isinstance(expression, ir.IntLiteral) and kinds == {None}:
+        raise StatementError(f"there is no signal {expression.value}", 0)
+    if len(kinds) != 1 or any(value < 0 for value in values):
+        return None
+    found = next(iter(kinds))
+    return None if found is None else signal(found[0], expression, found[1], origin)
+
+
+def signal(kind: str, number: ir.Expression, offset: int, origin: Origin) -> ir.Signal:
+    return ir.Signal(kind, less(number, offset), origin=origin)
+
+
+def less(number: ir.Expression, offset: int) -> ir.Expression:
+    """The number with an offset taken off."""
+    if isinstance(number, ir.IntLiteral):
+        return ir.IntLiteral(number.value - offset)
+    return ir.Binary("-", number, ir.IntLiteral(offset)) if offset else number
+
+
+def reading(operands: Iterable[ir.Expression], facts: Facts, origin: Origin) -> ir.Expression:
+    """SIG(a, -b, ...): are all in the states asked for?"""
+    whole: ir.Expression | None = None
+    for operand in operands:
+        number, wanted = split_sign(operand)
+        found = port(number, facts, origin)
+        value: ir.Expression = found if found is not None else _any_kind(number, origin)
+        if not wanted:
+            value = ir.Unary("not", value, origin=origin)
+        whole = value if whole is None else ir.Binary("and", whole, value, origin=origin)
+    if whole is None:
+        raise StatementError("SIG needs a signal number", 0)
+    return whole
+
+
+def _any_kind(number: ir.Expression, origin: Origin) -> ir.Expression:
+    """The signal of a number of which nothing is known: by its size. A negative number asks for the opposite."""
+    done: ir.Expression | None = None
+    for first, last, kind, offset in _RANGES:
+        fits = ir.Binary("<=", number, ir.IntLiteral(last), origin=origin)
+        if first > 1:
+            above = ir.Binary(">=", number, ir.IntLiteral(first), origin=origin)
+            fits = ir.Binary("cand", above, fits, origin=origin)
+        here = ir.Binary("cand", fits, signal(kind, number, offset, origin), origin=origin)
+        done = here if done is None else ir.Binary("cor", done, here, origin=origin)
+    assert done is not None
+    return done
+
+
+def switching(operand: ir.Expression, facts: Facts, origin: Origin) -> tuple[ir.Statement, ...] | None:
+    """SIGNAL n or -n; None when the number is an input's."""
+    number, on = split_sign(operand)
+    found = port(number, facts, origin)
+    if found is not None:
+        if found.kind == "digital_in":
+            return None
+        return (ir.Assign(found, ir.BoolLiteral(on), origin=origin),)
+    return (_by_size(number, on, origin),)
+
+
+def _by_size(number: ir.Expression, on: bool, origin: Origin) -> ir.Statement:
+    """A number of which nothing is known: its size and its sign decide when the program runs."""
+    size = ir.Builtin("abs", (number,), origin=origin)
+    positive = ir.Binary(">" if on else "<", number, ir.IntLiteral(0), origin=origin)
+    branches = []
+    for first, last, kind, offset in _RANGES:
+        if kind == "digital_in":
+            continue
+        fits = ir.Binary("<=", size, ir.IntLiteral(last), origin=origin)
+        if first > 1:
+            above = ir.Binary(">=", size, ir.IntLiteral(first), origin=origin)
+            fits = ir.Binary("and", above, fits, origin=origin)
+        branches.append((fits, (ir.Assign(signal(kind, size, offset, origin), positive, origin=origin),)))
+    return ir.If(tuple(branches), origin=origin)
+
+
+def group(first: ir.Expression, count: ir.Expression | None, facts: Facts, origin: Origin) -> ir.Signal | None:
+    """BITS first, count as one number; None when the kind is not known or has no groups."""
+    found = port(first, facts, origin)
+    kinds = {"digital_in": "group_in", "digital_out": "group_out"}
+    if found is None or found.kind not in kinds or found.index is None:
+        return None
+    size = count if count is not None else ir.IntLiteral(1)
+    last: ir.Expression
+    if isinstance(found.index, ir.IntLiteral) and isinstance(size, ir.IntLiteral):
+        last = ir.IntLiteral(found.index.value + size.value - 1)
+    else:
+        span = less(size, 1)
+        last = ir.Binary("+", found.index, span, origin=origin)
+    return ir.Signal(kinds[found.kind], found.index, last, origin=origin)
