@@ -29,6 +29,7 @@ from rpl.passes.legalise.movesettings import settings_at_moves
 from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.prelude import link_prelude
+from rpl.passes.legalise.pulses import fold_pulses
 from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.signals import name_signals, number_signals
@@ -45,6 +46,7 @@ from rpl.passes.typing import normalise
 # make what a later one rewrites: errors make Repeat, switches make cor), then data and motion, geometry last. Labels come
 # behind all that makes or needs blocks.
 PASSES: tuple[Pass, ...] = (
+    fold_pulses,
     searches,
     link_prelude,
     array_bases,

@@ -1,0 +1,71 @@
+"""Positions in motor pulses become joints in degrees, by the pulses per degree of the arm the source was written for.
+
+Only a controller that counts in pulses has a name for this; for every other target the numbers must be made degrees,
+which needs the arm. Without its data the functions stay, and the writer reports them. The external axes of a taught point
+are put into it here, too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rpl import ir
+from rpl.ir.walk import rewrite
+from rpl.passes import rigid
+from rpl.passes.legalise.context import Context
+
+_AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
+
+
+def fold_pulses(program: ir.Program, context: Context) -> ir.Program:
+    """The program without pulses, as far as the arm is known."""
+    each = context.robot.pulses_per_degree if context.robot is not None else None
+    ratios = None if each is None else [float(number) for number in each]
+    return rewrite(program, lambda node: _folded(node, ratios))
+
+
+def _folded(node: object, ratios: Sequence[float] | None) -> object:
+    match node:
+        case ir.Builtin(function="joints_from_pulses", arguments=pulses):
+            return _joints(node, pulses, ratios)
+        case ir.Builtin(function="joint_pulses", arguments=(joints, ir.IntLiteral(value=number))):
+            if ratios is None or not 1 <= number <= len(ratios):
+                return node
+            angle = ir.Field(joints, _AXES[number - 1], origin=node.origin)
+            count = ir.Binary("*", angle, ir.RealLiteral(ratios[number - 1]), origin=node.origin)
+            return ir.Convert("round_half_away", count, origin=node.origin)
+        case ir.Builtin(function="with_external", arguments=(ir.Aggregate() as position, ir.Aggregate() as axes)):
+            given = {name for name, _ in axes.entries}
+            kept = tuple(entry for entry in position.entries if entry[0] not in given)
+            return ir.Aggregate((*kept, *axes.entries), position.type_name, origin=position.origin)
+    return node
+
+
+def _joints(
+    node: ir.Builtin, pulses: tuple[ir.Expression, ...], ratios: Sequence[float] | None
+) -> ir.Builtin | ir.Aggregate:
+    """An aggregate of joints. The zero position is known without any data of the arm."""
+    entries: list[tuple[str | None, ir.Expression]] = []
+    for place, (name, count) in enumerate(zip(_AXES, pulses, strict=False)):
+        ratio = ratios[place] if ratios is not None and place < len(ratios) else None
+        number = _number(count)
+        if number == 0.0:
+            angle: ir.Expression = ir.RealLiteral(0.0, origin=count.origin)
+        elif ratio is None:
+            return node
+        elif number is not None:
+            angle = ir.RealLiteral(rigid.clean(number / ratio), origin=count.origin)
+        else:
+            angle = ir.Binary("/", count, ir.RealLiteral(ratio), origin=count.origin)
+        entries.append((name, angle))
+    return ir.Aggregate(tuple(entries), "joints", origin=node.origin)
+
+
+def _number(count: ir.Expression) -> float | None:
+    match count:
+        case ir.IntLiteral(value=value) | ir.RealLiteral(value=value):
+            return float(value)
+        case ir.Unary(op="-", operand=operand):
+            inner = _number(operand)
+            return None if inner is None else -inner
+    return None
