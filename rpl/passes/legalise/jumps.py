@@ -44,7 +44,7 @@ def leaves(statement: ir.Statement) -> bool:
     match statement:
         case ir.Goto() | ir.Return() | ir.Halt(kind="exit" | "cycle") | ir.ExitLoop() | ir.NextPass():
             return True
-        case ir.Retry() | ir.TryNext() | ir.Raise():
+        case ir.Retry() | ir.TryNext():  # a handler may go on behind a Raise
             return True
     return False
 

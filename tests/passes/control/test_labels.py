@@ -135,7 +135,7 @@ def _untidy(after: ir.Program) -> list[str]:
     return found
 
 
-@settings(max_examples=200, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck))
 @given(bodies())
 def test_generated_blocks(body: ir.Body) -> None:
     for name, capabilities in TARGETS.items():
@@ -148,7 +148,7 @@ def test_generated_blocks(body: ir.Body) -> None:
                 assert isinstance(one.branches[0][1][0], ir.Goto) and len(one.branches) == 1 and not one.otherwise
 
 
-@settings(max_examples=200, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck))
 @given(jumping())
 def test_generated_jumps(body: ir.Body) -> None:
     for capabilities in TARGETS.values():
