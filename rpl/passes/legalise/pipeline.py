@@ -34,6 +34,7 @@ from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.signals import name_signals, number_signals
 from rpl.passes.legalise.spelling import one_spelling
+from rpl.passes.legalise.structure import labels_to_structure
 from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
 from rpl.passes.legalise.timers import timers_to_clocks
@@ -43,12 +44,14 @@ from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.typing import normalise
 
 # First what asks for the source language's own rules (its prelude, its look-ahead), then signals and control (each may
-# make what a later one rewrites: errors make Repeat, switches make cor), then data and motion, geometry last. Labels come
-# behind all that makes or needs blocks.
+# make what a later one rewrites: errors make Repeat, switches make cor), then data and motion, geometry last. Structure
+# comes out of labels first (what follows the flow sees more) and again behind what makes jumps; labels come behind all
+# that makes or needs blocks.
 PASSES: tuple[Pass, ...] = (
     fold_pulses,
     searches,
     link_prelude,
+    labels_to_structure,
     array_bases,
     circle_rules,
     configurations,
@@ -67,6 +70,7 @@ PASSES: tuple[Pass, ...] = (
     fit_parameters,
     array_sizes,
     check_errors,
+    labels_to_structure,
     fit_waits,
     unroll_switches,
     decide_logic,
