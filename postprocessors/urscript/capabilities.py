@@ -49,4 +49,5 @@ CAPABILITIES = Capabilities(
     speeds=frozenset(("joint", "axis", "path", "duration", "path_acceleration", "axis_acceleration")),
     blends=frozenset(("BlendDistance",)),
     postures="joints",
+    reference_parameters=False,
 )

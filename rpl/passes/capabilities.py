@@ -57,6 +57,7 @@ class Capabilities:
 
     Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
+    reference_parameters: a routine may write its parameters (else copies go in, and out by variables).
     locals: a routine has variables of its own. recursion: a routine may be active twice.
 
     Data: banks: where variables of a type (class name) are kept, when they have numbers and no names; types may share a
@@ -114,6 +115,7 @@ class Capabilities:
     for_steps: str = "any"
     function_routines: bool = True
     parameters: str = "names"
+    reference_parameters: bool = True
     locals: bool = True
     recursion: bool = True
     next_move_settings: bool = False

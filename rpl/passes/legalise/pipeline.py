@@ -21,6 +21,7 @@ from rpl.passes.legalise.explicit import explicit_to_modal
 from rpl.passes.legalise.geometry import geometry
 from rpl.passes.legalise.interrupts import interrupts
 from rpl.passes.legalise.labels import structure_to_labels
+from rpl.passes.legalise.levels import levels_to_distances
 from rpl.passes.legalise.logic import decide_logic
 from rpl.passes.legalise.lookahead import stop_blends
 from rpl.passes.legalise.loops import fit_loops
@@ -30,6 +31,7 @@ from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.prelude import link_prelude
 from rpl.passes.legalise.pulses import fold_pulses
+from rpl.passes.legalise.references import references_as_copies
 from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.signals import name_signals, number_signals
@@ -49,6 +51,7 @@ from rpl.passes.typing import normalise
 # that makes or needs blocks.
 PASSES: tuple[Pass, ...] = (
     fold_pulses,
+    levels_to_distances,
     searches,
     link_prelude,
     labels_to_structure,
@@ -75,6 +78,7 @@ PASSES: tuple[Pass, ...] = (
     unroll_switches,
     decide_logic,
     rewrite_calls,
+    references_as_copies,
     fit_loops,
     enums_to_constants,
     modal_to_explicit,
