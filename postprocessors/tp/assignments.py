@@ -47,6 +47,10 @@ class Assignments:
                 return f"OVERRIDE={shown}%"
             case "timer", (index,), _ if constant(value) == 0:
                 return f"{self.expressions.numbered('TIMER', index)}=RESET"
+            case "timer", (index,), _:
+                shown = self.expressions.value(value)
+                place = self.expressions.numbered("TIMER", index)
+                return f"{place}={shown}" if shown.startswith("(") else f"{place}=({shown})"
             case "timer_stopped", (index,), ir.BoolLiteral(value=stopped):
                 return f"{self.expressions.numbered('TIMER', index)}={'STOP' if stopped else 'START'}"
             case "flag", (index,), _:
@@ -64,7 +68,7 @@ class Assignments:
                 return [f"{place}=JPOS"]
             case ir.Builtin(function="element_sum" | "element_difference" as how, arguments=(one, other)):
                 sign = "+" if how == "element_sum" else "-"
-                return [f"{place}={self.register(one)}{sign}{self.register(other)}"]
+                return [f"{place}={self.sum_of_registers(one)}{sign}{self.register(other)}"]
             case ir.Builtin(function="offset", arguments=(base, *shift)):
                 first = [] if self.same(place, base) else self.position(place, base)
                 return [*first, *self.shifted(place, shift)]
@@ -81,6 +85,15 @@ class Assignments:
 
     def same(self, place: str, base: ir.Expression) -> bool:
         return isinstance(base, ir.Index | ir.Name) and self.expressions.element(base) == place
+
+    def sum_of_registers(self, value: ir.Expression) -> str:
+        """`PR[1]+PR[2]-PR[3]`, from left to right."""
+        match value:
+            case ir.Builtin(function="element_sum", arguments=(one, other)):
+                return f"{self.sum_of_registers(one)}+{self.register(other)}"
+            case ir.Builtin(function="element_difference", arguments=(one, other)):
+                return f"{self.sum_of_registers(one)}-{self.register(other)}"
+        return self.register(value)
 
     def register(self, value: ir.Expression) -> str:
         shown = self.expressions.element(value)

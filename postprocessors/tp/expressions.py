@@ -249,6 +249,8 @@ class Expressions:
                 return printer.printed(ir.Binary("*", ir.IntLiteral(-1), operand))
             case ir.Binary(op="cand" | "cor" as op):
                 return printer.printed(ir.Binary(op[1:], expression.left, expression.right))
+            case ir.Convert(how="truth", operand=operand) if not self.limited:
+                return printer.printed(operand)
             case ir.Convert(how="truth", operand=operand):
                 return printer.printed(ir.Binary("<>", operand, ir.IntLiteral(0)))
             case ir.TextLiteral():

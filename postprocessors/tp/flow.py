@@ -52,6 +52,13 @@ class Labels:
 
     def number(self, name: str) -> int:
         if name.lower() not in self.numbers:
+            written = _NUMBERED.fullmatch(name)
+            if (
+                written is not None
+                and 0 < int(written[1]) <= tables.LAST_LABEL
+                and int(written[1]) not in self.comments
+            ):
+                return int(written[1])  # a listing that jumps to a label it does not have keeps doing so
             raise CannotSayError(f"there is no label {name}")
         return self.numbers[name.lower()]
 

@@ -175,14 +175,12 @@ class Idioms:
     # ---- instructions that are written as they were read
 
     def chosen_place(self, body: ir.Body) -> int:
-        """`J P[R[1]] 50% FINE`: a branch for each point it can mean, all made of one line."""
-        match body[0]:
-            case ir.Switch(default=(ir.Vendor(dialect="tp", text=text) as otherwise,)) as switch:
-                if otherwise.origin.source is None or otherwise.origin != switch.origin:
-                    return 0
-                self.raw(text, switch)
-                return 1
-        return 0
+        """`J P[R[1]] 50% FINE`: a branch for each point it can mean, all made of one line that is no SELECT."""
+        text = raw_text(body[0].origin)
+        if not isinstance(body[0], ir.Switch) or text is None or text.upper().startswith("SELECT"):
+            return 0
+        self.raw(text, body[0])
+        return 1
 
     def rare_options(self, body: ir.Body) -> int:
         """A move with options that only the controller knows: each stands before it as an instruction of its own."""

@@ -190,7 +190,8 @@ class Motion:
             return self.measured_in(path, unit, unit.replace("/s", "/sec"), move, places)
         for unit, word, scale in (("mm/s", "mm/sec", 1), ("cm/min", "cm/min", 1), ("inch/min", "inch/min", 10)):
             shown = float(f"{value / ir.UNITS[unit] * scale:.9g}")
-            if shown == int(shown) and shown >= 1 and value <= tables.LARGEST_MM_S:
+            fits = value <= tables.LARGEST_MM_S or not self.expressions.limited
+            if shown == int(shown) and shown >= 1 and fits:
                 return f"{number_text(shown / scale, style=tables.NUMBERS)}{word}"
         return self.measured_in(path, "mm/s", "mm/sec", move, 0, tables.LARGEST_MM_S)
 
@@ -205,6 +206,8 @@ class Motion:
                 raise CannotSayError(f"a register holds this speed in another unit than {word}")
             return f"{self.expressions.index(inner)}{word}"
         shown = min(most, max(10.0**-places, round(float(found), places)))
+        if shown != found and not self.expressions.limited:
+            return f"{number_text(float(found), style=tables.NUMBERS)}{word}"
         if shown != found:
             written = f"{number_text(shown, style=tables.NUMBERS)} {word}"
             self.rounded(move, "the speed", found, written)

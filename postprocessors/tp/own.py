@@ -14,6 +14,7 @@ from rpl.source import Origin
 WAIT_LIMIT = "$WAITTMOUT"
 _TABLES = {"base": "UFRAME", "tool": "UTOOL"}
 _NUMBERED = re.compile(r"\s*\d*\s*:\s*(.*?)\s*;?\s*\Z", re.DOTALL)
+_CONDITION = re.compile(r"(?:SKIP|OFFSET|TOOL_OFFSET)\s+CONDITION\b", re.IGNORECASE)
 _ALARM = re.compile(r"UALM\[(\d+)\]")
 
 
@@ -62,6 +63,16 @@ def raw_text(origin: Origin) -> str | None:
     """The instruction as it stands in the listing, without number and closing sign; None when it was read elsewhere."""
     found = _NUMBERED.match(origin.text)
     return found[1] if found else None
+
+
+def from_listing(origin: Origin) -> bool:
+    return raw_text(origin) is not None
+
+
+def modal_condition(origin: Origin) -> str:
+    """`SKIP CONDITION DI[5]=ON`: the reader has put it into the moves, and keeps its line as a layout line."""
+    text = " ".join((raw_text(origin) or "").split())
+    return text if _CONDITION.match(text) else ""
 
 
 def without_trunc(value: ir.Expression) -> ir.Expression:

@@ -18,7 +18,7 @@ from .frames import Frames
 from .idioms import Idioms
 from .lines import Line
 from .motion import Motion
-from .own import is_own_limit
+from .own import from_listing, is_own_limit, modal_condition
 from .positions import Points
 from .texts import ascii_text, number, remarks
 
@@ -140,7 +140,8 @@ class Printer:
         origin = statement.origin
         match statement:
             case ir.Nothing():
-                self.comments_only(origin)
+                condition = modal_condition(origin)
+                self.put([Line(f"  {condition}")] if condition else [], origin)
             case ir.If():
                 self.choice(statement)
             case ir.Switch():
@@ -374,7 +375,10 @@ class Printer:
             found = f",{place}=LPOS"
         self.own_frames(move)
         line = self.motion.move(move, f" {word},LBL[{label}]{found}")
-        self.line(f"SKIP CONDITION {self.expressions.condition(search.condition)}    ", move.origin)
+        if from_listing(move.origin):
+            self.comments_only(move.origin)  # the condition stands where the listing had it
+        else:
+            self.line(f"SKIP CONDITION {self.expressions.condition(search.condition)}    ", move.origin)
         if flag:
             self.line(f"{flag}=OFF")
         self.put([line])
@@ -433,7 +437,7 @@ class Printer:
         if not isinstance(message.text, ir.TextLiteral):
             raise CannotSayError("a message is a constant text")
         text = ascii_text(message.text.value).replace("[", "(").replace("]", ")")
-        most = tables.LONGEST_MESSAGE
+        most = tables.LONGEST_MESSAGE if self.expressions.limited else max(len(text), 1)
         if len(text) > most:
             self.diagnostics.report(SPLIT_MESSAGE, message.origin, most=most)
         parts = [text[at : at + most] for at in range(0, len(text), most)] or [""]
