@@ -299,11 +299,23 @@ class _Explicit:
             done,
             tool=move.tool or tool,
             frame=move.frame or frame,
-            speed=done.speed or self.speed(move, known, own),
+            speed=self.own_speed(done, known, own),
             blend=self.blend(done, known, own),
             settings=(),
         )
         return [*before, done]
+
+    def own_speed(self, move: ir.Move, known: Environment, own: dict[str, ir.Expression]) -> ir.Speed:
+        """A move's speed as a value: one that says only numbers (percent, mm/s, deg/s) is made like the modal ones."""
+        speed = move.speed
+        if speed is not None and (speed.profile is not None or speed.duration is not None):
+            return speed
+        if speed is not None:
+            given = {"joint_speed": speed.joint, "path_speed": speed.path}
+            own = {**own, **{name: value for name, value in given.items() if value is not None}}
+            if speed.rotation is not None:
+                known = {**known, "swivel_speed": speed.rotation}
+        return self.speed(move, known, own)
 
     def speed(self, move: ir.Move, known: Environment, own: dict[str, ir.Expression]) -> ir.Speed:
         values = {**known, **own}
