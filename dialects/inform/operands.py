@@ -230,13 +230,19 @@ class Operands:
 
     def tool(self, number: ir.Expression | None) -> ir.Expression:
         """TL#(n); without a number the job's own tool."""
-        self.shared.used.array("TL", ir.PoseType(), LAST_INDEX["TL"], self.origin)
-        index = ir.IntLiteral(self.job.tool) if number is None else self.final(number)
-        return ir.Index(ir.Name("TL", origin=self.origin), (index,), origin=self.origin)
+        return self.numbered_frame("TL", ir.IntLiteral(self.job.tool) if number is None else self.final(number))
 
     def user_frame(self, number: ir.Expression) -> ir.Expression:
-        self.shared.used.array("UF", ir.PoseType(), LAST_INDEX["UF"], self.origin)
-        return ir.Index(ir.Name("UF", origin=self.origin), (self.final(number),), origin=self.origin)
+        return self.numbered_frame("UF", self.final(number))
+
+    def numbered_frame(self, word: str, number: ir.Expression) -> ir.Expression:
+        """A tool or user frame: a variable of its own, or an element of an array where a number is computed."""
+        used = self.shared.used
+        if isinstance(number, ir.IntLiteral) and word not in self.shared.project.indirect:
+            used.scalar(f"{word}{number.value}", ir.PoseType(), self.origin)
+            return ir.Name(f"{word}{number.value}", origin=self.origin)
+        used.array(word, ir.PoseType(), LAST_INDEX[word], self.origin)
+        return ir.Index(ir.Name(word, origin=self.origin), (number,), origin=self.origin)
 
     def frame(self, frame: Frame) -> ir.Expression:
         """The frame as an expression in the robot's base."""

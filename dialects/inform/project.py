@@ -34,9 +34,10 @@ NOT_GIVEN = code(
     "inform-not-given",
     Severity.INFO,
     "{what} are set at the controller, not in a job: they are identity here",
-    'give them in the cell file, for example "TL[1]" = {{ x = 0.0, y = 0.0, z = 120.0, a = 0.0, b = 0.0, c = 0.0 }}',
+    "give them in the cell file, for example TL1 = {{ x = 0.0, y = 0.0, z = 120.0, a = 0.0, b = 0.0, c = 0.0 }}",
 )
 REGISTERS = "registers"
+_IDENTITY = ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ("x", "y", "z", "a", "b", "c")))
 
 
 @cache
@@ -77,8 +78,12 @@ def _indices(job: Job) -> Iterator[ir.Index]:
 
 
 def _indirect(job: Job, local: bool) -> frozenset[str]:
-    """Banks into which the job computes an index."""
+    """Banks into which the job computes an index; TL and UF among the global ones."""
     found = set()
+    for command in commands(job.body):
+        for node in walk(command):
+            if isinstance(node, Numbered) and not local and not isinstance(node.number, ir.IntLiteral):
+                found.add(node.word)
     for index in _indices(job):
         bank = cast(ir.Name, index.base).id
         computed = not bank.endswith("[]") and not isinstance(index.indices[0], ir.IntLiteral)
@@ -163,11 +168,15 @@ class _Lowering:
             found = values.get(variable.name)
             if found is not None:
                 variable = replace(variable, type=found[0], initial=found[1])
+            elif isinstance(variable.type, ir.PoseType):  # a tool, a user frame, the shift
+                variable = replace(variable, initial=_IDENTITY)
             declarations.append(variable)
         declarations.extend(self.saved_elements())
         for name, what in (("TL", "tools TL#(n)"), ("UF", "user frames UF#(n)")):
-            if name in used.arrays:
-                self.diagnostics.report(NOT_GIVEN, used.arrays[name][2], what=what)
+            given = [place for key, (_, place) in used.scalars.items() if key.startswith(name) and key[2:].isdigit()]
+            given.extend(place for key, (_, _, place) in used.arrays.items() if key == name)
+            if given:
+                self.diagnostics.report(NOT_GIVEN, given[0], what=what)
         modules = tuple(self.modules)
         if declarations:
             modules = (ir.Module(REGISTERS, "inform", tuple(declarations)), *modules)
