@@ -1,0 +1,206 @@
+"""TP motion statements by what they mean, beside the same in RPL, and by what the robot does."""
+
+import pytest
+from tp_reading_helpers import POINTS, body, cartesian, listing, outputs, read, reports, run
+
+J, L = "MOVE TO P1 ", "MOVE LINEAR TO P2 "
+CASES = [
+    ("J P[1] 100% FINE", J + "JOINT SPEED 100 FINE"),
+    ("J P[1] R[1]% CNT R[2]", J + "JOINT SPEED R1 BLEND PERCENT R2"),
+    ("J P[1] 2.0sec FINE ACC80", J + "DURATION 2.0 ACCELERATION 80 FINE"),
+    ("J P[1] 500msec FINE", J + "DURATION 500 ms FINE"),
+    ("J P[1] max_speed FINE", J + "JOINT SPEED 100 FINE"),
+    ("L P[2] 100mm/sec FINE", L + "SPEED 100 FINE"),
+    ("L P[2] R[1]mm/sec FINE", L + "SPEED R1 FINE"),
+    ("L P[2] 240cm/min FINE", L + "SPEED 240 cm/min FINE"),
+    ("L P[2] 100inch/min FINE", L + "SPEED 100 inch/min FINE"),
+    ("L P[2] 90deg/sec FINE", L + "REORIENT 90 FINE"),
+    ("L P[2] max_speed FINE", L + "SPEED 2000.0 FINE"),
+    ("L P[2] 100mm/sec CR10", L + "SPEED 100 BLEND 10"),
+    ("L P[2] 100mm/sec CD5", L + "SPEED 100 BLEND 5"),
+    ("L P[2] 100mm/sec CNT0", L + "SPEED 100 BLEND PERCENT 0"),
+    ("L P[2] 500mm/sec CNT100", L + "SPEED 500 BLEND PERCENT 100 PATH BLEND 33.573"),
+    ("L P[2] 100mm/sec FINE ACC R[3]", L + "SPEED 100 ACCELERATION R3 FINE"),
+    ("L P[2] 100mm/sec FINE Wjnt", L + "SPEED 100 FINE ORIENTATION wrist"),
+    ("L PR[1] 100mm/sec FINE INC", "MOVE LINEAR BY PR1 SPEED 100 FINE"),
+    ("C P[2]\n: P[3] 100mm/sec FINE", "MOVE CIRCULAR VIA P2 TO P3 SPEED 100 FINE"),
+    (
+        "L P[2] 100mm/sec FINE Offset,PR[1]",
+        "MOVE LINEAR TO displaced(P2, pose_of(PR1)) SPEED 100 FINE",
+    ),
+    (
+        "L P[2] 100mm/sec FINE Tool_Offset,PR[1:up]",
+        "MOVE LINEAR TO displaced_in_tool(P2, pose_of(PR1)) SPEED 100 FINE",
+    ),
+    (
+        "C P[2] Offset,PR[1]\n: P[3] 100mm/sec FINE Offset,PR[1]",
+        "MOVE CIRCULAR VIA displaced(P2, pose_of(PR1)) TO displaced(P3, pose_of(PR1)) SPEED 100 FINE",
+    ),
+    (
+        "L P[2] 100mm/sec CNT0 TB    .20sec,DO[1]=ON",
+        L + "SPEED 100 BLEND PERCENT 0 TRIGGER AT end DELAY (-0.2) DO SET do[1] TO ON",
+    ),
+    ("L P[2] 100mm/sec FINE TA .5sec,CALL MAIN", L + "SPEED 100 FINE TRIGGER AT end DELAY 0.5 DO MAIN()"),
+    (
+        "L P[2] 100mm/sec FINE DB  10.0mm,DO[1]=ON ACC50",
+        L + "SPEED 100 ACCELERATION 50 FINE TRIGGER AT end DISTANCE (-10.0) DO SET do[1] TO ON",
+    ),
+]
+
+
+@pytest.mark.parametrize(("line", "meaning"), CASES, ids=[case[0] for case in CASES])
+def test_a_move_means(line: str, meaning: str) -> None:
+    assert body(line) == [meaning]
+
+
+VENDOR = [
+    ("PTH", "none"),
+    ("BREAK", "none"),
+    ("EV50%", "none"),
+    ("Ind.EV 50%", "none"),
+    ("COORD", "unknown"),
+    ("RTCP", "unknown"),
+    ("Arc Start[1]", "unknown"),
+    ("VOFFSET,VR[1]", "unknown"),
+]
+
+
+@pytest.mark.parametrize(("option", "effect"), VENDOR)
+def test_an_option_of_this_controller_alone_stands_before_its_move(option: str, effect: str) -> None:
+    lines = body(f"L P[2] 100mm/sec FINE {option}")
+    assert lines == [f'VENDOR tp "{option}" EFFECT {effect}', L + "SPEED 100 FINE"]
+
+
+def test_skip_jumps_without_the_condition() -> None:
+    lines = body("SKIP CONDITION DI[5]=ON\nL P[2] 100mm/sec FINE Skip,LBL[1],PR[1]=LPOS\nLBL[1]")
+    assert lines[1:5] == [
+        L + "SPEED 100 FINE SEARCH di[5] INTO PR1 HIT skip_hit STOPPING stop",
+        "IF NOT skip_hit THEN",
+        "GOTO LBL1",
+        "END IF",
+    ]
+
+
+def test_points_by_number_are_a_branch_for_each() -> None:
+    lines = body("J P[R[1]] 50% FINE")
+    assert lines[0] == "SWITCH to_int(R1)"
+    assert lines[1:3] == ["CASE 1", J + "JOINT SPEED 50 FINE"]
+    assert lines.count("END SWITCH") == 1
+
+
+def test_a_points_are_arcs() -> None:
+    """M: the first point on a line, then two for each arc."""
+    lines = body("A P[2] 100mm/sec FINE\nA P[3] 100mm/sec CNT0\nA P[4] 100mm/sec FINE")
+    assert lines == [L + "SPEED 100 FINE", "MOVE CIRCULAR VIA P3 TO P4 SPEED 100 FINE"]
+
+
+def test_a_lonely_a_point_is_reported() -> None:
+    _, diagnostics = read(listing("A P[2] 100mm/sec FINE\nA P[3] 100mm/sec FINE"))
+    assert reports(diagnostics) == ["tp-arc-points"]
+
+
+def test_s_points_are_a_spline() -> None:
+    lines = body("S P[2] 100mm/sec CNT100\nS P[3] 100mm/sec FINE")
+    assert lines[0].startswith("SPLINE") and lines[-1] == "END SPLINE"
+
+
+def test_point_logic_is_a_program_at_a_time_of_its_move() -> None:
+    program, diagnostics = read(
+        listing("J P[1] 100% CNT0 TB    .10sec,P-SPS\nDO[1]=OFF\nLBL[1]\n------\nDO[2]=ON\nLBL[1]")
+    )
+    assert not diagnostics.has_errors
+    main, nested = program.modules[-1].routines
+    assert (len(main.body), len(nested.body)) == (3, 2)
+
+
+# ---- what the robot does
+
+
+def test_moves_reach_their_points() -> None:
+    result = run(listing("J P[1] 50% FINE\nL P[2] 200mm/sec FINE"))
+    assert result.status == "finished" and result.moves == 2
+    place = [event.as_json()["xyz_mm"] for event in result.trace if event.kind == "move"]
+    assert place[-1] == pytest.approx([400, 100, 200], abs=1e-3)
+
+
+def where(lines: str, *more: str, cell: str = "", points: str = POINTS) -> list[float]:
+    """Where the tool stands at the end, in the robot's base."""
+    result = run(listing(lines, points), *more, cell=cell)
+    assert result.status == "finished", result.fault
+    return next(e.as_json()["xyz_mm"] for e in reversed(result.trace) if e.kind == "move")  # type: ignore[return-value]
+
+
+def test_an_offset_is_in_the_user_frame_and_a_tool_offset_in_the_tool() -> None:
+    cell = "[variables]\nPR1 = { x = 10.0, y = 0.0, z = 30.0, a = 0.0, b = 0.0, c = 0.0 }"
+    assert where("J P[1] 50% FINE\nL P[2] 200mm/sec FINE Offset,PR[1]", cell=cell) == pytest.approx([410, 100, 230])
+    assert where("J P[1] 50% FINE\nL P[2] 200mm/sec FINE Tool_Offset,PR[1]", cell=cell) == pytest.approx(
+        [410, 100, 170]
+    )
+
+
+def test_a_user_frame_moves_the_points_and_changes_at_once() -> None:
+    cell = '[variables]\n"UFRAME[1]" = { x = 0.0, y = 20.0, z = 5.0, a = 0.0, b = 0.0, c = 0.0 }'
+    points = POINTS + cartesian(5, 400, 0, 200, frame="1")
+    assert where("UFRAME_NUM=1\nJ P[5] 50% FINE", cell=cell, points=points) == pytest.approx([400, 20, 205])
+    lines = "UFRAME_NUM=1\nPR[1]=UFRAME[1]\nPR[1,1]=30\nUFRAME[1]=PR[1]\nJ P[5] 50% FINE"
+    assert where(lines, cell=cell, points=points) == pytest.approx([430, 20, 205])
+    assert where(lines.replace("UFRAME[1]=PR[1]", "UFRAME[2]=PR[1]"), cell=cell, points=points) == pytest.approx(
+        [400, 20, 205]
+    )
+
+
+def test_a_tool_is_taken_off_the_flange() -> None:
+    cell = '[variables]\n"UTOOL[1]" = { x = 0.0, y = 0.0, z = 50.0, a = 0.0, b = 0.0, c = 0.0 }'
+    result = run(listing("UTOOL_NUM=1\nJ P[1] 50% FINE\nPR[1]=LPOS\nIF PR[1,3]<240,DO[1]=ON"), cell=cell)
+    assert outputs(result) == [("DO[1]", True)]
+
+
+def test_incremental_moves_add_up() -> None:
+    lines = "J P[2] 50% FINE\nL PR[1] 100mm/sec FINE INC\nL PR[1] 100mm/sec FINE INC"
+    cell = "[variables]\nPR1 = { x = 0.0, y = -25.0, z = 0.0, a = 0.0, b = 0.0, c = 0.0 }"
+    assert where(lines, cell=cell) == pytest.approx([400, 50, 200], abs=1e-3)
+
+
+UNTAUGHT = "P[9]{\n GP1:\n UF : F, UT : F, CONFIG : 'N D B, 0, 0, 0',\n X = ******** mm, Y = ******** mm, Z = ******** mm,\n W = ******** deg, P = ******** deg, R = ******** deg\n};\n"  # noqa: E501
+
+
+@pytest.mark.parametrize(
+    ("lines", "warned"),
+    [
+        ("L P[9] 100mm/sec FINE", True),  # stars in the listing
+        ("L P[8] 100mm/sec FINE", True),  # not in the listing
+        ("L PR[1] 100mm/sec FINE", False),  # never set
+        ("PR[1,1]=400\nL PR[1] 100mm/sec FINE", False),  # set in part
+    ],
+)
+def test_a_move_to_a_position_without_value_is_a_fault(lines: str, warned: bool) -> None:
+    text = listing(f"J P[1] 50% FINE\n{lines}\nDO[1]=ON", POINTS + UNTAUGHT)
+    assert bool(reports(read(text)[1])) == warned
+    result = run(text)
+    assert result.status == "fault" and not result.outputs
+    assert result.fault is not None and result.fault.as_json()["code"] == "no-value"
+
+
+def test_logic_behind_fine_waits_for_the_robot() -> None:
+    result = run(listing("J P[1] 50% FINE\nL P[2] 100mm/sec FINE\nDO[1]=ON"))
+    arrived = [event.as_json()["t"] for event in result.trace if event.kind == "move"][-1]
+    assert result.outputs[0][0] == pytest.approx(arrived)
+
+
+def test_skip_stops_at_the_signal_and_goes_on() -> None:
+    lines = (
+        "J P[2] 50% FINE\nSKIP CONDITION DI[1]=ON\nL P[3] 50mm/sec FINE Skip,LBL[1],PR[1]=LPOS\n"
+        "DO[1]=ON\nIF PR[1,2]>(-90),DO[2]=ON\nEND\nLBL[1]\nDO[3]=ON"
+    )
+    met = run(listing(lines), cell='[[input]]\ntime = 2.0\nsignal = "DI[1]"\nvalue = true')
+    assert outputs(met) == [("DO[1]", True), ("DO[2]", True)]
+    assert outputs(run(listing(lines))) == [("DO[3]", True)]
+
+
+def test_a_frame_that_is_certainly_another_is_reported() -> None:
+    found = read(listing("UFRAME_NUM=1\nL P[2] 100mm/sec FINE"))[1]
+    assert reports(found) == ["tp-other-frame"]
+    assert not reports(read(listing("UFRAME_NUM=0\nUTOOL_NUM=1\nL P[2] 100mm/sec FINE"))[1])
+    assert not reports(read(listing("UFRAME_NUM=1\nCALL MAIN\nL P[2] 100mm/sec FINE"))[1])
+    both = "IF (DI[1]) THEN\nUFRAME_NUM=1\nELSE\nUFRAME_NUM=0\nENDIF\nL P[2] 100mm/sec FINE"
+    assert not reports(read(listing(both))[1])
