@@ -148,6 +148,7 @@ def _prove(
     """Read the written files back and compare the runs of both programs."""
     from rpl.project import read_sources
     from rpl.proof.prove import load_cell, prove_programs
+    from rpl.proof.wiring import with_signal_names
     from rpl.source import source_from_bytes
 
     sources = [source_from_bytes(file.path, file.data) for file in translation.files]
@@ -157,7 +158,8 @@ def _prove(
     if errors:
         raise InternalError(f"what was written cannot be read back: {errors[0].as_text()}")
     with waiting("proving"):
-        return prove_programs(read.program, back.program, robot, to_robot, load_cell(cell))
+        again_named = with_signal_names(back.program, translation.program)
+        return prove_programs(read.program, again_named, robot, to_robot, load_cell(cell))
 
 
 def _document(

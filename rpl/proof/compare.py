@@ -93,7 +93,7 @@ def _events(a: Record, b: Record, tolerance: Tolerance) -> Difference | None:
     for task, ours, theirs in pairs:
         if a.language != b.language:
             ours, theirs = _without_conditions(ours), _without_conditions(theirs)
-        difference = _task_events(task, ours, theirs, tolerance)
+        difference = _task_events(task, ours, theirs, tolerance, a.language != b.language)
         if difference is not None:
             found.append(difference)
     return min(found, key=_when) if found else None
@@ -133,14 +133,28 @@ def _paired(a: Record, b: Record) -> list[Pair] | Difference:
 
 
 def _task_events(
-    task: str, ours: Sequence[Happening], theirs: Sequence[Happening], tolerance: Tolerance
+    task: str, ours: Sequence[Happening], theirs: Sequence[Happening], tolerance: Tolerance, foreign: bool
 ) -> Difference | None:
-    for index in range(max(len(ours), len(theirs))):
-        first = ours[index] if index < len(ours) else None
-        second = theirs[index] if index < len(theirs) else None
-        if first is None or second is None or not same_event(first, second, tolerance):
+    """The first two that differ. `foreign`: where only one language looks again and again for what the other waits for
+    (which is no event by itself), its looks count for nothing."""
+    at, there = 0, 0
+    while at < len(ours) or there < len(theirs):
+        first = ours[at] if at < len(ours) else None
+        second = theirs[there] if there < len(theirs) else None
+        if first is not None and second is not None and same_event(first, second, tolerance):
+            at, there = at + 1, there + 1
+        elif foreign and first is not None and _is_looking(first, tolerance):
+            at += 1
+        elif foreign and second is not None and _is_looking(second, tolerance):
+            there += 1
+        else:
             return _event_difference(task, first, second)
     return None
+
+
+def _is_looking(happening: Happening, tolerance: Tolerance) -> bool:
+    """Is it a loop of short waits, as programs have that look for a condition?"""
+    return happening.kind == "wait" and happening.times > 1 and happening.longest_s <= tolerance.look_s
 
 
 def same_event(a: Happening, b: Happening, tolerance: Tolerance) -> bool:

@@ -19,6 +19,7 @@ from rpl.errors import RplError
 from rpl.ir.walk import walk
 from rpl.project import ReadProgram, read_sources
 from rpl.proof.prove import prove_programs
+from rpl.proof.wiring import with_signal_names
 from rpl.source import source_from_bytes
 from rpl.translation import translate_program
 
@@ -65,7 +66,8 @@ def outcome_of(
     if errors:
         return Outcome(DIFFERENT, why="; ".join(errors[:3])), diagnostics
     to_entry = translation.renamed.get(entry, entry) if entry else None
-    result = prove_programs(read.program, back.program, robot, robot, cell, entry=entry, to_entry=to_entry)  # type: ignore[arg-type]
+    named = with_signal_names(back.program, translation.program)
+    result = prove_programs(read.program, named, robot, robot, cell, entry=entry, to_entry=to_entry)  # type: ignore[arg-type]
     refused = sorted({item.code.name for item in diagnostics.of(Severity.LOSS)})
     notes = sorted({item.code.name for item in diagnostics.of(Severity.WARNING)} - _HARMLESS)
     if refused:

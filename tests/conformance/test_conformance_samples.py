@@ -27,6 +27,7 @@ from rpl.project import ReadProgram, read_program, read_sources
 from rpl.proof.prove import ProofResult, load_cell, prove_programs
 from rpl.proof.record import signal_names
 from rpl.proof.recording import record_of
+from rpl.proof.wiring import with_signal_names
 from rpl.source import source_from_bytes
 from rpl.translation import translate_program
 
@@ -100,9 +101,8 @@ def proof_of(sample: Path, target: str, to_robot: str | None = None) -> tuple[Pr
     entry = wanted.entry
     to_entry = translation.renamed.get(entry, entry) if entry else None
     other = to_robot or wanted.robot
-    result = prove_programs(
-        program.program, back.program, wanted.robot, other, wanted.cell, entry=entry, to_entry=to_entry
-    )
+    named = with_signal_names(back.program, translation.program)
+    result = prove_programs(program.program, named, wanted.robot, other, wanted.cell, entry=entry, to_entry=to_entry)
     return result, diagnostics
 
 
