@@ -72,7 +72,7 @@ class Builder:
         counter, start, stop, down = block.open.data
         body = self.body(item for section in block.sections for item in section.items)
         origin = block.open.origin
-        if isinstance(counter, ir.Name):
+        if isinstance(counter, ir.Name) and not _changes(body, stop):
             step = ir.IntLiteral(-1, origin=origin) if down else None
             return ir.For(counter.id, start, stop, step, body, keeps_last=True, origin=origin)
         return self.indexed_loop(counter, start, stop, down, body, block)
@@ -80,15 +80,11 @@ class Builder:
     def indexed_loop(
         self, counter: ir.Expression, start: ir.Expression, stop: ir.Expression, down: bool, body: ir.Body, block: Block
     ) -> tuple[Item, ...]:
-        """A loop whose counter is an element of the register array: counted by hand, the bound kept aside."""
+        """A loop whose counter is an element of the register array, or whose bound changes inside: ENDFOR compares the
+        counter with the bound as it is then, and counts on only below it (operator's manual, FOR/ENDFOR)."""
         origin = block.open.origin
-        self.nested += 1
-        bound: ir.Expression = stop
-        made: list[Item] = []
-        if not isinstance(stop, ir.IntLiteral | ir.RealLiteral):
-            bound = ir.Name(f"for_bound_{self.nested}", origin=origin)
-            made.append(ir.Assign(bound, stop, origin=origin))
-        made.append(ir.Assign(counter, start, origin=origin))
+        bound = stop
+        made: list[Item] = [ir.Assign(counter, start, origin=origin)]
         within, last = (">=", "<=") if down else ("<=", ">=")
         leave = ir.If(((ir.Binary(last, counter, bound, origin=origin), (ir.ExitLoop(origin=origin),)),), origin=origin)
         step = ir.Binary("-" if down else "+", counter, ir.IntLiteral(1), origin=origin)
@@ -162,6 +158,11 @@ class Builder:
         return (*found.values(), *missing.values())
 
 
+def _changes(body: ir.Body, bound: ir.Expression) -> bool:
+    """Does the loop's body write the register that is its bound?"""
+    return any(isinstance(node, ir.Assign) and node.target == bound for node in walk(body))
+
+
 def _base(expression: ir.Expression | None) -> str:
     match expression:
         case ir.Name(id=name):
@@ -177,8 +178,7 @@ def _local_flags(body: ir.Body) -> tuple[ir.Variable, ...]:
     """Variables that the reader needs besides the registers."""
     names = {node.id for node in walk(body) if isinstance(node, ir.Name)}
     flags = [ir.Variable(name, ir.BoolType(), scope="routine") for name in _LOCAL_FLAGS if name in names]
-    bounds = sorted(name for name in names if name.startswith("for_bound_"))
-    return (*flags, *(ir.Variable(name, ir.RealType(), scope="routine") for name in bounds))
+    return tuple(flags)
 
 
 def _grouped(statements: list[ir.Statement], diagnostics: Diagnostics) -> Iterable[ir.Statement]:

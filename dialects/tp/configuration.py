@@ -19,8 +19,8 @@ from rpl.errors import SourceError
 FIELDS: Final = ("flip", "down", "back", "t1", "t4", "t6")
 BRANCH: Final = ("flip", "down", "back")
 TURN_AXES: Final = {"t1": 0, "t4": 3, "t6": 5}
-# A computed angle this close to half a turn counts as exactly half a turn, degrees.
-SNAP_DEG: Final = 1e-6
+# An angle this close to half a turn counts as exactly half a turn, degrees (measured by CrossArm).
+SNAP_DEG: Final = 5e-4
 _LISTED: Final = 6
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"

@@ -201,7 +201,7 @@ class Expressions:
         if one.kind == "b" and other.kind == "b":
             return Typed(self.same_truth(one.node, sign, other.node), "b")
         if "t" in (one.kind, other.kind):
-            return Typed(ir.Binary(sign, self.text(one), self.text(other), origin=self.origin), "b")
+            return Typed(self.same_text(self.text(one), sign, self.text(other)), "b")
         return Typed(ir.Binary(sign, self.as_number(one), self.as_number(other), origin=self.origin), "b")
 
     def same_truth(self, left: ir.Expression, sign: str, right: ir.Expression) -> ir.Expression:
@@ -211,6 +211,11 @@ class Expressions:
             return left if wanted else ir.Unary("not", left, origin=self.origin)
         return ir.Binary(sign, left, right, origin=self.origin)
 
+    def same_text(self, left: ir.Expression, sign: str, right: ir.Expression) -> ir.Expression:
+        """Texts that differ only in upper and lower case are equal (measured on a virtual controller, CrossArm)."""
+        equal = ir.Builtin("text_equal", (left, right, ir.BoolLiteral(True)), origin=self.origin)
+        return equal if sign == "=" else ir.Unary("not", equal, origin=self.origin)
+
     def function(self, tree: SyntaxTree) -> Typed:
         name = str(tree.children[0]).upper()
         return self.called(name, [self.typed(_tree(child)) for child in tree.children[1:]])
@@ -218,7 +223,8 @@ class Expressions:
     def called(self, name: str, values: list[Typed]) -> Typed:
         """A function by its TP name."""
         if name == "FINDSTR" and len(values) == 2:
-            parts = (self.text(values[0]), ir.IntLiteral(1), self.text(values[1]))
+            where, what = (ir.Builtin("text_upper", (self.text(v),), origin=self.origin) for v in values)
+            parts = (where, ir.IntLiteral(1), what)  # case does not count here either
             return Typed(ir.Builtin("text_find", parts, origin=self.origin), "n")
         if name == "SUBSTR" and len(values) == 3:
             cut = (self.text(values[0]), self.as_number(values[1]), self.as_number(values[2]))

@@ -70,9 +70,11 @@ class _Walk:
         number = int(point.id[1:])
         position = self.positions.get(number)
         arm = position.groups.get(1) if position is not None else None
-        if arm is None or arm.kind == "j":
+        if arm is None:
             return
         for bank, recorded in (("UFRAME", arm.frame), ("UTOOL", arm.tool)):
+            if arm.kind == "j" and bank == "UFRAME":
+                continue  # a joint position is refused for its tool only (INTP-253, measured on a virtual controller)
             now = active[bank]
             if recorded is None or now is None or now == recorded or (bank, number) in self.reported:
                 continue

@@ -271,8 +271,9 @@ class Motion(Statements):
         )
 
     def displaced(self, point: Typed, offsets: list[tuple[str, Typed]]) -> ir.Expression:
-        """M: Offset moves the position in the user frame (offset . position), Tool_Offset in its own axes (position .
-        offset); a joint offset is added to the joints."""
+        """Offset is added component by component in the selected user frame, W, P and R too; Tool_Offset is composed in
+        the position's own axes, rotations too (both measured on virtual controllers, CrossArm). A joint offset is added
+        to the joints."""
         node, kind = point.node, point.kind
         for word, offset in offsets:
             if offset.kind == "j":
@@ -280,10 +281,12 @@ class Motion(Statements):
                 node = ir.Builtin("element_sum", (joints, offset.node), origin=self.origin)
                 kind = "j"
                 continue
-            function = "displaced" if word == "offset" else "displaced_in_tool"
-            pose = ir.Builtin("pose_of", (offset.node,), origin=self.origin)
-            node = ir.Builtin(function, (self.position(Typed(node, kind), "p"), pose), origin=self.origin)
-            kind = "p"
+            node, kind = self.position(Typed(node, kind), "p"), "p"
+            if word == "offset":
+                node = ir.Builtin("element_sum", (node, offset.node), origin=self.origin)
+            else:
+                pose = ir.Builtin("pose_of", (offset.node,), origin=self.origin)
+                node = ir.Builtin("displaced_in_tool", (node, pose), origin=self.origin)
         return node
 
     def search(self, options: Options) -> ir.Search | None:

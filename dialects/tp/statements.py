@@ -347,16 +347,22 @@ class Statements(Expressions):
         )
 
     def on_when(self, tree: SyntaxTree) -> Lowered:
-        """WHEN of a condition program. M: it watches from MONITOR on and comes once."""
+        """WHEN of a condition program watches from MONITOR on and comes once. What holds already comes at once,
+        an edge (`ON+`) does not (measured on a virtual controller, CrossArm)."""
         first, _ = self.facts.monitors.get(self.place.program.upper(), (1, 0))
         number = ir.IntLiteral(first + self.interrupts)
         self.interrupts += 1
-        condition = self.truth(_tree(tree.children[0]))
+        edge = self.edge_of(_tree(tree.children[0]))
+        condition = edge[1] if edge is not None else self.truth(_tree(tree.children[0]))
         (action,) = self.action(_tree(tree.children[1]))
         if not isinstance(action, ir.CallRoutine | ir.Assign):
             raise StatementError("a monitored condition can only call a program or set something", 0)
         declared = ir.DeclareInterrupt(number, condition, action, True, once=True, origin=self.origin)
-        return declared, ir.ControlInterrupt("on", number, origin=self.origin)
+        armed = ir.ControlInterrupt("on", number, origin=self.origin)
+        if edge is not None:
+            return declared, armed
+        disarmed = ir.ControlInterrupt("off", number, origin=self.origin)
+        return declared, armed, ir.If(((condition, (disarmed, action)),), origin=self.origin)
 
     # ---- waiting, conditions
 
@@ -403,12 +409,17 @@ class Statements(Expressions):
         return ir.Nothing(origin=self.origin)
 
     def on_offset_condition(self, tree: SyntaxTree) -> Lowered:
-        self.offsets["offset"] = self.typed(_tree(tree.children[0]))
+        return self.modal_offset("offset", tree)
+
+    def modal_offset(self, word: str, tree: SyntaxTree) -> Lowered:
+        """What later moves with a bare Offset take. With a frame of its own the offset means something else."""
+        self.offsets[word] = self.typed(_tree(tree.children[0]))
+        if len(tree.children) > 1:
+            return self.vendor(self.origin_line(), "unknown")
         return ir.Nothing(origin=self.origin)
 
     def on_tool_offset_condition(self, tree: SyntaxTree) -> Lowered:
-        self.offsets["tool_offset"] = self.typed(_tree(tree.children[0]))
-        return ir.Nothing(origin=self.origin)
+        return self.modal_offset("tool_offset", tree)
 
     # ---- the operator, settings
 

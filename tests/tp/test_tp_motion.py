@@ -26,7 +26,7 @@ CASES = [
     ("C P[2]\n: P[3] 100mm/sec FINE", "MOVE CIRCULAR VIA P2 TO P3 SPEED 100 FINE"),
     (
         "L P[2] 100mm/sec FINE Offset,PR[1]",
-        "MOVE LINEAR TO displaced(P2, pose_of(PR1)) SPEED 100 FINE",
+        "MOVE LINEAR TO element_sum(P2, PR1) SPEED 100 FINE",
     ),
     (
         "L P[2] 100mm/sec FINE Tool_Offset,PR[1:up]",
@@ -34,7 +34,7 @@ CASES = [
     ),
     (
         "C P[2] Offset,PR[1]\n: P[3] 100mm/sec FINE Offset,PR[1]",
-        "MOVE CIRCULAR VIA displaced(P2, pose_of(PR1)) TO displaced(P3, pose_of(PR1)) SPEED 100 FINE",
+        "MOVE CIRCULAR VIA element_sum(P2, PR1) TO element_sum(P3, PR1) SPEED 100 FINE",
     ),
     (
         "L P[2] 100mm/sec CNT0 TB    .20sec,DO[1]=ON",

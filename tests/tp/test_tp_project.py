@@ -301,6 +301,41 @@ def test_a_condition_monitor_calls_its_program() -> None:
     assert outputs(ended) == [("DO[1]", True)]
 
 
+def test_an_edge_that_was_there_before_does_not_come() -> None:
+    """Measured on a virtual controller (CrossArm): a level comes at once when it is armed, an edge does not."""
+    alarm = listing("DO[9]=ON", "", "ALARM")
+    cell = '[[input]]\ntime = 0.5\nsignal = "DI[1]"\nvalue = true'
+    lines = listing("WAIT   1.00(sec)\nMONITOR WATCH\nWAIT   1.00(sec)\nDO[1]=ON")
+    for condition, seen in (("DI[1]=ON", True), ("DI[1]=ON+", False)):
+        watch = listing(f"WHEN {condition},CALL ALARM", "", "WATCH", "Cond")
+        assert (("DO[9]", True) in outputs(run(lines, watch, alarm, cell=cell))) == seen
+
+
+LOOPS = [  # examples of the operator's manual, FOR/ENDFOR
+    ("R[2]=3\nFOR R[1]=1 TO R[2]\nR[3]=R[3]+1\nENDFOR", 3, 3),
+    ("R[2]=1\nFOR R[1]=1 TO R[2]\nR[3]=R[3]+1\nENDFOR", 1, 1),
+    ("R[2]=0\nFOR R[1]=1 TO R[2]\nR[3]=R[3]+1\nENDFOR", 1, 0),
+    ("FOR R[1]=6 TO 10\nR[1]=R[1]+1\nR[3]=R[3]+1\nENDFOR", 11, 3),
+    ("FOR R[1]=1 TO 10\nIF R[1]=4,R[1]=11\nR[3]=R[3]+1\nENDFOR", 11, 4),
+    ("R[2]=10\nFOR R[1]=1 TO R[2]\nR[2]=3\nR[3]=R[3]+1\nENDFOR", 3, 3),
+    ("FOR R[1]=3 DOWNTO 1\nR[3]=R[3]+1\nENDFOR", 1, 3),
+]
+
+
+@pytest.mark.parametrize("indexed", [False, True])
+@pytest.mark.parametrize(("lines", "counter", "passes"), LOOPS)
+def test_loops_count_as_the_manual_says(lines: str, counter: int, passes: int, indexed: bool) -> None:
+    head = "R[9]=9\nR[R[9]]=9\n" if indexed else ""
+    result = run(listing(f"{head}{lines}\nIF R[1]={counter} AND R[3]={passes},DO[1]=ON"))
+    assert outputs(result) == [("DO[1]", True)]
+
+
+def test_texts_are_equal_whatever_their_case() -> None:
+    """Measured on a virtual controller (CrossArm)."""
+    lines = "SR[1]='Robot'\nSR[2]='ROBOT'\nR[1]=FINDSTR SR[1],SR[2]\nIF SR[1]=SR[2],DO[1]=ON\nIF R[1]=1,DO[2]=ON"
+    assert outputs(run(listing(lines))) == [("DO[1]", True), ("DO[2]", True)]
+
+
 def test_timers_count_from_their_start() -> None:
     lines = "TIMER[1]=RESET\nTIMER[1]=START\nWAIT   1.50(sec)\nTIMER[1]=STOP\nWAIT   1.00(sec)\nR[1]=TIMER[1]\n"
     result = run(listing(lines + "IF R[1]>1.49 AND R[1]<1.51,DO[1]=ON"))

@@ -21,7 +21,7 @@ CASES = [
     ("R[1]=SIN[30]", "R1 = sin(30)"),
     ("R[1]=ATAN2[R[2],R[3]]", "R1 = atan2(R2, R3)"),
     ("R[1]=STRLEN SR[1]", "R1 = text_length(SR1)"),
-    ("R[1]=FINDSTR SR[1],SR[2]", "R1 = text_find(SR1, 1, SR2)"),
+    ("R[1]=FINDSTR SR[1],SR[2]", "R1 = text_find(text_upper(SR1), 1, text_upper(SR2))"),
     ("SR[1]=SUBSTR SR[2],2,3", "SR1 = text_part(SR2, 2, 3)"),
     ("SR[1]='text'", 'SR1 = "text"'),
     ("SR[1]=SR[2]+SR[3]", "SR1 = SR2 & SR3"),
@@ -148,11 +148,19 @@ def test_indexed_registers_are_an_array() -> None:
     assert body("R[R[2]]=R[1]+1") == ["R[to_int(R[2])] = R[1] + 1"]
 
 
-def test_a_loop_over_an_indexed_bank_is_counted_by_hand() -> None:
-    lines = body("FOR R[1]=1 TO R[2]\nR[R[1]]=0\nENDFOR")
-    assert lines == [
-        *("for_bound_1 = R[2]", "R[1] = 1", "WHILE R[1] <= for_bound_1", "R[to_int(R[1])] = 0"),
-        *("IF R[1] >= for_bound_1 THEN", "EXIT", "END IF", "R[1] = R[1] + 1", "END WHILE"),
+LIVE = [
+    ("FOR R[1]=1 TO R[2]\nR[R[1]]=0\nENDFOR", "R[1]", "R[2]", "R[to_int(R[1])] = 0"),
+    ("FOR R[1]=1 TO R[2]\nR[2]=R[2]-1\nENDFOR", "R1", "R2", "R2 = R2 - 1"),
+]
+
+
+@pytest.mark.parametrize(("lines", "counter", "bound", "inside"), LIVE, ids=["indexed bank", "bound changes"])
+def test_a_loop_that_reads_its_bound_again_is_counted_by_hand(
+    lines: str, counter: str, bound: str, inside: str
+) -> None:
+    assert body(lines) == [
+        *(f"{counter} = 1", f"WHILE {counter} <= {bound}", inside, f"IF {counter} >= {bound} THEN", "EXIT", "END IF"),
+        *(f"{counter} = {counter} + 1", "END WHILE"),
     ]
 
 
