@@ -5,8 +5,10 @@ What is no robot program is refused politely: an error where the user named it, 
 
 from __future__ import annotations
 
+import gzip
 import tarfile
 import zipfile
+import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from io import BytesIO
@@ -33,6 +35,7 @@ LARGEST_FILE = 256 * 1024 * 1024
 _SURE_ENOUGH = 30
 _CERTAIN = 95
 _ARCHIVES = (".zip", ".tar", ".tgz", ".tar.gz", ".tar.bz2", ".tar.xz")
+_GZIP = b"\x1f\x8b"
 _TEXT_CONTROLS = frozenset(b"\t\n\r\x0c\x1a")
 
 
@@ -172,7 +175,19 @@ def _file(path: Path, named: bool, diagnostics: Diagnostics) -> Iterator[_Found]
         at = Origin(source_from_bytes(str(path), b""))
         diagnostics.report(UNREADABLE_FILE, at, reason=f"larger than {LARGEST_FILE // 2**20} MiB")
         return
-    yield _Found(source_from_bytes(str(path), data), named)
+    yield _Found(source_from_bytes(str(path), _unpacked(data)), named)
+
+
+def _unpacked(data: bytes) -> bytes:
+    """A file that is packed by itself (gzip) is read as what is in it."""
+    if not data.startswith(_GZIP):
+        return data
+    try:
+        with gzip.GzipFile(fileobj=BytesIO(data)) as packed:
+            inner = packed.read(LARGEST_FILE + 1)
+    except (OSError, EOFError, zlib.error):
+        return data
+    return inner if len(inner) <= LARGEST_FILE else data
 
 
 def _archive(path: Path, diagnostics: Diagnostics) -> Iterator[_Found]:

@@ -122,10 +122,11 @@ class Expressions:
             case nodes.Var(name=name):
                 return ir.Name(name)
             case nodes.PoseOf(items=items):
-                return pose_literal([self.value(item, REAL) for item in items])
+                return pose_literal([signed_literal(self.value(item, REAL)) for item in items])
             case nodes.ListOf(items=items):
                 element = wanted.element if wanted is not None and wanted.word == "list" else None
-                return ir.Aggregate(tuple([(None, self.element_value(item, element)) for item in items]))
+                values = [signed_literal(self.element_value(item, element)) for item in items]
+                return ir.Aggregate(tuple([(None, value) for value in values]))
             case nodes.At():
                 return self.at(expression, wanted)
             case nodes.Member():
@@ -285,7 +286,7 @@ class Expressions:
             part = self.element(expression, place)
             if part is None:
                 return self.refused(expression, "it is no list of six angles")
-            parts.append(ir.Quantity(part, "rad"))
+            parts.append(ir.Quantity(signed_literal(part), "rad"))
         return ir.Aggregate(tuple(zip(JOINT_NAMES, parts, strict=True)), "joints")
 
     def stored(self, expression: Expr, kind: Kind | None, joints: bool) -> ir.Expression:
@@ -298,6 +299,16 @@ class Expressions:
 def returns_joints(function: Function) -> bool:
     """Does the function give joints of the arm?"""
     return is_joints(function.returns) and function.returns is not None and function.returns.joints
+
+
+def signed_literal(value: ir.Expression) -> ir.Expression:
+    """A negative number as one literal."""
+    match value:
+        case ir.Unary(op="-", operand=ir.RealLiteral(value=number, spelling=spelling)):
+            return ir.RealLiteral(-number, f"-{spelling}")
+        case ir.Unary(op="-", operand=ir.IntLiteral(value=whole, spelling=spelling)):
+            return ir.IntLiteral(-whole, f"-{spelling}")
+    return value
 
 
 def pose_literal(parts: list[ir.Expression]) -> ir.Expression:

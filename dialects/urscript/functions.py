@@ -187,41 +187,33 @@ _VENDOR = """
         socket_close rtde_set_watchdog position_deviation_warning set_friction_coefficients
         encoder_enable_pulse_decode encoder_enable_set_tick_count set_world_model_attr set_joint_velocity_mode
         path_offset_set_alpha_filter path_offset_set_max_offset path_offset_enable path_offset_disable
-        collision_detection_reset set_base_acceleration set_skin tool_comm_open tool_comm_close
-        force_mode_set_damping force_mode_set_gain_scaling remove_world_model end_screwdriver
+        collision_detection_reset set_base_acceleration
+        force_mode_set_damping force_mode_set_gain_scaling end_screwdriving
     message: socket_send_string socket_send_line socket_send_int socket_send_byte socket_set_var write_serial
     unknown: force_mode end_force_mode freedrive_mode end_freedrive_mode teach_mode end_teach_mode direct_torque
         torque_command optimovej optimovel screwdriving protective_stop powerdown
         conveyor_pulse_decode track_conveyor_linear track_conveyor_circular stop_conveyor_tracking
         set_tool_contact end_tool_contact path_offset_set modbus_send_custom_command request_popup
-        assert jointspline movejs rtsi
+        assert pendant_node
 """
 _VENDOR_VALUES = """
-    b: socket_open request_boolean_from_primary_client tool_contact_examples is_freedrive is_in_force_mode is_prime
-        is_tool_temperature is_robot_power_on str_cmp interpreter_mode get_freedrive_status
-    i: socket_read_byte_first get_conveyor_tick_count tool_contact encoder_get_tick_count modbus_get_error
-        modbus_get_signal_index request_integer_from_primary_client socket_get_var socket_read_line_count
-        get_tool_output_mode get_robot_mode get_safety_mode get_error_code get_number_of_errors
-        encoder_unwind_delta_tick_count binary_list_to_integer rtde_get_watchdog
-    n: force get_controller_temp get_joint_temp get_target_payload get_tool_current get_tool_temp
-        request_float_from_primary_client modbus_get_time_since_signal_invalid get_euromap_input
-        get_robot_voltage get_target_speed_fraction get_speed_scaling get_target_waypoint_index
-        get_tool_accelerometer_norm
-    t: socket_read_string socket_read_line request_string_from_primary_client get_robot_serial get_active_tcp
-        get_polyscope_version get_robot_model
-    l: socket_read_ascii_float get_tool_accelerometer_reading get_target_payload_cog get_target_payload_inertia
-        get_base_acceleration get_joint_torques_list
+    b: socket_open request_boolean_from_primary_client is_freedrive get_freedrive_status
+    i: get_conveyor_tick_count tool_contact encoder_get_tick_count modbus_get_error request_integer_from_primary_client
+        socket_get_var encoder_unwind_delta_tick_count binary_list_to_integer
+    n: force get_controller_temp get_joint_temp get_target_payload get_tool_current request_float_from_primary_client
+        modbus_get_time_since_signal_invalid get_euromap_input
+    t: socket_read_string socket_read_line request_string_from_primary_client get_robot_serial
+    l: socket_read_ascii_float
+    l3: get_tool_accelerometer_reading get_target_payload_cog
     l6: get_tcp_force get_actual_tcp_speed get_target_tcp_speed get_actual_joint_speeds get_target_joint_speeds
-        get_joint_torques get_target_joint_accelerations wrench_trans get_coriolis_and_centrifugal_torques
-        get_joint_currents get_tcp_acceleration get_actual_tcp_wrench get_flange_force path_offset_get
-    l3: get_tool_accelerometer_values
+        get_joint_torques wrench_trans get_coriolis_and_centrifugal_torques get_target_payload_inertia
     m6: get_jacobian get_jacobian_time_derivative get_mass_matrix
-    li: socket_read_binary_integer socket_read_byte_list get_list_of_ints
-    lb: integer_to_binary_list get_all_inputs
-    h: rpc_factory serial_factory rtsi_factory eip_reader_factory eip_writer_factory rtde_factory modbus_factory
-    p: get_target_tcp_pose_along_path get_conveyor_pose
-    ?: modbus_get_signal_status get_rtde_value inv transpose dot cross normalize_list size get_euromap_output
-        read_port list_max request_list_from_primary_client
+    li: socket_read_binary_integer socket_read_byte_list
+    lb: integer_to_binary_list
+    q: get_actual_joint_positions_history
+    h: rpc_factory serial_factory rtsi_factory eip_reader_factory eip_writer_factory
+    p: get_target_tcp_pose_along_path
+    ?: modbus_get_signal_status get_rtde_value inv transpose dot cross size get_euromap_output
 """
 
 

@@ -82,6 +82,11 @@ class Inference:
             if symbol.kind is None and symbol.hint is not None:
                 symbol.kind = symbol.hint
                 taken = True
+        if not taken:
+            for symbol in self.project.symbols():
+                if symbol.kind == LIST:
+                    symbol.kind = list_of(REAL, None)
+                    taken = True
         return taken
 
     def widen(self, symbol: Symbol, kind: Kind | None, store: nodes.Store | None = None) -> None:
@@ -132,9 +137,8 @@ class Inference:
                     inner: Kind | None = kind
                     for _ in indices:
                         inner = list_of(inner, None)
-                    if inner is not None and symbol.kind.element is not None:
-                        deep = _deepened(symbol.kind, kind, len(indices))
-                        self.widen(symbol, deep)
+                    if inner is not None and (symbol.kind.element is not None or len(indices) == 1):
+                        self.widen(symbol, _deepened(symbol.kind, kind, len(indices)))
             case nodes.Member():
                 self.kind(node.target, here)
 
@@ -198,7 +202,7 @@ class Inference:
         return None
 
     def element(self, expression: nodes.At, here: Function) -> Kind | None:
-        kind = self.expect(expression.base, list_of(REAL, None), here)
+        kind = self.expect(expression.base, LIST, here)
         symbol = self.symbol_of(expression.base, here)
         for index in expression.indices:
             self.expect(index, INT, here)

@@ -16,6 +16,7 @@ from . import nodes
 from .expressions import Names, returns_joints
 from .infer import Inference
 from .kinds import type_of
+from .pendant import as_script, is_saved_program
 from .scopes import File, Function, Project, Symbol, collect, count_stores
 from .splitter import split
 from .statements import Statements, zero
@@ -27,7 +28,8 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     syntax = Syntax(diagnostics)
     contents: list[tuple[Source, nodes.Block]] = []
     reports: list[FileReport] = []
-    for source in sources:
+    for given in sources:
+        source = as_script(given, diagnostics) if is_saved_program(given) else given
         done = assemble(source, "urscript", split(source), parser(), syntax.lower, syntax.build, diagnostics)
         reports.append(done.report)
         contents.append((source, tuple([unwrapped(item) for item in done.items])))
@@ -45,7 +47,8 @@ def _module(file: File, project: Project, inference: Inference, diagnostics: Dia
     names = Names(taken={symbol.name for symbol in project.symbols()})
     names.taken.update(function.name for function in project.functions())
     routines = tuple([_routine(function, project, inference, names, diagnostics) for function in file.functions])
-    variables = [_variable(symbol, names, "global") for symbol in file.globals.values()]
+    variables = [_global(symbol, file, project, inference, names, diagnostics) for symbol in file.globals.values()]
+    routines = tuple([routine for routine in routines if not _only_data(routine, file)])
     records = tuple(
         ir.RecordDeclaration(
             name,
@@ -59,6 +62,29 @@ def _module(file: File, project: Project, inference: Inference, diagnostics: Dia
     return ir.Module(
         file.name, "urscript", (*remarks, *records, *variables), routines, attributes, origin=Origin(file.source)
     )
+
+
+def _only_data(routine: ir.Routine, file: File) -> bool:
+    """The statements of a file that gave its variables their values, and nothing else."""
+    program = file.program
+    if program is None or routine.name != program.name or program.node.origin.text.startswith("def"):
+        return False
+    if any(not isinstance(statement, ir.Nothing) for statement in routine.body):
+        return False
+    file.program = None
+    return True
+
+
+def _global(
+    symbol: Symbol, file: File, project: Project, inference: Inference, names: Names, diagnostics: Diagnostics
+) -> ir.Variable:
+    """A global; what the program gives it once and for all stands in its declaration."""
+    made = _variable(symbol, names, "global")
+    if symbol.given is None or file.program is None:
+        return made
+    lowering = Statements(project, inference, file.program, names, diagnostics)
+    value = lowering.stored(symbol.given.value, symbol.kind, symbol.is_joints)
+    return replace(made, initial=value, origin=symbol.given.origin)
 
 
 def _variable(symbol: Symbol, names: Names, scope: str) -> ir.Variable:

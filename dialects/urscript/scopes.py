@@ -1,5 +1,6 @@
 """Whose variable a name is. URScript decides it by one rule (script manual, scoping): what the program itself assigns
-is global; inside a function a name is global if the project has such a global, else local; `local` and `global` say it.
+is global; inside a function a name is global if the project has such a global, else local; `local` and `global`
+say it.
 A nested function sees the globals, not its outer function's variables, so functions can stand side by side in the IR.
 """
 
@@ -14,6 +15,7 @@ from rpl import ir
 from rpl.source import Origin, Source
 
 from . import nodes
+from .functions import constant
 from .kinds import Kind, is_joints
 from .nodes import Block, Define, Expr, Node
 
@@ -21,7 +23,8 @@ from .nodes import Block, Define, Expr, Node
 @dataclass(slots=True, eq=False)
 class Symbol:
     """One variable or parameter. uses: `joints` passed as a place of the arm, `array` indexed by a computed number or
-    used as a whole list. `stores`: how many statements assign it."""
+    used as a whole list. `stores`: how many statements assign it. `given`: the one statement of the program that gives
+    it a constant value; it becomes the declaration's."""
 
     name: str
     origin: Origin
@@ -32,7 +35,7 @@ class Symbol:
     array_use: bool = False
     stores: int = 0
     parameter: bool = False
-    clashed: bool = False
+    given: nodes.Store | None = None
 
     @property
     def is_joints(self) -> bool:
@@ -307,3 +310,15 @@ def count_stores(project: Project) -> None:
                 symbol = project.symbol(target.name, function)
                 if symbol is not None:
                     symbol.stores += 1
+    for file in project.files:
+        if file.program is not None:
+            _find_given(file, file.program)
+
+
+def _find_given(file: File, program: Function) -> None:
+    for node in program.node.body:
+        match node:
+            case nodes.Store(target=nodes.Var(name=name), value=value) if constant(value):
+                symbol = file.globals.get(name)
+                if symbol is not None and symbol.stores == 1 and name not in program.parameters:
+                    symbol.given = node

@@ -58,6 +58,8 @@ class Statements(Calls):
         """One statement; what it needs evaluated before stands in front of it."""
         if isinstance(node, ir.Nothing | ir.Opaque):
             return (node,)
+        if isinstance(node, nodes.Store) and self.is_given(node):
+            return ()  # the declaration says it, remarks included
         outer = self.before, self.kept
         self.before, self.kept = [], {}
         comments = node.origin.comments
@@ -71,6 +73,10 @@ class Statements(Calls):
             return (ir.Nothing(origin=node.origin),)
         first = done[0]
         return (replace(first, origin=replace(first.origin, comments=comments)), *done[1:])
+
+    def is_given(self, node: nodes.Store) -> bool:
+        symbol = self.symbol(node.target)
+        return symbol is not None and symbol.given is not None and symbol.given.origin.start == node.origin.start
 
     def made(self, node: Node, in_loop: bool) -> Made:
         match node:
