@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.datalists import never_called
-from rpl.passes.legalise.usage import Usage, usage_of
+from rpl.passes.legalise.usage import Usage, each_expression, usage_of
 from rpl.passes.scope import ProgramScope, Scope
 
 SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distance", "blend_joint"))
@@ -19,6 +19,26 @@ SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distan
 State = dict[str, "ir.Expression | None"]
 _UNKNOWN: State = dict.fromkeys(SETTINGS)
 _ROUNDS = 40
+
+
+# Functions that give or take a pose in the modal frame where they are not told another.
+IN_FRAME = {"current_target": 0, "joints_to_target": 1, "target_to_joints": 1}
+
+
+def in_frame(statement: ir.Statement) -> bool:
+    """Does the statement read a pose that depends on the modal frame?"""
+    found = False
+
+    def look(one: ir.Expression) -> None:
+        nonlocal found
+        match one:
+            case ir.System(name="actual_pose"):
+                found = True
+            case ir.Builtin(function=function, arguments=arguments) if function in IN_FRAME:
+                found = found or len(arguments) == IN_FRAME[function]
+
+    each_expression(statement, look)
+    return found
 
 
 def joined(*states: State | None) -> State | None:
@@ -48,9 +68,10 @@ class Flow:
         _Follower(program, flow).follow()
         return flow
 
-    def at(self, move: ir.Move) -> State:
-        """The settings at a move (all unknown where nothing leads)."""
-        return self.moves.get(id(move), _UNKNOWN)
+    def at(self, statement: ir.Statement) -> State:
+        """The settings at a move, or where an expression of a statement depends on the frame (all unknown where nothing
+        leads)."""
+        return self.moves.get(id(statement), _UNKNOWN)
 
     def again(self, statement: ir.Assign) -> bool:
         """Is the setting known to have this value already?"""
@@ -127,6 +148,8 @@ class _Follower:
         return state
 
     def statement(self, statement: ir.Statement, state: State) -> State | None:
+        if self.noting and not isinstance(statement, ir.Move) and in_frame(statement):
+            self.note(statement, state)
         match statement:
             case ir.If(branches=branches, otherwise=otherwise):
                 ends: list[State | None] = []
@@ -188,11 +211,11 @@ class _Follower:
                 return {**state, name: new}
         return self.calls(statement, state)
 
-    def note(self, move: ir.Move, state: State) -> None:
+    def note(self, statement: ir.Statement, state: State) -> None:
         if self.noting:
-            self.flow.kept.append(move)
-            known = joined(self.flow.moves.get(id(move)), state)
-            self.flow.moves[id(move)] = known if known is not None else state
+            self.flow.kept.append(statement)
+            known = joined(self.flow.moves.get(id(statement)), state)
+            self.flow.moves[id(statement)] = known if known is not None else state
 
     def note_setting(self, statement: ir.Assign, same: bool) -> None:
         if self.noting:

@@ -41,6 +41,7 @@ class _Settings:
     source: ir.Program
     context: Context
     flow: Flow = field(init=False)
+    here: State = field(default_factory=dict)
     variables: dict[str, str] = field(default_factory=dict)
     reported: set[tuple[Code, str]] = field(default_factory=set)
 
@@ -99,9 +100,13 @@ class _Settings:
     # ---- statements
 
     def body(self, body: ir.Body) -> ir.Body:
-        return tuple(one for statement in body for one in self.statement(statement))
+        outer = self.here
+        done = tuple(one for statement in body for one in self.statement(statement))
+        self.here = outer
+        return done
 
     def statement(self, statement: ir.Statement) -> ir.Body:
+        self.here = self.flow.at(statement)
         match statement:
             case ir.Assign(target=ir.System(name=name)) if name in SETTINGS:
                 return self.setting(statement, name)
@@ -130,7 +135,25 @@ class _Settings:
     def expression(self, expression: ir.Expression) -> ir.Expression:
         if isinstance(expression, ir.System) and expression.name in SETTINGS and self.says(expression.name):
             return self.variable(expression.name)
-        return rewrite_parts(expression, self.expression)
+        done = rewrite_parts(expression, self.expression)
+        return self.in_base(done) if "frame" in self.context.capabilities.move_settings else done
+
+    def in_base(self, expression: ir.Expression) -> ir.Expression:
+        """What depends on the modal frame, for a target that knows poses in the robot's base only."""
+        match expression:
+            case ir.System(name="actual_pose") | ir.Builtin(function="current_target", arguments=()):
+                return self.framed(expression, inverse=True)
+            case ir.Builtin(function="joints_to_target", arguments=(_,)):
+                return self.framed(expression, inverse=True)
+            case ir.Builtin(function="target_to_joints", arguments=(place,)):
+                return replace(expression, arguments=(self.framed(place, inverse=False),))
+        return expression
+
+    def framed(self, pose: ir.Expression, *, inverse: bool) -> ir.Expression:
+        frame = self.value("base", self.here, {})
+        if frame == ir.System("null_frame"):
+            return pose
+        return ir.Binary(":", ir.Builtin("inverse", (frame,)) if inverse else frame, pose, origin=pose.origin)
 
     # ---- moves
 
