@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -50,6 +51,20 @@ class Motion:
     reported: set[tuple[Code, str]] = field(default_factory=set)
     frame: str = ""
     tool: str = ""
+    last: Position | None = None  # where the move before ended, in the frame in force
+
+    @property
+    def state(self) -> tuple[str, str, Position | None]:
+        return self.frame, self.tool, self.last
+
+    @state.setter
+    def state(self, state: tuple[str, str, Position | None]) -> None:
+        self.frame, self.tool, self.last = state
+
+    def forget(self) -> None:
+        """Neither frame, tool nor place are known from here on."""
+        self.frame = self.tool = ""
+        self.last = None
 
     def report_once(self, about: Code, origin: Origin, key: str = "", **arguments: object) -> None:
         if (about, key) not in self.reported:
@@ -62,16 +77,32 @@ class Motion:
         if letter is None:
             raise CannotSayError(f"there is no {move.kind} move")
         self.refuse(move)
+        via, via_offsets = self.via(move)
         target, offsets = self.target(move, move.target)
         speed, term = self.speed(move), self.blend(move)
-        options = offsets + self.options(move) + skip
+        goal = self.reached(move, target, offsets)
+        length = path_length(move.kind, self.last, self.reached(move, via, via_offsets), goal)
+        options = offsets + self.options(move, length) + skip
+        self.last = goal
         settings = f"{speed} {term}{options}    "
         if move.kind != "circular":
             return Line(f"{letter} {target} {settings}")
+        return Line(f"{letter} {via}{via_offsets}    ", (f"  {target} {settings}",))
+
+    def via(self, move: ir.Move) -> tuple[str, str]:
+        if move.kind != "circular":
+            return "", ""
         if move.via is None:
             raise CannotSayError("a circle needs its point on the way")
-        via, via_offsets = self.target(move, move.via)
-        return Line(f"{letter} {via}{via_offsets}    ", (f"  {target} {settings}",))
+        return self.target(move, move.via)
+
+    def reached(self, move: ir.Move, shown: str, offsets: str) -> Position | None:
+        """The constant position that a move ends at; None when it is computed."""
+        inner = shown[2:-1].partition(":")[0]
+        if move.relative is not None or offsets or not shown.startswith("P[") or not inner.isdigit():
+            return None
+        found = self.points.found.get(int(inner))
+        return found if found is not None and found.kind == "pose" else None
 
     def refuse(self, move: ir.Move) -> None:
         for what, found in (
@@ -117,13 +148,14 @@ class Motion:
             return known, ""
         number_of = self.points.add(self.position(move, target))
         shown = self.points.place(number_of)
-        self.noted(shown)
+        if move.relative is None:
+            self.noted(shown)
         return shown, ""
 
     def noted(self, shown: str) -> None:
         inner = shown[2:-1].partition(":")[0]
         if shown.startswith("P[") and inner.isdigit():
-            self.points.used(int(inner), self.frame or "F", self.tool or "F")
+            self.points.used(int(inner), self.frame, self.tool)
 
     def register(self, pose: ir.Expression) -> str:
         if isinstance(pose, ir.Builtin) and pose.function == "pose_of":
@@ -258,7 +290,7 @@ class Motion:
 
     # ---- options
 
-    def options(self, move: ir.Move) -> str:
+    def options(self, move: ir.Move, length: float | None = None) -> str:
         shown = ""
         if move.acceleration is not None:
             least, most = tables.ACCELERATION
@@ -274,11 +306,14 @@ class Motion:
         if len(triggers) > tables.MOST_TRIGGERS:
             raise CannotSayError(f"a move has at most {tables.MOST_TRIGGERS} actions on its path")
         for trigger, pulse in triggers:
-            shown += f" {self.trigger(trigger, pulse)}"
+            shown += f" {self.trigger(trigger, pulse, length)}"
         return shown
 
-    def trigger(self, trigger: ir.Expression | ir.Trigger, pulse: float | None = None) -> str:
-        """`TB .20sec,DO[1]=ON`, `TA`, `DB 10.0mm`: before or after the end of the move."""
+    def trigger(
+        self, trigger: ir.Expression | ir.Trigger, pulse: float | None = None, length: float | None = None
+    ) -> str:
+        """`TB .20sec,DO[1]=ON`, `TA`, `DB 10.0mm`: before or after the end of the move. What counts from its start is
+        counted from the end where the `length` of the way is known (mm)."""
         if not isinstance(trigger, ir.Trigger):
             raise CannotSayError("stored actions on the path")
         if pulse is not None and isinstance(trigger.action, ir.Assign):
@@ -286,19 +321,50 @@ class Motion:
             action = f"{signal}=PULSE,{number_text(pulse, style=tables.NUMBERS)}sec"
         else:
             action = self.action(trigger.action)
+        timed = trigger.delay is not None and constant(trigger.delay) != 0
+        distance = measured(trigger.distance, "mm") if trigger.distance is not None else 0
+        if distance is None:
+            raise CannotSayError("an action by distance comes at a constant distance")
         if trigger.reference == "start":
-            raise CannotSayError("an action on the path counts from the end of the move")
-        if trigger.distance is not None and constant(trigger.distance) != 0:
-            if trigger.delay is not None and constant(trigger.delay) != 0:
+            if length is None:
+                raise CannotSayError("an action on the path counts from the end, and this way has no known length")
+            distance = distance - length
+        if distance != 0 or trigger.reference == "start":
+            if timed:
                 raise CannotSayError("an action by distance and by time")
-            distance = measured(trigger.distance, "mm")
-            if distance is None or distance > 0:
-                raise CannotSayError("an action by distance comes a constant distance before the end")
-            return f"DB {number_text(-float(distance), 1, tables.NUMBERS)}mm,{action}"
+            if distance > 1e-6:
+                raise CannotSayError("an action by distance comes before the end of the move")
+            return f"DB {number_text(max(0.0, -float(distance)), 1, tables.NUMBERS)}mm,{action}"
         delay = measured(trigger.delay, "s") if trigger.delay is not None else 0
         if delay is None:
             raise CannotSayError("an action by time comes at a constant time")
         return f"{'TA' if delay > 0 else 'TB'} {number_text(abs(float(delay)), 2, tables.NUMBERS)}sec,{action}"
+
+
+def path_length(kind: str, start: Position | None, via: Position | None, goal: Position | None) -> float | None:
+    """Length of a line or an arc in mm; None when an end is not known."""
+    if start is None or goal is None:
+        return None
+    if kind == "linear":
+        return math.dist(start.values[:3], goal.values[:3])
+    if kind != "circular" or via is None:
+        return None
+    one, other, whole = (
+        math.dist(start.values[:3], via.values[:3]),
+        math.dist(via.values[:3], goal.values[:3]),
+        math.dist(start.values[:3], goal.values[:3]),
+    )
+    half = (one + other + whole) / 2
+    area = math.sqrt(max(0.0, half * (half - one) * (half - other) * (half - whole)))
+    if area < 1e-9:
+        return None
+    radius = one * other * whole / (4 * area)
+    return 2 * radius * (_half_angle(one, radius) + _half_angle(other, radius))
+
+
+def _half_angle(chord: float, radius: float) -> float:
+    """Half the angle of an arc of less than half a turn over a chord, rad."""
+    return math.asin(min(1.0, chord / (2 * radius)))
 
 
 def _pulses(triggers: tuple[ir.Expression | ir.Trigger, ...]) -> list[tuple[ir.Expression | ir.Trigger, float | None]]:

@@ -75,6 +75,7 @@ class Points:
     frames: dict[int, set[tuple[str, str]]] = field(default_factory=dict)
     anonymous: dict[Position, int] = field(default_factory=dict)
     recorded: dict[int, Recorded] = field(default_factory=dict)
+    order: list[tuple[int, str, str]] = field(default_factory=list)
 
     def declare(self, variable: ir.Variable, scope: Scope) -> int:
         """A variable that is a point: by the number in its name."""
@@ -84,12 +85,12 @@ class Points:
         self.found[number] = (
             Position("none") if variable.initial is None else position_of(variable.initial, scope, variable.type)
         )
-        label = comment(variable.label)
-        if label:
-            self.labels[number] = label
         recorded = _recorded(variable.origin.text)
         if recorded is not None:
             self.recorded[number] = recorded
+        label = comment(variable.label) if recorded is None else variable.label
+        if label:
+            self.labels[number] = label
         return number
 
     def add(self, position: Position) -> int:
@@ -105,8 +106,9 @@ class Points:
         return number
 
     def used(self, number: int, frame: str, tool: str) -> None:
-        """A move goes to the point with this frame and tool in force (F: not known)."""
-        self.frames.setdefault(number, set()).add((frame, tool))
+        """A move goes to the point with this frame and tool in force ('': not known)."""
+        self.frames.setdefault(number, set()).add((frame or "F", tool or "F"))
+        self.order.append((number, frame, tool))
 
     def place(self, number: int) -> str:
         label = self.labels.get(number, "")

@@ -103,6 +103,7 @@ class Printer:
 
     def in_force(self, word: str, number: str) -> None:
         self.frames.selected[word].add(number)
+        self.motion.last = None
         if word == "UTOOL":
             self.motion.tool = number if number.isdigit() else ""
         else:
@@ -132,7 +133,7 @@ class Printer:
 
     def forget(self) -> None:
         """What tool and frame are in force is not known here."""
-        self.motion.frame = self.motion.tool = ""
+        self.motion.forget()
 
     # ---- statements
 
@@ -254,14 +255,14 @@ class Printer:
             self.line(short)
             return
         self.line(f"IF ({self.expressions.mixed(condition)}) THEN", statement.origin)
-        before = (self.motion.frame, self.motion.tool)
+        before = self.motion.state
         self.inner(body)
-        after = (self.motion.frame, self.motion.tool)
-        self.motion.frame, self.motion.tool = before
+        after = self.motion.state
+        self.motion.state = before
         if statement.otherwise:
             self.line("ELSE")
             self.inner(statement.otherwise)
-        if (self.motion.frame, self.motion.tool) != after:
+        if self.motion.state != after:
             self.forget()
         self.line("ENDIF")
 

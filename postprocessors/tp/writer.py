@@ -21,6 +21,7 @@ from .frames import Frames, highest_free_register
 from .lines import Line
 from .own import monitors_of
 from .positions import Points, point_number
+from .posture import choose_postures
 from .statements import Printer
 from .texts import comment
 
@@ -86,6 +87,7 @@ class _Writer:
         self.entries = _entries(program)
         self.monitors = monitors_of(program)
         self.taken: set[str] = set()
+        self.from_listings: set[str] = set()  # their points have postures of their own
 
     def module(self, module: ir.Module) -> list[Listing]:
         self.ledger.written(module)
@@ -132,6 +134,8 @@ class _Writer:
         self.lost_parts(routine)
         entry = routine.name.lower() in self.entries
         header = self.header(module, routine)
+        if "PROG" in dict(module.attributes):
+            self.from_listings.add(header.get("PROG", name))
         return Listing(header.get("PROG", name), printer.lines, points, header, entry)
 
     def header(self, module: ir.Module, routine: ir.Routine) -> dict[str, str]:
@@ -186,6 +190,9 @@ class _Writer:
             if listing.entry:
                 head = next((at for at, line in enumerate(listing.lines) if not line.first.startswith("  !")), 0)
                 listing.lines[head:head] = [*self.frames.setup(), *begin]
+            robot = self.context.robot
+            if robot is not None and listing.name not in self.from_listings:
+                choose_postures(listing.points, self.frames, robot)
             for task in tasks:
                 if task.cyclic and task.entry.upper() == listing.name:
                     _repeat(listing)

@@ -191,7 +191,9 @@ UNSAYABLE = [
     "WHILE di[1]\nother()\nEND WHILE",
     "MOVE LINEAR BY {z: 100, a: 10} SPEED 100 mm/s",
     "PULSE do[6] TO OFF FOR 0.2 s",
-    "MOVE LINEAR TO P1 SPEED 100 mm/s TRIGGER AT start DELAY 0.20 s DO other()",
+    "MOVE LINEAR TO P1 SPEED 100 mm/s TRIGGER AT start DISTANCE 5 mm DO other()",
+    "MOVE LINEAR TO P1 SPEED 100 mm/s TRIGGER AT end DISTANCE 5 mm DO other()",
+    "MOVE LINEAR TO P1 SPEED 100 mm/s TRIGGER AT end DISTANCE -5 mm DELAY 0.2 s DO other()",
 ]
 
 
@@ -228,3 +230,15 @@ def test_a_joint_moves_corner_distance_becomes_cnt() -> None:
     text, codes = listing("MOVE TO P2 JOINT SPEED 50 % BLEND 20 mm")
     assert numbered(text) == ["J P[2] 50% CNT5"]
     assert codes == ["tp-joint-corner"]
+
+
+def test_an_action_counted_from_the_start_is_counted_from_the_end() -> None:
+    there = "MOVE LINEAR TO P1 SPEED 100 mm/s"
+    line = "MOVE LINEAR TO {x: 400, y: 30, z: 340, a: 180, b: 0, c: 180} SPEED 100 mm/s"
+    found = lines(f"{there}\n{line} TRIGGER AT start DISTANCE 5 mm DO SET do[3] TO ON")
+    assert found[1] == "L P[3] 100mm/sec FINE DB 45mm,DO[3]=ON"
+    via, goal = "x: 410, y: 10, z: 300, a: 180, b: 0, c: 180", "x: 400, y: 20, z: 300, a: 180, b: 0, c: 180"
+    half = f"MOVE CIRCULAR VIA {{{via}}} TO {{{goal}}}"
+    text, codes = listing(f"{there}\n{half} SPEED 100 mm/s TRIGGER AT start DO SET do[3] TO ON")
+    assert not codes
+    assert "P[4] 100mm/sec FINE DB 31.4mm,DO[3]=ON" in text
