@@ -13,7 +13,7 @@ from rpl.source import Origin
 from . import nodes
 from .calls import Bound, Calls, as_text, one_more
 from .expressions import BUILTINS, pose_literal, pose_part
-from .functions import BindError, bind
+from .functions import BindError, bind, constant
 from .kinds import BOOL, INT, REAL, Kind
 from .moves import MOVES, Made, Make, literal
 from .nodes import Block, Expr, Node, shown
@@ -253,6 +253,9 @@ class Statements(Calls):
             return self.vendor(shown(run), "unknown")
         function = self.project.function(run.call.name, self.here)
         name = function.name if function is not None else run.call.name
+        later = self.output_later(function) if function is not None and target is None else None
+        if later is not None:
+            return (later,)
         start = ir.TaskControl("start", name, origin=self.origin)
         if target is None:
             return (start,)
@@ -261,6 +264,22 @@ class Statements(Calls):
             handle = nodes.Number(number.value, str(number.value))
             return (start, *self.store_part(target, handle)) if isinstance(target, nodes.At) else (start,)
         return (start, ir.Assign(ir.Name(target.name), number, origin=self.origin))
+
+    def output_later(self, function: Function) -> ir.SetAfter | None:
+        """A thread that only sleeps and then switches an output, nothing computed: an output that follows later."""
+        statements = [node for node in function.node.body if not isinstance(node, ir.Nothing)]
+        calls = [node.call for node in statements if isinstance(node, nodes.Perform)]
+        if len(statements) != 2 or not all(
+            isinstance(call, nodes.Apply) and all(constant(value) for _, value in call.arguments) for call in calls
+        ):
+            return None
+        origin = self.origin
+        made = self.block(function.node.body)
+        self.origin = origin
+        match [one for one in made if not isinstance(one, ir.Nothing)]:
+            case [ir.Wait(time=time), ir.Assign(target=ir.Signal() as signal, value=value)]:
+                return ir.SetAfter(signal, value, time, origin=origin)
+        return None
 
     def thread_number(self, name: str) -> int:
         """Threads of the project are numbered from 1; 0 is no thread."""

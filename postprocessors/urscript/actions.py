@@ -66,15 +66,10 @@ class Actions:
             case ir.Critical(enter=enter):
                 return "enter_critical" if enter else "exit_critical"
             case ir.TaskControl(op="start", task=task, arguments=()):
-                return f"{self.handle(task)} = run {task}()"
+                return f"global {task}_run = run {task}()"
             case ir.TaskControl(op="stop" | "join" as op, task=task):
-                return f"{'kill' if op == 'stop' else 'join'} {self.handle(task)}"
+                return f"{'kill' if op == 'stop' else 'join'} {task}_run"
         raise UnsayableError(f"there is no {statement.__class__.__name__}")
-
-    def handle(self, task: str) -> str:
-        """The variable that holds a running thread."""
-        self.printer.output.running.add(task)
-        return f"{task}_run"
 
     # ---- assignments
 

@@ -47,7 +47,6 @@ class Output:
     taken: set[str]
     notes: Notes = field(default_factory=Notes)
     threads: list[tuple[str, ...]] = field(default_factory=list)
-    running: set[str] = field(default_factory=set)
 
     def fresh(self, stem: str) -> str:
         """A name that nothing in the program has."""

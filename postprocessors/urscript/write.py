@@ -93,8 +93,7 @@ class _Script:
         body = self.body()
         threads = [_indented(lines) for lines in self.output.threads]
         helpers = [_indented(HELPERS[one]) for one in with_needed(frozenset(self.output.notes.helpers))]
-        running = [f"{INDENT}global {task}_run = 0" for task in sorted(self.output.running)]
-        parts = [part for part in ([*data, *running], *helpers, *routines, *threads, body) if part]
+        parts = [part for part in (data, *helpers, *routines, *threads, body) if part]
         text = _environment().get_template("program").render(before=remarks.lines, name=name, parts=parts)
         self.ledger.check(self.program)
         return OutputFile(f"{name}.script", text.encode("ascii", "replace"))
