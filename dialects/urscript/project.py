@@ -67,7 +67,7 @@ def _module(file: File, project: Project, inference: Inference, diagnostics: Dia
 def _only_data(routine: ir.Routine, file: File) -> bool:
     """The statements of a file that gave its variables their values, and nothing else."""
     program = file.program
-    if program is None or routine.name != program.name or program.node.origin.text.startswith("def"):
+    if program is None or routine.name != program.name or not program.loose:
         return False
     if any(not isinstance(statement, ir.Nothing) for statement in routine.body):
         return False

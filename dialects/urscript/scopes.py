@@ -47,13 +47,14 @@ class Symbol:
 
 @dataclass(slots=True, eq=False)
 class Function:
-    """A def, thread or sec, or the statements of a file. `name` is its name in the IR."""
+    """A def, thread or sec, or the statements of a file (`loose`). `name` is its name in the IR."""
 
     node: Define
     file: File
     outer: Function | None
     name: str
     program: bool = False
+    loose: bool = False
     parameters: dict[str, Symbol] = field(default_factory=dict)
     locals: dict[str, Symbol] = field(default_factory=dict)
     globals: set[str] = field(default_factory=set)
@@ -163,7 +164,7 @@ def _file(source: Source, block: Block) -> File:
     elif any(not isinstance(node, ir.Nothing) for node in loose):
         name = stem if stem not in file.top else "main" if "main" not in file.top else f"{stem}_program"
         node = Define("def", name, (), tuple(loose), loose[0].origin)
-        program = Function(node, file, None, name, program=True)
+        program = Function(node, file, None, name, program=True, loose=True)
         for inner in _defines(tuple(loose)):
             _add(inner, file, None)
         file.functions.insert(0, program)
@@ -315,10 +316,18 @@ def count_stores(project: Project) -> None:
             _find_given(file, file.program)
 
 
+def _is_constant(node: Node) -> bool:
+    return isinstance(node, nodes.Store) and constant(node.value)
+
+
 def _find_given(file: File, program: Function) -> None:
+    """What is given once and never changed; in a file that holds nothing but data and functions everything."""
+    body = [node for node in program.node.body if not isinstance(node, ir.Nothing | Define)]
+    names = [node.target.name for node in body if isinstance(node, nodes.Store) and isinstance(node.target, nodes.Var)]
+    data = program.loose and len(set(names)) == len(body) and all(map(_is_constant, body))
     for node in program.node.body:
         match node:
             case nodes.Store(target=nodes.Var(name=name), value=value) if constant(value):
                 symbol = file.globals.get(name)
-                if symbol is not None and symbol.stores == 1 and name not in program.parameters:
+                if symbol is not None and (symbol.stores == 1 or data) and name not in program.parameters:
                     symbol.given = node
