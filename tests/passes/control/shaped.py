@@ -105,7 +105,7 @@ def when(condition: ir.Expression, *body: ir.Statement, otherwise: ir.Body = ())
 
 
 def program(*body: ir.Statement, routines: tuple[ir.Routine, ...] = (), local: bool = False) -> ir.Program:
-    """A program of `main` with numbers a, b, i, n; `step(k)` shows k and ends an endless run; `ask(k)` shows and asks."""
+    """A program of `main` with numbers a, b, i, n; `step(k)` shows k and ends an endless run; `ask(k)` asks as well."""
     whole = ir.IntType()
     plus = assign("n", ir.Binary("+", ir.Name("n"), ir.IntLiteral(1)))
     message = ir.Message("notify", ir.Builtin("value_text", (ir.Name("k"),)))
