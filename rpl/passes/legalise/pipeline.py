@@ -14,14 +14,17 @@ from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.context import Context, Pass, names_in
 from rpl.passes.legalise.datalists import set_data_at_start
 from rpl.passes.legalise.defaults import starting_values
+from rpl.passes.legalise.elseif import nest_branches
 from rpl.passes.legalise.enums import enums_to_constants
 from rpl.passes.legalise.errorcodes import name_errors
 from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.explicit import explicit_to_modal
+from rpl.passes.legalise.functions import functions_to_procedures
 from rpl.passes.legalise.geometry import geometry
 from rpl.passes.legalise.interrupts import interrupts
 from rpl.passes.legalise.labels import structure_to_labels
 from rpl.passes.legalise.levels import levels_to_distances
+from rpl.passes.legalise.locals import variables_of_routines
 from rpl.passes.legalise.logic import decide_logic
 from rpl.passes.legalise.lookahead import stop_blends
 from rpl.passes.legalise.loops import fit_loops
@@ -29,6 +32,8 @@ from rpl.passes.legalise.modal import modal_to_explicit
 from rpl.passes.legalise.movesettings import settings_at_moves
 from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.optional import fit_parameters
+from rpl.passes.legalise.parameters import fit_arguments
+from rpl.passes.legalise.polling import poll_waits
 from rpl.passes.legalise.prelude import link_prelude
 from rpl.passes.legalise.pulses import fold_pulses
 from rpl.passes.legalise.references import references_as_copies
@@ -48,7 +53,8 @@ from rpl.passes.typing import normalise
 # First what asks for the source language's own rules (its prelude, its look-ahead), then signals and control (each may
 # make what a later one rewrites: errors make Repeat, switches make cor), then data and motion, geometry last. Structure
 # comes out of labels first (what follows the flow sees more) and again behind what makes jumps; labels come behind all
-# that makes or needs blocks.
+# that makes or needs blocks. Functions become procedures when no pass makes calls any more; what that puts in front of
+# conditions makes loops, so these are fitted again; then nothing needs new variables of routines.
 PASSES: tuple[Pass, ...] = (
     fold_pulses,
     levels_to_distances,
@@ -75,6 +81,7 @@ PASSES: tuple[Pass, ...] = (
     check_errors,
     labels_to_structure,
     fit_waits,
+    poll_waits,
     unroll_switches,
     decide_logic,
     rewrite_calls,
@@ -86,6 +93,11 @@ PASSES: tuple[Pass, ...] = (
     settings_at_moves,
     aggregates,
     geometry,
+    functions_to_procedures,
+    fit_arguments,
+    fit_loops,
+    variables_of_routines,
+    nest_branches,
     structure_to_labels,
     name_errors,
     drop_unused,
