@@ -30,8 +30,9 @@ _NUMBERS: dict[type, tuple[str, ...]] = {
 
 
 def starting_values(program: ir.Program, context: Context) -> ir.Program:
-    """Only from languages whose data starts at zero to those whose data starts undefined, or as the last run left it."""
-    left_over = rules_of(context.target).undefined or bool(context.capabilities.banks)
+    """Only from languages whose data starts at zero to those whose data starts undefined, or as it was left."""
+    can = context.capabilities
+    left_over = rules_of(context.target).undefined or bool(can.banks) or not can.locals
     if rules_of(context.source).undefined or not left_over:
         return program
     return _Defaults(program, context).program()
