@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from lark import Token, Tree
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes import rigid
 from rpl.reading.shapes import StatementError, SyntaxTree
+from rpl.source import NOWHERE, Origin
 
 from . import formats, signals, tables
 from .expressions import Expressions, subtree
@@ -96,7 +100,7 @@ class Functions(Expressions):
         zero = ir.IntLiteral(0)
         match name, values:
             case "trans", _ if len(values) <= 6:
-                return self.built("pose_zyz", *[values[n] or zero if n < len(values) else zero for n in range(6)])
+                return transformation([values[n] or zero if n < len(values) else zero for n in range(6)], self.origin)
             case "#ppoint", _ if len(values) <= 6:
                 return joints_of([values[n] or zero if n < len(values) else zero for n in range(6)])
             case (("rx" | "ry" | "rz"), [ir_value]) if ir_value is not None:
@@ -238,6 +242,41 @@ class Functions(Expressions):
                 return "".join(parts)
             return " ".join(parts)
         return self.spelling(node)
+
+
+def transformation(values: Sequence[ir.Expression], origin: Origin = NOWHERE) -> ir.Expression:
+    """x, y, z, yaw, pitch, roll. Written out angles become the neutral ones (about z, y, x) at once."""
+    angles = [constant(value) for value in values[3:]]
+    if None in angles:
+        return ir.Builtin("pose_zyz", tuple(values), origin=origin)
+    yaw, pitch, roll = (angle or 0.0 for angle in angles)
+    turns: list[ir.Expression]
+    if pitch == 0.0 and 0.0 in (yaw, roll):
+        turns = [values[3] if roll == 0.0 else values[5], ir.IntLiteral(0), ir.IntLiteral(0)]
+    else:
+        about_y = rigid.rotation_of_zyx(0.0, pitch, 0.0)
+        whole = rigid.rotation_of_zyx(yaw, 0.0, 0.0).then(about_y).then(rigid.rotation_of_zyx(roll, 0.0, 0.0))
+        turns = [literal(angle) for angle in whole.zyx]
+    entries = zip(("x", "y", "z", "a", "b", "c"), (*values[:3], *turns), strict=True)
+    return ir.Aggregate(tuple(entries), "pose", origin=origin)
+
+
+def constant(value: ir.Expression) -> float | None:
+    """The number that is written out, with its sign."""
+    match value:
+        case ir.IntLiteral(value=number) | ir.RealLiteral(value=number):
+            return float(number)
+        case ir.Unary(op="-", operand=ir.IntLiteral(value=number) | ir.RealLiteral(value=number)):
+            return -float(number)
+    return None
+
+
+def literal(number: float) -> ir.Expression:
+    """A calculated angle, freed from the rounding of its calculation."""
+    rounded = round(number, 9) + 0.0
+    size = abs(rounded)
+    value = ir.IntLiteral(int(size)) if size.is_integer() else ir.RealLiteral(size)
+    return ir.Unary("-", value) if rounded < 0.0 else value
 
 
 def joints_of(values: list[ir.Expression]) -> ir.Aggregate:

@@ -27,13 +27,14 @@ TWO_KINDS = code(
 )
 
 Symbol = tuple[str, str]  # program ("" for all), significant name
-POSE, REAL = "pose", "real"
+POSE, REAL, BOOL = "pose", "real", "bool"
 _DEEPEST = 8
 _KIND_TYPES: dict[str, ir.Type] = {
     "text": tables.TEXT,
     "joints": tables.JOINTS,
     "belt": ir.VendorType("vplus", "belt"),
     POSE: tables.POSE,
+    BOOL: ir.BoolType(),
 }
 
 
@@ -49,6 +50,7 @@ class Entry:
     unforeseen: set[int] = field(default_factory=set)  # dimensions with an index nobody can foresee
     origin: Origin = NOWHERE
     double: bool = False
+    fixed: bool = False  # its size is declared
 
 
 @dataclass(slots=True)
@@ -60,6 +62,9 @@ class Symbols:
     links: list[tuple[Symbol, Symbol]] = field(default_factory=list)
     # what each simple variable is given, with the program where it is; None: something that cannot be seen
     sources: dict[Symbol, list[tuple[str, ir.Expression | None]]] = field(default_factory=dict)
+
+    # variables that only hold truths (see `truths`)
+    truths: frozenset[Symbol] = frozenset()
 
     def symbol(self, program: str, name: str) -> Symbol:
         key = significant(name)
@@ -73,11 +78,14 @@ class Symbols:
         return found
 
     def kind(self, program: str, name: str) -> str:
-        """pose, real, text, joints or belt."""
+        """pose, real, bool, text, joints or belt."""
         sigils = {"$": "text", "#": "joints", "%": "belt"}
         if name[0] in sigils:
             return sigils[name[0]]
-        found = self.entries.get(self.symbol(program, name))
+        symbol = self.symbol(program, name)
+        if symbol in self.truths:
+            return BOOL
+        found = self.entries.get(symbol)
         return POSE if found is not None and found.pose is not None else REAL
 
     def type(self, program: str, name: str) -> ir.Type:
@@ -97,7 +105,7 @@ def element_type(kind: str) -> ir.Type:
 
 def last_index(entry: Entry, dimension: int) -> int:
     known = entry.last.get(dimension, 0)
-    return max(known, tables.LAST_INDEX) if dimension in entry.unforeseen else known
+    return max(known, tables.LAST_INDEX) if dimension in entry.unforeseen and not entry.fixed else known
 
 
 def infer(programs: dict[str, ProgramPart], data: list[DataPart], diagnostics: Diagnostics) -> Symbols:
@@ -137,6 +145,7 @@ def _declared(symbols: Symbols, key: str, part: ProgramPart) -> None:
             entry.rank = max(entry.rank, len(bounds))
             entry.double = entry.double or declared.type == "double"
             for dimension, bound in enumerate(bounds):
+                entry.fixed = entry.fixed or declared.kind == "auto"
                 if isinstance(bound, ir.IntLiteral):
                     entry.last[dimension] = max(entry.last.get(dimension, 0), bound.value)
             if declared.type == "loc" and name[0] not in "$#%":

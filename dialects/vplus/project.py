@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import PureWindowsPath
@@ -17,9 +17,12 @@ from rpl.reading.shapes import ShapeParser
 from rpl.registry import ReadResult
 from rpl.source import Origin, Source
 
+from . import truths
 from .blocks import Builder, DataPart, ProgramPart
-from .expressions import Facts, significant
+from .expressions import significant
+from .functions import joints_of, transformation
 from .inference import Symbols, element_type, infer
+from .quick import facts_of
 from .resolve import Resolver
 from .settings import Settings
 from .split import SHAPE, Outline, split
@@ -30,62 +33,12 @@ OUTSIDE = code(
 )
 TWICE = code("vplus-program-twice", Severity.ERROR, "a second program named {name}; only the first one is kept")
 
-_PROGRAM = re.compile(r"^[ \t]*\.PROGRAM[ \t]+([A-Za-z_][\w.]*)", re.IGNORECASE | re.MULTILINE)
-_ASSIGNED = re.compile(
-    r"^[ \t]*(?:\d+[ \t]+)?([A-Za-z_][\w.]*)[ \t]*(?:\[[^\]\r\n]*\])?[ \t]*=(?!=)[ \t]*([^;\r\n]*)",
-    re.IGNORECASE | re.MULTILINE,
-)
-_COUNTED = re.compile(r"^[ \t]*FOR[ \t]+([A-Za-z_][\w.]*)[ \t]*=", re.IGNORECASE | re.MULTILINE)
-_PARAMETERS = re.compile(r"^[ \t]*\.PROGRAM[ \t]+[\w.]+[ \t]*\(([^)\r\n]*)\)", re.IGNORECASE | re.MULTILINE)
-_PASSED = re.compile(
-    r"^[ \t]*(?:\d+[ \t]+)?(?:CALLS?|EXECUTE|READ|PROMPT|ATTACH)\b([^;\r\n]*)", re.IGNORECASE | re.MULTILINE
-)
-_EXECUTED = re.compile(
-    r"^[ \t]*(?:\d+[ \t]+)?EXECUTE[ \t]+(?:/C[ \t]+)?(\d+|[A-Za-z_][\w.]*)[ \t]+([A-Za-z_][\w.]*)",
-    re.IGNORECASE | re.MULTILINE,
-)
-_JOINS = re.compile(
-    r"^[ \t]*(?:\d+[ \t]+)?(?:CPON|CPOFF)\b|^[ \t]*(?:\d+[ \t]+)?(?:ENABLE|DISABLE)\b[^;\r\n]*\bCP\b",
-    re.IGNORECASE | re.MULTILINE,
-)
-_NAME = re.compile(r"[$#%]?[A-Za-z_][\w.]*")
+_ZEROS = (ir.IntLiteral(0),) * 6
 
 
 @cache
 def _parser() -> ShapeParser:
     return ShapeParser("vplus.lark", SHAPE)
-
-
-def facts_of(texts: Iterable[str]) -> Facts:
-    """A quick look: programs, names that only ever stand for whole numbers, programs executed in each task."""
-    programs: set[str] = set()
-    numbers: dict[str, set[int] | None] = {}
-    executed: dict[str, set[str]] = {}
-    joins = False
-    for text in texts:
-        programs.update(significant(name) for name in _PROGRAM.findall(text))
-        for name, value in _ASSIGNED.findall(text):
-            _number(numbers, significant(name), value.strip())
-        unknown = [*_COUNTED.findall(text)]
-        for inner in (*_PARAMETERS.findall(text), *_PASSED.findall(text)):
-            unknown.extend(_NAME.findall(inner))
-        for name in unknown:
-            numbers[significant(name)] = None
-        for task, program in _EXECUTED.findall(text):
-            executed.setdefault(task.lower(), set()).add(program)
-        joins = joins or _JOINS.search(text) is not None
-    known = {name: frozenset(values) for name, values in numbers.items() if values}
-    return Facts(frozenset(programs), known, {task: frozenset(names) for task, names in executed.items()}, joins)
-
-
-def _number(numbers: dict[str, set[int] | None], name: str, value: str) -> None:
-    known = numbers.setdefault(name, set())
-    if known is None:
-        return
-    if value.isdigit() and len(value) < 9:
-        known.add(int(value))
-    else:
-        numbers[name] = None
 
 
 @dataclass(slots=True)
@@ -112,8 +65,13 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
         reports.append(done.report)
         files.append(_sorted(source, done.items, programs, diagnostics))
     symbols = infer(programs, [part for file in files for part in file.data], diagnostics)
+    truths.mark(programs, [part for file in files for part in file.data], symbols)
     homes = _homes(files, symbols)
-    modules = tuple(_module(file, symbols, homes.get(position, []), lowering) for position, file in enumerate(files))
+    kinds = {
+        key: tuple(symbols.kind(key, name) for name, _ in part.header.parameters) for key, part in programs.items()
+    }
+    finish = _Finish(symbols, lowering, kinds)
+    modules = tuple(finish.module(file, homes.get(position, [])) for position, file in enumerate(files))
     return ReadResult(ir.Program(modules), tuple(reports))
 
 
@@ -169,72 +127,71 @@ def _homes(files: list[_File], symbols: Symbols) -> dict[int, list[tuple[str, st
     return homes
 
 
-def _module(file: _File, symbols: Symbols, names: list[tuple[str, str]], lowering: Settings) -> ir.Module:
-    """One file as a module: global variables, then its programs."""
-    first = {
-        significant(datum.name): _initial(section.section, datum.values)
-        for section in file.data
-        for datum, _ in section.values
-        if not datum.indices
-    }
-    declared: list[ir.Declaration] = list(file.comments)
-    for key, name in names:
-        origin = symbols.entries["", key].origin
-        declared.append(
-            ir.Variable(
-                name,
-                symbols.type("", name),
-                first.get(key),
-                "persistent",
-                "global",
-                origin=Origin(origin.source, origin.start, origin.end),
-            )
+@dataclass(slots=True)
+class _Finish:
+    """Makes modules of files when all types are known."""
+
+    symbols: Symbols
+    lowering: Settings
+    kinds: dict[str, tuple[str, ...]]
+
+    def module(self, file: _File, names: list[tuple[str, str]]) -> ir.Module:
+        """One file as a module: global variables, then its programs."""
+        first = {
+            significant(datum.name): _initial(section.section, datum.name, datum.values)
+            for section in file.data
+            for datum, _ in section.values
+            if not datum.indices
+        }
+        declared: list[ir.Declaration] = list(file.comments)
+        for key, name in names:
+            origin = self.symbols.entries["", key].origin
+            at = Origin(origin.source, origin.start, origin.end)
+            type = self.symbols.type("", name)
+            declared.append(ir.Variable(name, type, first.get(key), "persistent", "global", origin=at))
+        for section in file.data:
+            for datum, part in section.values:
+                if datum.indices:
+                    place = ir.Index(ir.Name(datum.name), tuple(ir.IntLiteral(index) for index in datum.indices))
+                    assign = ir.Assign(place, _initial(section.section, datum.name, datum.values), origin=part.origin)
+                    declared.append(ir.Initialise(assign, origin=part.origin))
+        routines = tuple(self.routine(key, part, origin) for key, part, origin in file.programs)
+        return ir.Module(_stem(file.source), "vplus", tuple(declared), routines, origin=Origin(file.source))
+
+    def routine(self, key: str, part: ProgramPart, origin: Origin) -> ir.Routine:
+        """A program with its parameters and its own variables."""
+        parameters = []
+        for name, count in part.header.parameters:
+            type = element_type(self.symbols.kind(key, name))
+            if count:
+                type = ir.ArrayType(type, (None,) * count, base=0)
+            parameters.append(ir.Parameter(name, type, "reference"))
+        taken = {significant(name) for name, _ in part.header.parameters}
+        at = Origin(origin.source, origin.start, origin.end)
+        declared = []
+        for declaration in part.declared:
+            for name, _ in declaration.names:
+                if declaration.kind == "global" or significant(name) in taken:
+                    continue
+                taken.add(significant(name))
+                storage = "persistent" if declaration.kind == "local" else "variable"
+                declared.append(ir.Variable(name, self.symbols.type(key, name), None, storage, "routine", origin=at))
+        body = Resolver(self.symbols, key, self.kinds).body(part.body)
+        return ir.Routine(
+            self.lowering.names.of(part.header.name, origin),
+            parameters=tuple(parameters),
+            declarations=tuple(declared),
+            body=body,
+            scope="global",
+            origin=origin,
         )
-    for section in file.data:
-        for datum, part in section.values:
-            if datum.indices:
-                place = ir.Index(ir.Name(datum.name), tuple(ir.IntLiteral(index) for index in datum.indices))
-                assign = ir.Assign(place, _initial(section.section, datum.values), origin=part.origin)
-                declared.append(ir.Initialise(assign, origin=part.origin))
-    routines = tuple(_routine(key, part, symbols, origin, lowering) for key, part, origin in file.programs)
-    return ir.Module(_stem(file.source), "vplus", tuple(declared), routines, origin=Origin(file.source))
 
 
-def _initial(section: str, values: tuple[ir.Expression, ...]) -> ir.Expression:
+def _initial(section: str, name: str, values: tuple[ir.Expression, ...]) -> ir.Expression:
     """The value of a line in a data section."""
     if section != ".LOCATIONS":
         return values[0]
-    if len(values) == 6:
-        return ir.Builtin("pose_zyz", values)
-    return values[0]
+    return transformation(values) if name[0] != "#" else joints_of([*values, *_ZEROS][:6])
 
 
-def _routine(key: str, part: ProgramPart, symbols: Symbols, origin: Origin, lowering: Settings) -> ir.Routine:
-    """A program with its parameters and its own variables."""
-    parameters = []
-    for name, count in part.header.parameters:
-        type = element_type(symbols.kind(key, name))
-        if count:
-            type = ir.ArrayType(type, (None,) * count, base=0)
-        parameters.append(ir.Parameter(name, type, "reference"))
-    taken = {significant(name) for name, _ in part.header.parameters}
-    declared = []
-    for declaration in part.declared:
-        for name, _ in declaration.names:
-            if declaration.kind == "global" or significant(name) in taken:
-                continue
-            taken.add(significant(name))
-            storage = "persistent" if declaration.kind == "local" else "variable"
-            declared.append(ir.Variable(name, symbols.type(key, name), None, storage, "routine", origin=origin))
-    body = Resolver(symbols, key).body(part.body)
-    return ir.Routine(
-        lowering.names.of(part.header.name, origin),
-        parameters=tuple(parameters),
-        declarations=tuple(declared),
-        body=body,
-        scope="global",
-        origin=origin,
-    )
-
-
-__all__ = ["facts_of", "read"]
+__all__ = ["read"]

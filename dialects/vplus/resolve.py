@@ -11,10 +11,10 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import rewrite
 
-from .expressions import root_name
-from .inference import POSE, REAL, Symbols, is_location
+from .expressions import root_name, significant
+from .inference import BOOL, POSE, REAL, Symbols, is_location
 
-BOOL, TEXT, JOINTS = "bool", "text", "joints"
+TEXT, JOINTS = "text", "joints"
 _COMPARISONS = frozenset(("=", "<>", "<", ">", "<=", ">="))
 _LOGIC = frozenset(("and", "or", "xor", "cand", "cor"))
 _ARITHMETIC = frozenset(("-", "*", "/", "mod", "band", "bor", "bxor"))
@@ -24,15 +24,13 @@ _LETTERS = {"t": TEXT, "c": TEXT, "p": POSE, "b": BOOL, "j": JOINTS, "n": REAL, 
 class Resolver:
     """Rewrites the body of one program."""
 
-    def __init__(self, symbols: Symbols, program: str) -> None:
-        self.symbols, self.program = symbols, program
+    def __init__(self, symbols: Symbols, program: str, parameters: dict[str, tuple[str, ...]]) -> None:
+        """`parameters`: the kinds of every program's parameters, by its significant name."""
+        self.symbols, self.program, self.parameters = symbols, program, parameters
 
     def body(self, body: ir.Body) -> ir.Body:
         """The body in its final form."""
-        return tuple(self.whole(rewrite(statement, self.node)) for statement in body)
-
-    def whole(self, statement: ir.Statement) -> ir.Statement:
-        return statement
+        return tuple(rewrite(statement, self.node) for statement in body)
 
     # ---- kinds
 
@@ -213,16 +211,23 @@ class Resolver:
                 wanted = self.kind(target)
                 given = self.truth(value) if wanted == BOOL else self.number(value) if wanted == REAL else value
                 return replace(node, value=given)
-            case ir.CallRoutine(arguments=arguments) | ir.TaskControl(arguments=arguments):
-                given_arguments = tuple(
-                    argument if argument.value is None else replace(argument, value=self.number(argument.value))
-                    for argument in arguments
-                )
-                return replace(node, arguments=given_arguments)
+            case ir.CallRoutine(name=name) | ir.TaskControl(task=name):
+                return replace(node, arguments=self.arguments(name, node.arguments))
             case ir.Message(text=text) if self.kind(text) != TEXT:
                 shown = ir.Builtin("format", (ir.TextLiteral("% .8g"), self.number(text)), origin=node.origin)
                 return replace(node, text=shown)
         return node
+
+    def arguments(self, name: str, given: tuple[ir.Argument, ...]) -> tuple[ir.Argument, ...]:
+        """Arguments as their parameters want them: a truth for one that only holds truths, else a number."""
+        kinds = self.parameters.get(significant(name), ())
+        done = []
+        for position, argument in enumerate(given):
+            value = argument.value
+            if value is not None and not (position < len(kinds) and kinds[position] == BOOL):
+                argument = replace(argument, value=self.number(value))
+            done.append(argument)
+        return tuple(done)
 
     def switch(self, node: ir.Switch) -> ir.Switch:
         """Truths are compared as truths only when all are."""

@@ -14,6 +14,7 @@ from rpl.source import Origin
 
 from . import signals, tables
 from .expressions import root_name, subtree
+from .functions import transformation
 from .motion import Motion
 from .split import code_of
 from .statements import ALWAYS_TRUE, Instruction, Lowered
@@ -140,7 +141,7 @@ class Settings(Motion):
             return None
         zero = ir.IntLiteral(0)
         x, y, z, turn = ((values + [None] * 4)[n] or zero for n in range(4))
-        return ir.Builtin("pose_zyz", (x, y, z, turn, zero, zero), origin=given.origin)
+        return transformation([x, y, z, turn, zero, zero], given.origin)
 
     # ---- waiting, reactions, stops, tasks
 
@@ -302,8 +303,9 @@ class Settings(Motion):
     def setting(self, word: str, places: list[SyntaxTree], value: ir.Expression, origin: Origin) -> Lowered | None:
         match word, places:
             case "timer", [number]:
-                place = ir.System("timer", (self.expression(number),), origin=origin)
-                return ir.Assign(place, value, origin=origin)
+                index = (self.expression(number),)  # a timer of V+ never stands still
+                runs = ir.Assign(ir.System("timer_stopped", index, origin=origin), ir.BoolLiteral(False), origin=origin)
+                return ir.Assign(ir.System("timer", index, origin=origin), value, origin=origin), runs
             case "bits", [first, *count] if len(count) <= 1:
                 size = self.expression(count[0]) if count else None
                 found = signals.group(self.expression(first), size, self.facts, origin)

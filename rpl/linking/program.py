@@ -202,8 +202,10 @@ class LinkedProgram:
         for dialect in {module.dialect for module in self.program.modules}:
             spell = registry.dialect(dialect).signal_name
             for kind in ir.SIGNAL_KINDS:
-                for number in range(int(digits), int(digits) + _SPELLED_LATER):  # some languages count from 0
-                    if spell(kind, number).lower() == name:
+                written = int(digits)
+                added = written - _first_number(spell(kind, 0))  # some add a thousand for inputs, some count from 0
+                for number in (added, *range(written, written + _SPELLED_LATER)):
+                    if number > 0 and spell(kind, number).lower() == name:
                         return SignalRef(kind, number)
         return None
 
@@ -259,6 +261,12 @@ def constant_port(signal: ir.Signal, name: str | None = None) -> SignalRef | Non
         return None
     last = _literal_number(signal.last)
     return SignalRef(signal.kind, first, last)
+
+
+def _first_number(spelled: str) -> int:
+    """What a language adds to the numbers of a kind of signal when it writes them (V+: inputs from 1001)."""
+    digits = "".join(character for character in spelled if character.isdigit())
+    return int(digits) if digits else 0
 
 
 def _literal_number(expression: ir.Expression | None) -> int | None:

@@ -1,0 +1,133 @@
+"""A quick look over all texts of a project before reading: what its programs are called, and which whole numbers a name
+can stand for. SIGNAL and SIG need that: the size of a number tells which kind of signal it is.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from .expressions import Facts, significant
+
+_PROGRAM = re.compile(r"^[ \t]*\.PROGRAM[ \t]+([A-Za-z_][\w.]*)", re.IGNORECASE | re.MULTILINE)
+_ASSIGNED = re.compile(
+    r"^[ \t]*(?:\d+[ \t]+)?([A-Za-z_][\w.]*)[ \t]*(?:\[[^\]\r\n]*\])?[ \t]*=(?!=)[ \t]*([^;\r\n]*)",
+    re.IGNORECASE | re.MULTILINE,
+)
+_COUNTED = re.compile(r"^[ \t]*FOR[ \t]+([A-Za-z_][\w.]*)[ \t]*=", re.IGNORECASE | re.MULTILINE)
+_HEADER = re.compile(r"^[ \t]*\.PROGRAM[ \t]+([\w.]+)[ \t]*\(([^)\r\n]*)\)", re.IGNORECASE | re.MULTILINE)
+_CALLED = re.compile(
+    r"^[ \t]*(?:\d+[ \t]+)?(?:CALL|EXECUTE(?:[ \t]+/C)?(?:[ \t]+[\w.]+)??)[ \t]+([A-Za-z_][\w.]*)[ \t]*"
+    r"\(([^;\r\n]*)\)",
+    re.IGNORECASE | re.MULTILINE,
+)
+_TAKEN = re.compile(r"^[ \t]*(?:\d+[ \t]+)?(?:CALLS|READ|PROMPT|ATTACH)\b([^;\r\n]*)", re.IGNORECASE | re.MULTILINE)
+_STORED = re.compile(r"^[ \t]*([A-Za-z_][\w.]*)(?:\[[\d, \t]*\])?[ \t]+(\d+)[ \t]*$", re.MULTILINE)
+_NAME = re.compile(r"[A-Za-z_][\w.]*")
+_EXECUTED = re.compile(
+    r"^[ \t]*(?:\d+[ \t]+)?EXECUTE[ \t]+(?:/C[ \t]+)?(\d+|[A-Za-z_][\w.]*)[ \t]+([A-Za-z_][\w.]*)",
+    re.IGNORECASE | re.MULTILINE,
+)
+_JOINS = re.compile(
+    r"^[ \t]*(?:\d+[ \t]+)?(?:CPON|CPOFF)\b|^[ \t]*(?:\d+[ \t]+)?(?:ENABLE|DISABLE)\b[^;\r\n]*\bCP\b",
+    re.IGNORECASE | re.MULTILINE,
+)
+
+
+def facts_of(texts: Iterable[str]) -> Facts:
+    """Programs, names that only ever stand for whole numbers, programs executed in each task."""
+    kept = list(texts)
+    programs: set[str] = set()
+    executed: dict[str, set[str]] = {}
+    joins = False
+    for text in kept:
+        programs.update(significant(name) for name in _PROGRAM.findall(text))
+        for task, program in _EXECUTED.findall(text):
+            executed.setdefault(task.lower(), set()).add(program)
+        joins = joins or _JOINS.search(text) is not None
+    tasks = {task: frozenset(names) for task, names in executed.items()}
+    return Facts(frozenset(programs), _Numbers().of(kept), tasks, joins)
+
+
+class _Numbers:
+    """Whole numbers by name, whatever program the name belongs to. None: it can be anything."""
+
+    def __init__(self) -> None:
+        self.known: dict[str, set[int] | None] = {}
+        self.links: set[tuple[str, str]] = set()
+
+    def of(self, texts: list[str]) -> dict[str, frozenset[int]]:
+        headers = {
+            significant(name): [_plain(parameter) for parameter in inner.split(",")]
+            for text in texts
+            for name, inner in _HEADER.findall(text)
+        }
+        for text in texts:
+            for name, value in (*_ASSIGNED.findall(text), *_STORED.findall(text)):
+                self.gets(significant(name), value.strip())
+            for name in _COUNTED.findall(text):
+                self.known[significant(name)] = None
+            for inner in _TAKEN.findall(text):
+                for name in _NAME.findall(inner):
+                    self.known[significant(name)] = None
+            for name, inner in _CALLED.findall(text):
+                self.called(headers.get(significant(name), []), _split(inner))
+        self.connect()
+        return {name: frozenset(values) for name, values in self.known.items() if values}
+
+    def gets(self, name: str, value: str) -> None:
+        known = self.known.setdefault(name, set())
+        if known is None:
+            return
+        if value.isdigit() and len(value) < 9:
+            known.add(int(value))
+        else:
+            self.known[name] = None
+
+    def called(self, parameters: list[str], arguments: list[str]) -> None:
+        """An argument is what the parameter is; a variable and its parameter are the same."""
+        for position, argument in enumerate(arguments):
+            parameter = parameters[position] if position < len(parameters) else ""
+            if _NAME.fullmatch(argument):
+                if parameter:
+                    self.links.add((significant(argument), significant(parameter)))
+                else:
+                    self.known[significant(argument)] = None
+            elif parameter and argument:
+                self.gets(significant(parameter), argument)
+
+    def connect(self) -> None:
+        changed = True
+        while changed:
+            changed = False
+            for one, other in self.links:
+                first, second = self.known.setdefault(one, set()), self.known.setdefault(other, set())
+                both = None if first is None or second is None else first | second
+                if (first, second) != (both, both):
+                    self.known[one], self.known[other] = both, None if both is None else set(both)
+                    changed = True
+
+
+def _plain(parameter: str) -> str:
+    return parameter.partition("[")[0].strip()
+
+
+def _split(arguments: str) -> list[str]:
+    """The arguments of a call, commas inside of brackets and texts left alone."""
+    parts, depth, quoted, start = [], 0, False, 0
+    for at, sign in enumerate(arguments):
+        if sign == '"':
+            quoted = not quoted
+        elif quoted:
+            continue
+        elif sign in "([":
+            depth += 1
+        elif sign in ")]":
+            depth -= 1
+        elif sign == "," and depth == 0:
+            parts.append(arguments[start:at].strip())
+            start = at + 1
+    return [*parts, arguments[start:].strip()]
+
+
+__all__ = ["facts_of"]
