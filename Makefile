@@ -6,7 +6,7 @@ ROBOT ?= kuka_kr6r900sixx
 TO_ROBOT ?= abb_irb1200_5_90
 WORKERS ?= 2
 
-.PHONY: demo test lint types clean
+.PHONY: demo test test-long lint types clean
 
 # The stamps say which set of packages the environment has; pyproject.toml decides when that is out of date.
 $(VENV)/.demo-ready: pyproject.toml setup.py
@@ -32,6 +32,10 @@ demo: $(VENV)/.demo-ready
 
 test: $(VENV)/.test-ready
 	$(BIN)/python -m pytest -n $(WORKERS) -m "not slow"
+
+# The long generated runs; as many minutes as you have.
+test-long: $(VENV)/.test-ready
+	$(BIN)/python -m pytest -n $(WORKERS) -m slow
 
 lint: $(VENV)/.test-ready
 	$(BIN)/ruff check .
