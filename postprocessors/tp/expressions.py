@@ -207,7 +207,11 @@ class Expressions:
         match name, values:
             case "text_length", (text,):
                 return f"STRLEN {self.operand(text)}"
-            case "text_find", (text, start, wanted_text) if constant(start) == 1:
+            case "text_find", (
+                ir.Builtin(function="text_upper", arguments=(text,)),
+                start,
+                ir.Builtin(function="text_upper", arguments=(wanted_text,)),
+            ) if constant(start) == 1:
                 return f"FINDSTR {self.operand(text)},{self.operand(wanted_text)}"
             case "text_part", (text, start, count):
                 return f"SUBSTR {self.operand(text)},{self.operand(start)},{self.operand(count)}"
@@ -287,12 +291,21 @@ class Expressions:
             case ir.Binary(op=op, left=left, right=right) if op in tables.COMPARISONS:
                 if constant(left) is not None or not self.is_place(left):
                     return None
+                if isinstance(self.type(left), ir.StringType) or isinstance(right, ir.TextLiteral):
+                    raise CannotSayError("TP compares texts without regard to capital letters")
                 first, second = self.simple(left), self.simple(right)
                 if first is None or second is None:
                     return None
                 return f"{first}{tables.OPERATORS.binary[op].symbol}{second}"
             case ir.Unary(op="not", operand=operand) if self.is_truth(operand):
                 return f"{self.place(operand)}=OFF"
+            case ir.Builtin(function="text_equal", arguments=(one, other, ir.BoolLiteral(value=True))):
+                return f"{self.operand(one)}={self.operand(other)}"
+            case ir.Unary(
+                op="not",
+                operand=ir.Builtin(function="text_equal", arguments=(one, other, ir.BoolLiteral(value=True))),
+            ):
+                return f"{self.operand(one)}<>{self.operand(other)}"
             case _ if self.is_truth(term):
                 return f"{self.place(term)}=ON"
         return None

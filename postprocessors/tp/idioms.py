@@ -213,9 +213,16 @@ class Idioms:
             case (ir.DeclareInterrupt() as watch, ir.ControlInterrupt(op="on", handle=handle), *_):
                 if handle != watch.priority or not isinstance(watch.action, ir.CallRoutine):
                     return 0
+                disarmed = ir.ControlInterrupt("off", handle)
+                at_once = ir.If(((watch.condition, (disarmed, watch.action)),))
+                level = len(body) > 2 and body[2] == at_once
                 condition = self.printer.expressions.condition(watch.condition)
+                if not level:
+                    if not condition.endswith("=ON") or " " in condition:
+                        return 0
+                    condition += "+"
                 self.printer.line(f"WHEN {condition},{self.printer.call(watch.action).rstrip()}", watch.origin)
-                return self.done(body, 2)
+                return self.done(body, 3 if level else 2)
         return 0
 
     def end_of_monitor(self, body: ir.Body) -> int:

@@ -128,13 +128,10 @@ class Motion:
     def target(self, move: ir.Move, target: ir.Expression) -> tuple[str, str]:
         """`P[1]` or `PR[2]`, and the options that move it."""
         match target:
-            case ir.Builtin(function="displaced" | "displaced_in_tool" as how, arguments=(base, pose)):
+            case ir.Builtin(function="element_sum" | "displaced_in_tool" as how, arguments=(base, offset)):
                 shown, more = self.target(move, base)
-                word = "Offset" if how == "displaced" else "Tool_Offset"
-                return shown, f"{more} {word},{self.register(pose)}"
-            case ir.Builtin(function="element_sum", arguments=(base, offset)):
-                shown, more = self.target(move, base)
-                return shown, f"{more} Offset,{self.register(offset)}"
+                word = "Offset" if how == "element_sum" else "Tool_Offset"
+                return shown, f"{more} {word},{self.register(offset)}"
             case ir.Builtin(function="joints_to_target" | "target_to_joints" | "pose_of", arguments=(base,)):
                 return self.target(move, base)
             case ir.Binary(op=":", left=base, right=pose) | ir.Builtin(function="compose", arguments=(base, pose)):

@@ -57,12 +57,12 @@ FUNCTIONS: Final[Mapping[str, str]] = {
     "trunc": "TRUNC",
 }
 # Functions of texts: a name and its arguments without brackets.
-TEXT_FUNCTIONS: Final[Mapping[str, str]] = {"text_length": "STRLEN", "text_find": "FINDSTR", "text_part": "SUBSTR"}
+TEXT_FUNCTIONS: Final[Mapping[str, str]] = {"text_length": "STRLEN", "text_part": "SUBSTR"}
 # What the position printers say in their own way, as the right side of an assignment or the target of a move.
 POSITION_FUNCTIONS: Final = frozenset(
     (
         *("current_target", "current_joints", "element_sum", "element_difference", "offset"),
-        *("displaced", "displaced_in_tool", "pose_of"),
+        *("displaced_in_tool", "pose_of"),
     )
 )
 

@@ -124,6 +124,7 @@ class _Writer:
         points = Points()
         expressions = Expressions(scope, self.names, limited="PROG" not in dict(module.attributes))
         printer = Printer(expressions, points, self.frames, Labels.of(routine.body), self.ledger, self.diagnostics)
+        printer.monitors = self.monitors
         self.ledger.written(routine)
         printer.comments_only(routine.origin)
         named: dict[str, str] = {}

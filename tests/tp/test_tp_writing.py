@@ -103,7 +103,7 @@ MOVES = [
     ("MOVE LINEAR TO P1 SPEED 30 inch/min", "L P[1] 30inch/min FINE"),
     ("MOVE LINEAR TO P1 SPEED R[5] mm/s BLEND PERCENT R[6]", "L P[1] R[5]mm/sec CNT R[6]"),
     ("MOVE LINEAR TO PR[3] : PR[4] SPEED 100 mm/s", "L PR[3] 100mm/sec FINE Tool_Offset,PR[4]"),
-    ("MOVE LINEAR TO displaced(P1, PR[4]) SPEED 100 mm/s", "L P[1] 100mm/sec FINE Offset,PR[4]"),
+    ("MOVE LINEAR TO element_sum(P1, PR[4]) SPEED 100 mm/s", "L P[1] 100mm/sec FINE Offset,PR[4]"),
     ("MOVE LINEAR BY {z: 100} SPEED 100 mm/s", "L P[3] 100mm/sec FINE INC"),
     ("MOVE TO P2 JOINT SPEED 20 % ACCELERATION 80 %", "J P[2] 20% FINE ACC80"),
     ("MOVE TO P2 DURATION 2.5 s", "J P[2] 2.5sec FINE"),
