@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rpl.diagnostics import Diagnostics
@@ -31,6 +32,17 @@ def _recognise(path: str, text: str) -> int:
     if re.search(r"^[ \t]*/MN\b", head, re.MULTILINE) and re.search(r"^[ \t]*/(?:POS|END)\b", text, re.MULTILINE):
         return 60
     return 90 if _DUMP.search(text) else 0
+
+
+_DUMPS = ("numreg.va", "strreg.va", "posreg.va", "sysframe.va")
+
+
+def _companions(path: str) -> tuple[str, ...]:
+    """The variable dumps beside a listing: values of registers and frames."""
+    file = Path(path)
+    if file.suffix.lower() != ".ls":
+        return ()
+    return tuple(str(file.with_name(name)) for dump in _DUMPS for name in (dump, dump.upper()))
 
 
 def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
@@ -80,6 +92,7 @@ DIALECT = Dialect(
     rules=_rules,
     prelude=_prelude,
     notation=_notation,
+    companions=_companions,
     notation_fields=("flip", "down", "back", "t1", "t4", "t6"),
     signal_name=_signal_name,
 )

@@ -24,8 +24,8 @@ HEADER, POSITIONS, END, MACRO = "/PROG", "/POS", "/END", "@"
 SHAPE = re.compile(
     r"\A@.*|\bMESSAGE\s*\[.*"
     r"|'[^'\n]*'"
-    r"|(?:CNT|ACC|CR|CD|EV|PSPD|RT_LD|AP_LD)(?=\d)"
-    r"|\$[\w$.]*(?:\[[^\]]*\][\w$.]*)*"
+    r"|(?:CNT|ACC|CR|CD|EV|PSPD|RT_LD|AP_LD|DIV|MOD)(?=\d)"
+    r"|\$(?:\[[*\w]+\])?[\w$.]*(?:\[[^\]]*\][\w$.]*)*"
     r"|(?i:(?:CALL|RUN|MONITOR(?:\s+END)?|ERROR_PROG\s*=|RESUME_PROG\s*=|MAINT_PROG\s*=)\s*[A-Za-z_\u0080-\uffff][-\w]*)"
     r"|[A-Za-z_\u0080-\uffff][\w$]*"
     r"|(?P<real>(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?)"
@@ -194,7 +194,7 @@ def _statements(text: str, begin: int, end: int, german: bool) -> Iterator[Piece
 
 def readable(body: str, german: bool) -> str:
     """The statement as the grammar reads it: English, without comments in brackets, unknown instructions marked."""
-    body = body.strip().removesuffix(";").rstrip()
+    written = body = body.strip().removesuffix(";").rstrip()
     if german and not body.startswith("'"):
         body = english(body)
     if _DASHES.fullmatch(body):
@@ -205,7 +205,7 @@ def readable(body: str, german: bool) -> str:
     if plain.startswith("=") or _SELECT_NEXT.match(plain):
         return plain
     if not _KNOWN.match(plain) or _NAMED_ARGUMENTS.match(plain):
-        return MACRO + body
+        return MACRO + written
     return plain
 
 

@@ -37,6 +37,9 @@ SKIP_BY_TEXT = code(
     Severity.WARNING,
     "this program sets {what} in several places; here the one of line {line} is taken",
 )
+MISSING_LABEL = code(
+    "tp-missing-label", Severity.WARNING, "this program has no LBL[{number}]; the controller stops at this jump"
+)
 _DEEPEST_CHOICE = 4
 TIMED_OUT, HIT = "wait_timed_out", "skip_hit"
 
@@ -255,6 +258,8 @@ class Statements(Expressions):
         number = self.index(_tree(target.children[0]))
         if not isinstance(number, ir.IntLiteral):
             number = ir.IntLiteral(self.choice(number, self.place.labels))
+        if number.value not in self.place.labels:
+            self.diagnostics.report(MISSING_LABEL, self.origin, number=number.value)
         return ir.Goto(f"LBL{number.value}", origin=self.origin)
 
     def on_if_action(self, tree: SyntaxTree) -> Lowered:
@@ -437,7 +442,7 @@ class Statements(Expressions):
         return ir.Message("error", shown, origin=self.origin), ir.Halt("stop", origin=self.origin)
 
     def on_payload(self, tree: SyntaxTree) -> Lowered:
-        self.index(_tree(tree.children[0]))
+        self.index(_tree(tree.children[-1]))
         return self.vendor(self.origin_line(), "none")
 
     def on_preread(self, tree: SyntaxTree) -> Lowered:

@@ -210,7 +210,7 @@ GERMAN = [
         "J P[1] 100% CNT0 ZEIT VOR    .10sek,A[1]=AN",
         "MOVE TO P1 JOINT SPEED 100 BLEND PERCENT 0 TRIGGER AT end DELAY (-0.1) DO SET do[1] TO ON",
     ),
-    ("FB-PSPS (M[2] [&] M[30])", 'VENDOR tp "FB-PSPS (M[2]  AND  M[30])" EFFECT unknown'),
+    ("FB-PSPS (M[2] [&] M[30])", 'VENDOR tp "FB-PSPS (M[2] [&] M[30])" EFFECT unknown'),
 ]
 
 

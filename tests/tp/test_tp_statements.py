@@ -29,6 +29,8 @@ CASES = [
     ("R[1]=SR[2]", "R1 = text_value(SR2)"),
     ("R[1]=$MCR.$GENOVERRIDE", "R1 = $override"),
     ("R[1]=$SOME.$THING", 'R1 = VENDOR(tp, "$SOME.$THING", REAL)'),
+    ("R[1]=$[PROG]COUNT", 'R1 = VENDOR(tp, "$[PROG]COUNT", REAL)'),
+    ("R[1]=R[2]DIV5", "R1 = R2 DIV 5"),
     ("R[1]=Constant", 'R1 = VENDOR(tp, "Constant", REAL)'),
     ("DO[1:lamp]=ON", "SET do[1] TO ON"),
     ("DO[1]=(DI[1] AND !DI[2] OR DI[3])", "SET do[1] TO (di[1] AND NOT di[2]) OR di[3]"),
@@ -206,6 +208,11 @@ def test_damage_costs_one_statement(line: str, reason: str) -> None:
     assert reason in report.message
     assert report.origin.line == 6
     assert len(program.modules[-1].routines[0].body) == 3
+
+
+def test_a_missing_label_is_reported() -> None:
+    _, diagnostics = read(listing("JMP LBL[7]"))
+    assert reports(diagnostics) == ["tp-missing-label"]
 
 
 def test_a_missing_block_end_is_reported() -> None:
