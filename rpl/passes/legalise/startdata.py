@@ -1,0 +1,59 @@
+"""Starting values for targets that declare no data: assignments at the start of the program."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from rpl import ir
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.datalists import never_called
+
+# So many assignments may stand in the routine that starts; more go into a routine of their own.
+_INLINE = 8
+
+
+INITIALISE = "rpl_initialise"
+
+
+def assigned_at_start(
+    program: ir.Program,
+    context: Context,
+    assigns: Sequence[ir.Statement],
+    declarations: tuple[ir.Declaration, ...] = (),
+) -> ir.Program:
+    """The program whose entries make these assignments first; `declarations` are data that only they use."""
+    if not assigns:
+        return program
+    entries = entries_of(program)
+    first: ir.Body = tuple(assigns)
+    modules = program.modules
+    if len(first) > _INLINE or len(entries) > 1 or declarations:
+        name = context.fresh(INITIALISE)
+        routine = ir.Routine(name, declarations=declarations, body=first, scope="global")
+        home = ir.Module(context.fresh("rpl_data"), modules[0].dialect, (), (routine,))
+        modules, first = (*modules, home), (ir.CallRoutine(name),)
+    modules = tuple(
+        replace(
+            module,
+            routines=tuple(
+                replace(routine, body=(*first, *routine.body)) if routine.name.lower() in entries else routine
+                for routine in module.routines
+            ),
+        )
+        for module in modules
+    )
+    return replace(program, modules=modules)
+
+
+def entries_of(program: ir.Program) -> set[str]:
+    """Routines that the program may be started with, folded: what is declared, `main`, else what nothing calls."""
+    declared = {task.entry.lower() for task in program.tasks if task.kind == "motion"}
+    declared |= {program.entry.lower()} - {""}
+    names = {routine.name.lower() for module in program.modules for routine in module.routines}
+    if declared & names:
+        return declared & names
+    uncalled = never_called(program) - {task.entry.lower() for task in program.tasks}
+    if "main" in uncalled:
+        return {"main"}
+    return uncalled or set(list(names)[:1])
