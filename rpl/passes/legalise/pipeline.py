@@ -30,6 +30,7 @@ from rpl.passes.legalise.lookahead import stop_blends
 from rpl.passes.legalise.loops import fit_loops
 from rpl.passes.legalise.modal import modal_to_explicit
 from rpl.passes.legalise.movesettings import settings_at_moves
+from rpl.passes.legalise.numbered import number_data
 from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.parameters import fit_arguments
@@ -41,6 +42,7 @@ from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.signals import name_signals, number_signals
 from rpl.passes.legalise.spelling import one_spelling
+from rpl.passes.legalise.steps import steps
 from rpl.passes.legalise.structure import labels_to_structure
 from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
@@ -54,7 +56,8 @@ from rpl.passes.typing import normalise
 # make what a later one rewrites: errors make Repeat, switches make cor), then data and motion, geometry last. Structure
 # comes out of labels first (what follows the flow sees more) and again behind what makes jumps; labels come behind all
 # that makes or needs blocks. Functions become procedures when no pass makes calls any more; what that puts in front of
-# conditions makes loops, so these are fitted again; then nothing needs new variables of routines.
+# conditions makes loops, so these are fitted again; then nested expressions become steps (again behind the labels, whose
+# conditions are opposites), and nothing needs new variables of routines. Numbers are given when nothing has a name to add.
 PASSES: tuple[Pass, ...] = (
     fold_pulses,
     levels_to_distances,
@@ -96,12 +99,15 @@ PASSES: tuple[Pass, ...] = (
     functions_to_procedures,
     fit_arguments,
     fit_loops,
+    steps,
     variables_of_routines,
     nest_branches,
     structure_to_labels,
+    steps,
     name_errors,
     drop_unused,
     one_spelling,
+    number_data,
 )
 
 
