@@ -9,6 +9,7 @@ from rpl.ir.walk import expressions as all_expressions
 from rpl.passes.typewords import component_names, word_type
 
 from . import tables
+from .declarations import in_one_list
 from .expressions import UnsayableError
 
 if TYPE_CHECKING:
@@ -91,6 +92,9 @@ class Actions:
                     return f"{place} = {turned}"
                 if found is not None:
                     return f"{found[0]} = {measured(value, found[1])}"
+        type = self.expressions.type(target)
+        if isinstance(type, ir.ArrayType) and isinstance(value, ir.Aggregate):
+            value = in_one_list(value, len(type.dimensions))
         return f"{self.expressions.text(target)} = {self.expressions.given(value)}"
 
     def setting(self, name: str, indices: tuple[ir.Expression, ...], value: ir.Expression) -> str:

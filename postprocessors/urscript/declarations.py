@@ -25,9 +25,20 @@ def first_value(variable: ir.Variable, expressions: Expressions) -> str:
     initial = variable.initial
     if initial is None:
         return neutral(type, scope, expressions)
-    if isinstance(initial, ir.Aggregate) and initial.type_name is None and isinstance(type, ir.ArrayType):
-        return expressions.text(_typed(initial, type, scope))
+    if isinstance(initial, ir.Aggregate) and isinstance(type, ir.ArrayType):
+        return expressions.text(_typed(in_one_list(initial, len(type.dimensions)), type, scope))
     return expressions.given(_real(initial, type))
+
+
+def in_one_list(value: ir.Aggregate, dimensions: int) -> ir.Aggregate:
+    """The value of an array of several dimensions, as the one list that it is written as."""
+    if dimensions < 2:
+        return value
+    entries: list[tuple[str | None, ir.Expression]] = []
+    for name, one in value.entries:
+        inner = in_one_list(one, dimensions - 1) if isinstance(one, ir.Aggregate) else one
+        entries.extend(inner.entries if isinstance(inner, ir.Aggregate) else ((name, inner),))
+    return ir.Aggregate(tuple(entries), origin=value.origin)
 
 
 def _real(value: ir.Expression, type: ir.Type) -> ir.Expression:

@@ -39,11 +39,12 @@ class Expressions:
     """Prints the expressions of one scope."""
 
     def __init__(self, scope: Scope, notes: Notes) -> None:
+        from .geometry import Geometry
         from .places import Places
 
         self.scope, self.notes = scope, notes
         self.printer = ExpressionPrinter(tables.OPERATORS, self._hook)
-        self.places = Places(self)
+        self.places, self.geometry = Places(self), Geometry(self)
 
     def text(self, expression: ir.Expression) -> str:
         return self.printer.text(expression)
@@ -135,10 +136,7 @@ class Expressions:
         """In radians what a function of the controller gives in radians."""
         if call.function in tables.FROM_ANGLE:
             return f"{tables.FROM_ANGLE[call.function]}({self.listed(call.arguments)})"
-        place = {"rotation_vector_x": 3, "rotation_vector_y": 4, "rotation_vector_z": 5}.get(call.function)
-        if place is not None:
-            return f"{self.places.base(call.arguments[0])}[{place}]"
-        return None
+        return self.geometry.radians(call.function, call.arguments[0]) if len(call.arguments) == 1 else None
 
     # ---- leaves
 
@@ -243,8 +241,9 @@ class Expressions:
         name, values = call.function, call.arguments
         if name in tables.TO_ANGLE:
             return f"{tables.TO_ANGLE[name]}({self.measured(values[0], 'rad')})"
-        if name in tables.FROM_ANGLE or name.startswith("rotation_vector_"):
-            return f"r2d({self.angle(call)})"
+        angle = self.angle(call)
+        if angle is not None:
+            return f"r2d({angle})"
         special = _SPECIAL.get(name)
         if special is not None:
             return special(self, values)
@@ -257,7 +256,7 @@ class Expressions:
             if spelled.startswith("rpl_"):
                 return self.helper(spelled, *map(self.text, values))
             return f"{spelled}({self.listed(values)})"
-        geometric = self.places.function(name, values)
+        geometric = self.geometry.function(name, values)
         if geometric is None:
             raise UnsayableError(f"there is no function {name}")
         return geometric

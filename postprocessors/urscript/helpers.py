@@ -153,6 +153,13 @@ _TEXTS: dict[str, str] = {
           return p[place[0], place[1], place[2], turn[0], turn[1], turn[2]]
         end
     """,
+    "rpl_turn": """
+        def rpl_turn(one, other):
+          # the angle between two poses in degrees
+          local way = pose_trans(pose_inv(one), other)
+          return r2d(norm([way[3], way[4], way[5]]))
+        end
+    """,
     "rpl_digital_in": """
         def rpl_digital_in(number):
           # inputs counted from 1: standard, configurable, tool

@@ -61,7 +61,7 @@ class Motion:
             ("a circle by its angle", move.swept),
             ("a tool of its own", move.tool),
             ("a load of its own", move.load),
-            ("an orientation rule of its own", move.orientation not in (None, "variable")),
+            ("an orientation rule of its own", not _says_orientation(move)),
             ("actions on its path", move.triggers),
             ("a search", move.search),
             ("settings of its own", move.settings),
@@ -79,7 +79,7 @@ class Motion:
         frame = self.frame(move.frame)
         if isinstance(target, ir.Builtin) and target.function == "target_to_joints_near" and len(target.arguments) == 2:
             inner, near = target.arguments
-            return self.expressions.places.solution(target.function, self.place(move, inner), near)
+            return self.expressions.geometry.solution(target.function, self.place(move, inner), near)
         if frame is None or isinstance(self.expressions.type(target), ir.JointsType):
             return self.expressions.text(target)
         if isinstance(target, ir.Aggregate) and isinstance(frame, ir.Aggregate):
@@ -155,6 +155,12 @@ class Motion:
                 if distance is not None:
                     return [f"r={self.number(distance, 'm')}"]
         raise UnsayableError("a blend is given by the distance to the target only")
+
+
+def _says_orientation(move: ir.Move) -> bool:
+    """The tool turns evenly, or on a circle stays as it is to the arc."""
+    on_arc = move.kind == "circular" and move.orientation == "constant" and move.circle_orientation == "path"
+    return on_arc or move.orientation in (None, "variable")
 
 
 def _bare(value: ir.Expression) -> ir.Expression:

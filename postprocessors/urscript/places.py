@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import re
 from typing import TYPE_CHECKING
 
 from rpl import ir
@@ -21,6 +21,7 @@ _POSES = (ir.PoseType, ir.TargetType, ir.VectorType, ir.RotationType)
 _FLAT = ("x", "y", "z", "a", "b", "c")
 _ZERO = ir.RealLiteral(0.0)
 _UNUSED = 9e8  # an external axis that does not exist stands at 9E9
+_REGISTER = re.compile(r"((?:input|output)_(?:boolean|integer|float)_register|port_bit|port_register)_(\d+)")
 _INTERFACES = {"digital_in": "digital", "digital_out": "digital", "analog_in": "analog", "analog_out": "analog"}
 
 
@@ -62,6 +63,10 @@ class Places:
         """An element; several indices count through the one list that an array is."""
         type = self.expressions.type(expression.base)
         indices = expression.indices
+        if isinstance(expression.base, ir.Index) and isinstance(type, ir.ArrayType) and type.base == 0:
+            row = self.expressions.text(expression.base)
+            if len(indices) == 1 and row.endswith("]"):  # a matrix is asked for row and column at once
+                return f"{row[:-1]}, {self.expressions.text(indices[0])}]"
         first = type.base if isinstance(type, ir.ArrayType) else 0
         shifted = [_less(index, first) for index in indices]
         flat = shifted[0]
@@ -88,6 +93,8 @@ class Places:
                     angle = str(tables.EULER[name])
                     return self.expressions.helper("rpl_angle", self.expressions.text(base), angle), "deg"
                 raise self.refuse(f"a pose has no component {name} of its own")
+            case ir.ToolType() if name == "frame" and base == ir.Builtin("current_tool", ()):
+                return "get_tcp_offset()", ""
         return None
 
     def read(self, text: str, unit: str) -> str | Printed:
@@ -122,17 +129,12 @@ class Places:
             return f"struct({fields})"
         if named:
             raise self.refuse("a value with some components named and some not")
-        return f"[{', '.join(self.items(aggregate))}]"
+        whole = self.expressions.geometry.three(aggregate)
+        return whole if whole is not None else f"[{', '.join(self.items(aggregate))}]"
 
     def items(self, aggregate: ir.Aggregate) -> list[str]:
-        """The elements of a list in order; inner lists of an array of several dimensions follow each other."""
-        shown: list[str] = []
-        for _, value in aggregate.entries:
-            if isinstance(value, ir.Aggregate) and all(name is None for name, _ in value.entries):
-                shown.extend(self.items(value))
-            else:
-                shown.append(self.expressions.given(value))
-        return shown
+        """The elements of a list in order."""
+        return [self.expressions.given(value) for _, value in aggregate.entries]
 
     def no_external(self, named: dict[str, ir.Expression]) -> None:
         """External axes may be given where they stand still at zero or do not exist."""
@@ -154,7 +156,7 @@ class Places:
             return self.expressions.helper("rpl_pose", *(self.expressions.text(values[name]) for name in _FLAT))
         turn = spelling.rotation_vector(rigid.rotation_of_zyx(*(angle or 0.0 for angle in angles)))
         place = [self.expressions.measured(values[name], "m") for name in ("x", "y", "z")]
-        numbers = [_short(one) for one in place]
+        numbers = [short(one) for one in place]
         return f"p[{', '.join((*numbers, *(spelling.plain_text(v, spelling.RADIAN_PLACES) for v in turn)))}]"
 
     def joints(self, named: dict[str, ir.Expression]) -> str:
@@ -168,63 +170,6 @@ class Places:
                 spelling.radians(number, point=True) if number is not None else self.expressions.measured(value, "rad")
             )
         return f"[{', '.join(shown)}]"
-
-    # ---- functions of poses and joints
-
-    def function(self, name: str, values: tuple[ir.Expression, ...]) -> str | Printed | None:
-        """Geometric functions; None when URScript has no such function."""
-        text = self.expressions.text
-        match name, values:
-            case "pose_of", (one,):
-                return text(one)
-            case "offset", (place, x, y, z):
-                return f"pose_trans({self.shift(x, y, z)}, {text(place)})"
-            case "tool_offset", (place, x, y, z):
-                return f"pose_trans({text(place)}, {self.shift(x, y, z)})"
-            case "displaced", (place, by):
-                return f"pose_trans({text(by)}, {text(place)})"
-            case "displaced_in_tool", (place, by):
-                return f"pose_trans({text(place)}, {text(by)})"
-            case "pose_from_rotation_vector", (x, y, z, rx, ry, rz):
-                place_text = [_short(self.expressions.measured(one, "m")) for one in (x, y, z)]
-                turn = [_short(self.expressions.measured(one, "rad")) for one in (rx, ry, rz)]
-                return f"p[{', '.join((*place_text, *turn))}]"
-            case "distance", (one, other):
-                return Printed(f"point_dist({text(one)}, {text(other)}) * 1000.0", tables.PRODUCT)
-            case "current_target", ():
-                return "get_actual_tcp_pose()"
-            case "current_joints", ():
-                return "get_actual_joint_positions()"
-            case "target_to_joints", (place,):
-                return f"get_inverse_kin({text(place)})"
-            case "target_to_joints_near" | "is_reachable", (place, near):
-                return self.solution(name, text(place), near)
-            case "pose_sum" | "pose_difference", (one, other):
-                return f"{'pose_add' if name == 'pose_sum' else 'pose_sub'}({text(one)}, {text(other)})"
-            case "joints_to_target", (joints,):
-                return f"get_forward_kin({text(joints)})"
-        return None
-
-    def solution(self, name: str, place: str, near: ir.Expression) -> str:
-        """Inverse kinematics of a pose's text, nearest to joints; without these, to where the arm is."""
-        function = "get_inverse_kin" if name == "target_to_joints_near" else "get_inverse_kin_has_solution"
-        if near == ir.Builtin("current_joints", ()):
-            return f"{function}({place})"
-        return f"{function}({place}, qnear={self.near(near)})"
-
-    def near(self, joints: ir.Expression) -> str:
-        """Joints that only choose a solution: three decimals are plenty where they are constants."""
-        if isinstance(joints, ir.Aggregate):
-            values = [constant_number(value, self.expressions.scope) for _, value in joints.entries]
-            if len(values) == len(tables.AXES) and all(value is not None for value in values):
-                shown = [spelling.real_text(round(math.radians(value or 0.0), 3)) for value in values]
-                return f"[{', '.join(shown)}]"
-        return self.expressions.text(joints)
-
-    def shift(self, x: ir.Expression, y: ir.Expression, z: ir.Expression) -> str:
-        """A pose that only moves."""
-        place = [_short(self.expressions.measured(one, "m")) for one in (x, y, z)]
-        return f"p[{', '.join(place)}, 0, 0, 0]"
 
     # ---- signals and system variables
 
@@ -250,12 +195,14 @@ class Places:
     def signal(self, signal: ir.Signal) -> str | Printed:
         """The value of a signal."""
         signal = self.numbered(signal)
+        if signal.index is None and signal.name is not None:
+            return f"{self.register(signal, 'read')})"
         if signal.kind in ("group_in", "group_out") or signal.last is not None:
             first, last = self.group(signal)
             helper = "rpl_group_in" if signal.kind.endswith("_in") else "rpl_group_out"
             return self.expressions.helper(helper, first, last)
         if signal.index is None:
-            raise self.refuse(f"signals have numbers; {signal.name} has none")
+            raise self.refuse("a signal without a number")
         if signal.kind == "flag":
             return f"get_flag({self.flag(signal.index)})"
         interface = _INTERFACES.get(signal.kind)
@@ -269,6 +216,13 @@ class Places:
             return self.expressions.helper(f"rpl_digital_{way}", self.expressions.text(signal.index))
         where, at = self.interface(interface, int(number))
         return f"get_{where}_{interface}_{way}({at})"
+
+    def register(self, signal: ir.Signal, way: str) -> str:
+        """The call that reads or writes a register of the fieldbus or of RTDE, up to its number."""
+        found = _REGISTER.fullmatch(signal.name or "")
+        if found is None:
+            raise self.refuse(f"signals have numbers; {signal.name} has none")
+        return f"{way}_{found[1]}({found[2]}"
 
     def interface(self, interface: str, number: int) -> tuple[str, int]:
         """The controller's interface that a signal belongs to, and the signal's number there (from 0)."""
@@ -290,12 +244,14 @@ class Places:
     def output(self, signal: ir.Signal, value: ir.Expression) -> str:
         """Switching an output."""
         signal, text = self.numbered(signal), self.expressions.text(value)
+        if signal.index is None:
+            return f"{self.register(signal, 'write')}, {text})"
         if signal.kind == "group_out" or (signal.last is not None and signal.kind == "digital_out"):
             first, last = self.group(signal)
             return self.expressions.helper("rpl_set_group_out", first, last, text)
-        if signal.index is not None and signal.kind == "flag":
+        if signal.kind == "flag":
             return f"set_flag({self.flag(signal.index)}, {text})"
-        if signal.index is None or signal.kind not in ("digital_out", "analog_out"):
+        if signal.kind not in ("digital_out", "analog_out"):
             raise self.refuse("this signal cannot be written")
         interface = _INTERFACES[signal.kind]
         number = constant_number(signal.index, self.expressions.scope)
@@ -316,6 +272,10 @@ class Places:
                 return "get_actual_tcp_pose()"
             case "actual_joints", ():
                 return "get_actual_joint_positions()"
+            case "moving", ():
+                return Printed("not is_steady()", tables.NOT)
+            case "time", ():
+                return "time()"
             case "actual_joint", (ir.IntLiteral(value=axis),) if 1 <= axis <= 6:
                 return f"r2d(get_actual_joint_positions()[{axis - 1}])"
             case "tool", ():
@@ -345,6 +305,6 @@ def _plus(one: ir.Expression, other: ir.Expression) -> ir.Expression:
     return ir.Binary("+", one, other)
 
 
-def _short(text: str) -> str:
+def short(text: str) -> str:
     """Inside of a pose a whole number needs no point."""
     return text.removesuffix(".0") if text.endswith(".0") and " " not in text and "(" not in text else text

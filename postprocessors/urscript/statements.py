@@ -65,6 +65,7 @@ class Printer:
         self.scope, self.output, self.inside, self.depth = scope, output, inside, depth
         self.ledger, self.diagnostics = output.ledger, output.diagnostics
         self.lines: list[str] = []
+        self.stopped = False  # does the statement follow one that brakes the robot?
         self.before_next: list[tuple[str, ...]] = []
         self.expressions = Expressions(scope, output.notes)
         self.motion = Motion(self.expressions, output.diagnostics, output.robot)
@@ -109,6 +110,8 @@ class Printer:
     def body(self, body: ir.Body) -> None:
         self.depth += 1
         for at, statement in enumerate(body):
+            after = body[at - 1] if at else None
+            self.stopped = isinstance(after, ir.StopMotion) or (self.stopped and isinstance(after, ir.ClearMotion))
             self.statement(statement, body[at + 1 :])
         self.depth -= 1
 
@@ -145,6 +148,8 @@ class Printer:
                 first, *others = text.splitlines() or [""]
                 self.line(first, origin)
                 self.more(*others)
+            case ir.ClearMotion() | ir.StartMotion() if self.stopped:
+                self.comments_only(statement.origin)  # stopj forgets the rest of the path by itself
             case ir.Move(origin=origin):
                 self.line(self.motion.move(statement, not _stands(rest)), origin)
             case ir.If() | ir.Switch() | ir.For() | ir.While() | ir.Repeat() | ir.Loop():
