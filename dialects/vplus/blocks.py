@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import cast, get_args
 
 from rpl import ir
@@ -22,6 +23,12 @@ LATE_DECLARATION = code(
     "move the line to the top of the program",
 )
 MISPLACED = code("vplus-misplaced", Severity.ERROR, "{what} cannot stand here")
+AFTER_DELAY = code(
+    "vplus-after-delay",
+    Severity.WARNING,
+    "the controller switches this when the pause begins; here it is switched when the pause ends",
+    "put BREAK behind DELAY, or the step in front of it",
+)
 NO_LOOP = code("vplus-no-such-loop", Severity.ERROR, "{word} {count} reaches over more loops than there are")
 
 _STATEMENTS = get_args(ir.Statement)
@@ -100,7 +107,16 @@ class Builder:
             elif isinstance(item, ModulePart) and not _is_outer(item):
                 self.diagnostics.report(MISPLACED, item.origin, what="a declaration inside of a block")
                 done.append(ir.Opaque(item.origin.text, origin=item.origin))
+        self.check_delays(done)
         return tuple(done)
+
+    def check_delays(self, body: list[ir.Statement]) -> None:
+        """DELAY is a motion to the controller: a step behind it does not wait for its end."""
+        acting = [statement for statement in body if not isinstance(statement, ir.Nothing)]
+        for statement, behind in pairwise(acting):
+            delay = isinstance(statement, ir.Wait) and statement.in_position
+            if delay and isinstance(behind, ir.Assign) and isinstance(behind.target, ir.Signal):
+                self.diagnostics.report(AFTER_DELAY, behind.origin)
 
     def program(self, block: Block) -> Item | tuple[Item, ...]:
         header, origin = block.open.data, block.open.origin

@@ -106,8 +106,9 @@ def matrix_to_zyz(matrix: FloatArray) -> tuple[float, float, float]:
     turn = matrix[:3, :3]
     sine = float(np.hypot(turn[0, 2], turn[1, 2]))
     if sine < 1e-9:
-        pitch = 0.0 if turn[2, 2] > 0.0 else 180.0
-        return 0.0, pitch, float(np.degrees(np.arctan2(-turn[0, 1], turn[1, 1])))
+        down = bool(turn[2, 2] < 0.0)
+        across = turn[0, 1] if down else -turn[0, 1]
+        return 0.0, 180.0 if down else 0.0, float(np.degrees(np.arctan2(across, turn[1, 1])))
     yaw = float(np.degrees(np.arctan2(turn[1, 2], turn[0, 2])))
     roll = float(np.degrees(np.arctan2(turn[2, 1], -turn[2, 0])))
     return yaw, float(np.degrees(np.arctan2(sine, turn[2, 2]))), roll

@@ -65,7 +65,7 @@ class Names:
 
 def significant(text: str) -> str:
     """What counts of a name: its sign of type and 15 characters, in any case."""
-    sigil = text[0] if text[0] in "$#%" else ""
+    sigil = text[:1] if text[:1] in ("$", "#", "%") else ""
     return sigil + text[len(sigil) : len(sigil) + tables.NAME_LENGTH].lower()
 
 

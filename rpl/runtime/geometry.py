@@ -132,8 +132,9 @@ def zyz_angles(turn: rigid.Rotation) -> rigid.Triple:
     (_, xy, xz), (_, yy, yz), (zx, zy, zz) = turn.rows
     sine = math.hypot(xz, yz)
     if sine < 1e-9:
-        roll = math.degrees(math.atan2(-xy, yy))
-        return 0.0, 0.0 if zz > 0.0 else 180.0, rigid.clean(roll)
+        down = zz < 0.0
+        roll = math.degrees(math.atan2(xy if down else -xy, yy))
+        return 0.0, 180.0 if down else 0.0, rigid.clean(roll)
     yaw, roll = math.degrees(math.atan2(yz, xz)), math.degrees(math.atan2(zy, -zx))
     return rigid.clean(yaw), rigid.clean(math.degrees(math.atan2(sine, zz))), rigid.clean(roll)
 

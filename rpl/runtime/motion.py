@@ -95,7 +95,9 @@ class MotionQueue(RobotState):
         return self._go_on(drive, next)
 
     def _refuse(self, fault: MotionFault, order: Order, next: int) -> int:
-        """The controller drives what it has and then stops with the error."""
+        """The controller drives what it has and then stops with the error, unless a routine of the task takes it."""
+        if self.task.error_routine is not None:
+            raise ProgramError(fault.kind, fault.message)
         if not self.task.busy:
             self._fault(fault, order)
             return self.task.wait_for("released", order.at, next, -1)
