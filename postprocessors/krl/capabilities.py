@@ -49,4 +49,5 @@ CAPABILITIES = Capabilities(
     relative_moves=True,
     partial_targets=True,
     data_lists=True,
+    declared_groups=True,
 )

@@ -53,7 +53,8 @@ class Capabilities:
     branches. switch_jumps: a case of a Switch holds one Goto or one call. for_keeps_last: a FOR's counter keeps the last
     value a pass ran with. for_steps: `any`, or `one` (only up or down by 1). poll_s: time between two looks in a loop
     that waits for a condition, for targets without WaitUntil. next_move_settings: SetForNextMove can be said; otherwise
-    it is attached to the next move.
+    it is attached to the next move. search_results: what a search move gives, `found` (the place) and `hit` (whether).
+    task_operations: ops of TaskControl, where that is in `statements`.
 
     Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
@@ -68,9 +69,11 @@ class Capabilities:
     of two simple operands, joined by and/or. functions_alone: a function only as the whole right side of an assignment.
 
     Motion: move_settings: which of `tool`, `frame`, `speed`, `blend` a move says itself, the rest being modal (System
-    tool, base); empty: all or none by modal_motion, in data of the types of RAPID or variables of KRL. Only with it:
+    tool, base; then modal_motion is set too); empty: all or none, in data of the types of RAPID or variables of KRL. Only then:
     speeds: fields of Speed that the target says (for joint moves `joint`, `axis`; for the others `path`, ...);
     blends: blend classes that it says (BlendStop always).
+
+    declared_groups: a group of signals exists only by a declaration with a name (KRL SIGNAL).
     """
 
     statements: frozenset[str]
@@ -119,6 +122,8 @@ class Capabilities:
     locals: bool = True
     recursion: bool = True
     next_move_settings: bool = False
+    search_results: frozenset[str] = frozenset(("found",))
+    task_operations: frozenset[str] = frozenset(("start", "stop", "pause", "resume", "join"))
     banks: Mapping[str, Bank] = field(default_factory=dict)
     points: Bank | None = None
     records: bool = True
@@ -133,4 +138,5 @@ class Capabilities:
     move_settings: frozenset[str] = frozenset()
     speeds: frozenset[str] = frozenset()
     blends: frozenset[str] = frozenset()
+    declared_groups: bool = False
     postures: str = "flags"

@@ -32,7 +32,15 @@ def signal_names(
         keys.add(f"{kind}:{index}" if last is None or last == index else f"{kind}:{index}-{last}")
         return frozenset(keys)
     usual = [found for name in keys if (found := usual_key(name)) is not None]
-    return frozenset(keys | {f"{word}:{number}" for word, number in usual})
+    groups = {group for name in keys if (group := _group_key(name)) is not None}
+    return frozenset(keys | groups | {f"{word}:{number}" for word, number in usual})
+
+
+def _group_key(name: str) -> str | None:
+    """`go9_16` is the group of the signals 9 to 16."""
+    first, _, last = name.rpartition("_")
+    found = usual_key(first) if last.isdigit() else None
+    return f"{found[0]}:{found[1]}-{last}" if found is not None and found[0].startswith("group") else None
 
 
 @dataclass(frozen=True, slots=True)

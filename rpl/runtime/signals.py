@@ -15,7 +15,7 @@ Key = tuple[str, int] | str
 
 # How people name signals by number, whatever the language: word -> kind.
 _WORDS = {
-    "digital_out": ("out", "do", "dout", "output", "digitalout", "digout"),
+    "digital_out": ("out", "ot", "do", "dout", "output", "digitalout", "digout"),
     "digital_in": ("in", "di", "din", "input", "digitalin", "digin"),
     "analog_out": ("ao", "anout", "aout", "analogout"),
     "analog_in": ("ai", "anin", "ain", "analogin"),
@@ -24,11 +24,11 @@ _WORDS = {
     "flag": ("flag", "flg"),
 }
 _KINDS = {word: kind for kind, words in _WORDS.items() for word in words}
-_NUMBERED = re.compile(r"\$?([A-Za-z_]+?)_?\s*[\[(]?\s*0*(\d+)\s*[\])]?$")
+_NUMBERED = re.compile(r"\$?([A-Za-z_]+?)_?\s*#?\s*[\[(]?\s*0*(\d+)\s*[\])]?$")
 
 
 def usual_key(name: str) -> tuple[str, int] | None:
-    """Kind and number that a usual name stands for: `do3`, `DO_3`, `$OUT[3]`, `digital_out[3]`."""
+    """Kind and number that a usual name stands for: `do3`, `DO_3`, `$OUT[3]`, `OT#(3)`, `digital_out[3]`."""
     match = _NUMBERED.fullmatch(name.strip())
     if match is None:
         return None

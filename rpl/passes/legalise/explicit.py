@@ -109,6 +109,10 @@ class _Modal:
                 setting = name.replace("_", " ")
                 self.context.diagnostics.report(DROPPED, statement.origin, name=setting)
                 return [ir.Nothing(origin=statement.origin)]
+            case ir.Assign(target=ir.System(name="joint_speed", indices=()), value=value):
+                self.changed("joint_speed", known)
+                first, *rest = _set("joint_speed", value, replace(statement.origin, comments=()))
+                return [replace(first, origin=statement.origin), *rest]
             case ir.Assign(target=ir.System(name="speed_percent"), value=value):
                 return [replace(statement, target=ir.System("override"), value=value)]
             case ir.Assign(target=target):

@@ -14,6 +14,7 @@ from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.context import Context, Pass, names_in
 from rpl.passes.legalise.datalists import set_data_at_start
 from rpl.passes.legalise.defaults import starting_values
+from rpl.passes.legalise.elementwise import elementwise
 from rpl.passes.legalise.elseif import nest_branches
 from rpl.passes.legalise.enums import enums_to_constants
 from rpl.passes.legalise.errorcodes import name_errors
@@ -21,6 +22,7 @@ from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.explicit import explicit_to_modal
 from rpl.passes.legalise.functions import functions_to_procedures
 from rpl.passes.legalise.geometry import geometry
+from rpl.passes.legalise.groups import name_groups
 from rpl.passes.legalise.interrupts import interrupts
 from rpl.passes.legalise.labels import structure_to_labels
 from rpl.passes.legalise.levels import levels_to_distances
@@ -56,11 +58,12 @@ from rpl.passes.typing import normalise
 # make what a later one rewrites: errors make Repeat, switches make cor), then data and motion, geometry last. Structure
 # comes out of labels first (what follows the flow sees more) and again behind what makes jumps; labels come behind all
 # that makes or needs blocks. Functions become procedures when no pass makes calls any more; what that puts in front of
-# conditions makes loops, so these are fitted again; then nested expressions become steps (again behind the labels, whose
+# conditions makes loops, so these are fitted again; then nested expressions become steps (and again behind labels, whose
 # conditions are opposites), and nothing needs new variables of routines. Numbers are given when nothing has a name to add.
 PASSES: tuple[Pass, ...] = (
     fold_pulses,
     levels_to_distances,
+    elementwise,
     searches,
     link_prelude,
     labels_to_structure,
@@ -77,6 +80,7 @@ PASSES: tuple[Pass, ...] = (
     timers_to_clocks,
     name_signals,
     number_signals,
+    name_groups,
     numbers,
     starting_values,
     fit_parameters,

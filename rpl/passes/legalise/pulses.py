@@ -1,8 +1,8 @@
 """Positions in motor pulses become joints in degrees, by the pulses per degree of the arm the source was written for.
 
 Only a controller that counts in pulses has a name for this; for every other target the numbers must be made degrees,
-which needs the arm. Without its data the functions stay, and the writer reports them. The external axes of a taught point
-are put into it here, too.
+which needs the arm. Without its data the functions stay, and the writer reports them. The external axes of a taught
+point are put into it here, too.
 """
 
 from __future__ import annotations

@@ -110,6 +110,10 @@ class _Named:
                         return ir.Signal(kind, name=symbol.declaration.name, origin=expression.origin)
                     return self.expression(replace(signal, origin=expression.origin))
                 return expression
+            case ir.Signal(kind=kind, index=ir.IntLiteral(value=first), last=ir.IntLiteral(value=last), name=None):
+                kind = kind.replace("digital", "group")
+                name = f"{self.prefixes.get(kind, kind)}{first}_{last}"
+                return ir.Signal(kind, name=name, origin=expression.origin)
             case ir.Signal(kind=kind, index=index, name=None):
                 if index is not None and _constant(index):
                     assert isinstance(index, ir.IntLiteral)
