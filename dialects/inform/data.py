@@ -337,7 +337,7 @@ class Data(Operands):
 
     def on_mulmat(self, command: Command) -> Statements:
         target, one, other = self.needs(command, 3)[:3]
-        product = self.call("displaced", self.target(other), self.call("pose_of", self.target(one)))
+        product = self.call("displaced", self.target(other), self.target(one))
         return self.set_position(target, product, Kind(TARGET))
 
     def on_invmat(self, command: Command) -> Statements:
