@@ -26,7 +26,7 @@ CAPABILITIES = Capabilities(
         )
     ),
     names=NameRules(longest=36, case_sensitive=False, reserved=tables.RESERVED),
-    modal_motion=False,
+    modal_motion=True,
     notation="tp",
     rotation="zyx",
     conversions=frozenset(("real", "trunc", "round_half_away")),

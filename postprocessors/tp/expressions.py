@@ -251,6 +251,8 @@ class Expressions:
                 return printer.printed(operand)
             case ir.Unary(op="-", operand=operand):
                 return printer.printed(ir.Binary("*", ir.IntLiteral(-1), operand))
+            case ir.Builtin(function="text_equal", arguments=(one, other, ir.BoolLiteral(value=True))):
+                return Printed(f"{self.operand(one)}={self.operand(other)}", tables.OPERATORS.binary["="].level)
             case ir.Binary(op="cand" | "cor" as op):
                 return printer.printed(ir.Binary(op[1:], expression.left, expression.right))
             case ir.Convert(how="truth", operand=operand) if not self.limited:

@@ -15,6 +15,7 @@ from rpl.writing.ledger import EmissionLedger
 from rpl.writing.target import OutputFile, WriteContext
 
 from . import tables
+from .dumps import dump_files
 from .expressions import CannotSayError, Expressions
 from .flow import Labels
 from .frames import Frames, highest_free_register
@@ -74,7 +75,7 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     listings = [listing for module in program.modules for listing in writer.module(module)]
     writer.finish(listings)
     ledger.check(program)
-    return [_file(listing, writer.frames) for listing in listings]
+    return [*(_file(listing, writer.frames) for listing in listings), *dump_files(program, writer.names)]
 
 
 class _Writer:

@@ -1,0 +1,141 @@
+"""Values of registers and frames before the start, as the variable dumps (`.VA`) that a controller saves and loads.
+
+Programs that were read together with dumps have such values; a program of another language sets its registers itself.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+
+from rpl import ir
+from rpl.passes.scope import ProgramScope, Scope
+from rpl.writing.target import OutputFile
+from rpl.writing.text import number_text
+
+from . import tables
+from .configuration import config_text
+from .expressions import CannotSayError, constant
+from .positions import position_of
+from .texts import comment
+
+Names = Mapping[tuple[str, int], str]
+_ELEMENT = re.compile(r"(R|SR|PR)(\d+)", re.IGNORECASE)
+_ACTIVE = {"UFRAME_NUM": ("$MNUFRAMENUM", 0), "UTOOL_NUM": ("$MNUTOOLNUM", 1)}
+_BANKS = {"R": "NUMREG", "SR": "STRREG", "PR": "POSREG"}
+
+
+def dump_files(program: ir.Program, names: Names) -> list[OutputFile]:
+    """The dumps that a program needs; none when everything begins as on a controller without any values."""
+    scopes = ProgramScope(program)
+    values: dict[str, dict[int, ir.Expression]] = {"R": {}, "SR": {}, "PR": {}, "UFRAME": {}, "UTOOL": {}}
+    active: dict[str, int] = {}
+    scope: Scope | None = None
+    for module in program.modules:
+        for declaration in module.declarations:
+            if isinstance(declaration, ir.Variable) and declaration.initial is not None:
+                _note(declaration, declaration.initial, values, active)
+                scope = scope or scopes.module(module)
+    if scope is None:
+        return []
+    made = [_numbers(values["R"], names), _texts(values["SR"], names), _positions(values["PR"], names, scope)]
+    made.append(_frames(values["UFRAME"], values["UTOOL"], active, scope))
+    return [file for file in made if file is not None]
+
+
+def _note(
+    variable: ir.Variable,
+    initial: ir.Expression,
+    values: dict[str, dict[int, ir.Expression]],
+    active: dict[str, int],
+) -> None:
+    name = variable.name.upper()
+    one = _ELEMENT.fullmatch(name)
+    if one is not None:
+        values[one[1]][int(one[2])] = initial
+    elif name in values and isinstance(initial, ir.Aggregate) and isinstance(variable.type, ir.ArrayType):
+        base = variable.type.base
+        values[name].update({base + at: value for at, (_, value) in enumerate(initial.entries)})
+    elif name in _ACTIVE:
+        number = constant(initial)
+        if number is not None and number != _ACTIVE[name][1]:
+            active[name] = int(number)
+
+
+def _file(name: str, lines: list[str]) -> OutputFile:
+    return OutputFile(f"{name}.VA", ("\r\n".join(lines) + "\r\n").encode("ascii"))
+
+
+def _numbers(values: Mapping[int, ir.Expression], names: Names) -> OutputFile | None:
+    given = {number: constant(value) for number, value in values.items()}
+    if not any(given.values()):
+        return None
+    lines = [f"[*NUMREG*]$NUMREG  Storage: SHADOW  Access: RW  : ARRAY[{tables.R.last}] OF Numeric Reg"]
+    for number, value in sorted(given.items()):
+        if value or ("R", number) in names:
+            shown = number_text(value or 0, style=tables.NUMBERS)
+            lines.append(f"  [{number}] = {shown}  '{comment(names.get(('R', number), ''))}'")
+    return _file("NUMREG", lines)
+
+
+def _texts(values: Mapping[int, ir.Expression], names: Names) -> OutputFile | None:
+    given = {number: value.value for number, value in values.items() if isinstance(value, ir.TextLiteral)}
+    if not any(given.values()):
+        return None
+    lines = [f"[*STRREG*]$STRREG  Storage: SHADOW  Access: RW  : ARRAY[{tables.SR.last}] OF String Reg"]
+    for number, text in sorted(given.items()):
+        lines.append(f"  [{number}] = '{text}'  '{comment(names.get(('SR', number), ''))}'")
+    return _file("STRREG", lines)
+
+
+def _positions(values: Mapping[int, ir.Expression], names: Names, scope: Scope) -> OutputFile | None:
+    lines = [f"[*POSREG*]$POSREG  Storage: SHADOW  Access: RW  : ARRAY[1,{tables.PR.last}] OF Position Reg"]
+    for number, value in sorted(values.items()):
+        label = comment(names.get(("PR", number), ""))
+        lines.extend((f"    [1,{number}] =   '{label}'", *_position(value, scope)))
+    return _file("POSREG", lines) if len(lines) > 1 else None
+
+
+def _frames(
+    frames: Mapping[int, ir.Expression], tools: Mapping[int, ir.Expression], active: Mapping[str, int], scope: Scope
+) -> OutputFile | None:
+    lines: list[str] = []
+    for name, values, last in (("$MNUFRAME", frames, 9), ("$MNUTOOL", tools, 10)):
+        kept = {number: value for number, value in values.items() if number > 0 and not _is_zero(value, scope)}
+        if kept:
+            lines.append(f"[*SYSTEM*]{name}  Storage: SHADOW  Access: RW  : ARRAY[1,{last}] OF POSITION")
+        for number, value in sorted(kept.items()):
+            lines.extend((f"     [1,{number}] =", *_position(value, scope)))
+    for name, number in active.items():
+        lines.append(f"[*SYSTEM*]{_ACTIVE[name][0]}  Storage: SHADOW  Access: RW  : ARRAY[8] OF BYTE")
+        lines.append(f"     [1] = {number}")
+    return _file("SYSFRAME", lines) if lines else None
+
+
+def _is_zero(value: ir.Expression, scope: Scope) -> bool:
+    try:
+        return not any(position_of(value, scope).values)
+    except CannotSayError:
+        return True
+
+
+def _position(value: ir.Expression, scope: Scope) -> Iterator[str]:
+    position = position_of(value, scope)
+    if position.kind == "joints":
+        yield "  Group: 1"
+        shown = [f"  J{number} = {_value(one)} deg" for number, one in enumerate(position.values, 1)]
+        yield " ".join(shown[:3])
+        yield " ".join(shown[3:])
+    else:
+        yield f"  Group: 1   Config: {config_text(dict(position.flags))}"
+        x, y, z, a, b, c = position.values
+        yield "".join(f"  {name}: {_value(one)} " for name, one in (("X", x), ("Y", y), ("Z", z))).rstrip()
+        yield "".join(f"  {name}: {_value(one)} " for name, one in (("W", c), ("P", b), ("R", a))).rstrip()
+    if position.external:
+        yield "".join(f"  E{number}: {_value(one)} " for number, one in enumerate(position.external, 1)).rstrip()
+
+
+def _value(number: float) -> str:
+    text = number_text(float(number), 6, tables.NUMBERS)
+    whole, _, places = text.partition(".")
+    return f"{whole}.{places.ljust(3, '0')}".rjust(9)
