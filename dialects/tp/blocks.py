@@ -9,7 +9,7 @@ from typing import cast, get_args
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import statements
 from rpl.reading.pieces import Block, Item, ModulePart
 
 from .header import Header
@@ -23,7 +23,6 @@ LOOSE_ARC = code(
     "the last A point has no partner for an arc; the robot's way to it is not known here",
 )
 _STATEMENTS = get_args(ir.Statement)
-_LOCAL_FLAGS = (HIT, TIMED_OUT)
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,9 +99,8 @@ class Builder:
         self.nested += 1
         name = f"{self.program}_P{self.nested}"
         body = self.body(item for section in block.sections for item in section.items)
-        self.routines.append(
-            ir.Routine(name, declarations=_local_flags(body), body=body, scope="global", origin=block.open.origin)
-        )
+        flags = _local_flags(list(statements(body)))
+        self.routines.append(ir.Routine(name, declarations=flags, body=body, scope="global", origin=block.open.origin))
         action = ir.CallRoutine(name, origin=block.open.origin)
         trigger = ir.Trigger("end", action, None, delay, origin=block.open.origin)
         return replace(cast(ir.Move, move), triggers=(*move.triggers, trigger), origin=block.open.origin)
@@ -110,31 +108,33 @@ class Builder:
     def listing(self, block: Block) -> Item:
         header = block.open.data
         assert isinstance(header, Header)
-        statements: list[Item] = []
+        lines: list[Item] = []
         positions: list[ir.Declaration] = []
         for section in block.sections:
             if section.head is None:
-                statements.extend(section.items)
+                lines.extend(section.items)
                 continue
             for item in section.items:
                 match item:
                     case ir.Variable():
                         positions.append(item)
                     case ir.Nothing() | ir.Opaque():
-                        statements.append(item)
+                        lines.append(item)
                     case _:
                         self.diagnostics.report(MISPLACED, item.origin, what="a statement among the positions")
-        body = self.body(statements)
-        declared = (*self.used_positions(positions, body), *_local_flags(body))
+        body = self.body(lines)
+        inside = list(statements(body))
+        nested = list(statements(*(routine.body for routine in self.routines)))
+        declared = (*self.used_positions(positions, inside + nested), *_local_flags(inside))
         routine = ir.Routine(
             self.program, declarations=declared, body=body, scope="global", origin=replace(block.open.origin)
         )
         routines = (routine, *self.routines)
         return ModulePart(self.program, (), routines, Listing(header), block.open.origin)
 
-    def used_positions(self, positions: list[ir.Declaration], body: ir.Body) -> tuple[ir.Declaration, ...]:
+    def used_positions(self, positions: list[ir.Declaration], inside: list[ir.Statement]) -> tuple[ir.Declaration, ...]:
         """The program's positions: constant where no statement writes them. A missing one is declared without value."""
-        written = {_base(node.target) for node in walk(body) if isinstance(node, ir.Assign)}
+        written = {_base(node.target) for node in inside if isinstance(node, ir.Assign)}
         found: dict[str, ir.Variable] = {}
         for position in positions:
             assert isinstance(position, ir.Variable)
@@ -143,7 +143,7 @@ class Builder:
             found.setdefault(position.name, replace(position, storage=storage))
         missing: dict[str, ir.Variable] = {}
         reported: set[str] = set()
-        for move in (node for node in walk(body, *(r.body for r in self.routines)) if isinstance(node, ir.Move)):
+        for move in (node for node in inside if isinstance(node, ir.Move)):
             for name in (_base(move.target), _base(move.via)):
                 if not name.startswith("P") or not name[1:].isdigit() or name in reported:
                     continue
@@ -160,7 +160,7 @@ class Builder:
 
 def _changes(body: ir.Body, bound: ir.Expression) -> bool:
     """Does the loop's body write the register that is its bound?"""
-    return any(isinstance(node, ir.Assign) and node.target == bound for node in walk(body))
+    return any(isinstance(node, ir.Assign) and node.target == bound for node in statements(body))
 
 
 def _base(expression: ir.Expression | None) -> str:
@@ -174,11 +174,13 @@ def _base(expression: ir.Expression | None) -> str:
     return ""
 
 
-def _local_flags(body: ir.Body) -> tuple[ir.Variable, ...]:
+def _local_flags(inside: list[ir.Statement]) -> tuple[ir.Variable, ...]:
     """Variables that the reader needs besides the registers."""
-    names = {node.id for node in walk(body) if isinstance(node, ir.Name)}
-    flags = [ir.Variable(name, ir.BoolType(), scope="routine") for name in _LOCAL_FLAGS if name in names]
-    return tuple(flags)
+    used = {
+        HIT: any(isinstance(node, ir.Move) and node.search is not None for node in inside),
+        TIMED_OUT: any(isinstance(node, ir.WaitUntil) and node.timed_out is not None for node in inside),
+    }
+    return tuple(ir.Variable(name, ir.BoolType(), scope="routine") for name in (HIT, TIMED_OUT) if used[name])
 
 
 def _grouped(statements: list[ir.Statement], diagnostics: Diagnostics) -> Iterable[ir.Statement]:

@@ -14,6 +14,7 @@ from rpl.reading.shapes import Slot, StatementError, SyntaxTree
 from rpl.source import Origin
 
 from . import tables
+from .positions import Position
 from .registers import Facts
 
 Pieces = tuple[str, ...]
@@ -43,6 +44,7 @@ class Place:
     program: str = ""
     points: dict[int, str] = field(default_factory=dict)
     labels: tuple[int, ...] = ()
+    taught: dict[int, Position] = field(default_factory=dict)  # positions by where they stand in the listing
 
 
 class Expressions:

@@ -51,6 +51,7 @@ class _File:
     name: str
     pieces: tuple[Piece, ...]
     positions: dict[int, Position]
+    taught: dict[int, Position]
     labels: tuple[int, ...]
 
 
@@ -86,6 +87,7 @@ def _opened(source: Source, names: set[str], diagnostics: Diagnostics) -> _File:
     names.add(name.upper())
     pieces = tuple(split(source))
     positions: dict[int, Position] = {}
+    taught: dict[int, Position] = {}
     for piece in pieces:
         if piece.kind == STATEMENT and piece.text == "/P":
             try:
@@ -93,8 +95,9 @@ def _opened(source: Source, names: set[str], diagnostics: Diagnostics) -> _File:
             except StatementError:
                 continue  # reported when it is lowered
             positions.setdefault(position.number, position)
+            taught[piece.start] = position
     labels = tuple(int(found[1]) for piece in pieces if (found := _LABEL.match(piece.text)))
-    return _File(source, header, name, pieces, positions, labels)
+    return _File(source, header, name, pieces, positions, taught, labels)
 
 
 def routine_name(name: str) -> str:
@@ -124,7 +127,7 @@ def _read_listing(
 ) -> tuple[list[ir.Module], FileReport]:
     lowering = Motion(facts, diagnostics)
     kinds = {number: position.kind for number, position in file.positions.items()}
-    lowering.place = Place(file.name, kinds, file.labels)
+    lowering.place = Place(file.name, kinds, file.labels, file.taught)
     lowering.offsets = {}
     builder = Builder(diagnostics, file.name)
     done = assemble(file.source, "tp", iter(file.pieces), _parser(), lowering.lower, builder, diagnostics)

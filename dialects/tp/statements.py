@@ -125,7 +125,8 @@ class Statements(Expressions):
         return Middle("program", "positions", self.origin)
 
     def on_point_data(self, tree: SyntaxTree) -> Lowered:
-        return variable(parse_position(self.origin.text), self.origin)
+        position = self.place.taught.get(self.origin.start) or parse_position(self.origin.text)
+        return variable(position, self.origin)
 
     def on_end_of_file(self, tree: SyntaxTree) -> Lowered:
         return Close("program", None, self.origin)
