@@ -19,6 +19,7 @@ COMPONENTS = {
 
 RULES = Rules(
     name="inform",
+    case_sensitive=True,  # M: jobs and labels are kept as they are written; controllers use capitals
     # Instructions behind a move wait until the robot has come to its point, within its positioning level.
     advance=AdvanceRules(moves=5, runs_ahead_of="fly_by", lead_s=0.0),
     real_to_int="trunc",  # M: the decimals are dropped

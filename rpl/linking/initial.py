@@ -86,7 +86,8 @@ def _split(path: str, name: str, qualified: str) -> list[str | int] | None:
     """The steps behind the variable's name; None when the path names another variable."""
     lower = path.lower()
     for root in (qualified, name):
-        if lower == root or (lower.startswith(root) and lower[len(root)] in ".["):
+        wanted = root.lower()
+        if lower == wanted or (lower.startswith(wanted) and lower[len(root)] in ".["):
             rest = path[len(root) :]
             return [int(m[1]) if m[1] else m[2].lower() for m in _STEP.finditer(rest)]
     return None
