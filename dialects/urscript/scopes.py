@@ -260,12 +260,11 @@ def _find_program(file: File, called: set[str]) -> None:
     if file.start:
         file.program = file.top[file.start]
     else:
-        candidates = [f for f in file.top.values() if f.kind == "def" and not f.node.parameters]
-        uncalled = [function for function in candidates if function.node.name not in called]
-        alone = len(candidates) == len(file.top) or any(function.inner for function in uncalled)
-        if len(uncalled) == 1 and alone:
-            file.program = uncalled[0]
-        elif not candidates and len(file.top) == 1:
+        uncalled = [f for f in file.top.values() if f.kind == "def" and f.node.name not in called]
+        startable = [function for function in uncalled if not function.node.parameters]
+        if len(startable) == 1 and (len(uncalled) == 1 or startable[0].inner):
+            file.program = startable[0]
+        elif len(file.top) == 1:
             file.program = next((f for f in file.top.values() if f.kind == "sec"), None)
     if file.program is not None:
         file.program.program = True

@@ -42,6 +42,7 @@ STARTERS = frozenset(
 _ALONE = frozenset(("end", "break", "continue", "halt", "enter_critical", "exit_critical"))
 _INFIX = frozenset(("and", "or", "xor"))
 _PREFIX = frozenset(("not", "run", "def", "sec", "thread", "if", "elif", "while", "global", "local", "join", "kill"))
+_LINE_END = re.compile(r"[\r\n]")
 _MARKS = re.compile("[\ufeff\x1a\x00]")
 
 
@@ -65,24 +66,56 @@ class _Splitter:
     def __init__(self, text: str) -> None:
         self.text = text
         self.now: _Statement | None = None
+        self.resume = 0
 
     def pieces(self) -> Iterator[Piece]:
-        for match in _TOKEN.finditer(self.text):
-            kind = match.lastgroup or "sign"
-            if kind == "blank":
-                if self.now is None and _MARKS.search(match.group()):
-                    yield Piece(LAYOUT, match.start(), match.end(), "")
-            elif kind == "line":
-                if self.now is not None and self.now.complete and self.now.depth == 0:
-                    yield self.finish()
-            elif kind == "comment":
-                yield from self.comment(match)
-            elif self.now is None:
-                yield from self.begin(kind, match)
-            else:
-                yield from self.go_on(kind, match)
+        at = 0
+        while at < len(self.text):
+            match = _TOKEN.match(self.text, at)
+            assert match is not None  # the last alternative takes any sign
+            if self.now is not None and self.is_broken_at(match):
+                yield self.first_line()
+                at = self.resume
+                continue
+            at = match.end()
+            yield from self.token(match.lastgroup or "sign", match)
+            if at == len(self.text) and self.now is not None and self.now.depth:
+                yield self.first_line()
+                at = self.resume
         if self.now is not None:
             yield self.finish()
+
+    def is_broken_at(self, match: re.Match[str]) -> bool:
+        """Is a bracket still open where a word stands that can only begin a statement?"""
+        now = self.now
+        starts = now is not None and now.depth > 0 and match.lastgroup == "name" and match.group() in STARTERS
+        return starts and self.starts_line(match.start())
+
+    def first_line(self) -> Piece:
+        """A statement whose bracket is never closed costs its first line; the rest is read anew."""
+        now = self.now
+        assert now is not None  # the caller has looked
+        found = _LINE_END.search(self.text, now.start)
+        end = min(found.start(), now.end) if found is not None else now.end
+        now.remarks = [(start, stop) for start, stop in now.remarks if start < (found.start() if found else now.end)]
+        now.end = min([end, *(start for start, _ in now.remarks)])
+        piece = self.finish()
+        self.resume = piece.end
+        return piece
+
+    def token(self, kind: str, match: re.Match[str]) -> Iterator[Piece]:
+        if kind == "blank":
+            if self.now is None and _MARKS.search(match.group()):
+                yield Piece(LAYOUT, match.start(), match.end(), "")
+        elif kind == "line":
+            if self.now is not None and self.now.complete and self.now.depth == 0:
+                yield self.finish()
+        elif kind == "comment":
+            yield from self.comment(match)
+        elif self.now is None:
+            yield from self.begin(kind, match)
+        else:
+            yield from self.go_on(kind, match)
 
     def comment(self, match: re.Match[str]) -> Iterator[Piece]:
         now = self.now
@@ -111,8 +144,7 @@ class _Splitter:
         starts = kind == "name" and word in STARTERS
         operand = kind in ("text", "number", "hole", "tag", "label") or (kind == "name" and word not in _INFIX)
         follows = operand and now.complete and not now.open_word
-        outside = now.depth == 0
-        if (starts and (outside or self.starts_line(match.start()))) or (outside and (follows or word == ";")):
+        if now.depth == 0 and (starts or follows or word == ";"):
             yield self.finish()
             yield from self.begin(kind, match)
             return

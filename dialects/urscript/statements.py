@@ -11,6 +11,7 @@ from rpl.ir.walk import walk
 from rpl.source import Origin
 
 from . import nodes
+from .blends import check_blends
 from .calls import Bound, Calls, as_text, one_more
 from .expressions import BUILTINS, pose_literal, pose_part
 from .functions import BindError, bind, constant
@@ -52,7 +53,18 @@ class Statements(Calls):
             if isinstance(node, nodes.Define):
                 continue
             done.extend(self.statement(node, in_loop))
+        if any(isinstance(made, ir.Move) for made in done):
+            check_blends(tuple(done), self.given_places(), self.diagnostics)
         return tuple(done)
+
+    def given_places(self) -> dict[str, ir.Expression]:
+        """The poses that the program gives to names once and for all."""
+        symbols = [symbol for file in self.project.files for symbol in file.globals.values()]
+        return {
+            symbol.name: self.value(symbol.given.value)
+            for symbol in symbols
+            if symbol.given is not None and isinstance(symbol.given.value, nodes.PoseOf)
+        }
 
     def statement(self, node: Node, in_loop: bool) -> ir.Body:
         """One statement; what it needs evaluated before stands in front of it."""
