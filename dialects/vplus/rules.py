@@ -35,4 +35,5 @@ RULES = Rules(
         "circle_orientation": "path",
         "held_work": False,
     },
+    errors=tables.ERRORS,
 )

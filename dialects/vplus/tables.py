@@ -100,6 +100,9 @@ SWITCHES_WITHOUT_EFFECT = frozenset(
     """.split()  # noqa: SIM905
 )
 
+# M: numbers of the errors that a program can ask for with ERROR(-1).
+ERRORS: dict[str, int] = {"no_value": -401, "unreachable": -610, "joint_limit": -1024}
+
 # Posture words: (neutral variable, neutral word). RIGHTY is the arm with its elbow to the right of the line from
 # shoulder to wrist; on a six-axis arm the neutral front (M), on a SCARA the positive second joint.
 POSTURES: dict[str, tuple[str, str]] = {
