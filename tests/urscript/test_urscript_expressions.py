@@ -152,7 +152,8 @@ def test_lists_and_numbers_as_they_run() -> None:
 
 def test_functions_pass_by_value_and_take_names_and_defaults() -> None:
     holds(
-        "a = [1, 2]\ndef change(list, by=10, twice=False):\nlist[0] = list[0] + by\nif twice:\nreturn list[0] * 2\nend\n"
+        "a = [1, 2]\ndef change(list, by=10, twice=False):\nlist[0] = list[0] + by\n"
+        "if twice:\nreturn list[0] * 2\nend\n"
         "return list[0]\nend\nx = change(a)\ny = change(a, twice=True)\nz = change(by=1, list=a)",
         "x == 11",
         "y == 22",
