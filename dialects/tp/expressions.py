@@ -146,8 +146,19 @@ class Expressions:
 
     def current(self, word: str) -> Typed:
         if word == "LPOS":
-            return Typed(ir.Builtin("current_target", (), origin=self.origin), "p")
+            tool, frame = self.fixed_frame("UTOOL"), self.fixed_frame("UFRAME")
+            frames: tuple[ir.Expression, ...] = () if tool is None else (tool,)
+            if frame is not None:
+                frames = (tool or ir.System("tool", origin=self.origin), frame)
+            return Typed(ir.Builtin("current_target", frames, origin=self.origin), "p")
         return Typed(ir.Builtin("current_joints", (), origin=self.origin), "j")
+
+    def fixed_frame(self, bank: str) -> ir.Expression | None:
+        """The frame or tool that the dump shows as selected, where no program ever selects one."""
+        number = self.facts.fixed.get(bank)
+        if number is None:
+            return None
+        return ir.Index(ir.Name(bank, origin=self.origin), (ir.IntLiteral(number),), origin=self.origin)
 
     def unary(self, tree: SyntaxTree) -> Typed:
         sign, operand = str(tree.children[0]), _tree(tree.children[1])

@@ -265,6 +265,8 @@ class Motion(Statements):
             acceleration=options.acceleration,
             blend=options.blend or ir.BlendStop(),
             orientation=options.orientation,
+            tool=self.fixed_frame("UTOOL"),
+            frame=self.fixed_frame("UFRAME"),
             triggers=tuple(options.triggers),
             search=self.search(options),
             origin=self.origin,

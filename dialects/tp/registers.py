@@ -28,9 +28,16 @@ MIXED_REGISTER = code(
     "PR[{number}] holds joints here and a Cartesian position at {other}; it is kept as a Cartesian position",
     "use two position registers",
 )
+MIXED_ELEMENTS = code(
+    "tp-mixed-position-elements",
+    Severity.ERROR,
+    "PR[{number}] holds joints here and a Cartesian position at {other}; what its elements are depends on the way here",
+    "use two position registers",
+)
 MODULE = "registers"
 
 _REFERENCE = re.compile(r"(?<![\w$.])(R|PR|SR)\s*\[\s*(?:GP\d+\s*:?\s*)?(?:(\d+)\s*(?=[\],]))?", re.IGNORECASE)
+_ELEMENT = re.compile(r"(?<![\w$.])PR\s*\[\s*(?:GP1\s*:?\s*)?(\d+)\s*,", re.IGNORECASE)
 _ASSIGNED = re.compile(
     r"(?:^|,)\s*PR\s*\[\s*(?:GP1\s*:?\s*)?([^\[\],]*(?:\[[^\]]*\])?)\s*\]\s*=\s*(.*)\Z", re.IGNORECASE
 )
@@ -56,6 +63,8 @@ class Facts:
     joints: dict[int, Origin] = field(default_factory=dict)  # position registers seen to hold joints
     cartesian: dict[int, Origin] = field(default_factory=dict)
     whole_bank: dict[str, Origin] = field(default_factory=dict)  # evidence from computed numbers, by kind
+    elements: set[int] = field(default_factory=set)  # position registers of which an element is used
+    fixed: dict[str, int] = field(default_factory=dict)  # frames that are selected for good: no program selects one
     links: set[tuple[int, int]] = field(default_factory=set)
     arguments: dict[str, dict[int, str]] = field(default_factory=dict)
     labels: dict[tuple[str, int], str] = field(default_factory=dict)
@@ -107,6 +116,7 @@ def survey(facts: Facts, program: str, pieces: Iterable[Piece], points: dict[int
                 facts.arrays.add(bank)
             else:
                 facts.used[bank].add(int(match[2]))
+        facts.elements.update(int(number) for number in _ELEMENT.findall(text))
         for number in _ARGUMENT.findall(text):
             mine.setdefault(int(number), "n")
         for one, other in _TEXT_ARGUMENT.findall(text):
@@ -217,7 +227,12 @@ def conclude(facts: Facts, dump: Dump, diagnostics: Diagnostics) -> None:
     for number in sorted(facts.joints.keys() & facts.cartesian.keys()):
         elsewhere = facts.cartesian[number]
         place = f"{elsewhere.file}:{elsewhere.line}"
-        diagnostics.report(MIXED_REGISTER, facts.joints[number], number=number, other=place)
+        what = MIXED_ELEMENTS if number in facts.elements else MIXED_REGISTER
+        diagnostics.report(what, facts.joints[number], number=number, other=place)
+    for bank, usual in (("UFRAME", 0), ("UTOOL", 1)):
+        active = dump.active.get(f"{bank}_NUM", usual)
+        if bank not in facts.numbers_set and (bank, active) in dump.frames:
+            facts.fixed[bank] = active
     facts.labels = {**dump.labels, **facts.labels}
 
 

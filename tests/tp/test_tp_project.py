@@ -121,6 +121,18 @@ def test_a_register_with_both_kinds_is_reported_with_both_places() -> None:
     assert "joints_to_target(current_joints())" in as_rpl(program)
 
 
+def test_elements_of_a_register_with_both_kinds_are_an_error() -> None:
+    _, diagnostics = read(listing("PR[1]=LPOS\nPR[1]=JPOS\nPR[1,3]=5"))
+    assert reports(diagnostics, Severity.ERROR) == ["tp-mixed-position-elements"]
+
+
+def test_frames_that_no_program_selects_are_those_of_the_dump() -> None:
+    text = as_rpl(read(listing("L P[2] 100mm/sec FINE\nPR[1]=LPOS"), SYSFRAME)[0])
+    assert "TO P2 TOOL" not in text and "FRAME UFRAME[1]" in text
+    assert "current_target($tool, UFRAME[1])" in text
+    assert "FRAME UFRAME[1]" not in as_rpl(read(listing("UFRAME_NUM=2\nL P[2] 100mm/sec FINE"), SYSFRAME)[0])
+
+
 def test_arguments_are_numbered_parameters() -> None:
     called = listing("R[1]=AR[1]\nSR[1]=AR[2]", "", "SUB")
     program, diagnostics = read(listing("CALL SUB(R[5],'a',PR[1,1])"), called)
