@@ -94,7 +94,7 @@ class Actions:
                     return f"{found[0]} = {measured(value, found[1])}"
         type = self.expressions.type(target)
         if isinstance(type, ir.ArrayType) and isinstance(value, ir.Aggregate):
-            value = in_one_list(value, len(type.dimensions))
+            value = in_one_list(value, type, self.expressions.scope)
         return f"{self.expressions.text(target)} = {self.expressions.given(value)}"
 
     def setting(self, name: str, indices: tuple[ir.Expression, ...], value: ir.Expression) -> str:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 from rpl import ir
 from rpl.passes.fold import constant_number
 from rpl.passes.scope import Scope
 
 from .expressions import Expressions, UnsayableError
+from .places import is_matrix
 
 _POSES = (ir.PoseType, ir.TargetType, ir.VectorType, ir.RotationType)
 _DEEPEST = 16
@@ -26,17 +29,21 @@ def first_value(variable: ir.Variable, expressions: Expressions) -> str:
     if initial is None:
         return neutral(type, scope, expressions)
     if isinstance(initial, ir.Aggregate) and isinstance(type, ir.ArrayType):
-        return expressions.text(_typed(in_one_list(initial, len(type.dimensions)), type, scope))
+        return expressions.text(_typed(in_one_list(initial, type, scope), type, scope))
     return expressions.given(_real(initial, type))
 
 
-def in_one_list(value: ir.Aggregate, dimensions: int) -> ir.Aggregate:
-    """The value of an array of several dimensions, as the one list that it is written as."""
+def in_one_list(value: ir.Aggregate, type: ir.ArrayType, scope: Scope) -> ir.Aggregate:
+    """The value of an array of several dimensions, as the one list that it is written as (a matrix stays one)."""
+    return value if is_matrix(type, scope) else _flat(value, len(type.dimensions))
+
+
+def _flat(value: ir.Aggregate, dimensions: int) -> ir.Aggregate:
     if dimensions < 2:
         return value
     entries: list[tuple[str | None, ir.Expression]] = []
     for name, one in value.entries:
-        inner = in_one_list(one, dimensions - 1) if isinstance(one, ir.Aggregate) else one
+        inner = _flat(one, dimensions - 1) if isinstance(one, ir.Aggregate) else one
         entries.extend(inner.entries if isinstance(inner, ir.Aggregate) else ((name, inner),))
     return ir.Aggregate(tuple(entries), origin=value.origin)
 
@@ -74,15 +81,8 @@ def neutral(type: ir.Type, scope: Scope, expressions: Expressions, depth: int = 
             return '""'
         case ir.JointsType() | ir.AxesType():
             return "[0.0, 0.0, 0.0, 0.0, 0.0, 0.0]"
-        case ir.ArrayType(element=element, dimensions=dimensions):
-            count = 1
-            for bound in dimensions:
-                size = None if bound is None else constant_number(bound, scope)
-                if size is None:
-                    raise UnsayableError("an array whose size is not a constant")
-                count *= int(size)
-            inner = neutral(element, scope, expressions, depth + 1)
-            return f"[{', '.join([inner] * count)}]"
+        case ir.ArrayType():
+            return _empty_array(resolved, scope, expressions, depth)
         case ir.NamedType(name=name) if depth < _DEEPEST:
             record = scope.type(name)
             if isinstance(record, ir.RecordDeclaration):
@@ -91,6 +91,20 @@ def neutral(type: ir.Type, scope: Scope, expressions: Expressions, depth: int = 
     if isinstance(resolved, _POSES):
         return "p[0, 0, 0, 0, 0, 0]"
     raise UnsayableError(f"there is no type for {resolved.__class__.__name__.removesuffix('Type').lower()}")
+
+
+def _empty_array(type: ir.ArrayType, scope: Scope, expressions: Expressions, depth: int) -> str:
+    counts = []
+    for bound in type.dimensions:
+        last = None if bound is None else constant_number(bound, scope)
+        if last is None:
+            raise UnsayableError("an array whose size is not a constant")
+        counts.append(int(last) - type.base + 1)
+    inner = neutral(type.element, scope, expressions, depth + 1)
+    if is_matrix(type, scope):
+        row = f"[{', '.join([inner] * counts[1])}]"
+        return f"[{', '.join([row] * counts[0])}]"
+    return f"[{', '.join([inner] * math.prod(counts))}]"
 
 
 def header(routine: ir.Routine) -> str:

@@ -229,6 +229,10 @@ class Expressions:
                 return self.helper("rpl_trunc", self.text(operand))
             case "floor":
                 return f"floor({self.text(operand)})"
+            case "code":
+                return self.helper("rpl_code", self.text(operand))
+            case "char":
+                return self.helper("rpl_char", self.text(operand))
             case "bit":
                 return self.helper("rpl_bit", self.text(operand))
             case "truth":
@@ -296,11 +300,20 @@ class Expressions:
         bounds = type.dimensions if isinstance(type, ir.ArrayType) else ()
         number = values[1].value if len(values) > 1 and isinstance(values[1], ir.IntLiteral) else 0
         found = bounds[number - 1] if 0 < number <= len(bounds) else None
-        if found is not None:
-            return self.atom(found)
+        if found is not None and isinstance(type, ir.ArrayType):
+            return self.atom(_size(found, type.base))
         if len(bounds) == 1:
             return f"length({self.text(values[0])})"
         raise UnsayableError("an array cannot be asked for the size of one of its dimensions")
+
+
+def _size(bound: ir.Expression, base: int) -> ir.Expression:
+    """How many elements there are from `base` to the bound."""
+    if base == 1:
+        return bound
+    if isinstance(bound, ir.IntLiteral):
+        return ir.IntLiteral(bound.value - base + 1)
+    return ir.Binary("+", bound, ir.IntLiteral(1 - base))
 
 
 def before(index: ir.Expression) -> ir.Expression:

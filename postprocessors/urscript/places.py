@@ -15,6 +15,8 @@ from rpl.writing.precedence import Printed
 from . import spelling, tables
 
 if TYPE_CHECKING:
+    from rpl.passes.scope import Scope
+
     from .expressions import Expressions
 
 _POSES = (ir.PoseType, ir.TargetType, ir.VectorType, ir.RotationType)
@@ -60,23 +62,30 @@ class Places:
     # ---- elements and components
 
     def index(self, expression: ir.Index) -> str:
-        """An element; several indices count through the one list that an array is."""
-        type = self.expressions.type(expression.base)
-        indices = expression.indices
-        if isinstance(expression.base, ir.Index) and isinstance(type, ir.ArrayType) and type.base == 0:
-            row = self.expressions.text(expression.base)
-            if len(indices) == 1 and row.endswith("]"):  # a matrix is asked for row and column at once
-                return f"{row[:-1]}, {self.expressions.text(indices[0])}]"
-        first = type.base if isinstance(type, ir.ArrayType) else 0
-        shifted = [_less(index, first) for index in indices]
+        """An element. A matrix is asked for row and column; an array of more dimensions, or of anything else than
+        numbers, is one list that its indices count through."""
+        base, indices = expression.base, expression.indices
+        if isinstance(base, ir.Index) and len(self.dimensions(base.base)) > 1:
+            return self.index(ir.Index(base.base, (*base.indices, *indices)))
+        type = self.expressions.type(base)
+        if not isinstance(type, ir.ArrayType):
+            return f"{self.base(base)}[{self.expressions.listed(indices)}]"
+        shifted = [_less(index, type.base) for index in indices]
+        if len(type.dimensions) == 1 or is_matrix(type, self.expressions.scope):
+            return f"{self.base(base)}[{self.expressions.listed(tuple(shifted))}]"
+        if len(indices) != len(type.dimensions):
+            raise self.refuse("a part of an array of several dimensions")
         flat = shifted[0]
-        sizes = type.dimensions if isinstance(type, ir.ArrayType) else ()
         for at, index in enumerate(shifted[1:], 1):
-            size = sizes[at] if at < len(sizes) else None
-            if size is None:
+            bound = type.dimensions[at]
+            if bound is None:
                 raise self.refuse("an array of several dimensions whose size is not known here")
-            flat = _plus(_times(flat, size), index)
-        return f"{self.base(expression.base)}[{self.expressions.text(flat)}]"
+            flat = _plus(_times(flat, _less(bound, type.base - 1)), index)
+        return f"{self.base(base)}[{self.expressions.text(flat)}]"
+
+    def dimensions(self, array: ir.Expression) -> tuple[ir.Expression | None, ...]:
+        type = self.expressions.type(array)
+        return type.dimensions if isinstance(type, ir.ArrayType) else ()
 
     def component(self, base: ir.Expression, name: str) -> tuple[str, str] | None:
         """How a component of a pose or of joints is read, and its unit; None for a field of a record."""
@@ -283,6 +292,11 @@ class Places:
             case "flag", (number,):
                 return f"get_flag({self.flag(number)})"
         raise self.refuse(f"there is no system variable for {name.replace('_', ' ')}")
+
+
+def is_matrix(type: ir.ArrayType, scope: Scope) -> bool:
+    """Is it written as rows of numbers?"""
+    return len(type.dimensions) == 2 and isinstance(scope.resolve(type.element), ir.NUMBER_TYPES)
 
 
 def _less(index: ir.Expression, by: int) -> ir.Expression:

@@ -97,6 +97,7 @@ FUNCTIONS = {
     "text_value": "to_num",
     "text_upper": "rpl_upper",
     "text_lower": "rpl_lower",
+    "text_map": "rpl_mapped",
     "character_code": "rpl_code",
     "from_code": "rpl_char",
 }
