@@ -15,7 +15,7 @@ from rpl.writing.text import number_text
 from . import tables
 from .expressions import CannotSayError, Expressions, constant, measured
 from .lines import Line
-from .positions import Points, Position, flat, numbers, position_of
+from .positions import Points, Position, position_of, step_of
 
 ROUNDED = code("tp-rounded", Severity.WARNING, "{what} {value} is written as {written}", "TP takes whole numbers here")
 TOOL_SPEED = code(
@@ -30,8 +30,6 @@ JOINT_CORNER = code(
 )
 LEFT_OUT = code("tp-left-out", Severity.WARNING, "TP has no place for {what} at a move; it is left out")
 NO_SPEED = code("tp-no-speed", Severity.WARNING, "the move says no speed; it is written with {speed}")
-
-_ZERO = {name: ir.RealLiteral(0.0) for name in ("x", "y", "z", "a", "b", "c")}
 
 
 class Action(Protocol):
@@ -51,6 +49,8 @@ class Motion:
     reported: set[tuple[Code, str]] = field(default_factory=set)
     frame: str = ""
     tool: str = ""
+    scratch: int = tables.PR.last
+    before: list[Line] = field(default_factory=list)  # lines that a move needs in front of it
     last: Position | None = None  # where the move before ended, in the frame in force
 
     @property
@@ -72,7 +72,8 @@ class Motion:
             self.diagnostics.report(about, origin, **arguments)
 
     def move(self, move: ir.Move, skip: str = "") -> Line:
-        """The line of a move; `skip` is what stands behind Skip."""
+        """The line of a move; `skip` is what stands behind Skip. `before` holds the lines in front of it."""
+        self.before = []
         letter = tables.LETTERS.get(move.kind)
         if letter is None:
             raise CannotSayError(f"there is no {move.kind} move")
@@ -141,7 +142,8 @@ class Motion:
         if known is not None:
             if not known.startswith(("P[", "PR[")):
                 raise CannotSayError(f"{known} is no position")
-            self.noted(known)
+            if move.relative is None:
+                self.noted(known)
             return known, ""
         number_of = self.points.add(self.position(move, target))
         shown = self.points.place(number_of)
@@ -157,23 +159,17 @@ class Motion:
     def register(self, pose: ir.Expression) -> str:
         if isinstance(pose, ir.Builtin) and pose.function == "pose_of":
             (pose,) = pose.arguments
-        shown = self.expressions.element(pose)
-        if shown is None or not shown.startswith("PR["):
-            raise CannotSayError("an offset has to be in a position register")
-        return shown
+        shown = self.expressions.element(pose) if isinstance(pose, ir.Index | ir.Name) else None
+        if shown is not None and shown.startswith("PR["):
+            return shown
+        if shown is None and not self.before:
+            point = self.points.place(self.points.add(position_of(pose, self.expressions.scope)))
+            self.before.append(Line(f"  PR[{self.scratch}]={point}"))
+            return f"PR[{self.scratch}]"
+        raise CannotSayError("an offset is constant or in a position register")
 
     def position(self, move: ir.Move, target: ir.Expression) -> Position:
-        if move.relative is None:
-            return position_of(target, self.expressions.scope)
-        parts = flat(target)
-        if move.relative == "joints":
-            names = [f"j{axis}" for axis in range(1, 7)]
-            values = numbers({**dict.fromkeys(names, ir.RealLiteral(0.0)), **parts}, tuple(names))
-            return Position("joints", tuple(values))
-        values = numbers({**_ZERO, **parts}, ("x", "y", "z", "a", "b", "c"))
-        if any(values[3:]):
-            raise CannotSayError("INC adds angles one by one; a turned relative move is something else")
-        return Position("pose", tuple(values))
+        return position_of(target, self.expressions.scope) if move.relative is None else step_of(target)
 
     # ---- speed
 

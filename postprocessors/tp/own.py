@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.source import Origin
 
 WAIT_LIMIT = "$WAITTMOUT"
@@ -101,3 +102,12 @@ def monitors_of(program: ir.Program) -> dict[int, tuple[str, int]]:
             if numbers:
                 found[numbers[0]] = (routine.name.upper(), len(numbers))
     return found
+
+
+def steps_in(body: ir.Body) -> set[str]:
+    """Names of the points that are the way of relative moves."""
+    return {
+        node.target.id
+        for node in walk(body)
+        if isinstance(node, ir.Move) and node.relative is not None and isinstance(node.target, ir.Name)
+    }

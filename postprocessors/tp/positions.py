@@ -77,15 +77,19 @@ class Points:
     recorded: dict[int, Recorded] = field(default_factory=dict)
     order: list[tuple[int, str, str]] = field(default_factory=list)
 
-    def declare(self, variable: ir.Variable, scope: Scope) -> int:
-        """A variable that is a point: by the number in its name."""
+    def declare(self, variable: ir.Variable, scope: Scope, step: bool = False) -> int:
+        """A variable that is a point: by the number in its name. `step`: it is the way of relative moves, where what is
+        left out is zero."""
         number = point_number(variable.name)
         if number is None or number in self.found:
             raise CannotSayError(f"{variable.name} is no number of a point")
-        self.found[number] = (
-            Position("none") if variable.initial is None else position_of(variable.initial, scope, variable.type)
-        )
         recorded = _recorded(variable.origin.text)
+        if variable.initial is None:
+            self.found[number] = Position("none")
+        elif step and recorded is None:
+            self.found[number] = step_of(variable.initial)
+        else:
+            self.found[number] = position_of(variable.initial, scope)
         if recorded is not None:
             self.recorded[number] = recorded
         label = comment(variable.label) if recorded is None else variable.label
@@ -139,7 +143,18 @@ def point_number(name: str) -> int | None:
     return int(match[1]) if match else None
 
 
-def position_of(value: ir.Expression, scope: Scope, type: ir.Type | None = None) -> Position:
+def step_of(value: ir.Expression) -> Position:
+    """The way of a relative move; components that are left out are zero. INC adds component by component, so a turn in
+    degrees is something else than a composed one."""
+    parts = flat(value)
+    names = _JOINTS if set(_JOINTS) & set(parts) else _POSE
+    values = numbers({**dict.fromkeys(names, ir.RealLiteral(0.0)), **parts}, names)
+    if names == _POSE and any(values[3:]):
+        raise CannotSayError("INC adds angles one by one; a turned relative move is something else")
+    return Position("joints" if names == _JOINTS else "pose", tuple(values))
+
+
+def position_of(value: ir.Expression, scope: Scope) -> Position:
     """The position of a constant value. Raises CannotSayError when it is computed or lacks components."""
     parts = flat(value)
     if set(_JOINTS) & set(parts):

@@ -25,7 +25,9 @@ def choose_postures(points: Points, frames: Frames, robot: RobotModel) -> list[i
         return []
     notation, near, filled = make(), robot.home, []
     for number, frame, tool in points.order:
-        position = points.found[number]
+        position = points.found.get(number)
+        if position is None:
+            continue  # reported where it is declared
         if position.kind == "joints":
             if len(position.values) == robot.axes:
                 near = _array(position.values)

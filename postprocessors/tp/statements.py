@@ -55,7 +55,7 @@ class Printer:
     idioms: Idioms = field(init=False)
 
     def __post_init__(self) -> None:
-        self.motion = Motion(self.expressions, self.points, self.diagnostics, self.action)
+        self.motion = Motion(self.expressions, self.points, self.diagnostics, self.action, scratch=self.frames.scratch)
         self.assignments = Assignments(self.expressions, self.points)
         self.idioms = Idioms(self)
 
@@ -343,7 +343,8 @@ class Printer:
             self.searching_alone(move)
             return
         self.own_frames(move)
-        self.put([self.motion.move(move)], move.origin)
+        line = self.motion.move(move)
+        self.put([*self.motion.before, line], move.origin)
         self.triggers_done(move)
 
     def triggers_done(self, move: ir.Move) -> None:
@@ -382,7 +383,7 @@ class Printer:
             self.line(f"SKIP CONDITION {self.expressions.condition(search.condition)}    ", move.origin)
         if flag:
             self.line(f"{flag}=OFF")
-        self.put([line])
+        self.put([*self.motion.before, line])
         self.triggers_done(move)
 
     def searching_alone(self, move: ir.Move) -> None:

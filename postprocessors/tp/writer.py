@@ -20,7 +20,7 @@ from .expressions import CannotSayError, Expressions
 from .flow import Labels
 from .frames import Frames, highest_free_register
 from .lines import Line
-from .own import monitors_of
+from .own import monitors_of, steps_in
 from .positions import Points, point_number
 from .posture import choose_postures
 from .statements import Printer
@@ -129,8 +129,9 @@ class _Writer:
         self.ledger.written(routine)
         printer.comments_only(routine.origin)
         named: dict[str, str] = {}
+        steps = steps_in(routine.body)
         for declaration in routine.declarations:
-            self.declaration(declaration, printer, named)
+            self.declaration(declaration, printer, named, steps)
         expressions.points = named
         printer.body(routine.body)
         self.lost_parts(routine)
@@ -144,12 +145,14 @@ class _Writer:
         """What the header of its listing said, for the program of a module that was one."""
         return dict(module.attributes) if routine is module.routines[0] else {}
 
-    def declaration(self, declaration: ir.Declaration, printer: Printer, named: dict[str, str]) -> None:
+    def declaration(
+        self, declaration: ir.Declaration, printer: Printer, named: dict[str, str], steps: set[str]
+    ) -> None:
         """Points; other data of a routine have registers by now."""
         try:
             match declaration:
                 case ir.Variable(name=name) if point_number(name) is not None:
-                    number = printer.points.declare(declaration, printer.expressions.scope)
+                    number = printer.points.declare(declaration, printer.expressions.scope, name in steps)
                     named[name] = printer.points.place(number)
                     printer.comments_only(declaration.origin)
                     self.ledger.written(declaration)
@@ -175,7 +178,6 @@ class _Writer:
         reasons = [
             *(["an error handler"] if lost or routine.handlers else []),
             *(["a result"] if routine.returns is not None else []),
-            *(["parameters by name"] if any(_is_named(one) for one in routine.parameters) else []),
         ]
         for reason in reasons:
             self.diagnostics.report(LOST_ROUTINE, routine.origin, name=routine.name, reason=reason)
@@ -214,10 +216,6 @@ def _is_bank(name: str) -> bool:
         return True
     bank = upper.rstrip("0123456789")
     return bank != upper and bank in (*tables.BANKS, "UTOOL", "UFRAME")
-
-
-def _is_named(parameter: ir.Parameter) -> bool:
-    return not (parameter.name.upper().startswith("AR") and parameter.name[2:].isdigit())
 
 
 def _labels_of_registers(program: ir.Program) -> dict[tuple[str, int], str]:
