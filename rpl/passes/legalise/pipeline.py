@@ -18,6 +18,7 @@ from rpl.passes.legalise.elementwise import elementwise
 from rpl.passes.legalise.elseif import nest_branches
 from rpl.passes.legalise.enums import enums_to_constants
 from rpl.passes.legalise.errorcodes import name_errors
+from rpl.passes.legalise.errorroutines import error_routines
 from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.explicit import explicit_to_modal
 from rpl.passes.legalise.functions import functions_to_procedures
@@ -33,6 +34,7 @@ from rpl.passes.legalise.loops import fit_loops
 from rpl.passes.legalise.modal import modal_to_explicit
 from rpl.passes.legalise.movesettings import settings_at_moves
 from rpl.passes.legalise.numbered import number_data
+from rpl.passes.legalise.nextmove import settings_of_next_move
 from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.parameters import fit_arguments
@@ -40,8 +42,10 @@ from rpl.passes.legalise.polling import poll_waits
 from rpl.passes.legalise.prelude import link_prelude
 from rpl.passes.legalise.pulses import fold_pulses
 from rpl.passes.legalise.references import references_as_copies
+from rpl.passes.legalise.refusals import refuse
 from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.searches import searches
+from rpl.passes.legalise.searchparts import search_parts
 from rpl.passes.legalise.signals import name_signals, number_signals
 from rpl.passes.legalise.spelling import one_spelling
 from rpl.passes.legalise.steps import steps
@@ -65,8 +69,11 @@ PASSES: tuple[Pass, ...] = (
     levels_to_distances,
     elementwise,
     searches,
+    search_parts,
     link_prelude,
     labels_to_structure,
+    settings_of_next_move,
+    error_routines,
     array_bases,
     circle_rules,
     configurations,
@@ -75,6 +82,7 @@ PASSES: tuple[Pass, ...] = (
     triggers,
     resumes,
     interrupts,
+    refuse,
     whole_targets,
     set_data_at_start,
     timers_to_clocks,
