@@ -50,11 +50,11 @@ class Capabilities:
 
     Flow: which of If, Switch, For, While, Repeat, Loop, ExitLoop, NextPass, Goto, Label stand in `statements` says what
     structure there is; without If there is still `If` with one Goto as its only branch. else_if: an If may have several
-    branches. switch_jumps: a case of a Switch holds one Goto or one call. for_keeps_last: a FOR's counter keeps the last
-    value a pass ran with. for_steps: `any`, or `one` (only up or down by 1). poll_s: time between two looks in a loop
-    that waits for a condition, for targets without WaitUntil. next_move_settings: SetForNextMove can be said; otherwise
-    it is attached to the next move. search_results: what a search move gives, `found` (the place) and `hit` (whether).
-    task_operations: ops of TaskControl, where that is in `statements`.
+    branches. switch_jumps: a case of a Switch holds one Goto or one call. for_keeps_last: a FOR's counter keeps the
+    last value a pass ran with. for_steps: `any`, or `one` (only up or down by 1). poll_s: time between two looks in a
+    loop that waits for a condition, for targets without WaitUntil. next_move_settings: SetForNextMove can be said;
+    otherwise it is attached to the next move. search_results: what a search move gives, `found` (the place) and `hit`
+    (whether). task_operations: ops of TaskControl, where that is in `statements`.
 
     Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
@@ -69,7 +69,7 @@ class Capabilities:
     of two simple operands, joined by and/or. functions_alone: a function only as the whole right side of an assignment.
 
     Motion: move_settings: which of `tool`, `frame`, `speed`, `blend` a move says itself, the rest being modal (System
-    tool, base; then modal_motion is set too); empty: all or none, in data of the types of RAPID or variables of KRL. Only then:
+    tool, base, and modal_motion set); empty: all or none of them, in data of the types of RAPID or KRL. Only then:
     speeds: fields of Speed that the target says (for joint moves `joint`, `axis`; for the others `path`, ...);
     blends: blend classes that it says (BlendStop always).
 

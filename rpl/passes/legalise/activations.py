@@ -96,6 +96,8 @@ def _handling(statement: ir.Statement, scope: Scope) -> list[ir.Routine]:
             names.append(name)
         case ir.ConnectInterrupt(routine=name):
             names.append(name)
+        case ir.OnError(routine=name) if name is not None:
+            names.append(name)
         case ir.DefineTrigger(trigger=ir.Trigger(action=ir.CallRoutine(name=name))):
             names.append(name)
         case ir.Move(triggers=parts) | ir.Spline(body=parts):

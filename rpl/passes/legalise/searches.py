@@ -6,11 +6,14 @@ signal already there, nothing found.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.typing import type_of
 
 _PRIORITY = 5  # more urgent than the interrupts that passes.interrupts numbers
 
@@ -21,11 +24,9 @@ def searches(program: ir.Program, context: Context) -> ir.Program:
     if "Search" in statements or not {"DeclareInterrupt", "ResumeLevel", "StopMotion"} <= statements:
         return program
     worker = _Searches(context, set(rules_of(context.source).errors))
+    scopes = ProgramScope(program)
     modules = tuple(
-        replace(
-            module,
-            routines=tuple(replace(r, body=worker.body(r.body, _local_names(r))) for r in module.routines),
-        )
+        replace(module, routines=tuple(worker.routine(r, scopes.routine(module, r)) for r in module.routines))
         for module in program.modules
     )
     if not worker.routines:
@@ -49,6 +50,11 @@ class _Searches:
     errors: set[str]
     declarations: list[ir.Declaration] = field(default_factory=list)
     routines: list[ir.Routine] = field(default_factory=list)
+    joints: Callable[[ir.Expression], bool] = field(default=lambda goal: False)
+
+    def routine(self, routine: ir.Routine, scope: Scope) -> ir.Routine:
+        self.joints = lambda goal: isinstance(type_of(goal, scope), ir.JointsType)
+        return replace(routine, body=self.body(routine.body, _local_names(routine)))
 
     def body(self, body: ir.Body, local: frozenset[str]) -> ir.Body:
         done: list[ir.Statement] = []
@@ -96,7 +102,7 @@ class _Searches:
             ),
             ir.Routine(
                 travel,
-                parameters=(ir.Parameter("goal", target),),
+                parameters=(ir.Parameter("goal", ir.JointsType() if self.joints(move.target) else target),),
                 body=(
                     ir.ControlInterrupt("on", number),
                     replace(move, target=ir.Name("goal"), search=None, blend=ir.BlendStop()),

@@ -1,0 +1,72 @@
+"""What no rewriting can give a target: critical sections, control of other tasks, interrupts. Each is named with its
+reason; the statement stays, and the writer puts the target's stop there.
+
+A critical section of a program with one task says nothing and is left out.
+"""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.effects import statements_in
+from rpl.passes.legalise.jumps import inside
+from rpl.passes.legalise.usage import bodies
+
+CRITICAL = code(
+    "critical-section-lost", Severity.LOSS, "the target cannot keep other tasks from running in a section of a program"
+)
+TASK = code("task-control-lost", Severity.LOSS, "the target's programs cannot {what} another task ({name})")
+INTERRUPT = code(
+    "interrupt-lost",
+    Severity.LOSS,
+    "the target has no interrupts; {action} does not run when the condition comes true",
+    "watch the condition in a task of its own or with the controller's monitoring function",
+)
+SEARCH = code("search-lost", Severity.LOSS, "the target's moves do not watch a condition on their way")
+_WHAT = {"start": "start", "stop": "end", "pause": "halt", "resume": "go on with", "join": "wait for the end of"}
+_INTERRUPTS = frozenset(("DeclareInterrupt", "ConnectInterrupt"))
+
+
+def refuse(program: ir.Program, context: Context) -> ir.Program:
+    """Names what the target lacks; takes out critical sections of programs with one task."""
+    statements, operations = context.capabilities.statements, context.capabilities.task_operations
+    single = _single(program)
+
+    def change(statement: ir.Statement) -> ir.Body:
+        report = context.diagnostics.report
+        match statement:
+            case ir.Critical() if "Critical" not in statements:
+                if single:
+                    return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
+                if statement.enter:
+                    report(CRITICAL, statement.origin)
+            case ir.TaskControl(op=op, task=name) if "TaskControl" not in statements or op not in operations:
+                report(TASK, statement.origin, what=_WHAT.get(op, op), name=name)
+            case ir.DeclareInterrupt(action=action) if not _INTERRUPTS & statements:
+                name = action.name if isinstance(action, ir.CallRoutine) else "an assignment"
+                report(INTERRUPT, statement.origin, action=name)
+            case ir.ConnectInterrupt(routine=name) if not _INTERRUPTS & statements:
+                report(INTERRUPT, statement.origin, action=name)
+            case ir.Move(search=ir.Search()) if "Search" not in statements and not _INTERRUPTS & statements:
+                report(SEARCH, statement.origin)
+        return (inside(statement, lambda inner: map_body(inner, change)),)
+
+    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        return edit_bodies(routine, lambda body: map_body(body, change))
+
+    return edit_routines(program, context, work)
+
+
+def _single(program: ir.Program) -> bool:
+    """Has the program one task only?"""
+    if len(program.tasks) > 1 or len({module.task for module in program.modules}) > 1:
+        return False
+    return not any(
+        isinstance(one, ir.TaskControl)
+        for module in program.modules
+        for routine in module.routines
+        for body in bodies(routine)
+        for one in statements_in(body)
+    )

@@ -1,0 +1,60 @@
+"""Search moves in the form that the target has: some give the place they found, some only say whether they did.
+
+A target that only says it: the robot stands at the place then, unless it went on. A target that only gives the place
+gets a variable for it; whether anything was found it cannot say, which is reported.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.jumps import inside
+
+NO_PLACE = code(
+    "search-place-lost", Severity.LOSS, "the target does not say where the condition came true while it moves on"
+)
+NO_HIT = code("search-hit-lost", Severity.LOSS, "the target does not say whether the condition came true")
+_NOT_FOUND = "ERR_WHLSEARCH"
+
+
+def search_parts(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets with search moves."""
+    if "Search" not in context.capabilities.statements:
+        return program
+    raises = _NOT_FOUND in rules_of(context.source).errors
+
+    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        def change(statement: ir.Statement) -> ir.Body:
+            if isinstance(statement, ir.Move) and statement.search is not None:
+                return _fitted(statement, statement.search, editor, raises)
+            return (inside(statement, lambda inner: map_body(inner, change)),)
+
+        return edit_bodies(routine, lambda body: map_body(body, change))
+
+    return edit_routines(program, context, work)
+
+
+def _fitted(move: ir.Move, search: ir.Search, editor: Editor, raises: bool) -> ir.Body:
+    says = editor.capabilities.search_results
+    report = editor.context.diagnostics.report
+    if search.hit is not None and "hit" not in says:
+        report(NO_HIT, move.origin)
+        return (move,)
+    if search.found is None and "hit" not in says:
+        place = editor.temporary("found", ir.TargetType(editor.context.source))
+        return (replace(move, search=replace(search, found=place)),)
+    if search.found is None or "found" in says:
+        return (move,)
+    if search.stop == "none":
+        report(NO_PLACE, move.origin)
+        return (move,)
+    hit = search.hit if search.hit is not None else editor.temporary("hit", ir.BoolType())
+    done = replace(move, search=replace(search, found=None, hit=hit))
+    reached = ir.Assign(search.found, ir.Builtin("current_target", ()))
+    failed: ir.Body = (ir.Raise(ir.Name(_NOT_FOUND)),) if raises else ()
+    stand = () if "WaitForMotion" not in editor.capabilities.statements else (ir.WaitForMotion(),)
+    return expansion(move.origin, (done, *stand, ir.If(((hit, (reached,)),), failed)))
