@@ -58,8 +58,8 @@ def test_comments_and_labels_travel_with_their_steps() -> None:
 _PIECES = st.sampled_from(
     [".PROGRAM a(b, $c, d[])", ".END", "IF a THEN", "ELSE", "END", "DO", "UNTIL b", "CASE a OF", "VALUE 1, 2:", "ANY",
      "FOR i = 1 TO 3", "WHILE a DO", "MOVE p", "100 GOTO 100", "  100", "x = 'A + ^HF", '$s = "a;b"', "; remark",
-     "AUTO q[3]", "EXIT 2", "NEXT", "SIGNAL -5, 2001", ".LOCATIONS", "p 1 2 3 4 5 6", ".REALS", "\t", "((", "CALL a(1,)",
-     "TYPE /C1, \"x\", /F5.2, y", "SET f:p = HERE", "REACT 1001, a", "\x1a"]
+     "AUTO q[3]", "EXIT 2", "NEXT", "SIGNAL -5, 2001", ".LOCATIONS", "p 1 2 3 4 5 6", ".REALS", "\t", "((",
+     "CALL a(1,)", "TYPE /C1, \"x\", /F5.2, y", "SET f:p = HERE", "REACT 1001, a", "\x1a"]
 )  # fmt: skip
 
 
