@@ -20,10 +20,10 @@ ARM = "kuka_kr6r900sixx"
 TARGETS = registry.target_names()
 
 _FRAME = """MODULE generated
-    CONST home: JOINTS = {{j1: 0, j2: -90, j3: 90, j4: 0, j5: 40, j6: 0}}
-    CONST left: JOINTS = {{j1: 30, j2: -80, j3: 85, j4: 10, j5: 50, j6: -20}}
-    CONST near: POSE = {{x: 500, y: 100, z: 400, a: 0, b: 90, c: 0}}
-    CONST far: POSE = {{x: 560, y: -60, z: 420, a: 20, b: 80, c: 10}}
+    CONST home: JOINTS = {{j1: 0, j2: -90, j3: 90, j4: 0, j5: 60, j6: 0}}
+    CONST left: JOINTS = {{j1: 30, j2: -80, j3: 85, j4: 10, j5: 65, j6: -20}}
+    CONST near: POSE = {{x: 480, y: 80, z: 680, a: 170, b: 30, c: 180}}
+    CONST far: POSE = {{x: 520, y: -60, z: 640, a: 180, b: 20, c: 170}}
     VAR i: INT = 0
     VAR k: INT = 0
     VAR n: INT = 3
