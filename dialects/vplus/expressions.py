@@ -184,6 +184,8 @@ class Expressions:
                 return ir.System("null_frame", origin=origin)
             case "tool" | "base":
                 return ir.System(lower, origin=origin)
+            case "random":
+                return ir.Builtin("random", (), origin=origin)
             case "#phere":
                 return ir.Builtin("current_joints", (), origin=origin)
             case "#pdest":

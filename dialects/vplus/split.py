@@ -49,6 +49,8 @@ class Outline:
         """Take note of one statement."""
         found = _FIRST_WORD.match(text)
         word = found.group().upper() if found else ""
+        if re.match(r"\s*(?:=(?!=)|\[)", text[len(word) :]):
+            return  # a variable called like a word of the language
         if word == ".PROGRAM":
             self.open.clear()
         elif word == ".END":
@@ -85,10 +87,8 @@ class Outline:
 
 
 def _opens(word: str, text: str) -> bool:
-    """Does the line open a block? `IF ... GOTO n` does not; neither does a variable called like the word."""
+    """Does the line open a block? `IF ... GOTO n` does not."""
     rest = text[len(word) :].lstrip()
-    if rest[:1] == "=" and rest[:2] != "==":
-        return False
     if word == "IF":
         return re.search(r"(?<![\w.])THEN\s*$", text, re.IGNORECASE) is not None
     return word != "DO" or not rest

@@ -28,6 +28,9 @@ ALWAYS_TRUE = code(
     "WAIT does not wait here: {text} is always true",
     "WAIT takes a condition; use WAIT.EVENT , seconds or DELAY to wait for a time",
 )
+BEHIND_END = code(
+    "vplus-text-behind-end", Severity.WARNING, "{text} behind END is read over", "write it behind a semicolon"
+)
 UNKNOWN_TASK = code(
     "vplus-unknown-task",
     Severity.WARNING,
@@ -231,6 +234,8 @@ class Statements(Functions):
         return Middle(self.owner(origin, "IF"), None, origin)
 
     def on_end_block(self, tree: SyntaxTree, origin: Origin) -> Lowered:
+        if tree.children:
+            self.diagnostics.report(BEHIND_END, origin, text=str(tree.children[0]))
         return Close(self.owner(origin, "block"), None, origin)
 
     def on_case_open(self, tree: SyntaxTree, origin: Origin) -> Lowered:

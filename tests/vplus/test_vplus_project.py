@@ -119,6 +119,7 @@ WARNED = [
     ("ABORT 4", "vplus-unknown-task"),
     ("DELAY 1\nSIGNAL 1", "vplus-after-delay"),
     ("n = 1\n.END\nn = 2\n.PROGRAM z", "vplus-outside-program"),
+    ("IF x THEN\nEND l5", "vplus-text-behind-end"),
     ("GOTO 10", "unknown-label"),
     ("CALL nobody", "unknown-routine"),
 ]

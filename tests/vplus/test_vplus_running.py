@@ -60,6 +60,12 @@ HOLDS = [
     ("bits", "IF ((^HFF BAND ^B1010) == 10) AND (BMASK(1,3) == 5) AND (^17 == 15) THEN\nSIGNAL 1\nEND"),
     ("a name counts with 15 characters", "a.very.long.name.one = 3\nIF a.very.long.namX == 3 THEN\nSIGNAL 1\nEND"),
     ("capitals do not matter", "Count = 3\nif COUNT == 3 then\nSignal 1\nend"),
+    ("a variable may be called like a word", "value[1] = 3\nany = value[1]\nIF any == 3 THEN\nSIGNAL 1\nEND"),
+    (
+        "DECOMPOSE of a whole array begins at 0",
+        "SET p = TRANS(7,8,9)\nDECOMPOSE a[] = p\nIF a[0] == 7 THEN\nSIGNAL 1\nEND",
+    ),
+    ("the declared size is the last index", "AUTO a[5]\na[5] = 1\nIF a[5] == 1 THEN\nSIGNAL 1\nEND"),
     ("what is defined", "n = 1\nIF DEFINED(n) AND NOT DEFINED(m) THEN\nSIGNAL 1\nEND"),
     (
         "locations compose and invert",
