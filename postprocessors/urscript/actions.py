@@ -53,7 +53,8 @@ class Actions:
             case ir.Return(value=None):
                 return "return"
             case ir.Return(value=value) if value is not None:
-                return f"return {self.expressions.given(value)}"
+                routine = self.expressions.scope.routine_here
+                return f"return {self.expressions.given(value, routine.returns if routine else None)}"
             case ir.Halt(kind="stop" | "exit"):
                 return "halt"
             case ir.Wait(time=time):
@@ -78,6 +79,8 @@ class Actions:
         target, value = statement.target, statement.value
         measured, places = self.expressions.measured, self.expressions.places
         match target:
+            case ir.Index(base=text) if isinstance(self.expressions.type(text), ir.StringType):
+                raise UnsayableError("one character of a text cannot be changed")
             case ir.System(name=name):
                 return self.setting(name, target.indices, value)
             case ir.Signal():
@@ -95,6 +98,8 @@ class Actions:
         type = self.expressions.type(target)
         if isinstance(type, ir.ArrayType) and isinstance(value, ir.Aggregate):
             value = in_one_list(value, type, self.expressions.scope)
+        if isinstance(type, ir.RealType) and isinstance(value, ir.IntLiteral):
+            value = ir.Convert("real", value)
         return f"{self.expressions.text(target)} = {self.expressions.given(value)}"
 
     def setting(self, name: str, indices: tuple[ir.Expression, ...], value: ir.Expression) -> str:
@@ -137,7 +142,7 @@ class Actions:
     def call(self, statement: ir.CallRoutine) -> str:
         if statement.dynamic is not None:
             raise UnsayableError("there is no call by a computed name")
-        return f"{statement.name}({self.expressions.arguments(statement.arguments)})"
+        return f"{statement.name}({self.expressions.arguments(statement.name, statement.arguments)})"
 
     def procedure(self, name: str, arguments: tuple[ir.Expression | None, ...]) -> str:
         given = [argument for argument in arguments if argument is not None]

@@ -158,7 +158,7 @@ class Expressions:
             case ir.Binary():
                 return self.operation(expression)
             case ir.Call(name=name, arguments=arguments):
-                return f"{name}({self.arguments(arguments)})"
+                return f"{name}({self.arguments(name, arguments)})"
             case ir.Builtin():
                 return self.builtin(expression)
             case ir.Quantity(value=value, unit=unit):
@@ -180,17 +180,21 @@ class Expressions:
             self.notes.changed_texts.append(text)
         return f'"{plain}"'
 
-    def arguments(self, arguments: tuple[ir.Argument, ...]) -> str:
+    def arguments(self, name: str, arguments: tuple[ir.Argument, ...]) -> str:
+        routine = self.scope.routine(name)
+        types = [parameter.type for parameter in routine.parameters] if routine is not None else []
         shown = []
-        for argument in arguments:
+        for at, argument in enumerate(arguments):
             if argument.value is None or argument.if_present is not None:
                 raise UnsayableError("an argument cannot be left out here")
-            text = self.given(argument.value)
+            text = self.given(argument.value, types[at] if at < len(types) and not argument.name else None)
             shown.append(f"{argument.name}={text}" if argument.name else text)
         return ", ".join(shown)
 
-    def given(self, value: ir.Expression) -> str:
+    def given(self, value: ir.Expression, wanted: ir.Type | None = None) -> str:
         """A value that fixes the type of what it is put into: a real one is spelled so that it is one."""
+        if isinstance(wanted, ir.RealType) and isinstance(self.type(value), ir.IntType):
+            value = ir.Convert("real", value)
         match value:
             case ir.Convert(how="real", operand=operand) if self.whole(operand):
                 if isinstance(operand, ir.IntLiteral):

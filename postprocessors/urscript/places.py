@@ -68,6 +68,8 @@ class Places:
         if isinstance(base, ir.Index) and len(self.dimensions(base.base)) > 1:
             return self.index(ir.Index(base.base, (*base.indices, *indices)))
         type = self.expressions.type(base)
+        if isinstance(type, ir.StringType):
+            return f"str_at({self.expressions.text(base)}, {self.expressions.text(_less(indices[0], 1))})"
         if not isinstance(type, ir.ArrayType):
             return f"{self.base(base)}[{self.expressions.listed(indices)}]"
         shifted = [_less(index, type.base) for index in indices]

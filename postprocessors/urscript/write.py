@@ -94,7 +94,7 @@ class _Script:
         threads = [_indented(lines) for lines in self.output.threads]
         helpers = [_indented(HELPERS[one]) for one in with_needed(frozenset(self.output.notes.helpers))]
         parts = [part for part in (data, *helpers, *routines, *threads, body) if part]
-        text = _environment().get_template("program").render(before=remarks.lines, name=name, parts=parts)
+        text = _environment().get_template("program").render(before=remarks.lines, name=name, parts=parts) + "\n"
         self.ledger.check(self.program)
         return OutputFile(f"{name}.script", text.encode("ascii", "replace"))
 
