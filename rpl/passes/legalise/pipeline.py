@@ -21,6 +21,7 @@ from rpl.passes.legalise.errorcodes import name_errors
 from rpl.passes.legalise.errorroutines import error_routines
 from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.explicit import explicit_to_modal
+from rpl.passes.legalise.flatrecords import flat_records
 from rpl.passes.legalise.functions import functions_to_procedures
 from rpl.passes.legalise.geometry import geometry
 from rpl.passes.legalise.groups import name_groups
@@ -108,6 +109,7 @@ PASSES: tuple[Pass, ...] = (
     settings_at_moves,
     aggregates,
     geometry,
+    flat_records,
     functions_to_procedures,
     fit_arguments,
     fit_loops,
