@@ -45,6 +45,7 @@ from rpl.passes.legalise.pulses import fold_pulses
 from rpl.passes.legalise.references import references_as_copies
 from rpl.passes.legalise.refusals import refuse
 from rpl.passes.legalise.resumes import resumes
+from rpl.passes.legalise.rotationvectors import rotation_vectors
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
 from rpl.passes.legalise.signals import name_signals, number_signals
@@ -67,6 +68,7 @@ from rpl.passes.typing import normalise
 # conditions are opposites), and nothing needs new variables of routines. Numbers are given when nothing has a name to add.
 PASSES: tuple[Pass, ...] = (
     fold_pulses,
+    rotation_vectors,
     levels_to_distances,
     elementwise,
     searches,
