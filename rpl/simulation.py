@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.errors import RunError, UsageError
+from rpl.runtime.faults import ProgramError
 from rpl.runtime.machine import Machine
 from rpl.runtime.task import ENDED, Task
 from rpl.runtime.trace import Event, RunResult
@@ -77,7 +78,10 @@ class Simulation(Machine):
 
         code = self.program.code_of(routine)
         self.provide(code)
-        task = Task(self, declared.name, len(self.tasks), declared.kind, code, declared.cyclic)
+        try:
+            task = Task(self, declared.name, len(self.tasks), declared.kind, code, declared.cyclic)
+        except ProgramError as error:  # a first value of the routine's own data cannot be made
+            raise RunError(f"{routine.name}: {error.message}") from None
         for name, value in code.rules.system_defaults.items():
             task.modal[name] = Member(value) if isinstance(value, str) else value
         for name, value in self.cell.system.items():

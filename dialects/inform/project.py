@@ -21,6 +21,7 @@ from .jobs import Job, JobReader, Point, commands
 from .kinds import JOINTS, Kind, Project, kind_of_point, settle
 from .operands import TYPES, Shared, Used, plain_bank
 from .points import external_value, value_of_point
+from .signals import DIRECT_INPUTS
 from .split import SHAPE, SLOTS, split
 from .syntax import Numbered, build, lower
 
@@ -172,6 +173,7 @@ class _Lowering:
                 variable = replace(variable, initial=_IDENTITY)
             declarations.append(variable)
         declarations.extend(self.saved_elements())
+        declarations.extend(self.direct_inputs())
         for name, what in (("TL", "tools TL#(n)"), ("UF", "user frames UF#(n)")):
             given = [place for key, (_, place) in used.scalars.items() if key.startswith(name) and key[2:].isdigit()]
             given.extend(place for key, (_, _, place) in used.arrays.items() if key == name)
@@ -181,6 +183,20 @@ class _Lowering:
         if declarations:
             modules = (ir.Module(REGISTERS, "inform", tuple(declarations)), *modules)
         return ir.Program(modules)
+
+    def direct_inputs(self) -> list[ir.Declaration]:
+        """Names RIN1 ... of the direct inputs in use, so that a cell file can name them."""
+        found: dict[int, ir.Signal] = {}
+        for job in self.jobs.values():
+            for command in commands(job.body):
+                for node in walk(command):
+                    if isinstance(node, ir.Signal) and isinstance(node.index, ir.IntLiteral):
+                        found.setdefault(node.index.value - DIRECT_INPUTS, node)
+        return [
+            ir.SignalDeclaration(f"RIN{number}", signal, scope="global", origin=_place(signal.origin))
+            for number, signal in sorted(found.items())
+            if number > 0 and signal.kind == "digital_in"
+        ]
 
     def saved(self) -> Iterator[tuple[str, int, Point]]:
         """The saved value of each global position variable, the first one that is read."""
