@@ -56,7 +56,7 @@ VAR row: ARRAY[3] OF INT = {1, 2, 3}
     ("source", "target"),
     [
         ("i = i + 1", ["i = i + 1"]),
-        ("x = 2", ["x = 2.0"]),
+        ("x = 0.5", ["x = 0.5"]),
         ("x = sin(x)", ["x = sin(d2r(x))"]),
         ("x = atan2(x, 2.0)", ["x = r2d(atan2(x, 2.0))"]),
         ("x = abs(x)", ["x = norm(x)"]),
