@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.capabilities import Bank
 from rpl.passes.fold import Unchanged, constant, literal
 from rpl.passes.legalise.banks import MIXED, NO_BANK, Numbers, Wanted, fits, main_types, sizes_of
 from rpl.passes.legalise.context import Context
@@ -31,6 +32,7 @@ PERSISTENT = code(
 )
 WHOLE = code("array-as-a-whole", Severity.LOSS, "{name}: the target has no arrays that are used as a whole")
 _SIMPLE = (ir.IntType, ir.RealType, ir.BoolType, ir.StringType, ir.CharType)
+_ELSE = {"IntType": "RealType", "RealType": "IntType", "CharType": "StringType"}
 HOME = "registers"
 
 
@@ -142,7 +144,7 @@ class _Numbered(Rewriter):
         chosen = id(declaration) in self.facts.chosen
         if self.is_constant(declaration, element, scope, chosen):
             return
-        bank = self.context.capabilities.banks.get(element.__class__.__name__)
+        bank = self.bank_of(element)
         if bank is None:
             if element.__class__.__name__ not in self.context.capabilities.types:
                 self.context.diagnostics.report(NO_BANK, declaration.origin, name=declaration.name)
@@ -155,6 +157,11 @@ class _Numbered(Rewriter):
         alone = id(declaration) in self.facts.counters
         made = Wanted(key, aliases, bank, element, sizes, base, declaration, declaration.origin, alone, chosen)
         found.append(made)
+
+    def bank_of(self, type: ir.Type) -> Bank | None:
+        """The bank for a type; numbers and texts of one kind may be kept with the other."""
+        banks, name = self.context.capabilities.banks, type.__class__.__name__
+        return banks.get(name) or banks.get(_ELSE.get(name, ""))
 
     def is_constant(self, declaration: ir.Variable, element: ir.Type, scope: Scope, chosen: bool) -> bool:
         """Is its value written wherever it is used, or a taught point?"""
@@ -189,6 +196,8 @@ class _Numbered(Rewriter):
         return assign
 
     def declaration(self, declaration: ir.Declaration) -> list[ir.Declaration]:
+        if isinstance(declaration, ir.SignalDeclaration):
+            return [] if self.numbered_signal(declaration) is not None else super().declaration(declaration)
         if not isinstance(declaration, ir.Variable):
             return super().declaration(declaration)
         place = self.places.get(id(declaration))
@@ -256,12 +265,23 @@ class _Numbered(Rewriter):
                     return point
         return super().expression(expression)
 
+    def numbered_signal(self, declaration: ir.SignalDeclaration) -> ir.Signal | None:
+        """The signal by its number; its name goes to the map of numbers."""
+        signal = declaration.signal
+        number = None if signal.index is None else constant(signal.index, self.scope)
+        if not isinstance(number, int) or "SignalDeclaration" in self.context.capabilities.types:
+            return None
+        self.context.register_names[signal.kind, number] = declaration.name
+        return signal
+
     def inline(self, value: ir.Aggregate) -> ir.Expression | None:
         """The point for a position that is written out where it is used."""
         return None if self.scope.routine_here is None else self.points.written(value, self.type_of(value))
 
     def named(self, expression: ir.Name, name: str) -> ir.Expression:
         symbol = self.scope.value(name)
+        if symbol is not None and isinstance(symbol.declaration, ir.SignalDeclaration):
+            return self.numbered_signal(symbol.declaration) or expression
         if symbol is None or not isinstance(symbol.declaration, ir.Variable):
             return expression
         place = self.places.get(id(symbol.declaration))

@@ -15,12 +15,27 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.effects import is_constant
 from rpl.passes.scope import Scope
 
+_POSE = {"x", "y", "z", "a", "b", "c"}
 _POSITIONS = (ir.TargetType, ir.JointsType)
 
 
 def is_point(value: ir.Expression | None) -> bool:
-    """Is it a position written out in constants?"""
-    return isinstance(value, ir.Aggregate) and all(is_point(one) or is_constant(one) for _, one in value.entries)
+    """Is it a position (or an array of such) written out in constants, with all its components?"""
+    return is_written(value) and is_whole(value)
+
+
+def is_written(value: ir.Expression | None) -> bool:
+    return isinstance(value, ir.Aggregate) and all(is_written(one) or is_constant(one) for _, one in value.entries)
+
+
+def is_whole(value: ir.Expression | None) -> bool:
+    """Does a written position leave no component out (but flags and external axes)?"""
+    if not isinstance(value, ir.Aggregate):
+        return False
+    names = {name for name, _ in value.entries}
+    if None in names:
+        return all(is_whole(one) or not isinstance(one, ir.Aggregate) for _, one in value.entries)
+    return "trans" in names or "robax" in names or names >= _POSE or "j1" in names
 
 
 @dataclass(slots=True)
