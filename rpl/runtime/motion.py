@@ -247,7 +247,9 @@ class MotionQueue(RobotState):
         lead = drive.order.rules.advance.lead_s
         if drive.blending or piece.ahead is not None:
             if not drive.released and drive.order.rules.advance.runs_ahead_of == "fly_by":
-                self._schedule(max(now, piece.end_s - lead), "release")
+                # Past the place where its corner would begin already: the next move is asked for at once.
+                leaves_s = piece.end_s if piece.open_end or piece.ahead is not None else now
+                self._schedule(max(now, leaves_s - lead), "release")
         elif not drive.released and not drive.order.blend.stops:
             self._schedule(max(now, piece.end_s - lead), "release")
         if piece.corner is not None:
