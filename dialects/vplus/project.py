@@ -17,11 +17,11 @@ from rpl.reading.shapes import ShapeParser
 from rpl.registry import ReadResult
 from rpl.source import Origin, Source
 
-from . import truths
+from . import modes, truths
 from .blocks import Builder, DataPart, ProgramPart
 from .expressions import significant
 from .functions import joints_of, transformation
-from .inference import Symbols, element_type, infer
+from .inference import Symbol, Symbols, element_type, infer
 from .quick import facts_of
 from .resolve import Resolver
 from .settings import Settings
@@ -70,7 +70,7 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     kinds = {
         key: tuple(symbols.kind(key, name) for name, _ in part.header.parameters) for key, part in programs.items()
     }
-    finish = _Finish(symbols, lowering, kinds)
+    finish = _Finish(symbols, lowering, kinds, modes.by_value(programs, symbols))
     modules = tuple(finish.module(file, homes.get(position, [])) for position, file in enumerate(files))
     return ReadResult(ir.Program(modules), tuple(reports))
 
@@ -134,6 +134,7 @@ class _Finish:
     symbols: Symbols
     lowering: Settings
     kinds: dict[str, tuple[str, ...]]
+    values: frozenset[Symbol]  # parameters that are passed by value
 
     def module(self, file: _File, names: list[tuple[str, str]]) -> ir.Module:
         """One file as a module: global variables, then its programs."""
@@ -165,7 +166,8 @@ class _Finish:
             type = element_type(self.symbols.kind(key, name))
             if count:
                 type = ir.ArrayType(type, (None,) * count, base=0)
-            parameters.append(ir.Parameter(name, type, "reference"))
+            mode = "value" if (key, significant(name)) in self.values else "reference"
+            parameters.append(ir.Parameter(name, type, mode))
         taken = {significant(name) for name, _ in part.header.parameters}
         at = Origin(origin.source, origin.start, origin.end)
         declared = []

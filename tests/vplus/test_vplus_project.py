@@ -82,6 +82,26 @@ def test_storage_of_declared_names() -> None:
     assert variable(program, "$g").storage == "persistent"
 
 
+MODES = [
+    ("CALL p(n)", "x = a", "value"),
+    ("CALL p(n)", "a = 1", "reference"),
+    ("CALL p(n)", "FOR a = 1 TO 2\nEND", "reference"),
+    ("CALL p(n)", "IF DEFINED(a) THEN\nEND", "reference"),
+    ("CALL p(n)", "CALL q(a)\n.END\n.PROGRAM q(b)\nb = 1", "reference"),
+    ("CALL p(n)", "n = 2\nx = a", "reference"),
+    ("CALL p(n)", "CALL q\nx = a\n.END\n.PROGRAM q\nn = 1", "reference"),
+    ("AUTO n\nCALL p(n)", "n = 2\nx = a", "value"),
+    ("CALL p(n)\nEXECUTE 1 q()", "x = a\n.END\n.PROGRAM q\nn = 1", "reference"),
+    ("CALL p(n)", "READ (5) a", "reference"),
+]
+
+
+@pytest.mark.parametrize(("text", "inside", "mode"), MODES)
+def test_a_parameter_is_a_value_where_nobody_can_tell(text: str, inside: str, mode: str) -> None:
+    program, _ = read(program_of(text, f".PROGRAM p(a)\n{inside}\n.END"))
+    assert program.modules[0].routines[1].parameters[0].mode == mode
+
+
 def test_files_of_a_project_share_globals_and_programs() -> None:
     program, diagnostics = read(
         {
