@@ -173,6 +173,8 @@ class _Aggregates(Rewriter):
             return self.array(statement, target, value, type)
         if not isinstance(value, ir.Aggregate) or type is None:
             return [replace(statement, target=target, value=self.expression(value))]
+        if isinstance(type, ir.ArrayType):
+            return [replace(statement, target=target, value=self.complete(value, type))]
         if isinstance(type, _GEOMETRIC) and self.is_complete(value, type):
             return [replace(statement, target=target, value=self.expression(value))]
         whole = self.is_complete(value, type) or self.partial

@@ -44,7 +44,7 @@ class _Shifted(Rewriter):
 def _plus(value: ir.Expression, shift: int) -> ir.Expression:
     match value:
         case ir.IntLiteral(value=number):
-            return replace(value, value=number + shift)
+            return replace(value, value=number + shift, spelling="")
         case ir.Binary(op="-", left=left, right=ir.IntLiteral(value=number)) if number == shift:
             return left
     return ir.Binary("+" if shift > 0 else "-", value, ir.IntLiteral(abs(shift)), origin=value.origin)
