@@ -15,7 +15,7 @@ from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.reading.pieces import Item, ModulePart
 from rpl.source import Comment, Origin, Source
 
-from .syntax import Command, HeaderLine, Nest, PointLine
+from .syntax import Command, HeaderLine, Nest, Numbered, PointLine, mentioned
 
 OUTSIDE = code("inform-outside-job", Severity.WARNING, "lines before the first /JOB", "they are read as job {name}")
 BAD_HEADER = code(
@@ -58,6 +58,13 @@ class Job:
     points: dict[tuple[str, int], Point] = field(default_factory=dict)
     body: list[Item] = field(default_factory=list)
     groups: list[str] = field(default_factory=list)
+    _mentions: list[tuple[Command, tuple[ir.Index | ir.Signal | Numbered, ...]]] | None = None
+
+    def mentions(self) -> list[tuple[Command, tuple[ir.Index | ir.Signal | Numbered, ...]]]:
+        """Every instruction in the order of the text with the variables, signals and numbered things in it."""
+        if self._mentions is None:
+            self._mentions = [(command, mentioned(command)) for command in commands(self.body)]
+        return self._mentions
 
     @property
     def tool(self) -> int:

@@ -13,12 +13,11 @@ from dataclasses import dataclass, field, replace
 from typing import cast
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.reading.pieces import Item, ModulePart
 from rpl.source import NOWHERE, Origin
 
 from . import tables
-from .jobs import POSE, Frame, Job, commands
+from .jobs import POSE, Frame, Job
 from .syntax import Command, Given, Group, JobName, LabelBy, LabelName, Nest, Numbered, Operand, SystemName, Word
 
 JOINTS, TARGET, MIXED, UNKNOWN = "joints", "target", "mixed", "unknown"
@@ -187,10 +186,10 @@ class Flow:
     def mixed(self) -> set[tuple[str, Key]]:
         """Variables and arguments of which one cannot tell what they hold where they are read."""
         found: set[tuple[str, Key]] = set()
-        for command in commands(self.job.body):
+        for command, nodes in self.job.mentions():
             state = self.before.get(id(command), {})
-            for node in walk(command):
-                key = key_of(cast(ir.Expression, node)) if isinstance(node, ir.Index) else None
+            for node in nodes:
+                key = key_of(node)
                 if key is not None and is_mixed(self.held(key, state)):
                     found.add((self.job.name if key[0] != "P" else "", self.holder(key, state)))
         for (job, number), kind in self.project.arguments.items():

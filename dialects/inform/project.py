@@ -71,25 +71,18 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     return ReadResult(modules.program(), tuple(reports))
 
 
-def _indices(job: Job) -> Iterator[ir.Index]:
-    for command in commands(job.body):
-        for node in walk(command):
-            if isinstance(node, ir.Index) and isinstance(node.base, ir.Name):
-                yield node
-
-
 def _indirect(job: Job, local: bool) -> frozenset[str]:
     """Banks into which the job computes an index; TL and UF among the global ones."""
-    found = set()
-    for command in commands(job.body):
-        for node in walk(command):
+    found: set[str] = set()
+    for _, nodes in job.mentions():
+        for node in nodes:
             if isinstance(node, Numbered) and not local and not isinstance(node.number, ir.IntLiteral):
                 found.add(node.word)
-    for index in _indices(job):
-        bank = cast(ir.Name, index.base).id
-        computed = not bank.endswith("[]") and not isinstance(index.indices[0], ir.IntLiteral)
-        if computed and (bank != plain_bank(bank)) == local:
-            found.add(bank)
+            if not isinstance(node, ir.Index) or isinstance(node.indices[0], ir.IntLiteral):
+                continue
+            bank = cast(ir.Name, node.base).id
+            if not bank.endswith("[]") and (bank != plain_bank(bank)) == local:
+                found.add(bank)
     return frozenset(found)
 
 
@@ -137,7 +130,9 @@ class _Lowering:
         if job.comments:
             top = (ir.Unread("", origin=replace(origin, comments=tuple(job.comments))),)
         self.modules.append(ir.Module(job.name, "inform", top, (routine,), tuple(job.header), origin=origin))
-        return tuple(node.text for node in walk(body) if isinstance(node, ir.Opaque) and control.unread)
+        if not control.unread:
+            return ()
+        return tuple(node.text for node in walk(body) if isinstance(node, ir.Opaque))
 
     def parameters(self, job: Job) -> tuple[ir.Parameter, ...]:
         """What GETARG takes, by the number of the argument."""
@@ -188,8 +183,8 @@ class _Lowering:
         """Names RIN1 ... of the direct inputs in use, so that a cell file can name them."""
         found: dict[int, ir.Signal] = {}
         for job in self.jobs.values():
-            for command in commands(job.body):
-                for node in walk(command):
+            for _, nodes in job.mentions():
+                for node in nodes:
                     if isinstance(node, ir.Signal) and isinstance(node.index, ir.IntLiteral):
                         found.setdefault(node.index.value - DIRECT_INPUTS, node)
         return [

@@ -155,6 +155,53 @@ class Nest:
     sections: tuple[tuple[Command | None, tuple[Item, ...]], ...]
 
 
+def mentioned(command: Command) -> tuple[ir.Index | ir.Signal | Numbered, ...]:
+    """The numbered variables, signals and things of an instruction, also those inside of others."""
+    found: list[ir.Index | ir.Signal | Numbered] = []
+    for item in command.items:
+        _mention(item, found)
+    return tuple(found)
+
+
+def _inside(item: Given | LabelBy | Formula | ir.Unary | JobName) -> object:
+    if isinstance(item, ir.Unary):
+        return item.operand
+    return item.by if isinstance(item, JobName) else item.value
+
+
+def _mention(item: object, found: list[ir.Index | ir.Signal | Numbered]) -> None:
+    match item:
+        case ir.Index(indices=parts):
+            found.append(item)
+        case ir.Signal(index=first, last=last):
+            found.append(item)
+            parts = tuple(part for part in (first, last) if part is not None)
+        case Numbered(number=number):
+            found.append(item)
+            parts = (number,)
+        case Group(values=parts):
+            pass
+        case Relation(left=left, right=right):
+            _mention(left, found)
+            _mention(right, found)
+            return
+        case ir.Binary(left=first, right=last):
+            parts = (first, last)
+        case (
+            Given(value=value)
+            | LabelBy(value=value)
+            | Formula(value=value)
+            | JobName(by=value)
+            | ir.Unary(operand=value)
+        ):
+            _mention(value, found)
+            return
+        case _:
+            return
+    for part in parts:
+        _mention(part, found)
+
+
 # What an instruction does with blocks: word -> (what, kind).
 _BLOCKS: dict[str, tuple[str, str]] = {
     **dict.fromkeys(("IFTHEN", "IFTHENEXP", "IFTHENEXPRESS"), ("open", "if")),
