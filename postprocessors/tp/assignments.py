@@ -21,6 +21,7 @@ class Assignments:
 
     expressions: Expressions
     points: Points
+    scratch: int = tables.PR.last  # position register for values that have none
 
     def lines(self, assign: ir.Assign) -> list[Line]:
         target, value = assign.target, assign.value
@@ -30,6 +31,10 @@ class Assignments:
             case ir.Signal():
                 return [Line(f"  {set_output(target, value, self.expressions)}")]
         place = self.expressions.place(target)
+        match value:
+            case ir.Field(base=ir.System(name="actual_pose"), name=name):
+                read = self.expressions.component(ir.Index(ir.Name("PR"), (ir.IntLiteral(self.scratch),)), name)
+                return [Line(f"  PR[{self.scratch}]=LPOS"), Line(f"  {place}={read}")]
         if place.startswith("AR["):
             raise CannotSayError("an argument is not assigned to")
         if place.startswith(("PR[", "P[")) and not isinstance(target, ir.Field):

@@ -38,6 +38,7 @@ class Expressions:
     names: Mapping[tuple[str, int], str] = field(default_factory=dict)
     points: Mapping[str, str] = field(default_factory=dict)
     limited: bool = True
+    texts_compared: bool = False
     printer: ExpressionPrinter = field(init=False)
 
     def __post_init__(self) -> None:
@@ -260,7 +261,7 @@ class Expressions:
             case ir.Convert(how="truth", operand=operand):
                 return printer.printed(ir.Binary("<>", operand, ir.IntLiteral(0)))
             case ir.TextLiteral():
-                raise CannotSayError("a text inside of mixed logic")
+                self.texts_compared = True
         return self.operand(expression)
 
     # ---- conditions
@@ -293,8 +294,8 @@ class Expressions:
             case ir.Binary(op=op, left=left, right=right) if op in tables.COMPARISONS:
                 if constant(left) is not None or not self.is_place(left):
                     return None
-                if isinstance(self.type(left), ir.StringType) or isinstance(right, ir.TextLiteral):
-                    raise CannotSayError("TP compares texts without regard to capital letters")
+                if isinstance(right, ir.TextLiteral) or isinstance(self.type(left), ir.StringType):
+                    self.texts_compared = True
                 first, second = self.simple(left), self.simple(right)
                 if first is None or second is None:
                     return None

@@ -51,6 +51,7 @@ class Motion:
     tool: str = ""
     scratch: int = tables.PR.last
     before: list[Line] = field(default_factory=list)  # lines that a move needs in front of it
+    stands: bool = False  # the move before ended with FINE
     last: Position | None = None  # where the move before ended, in the frame in force
 
     @property
@@ -64,7 +65,7 @@ class Motion:
     def forget(self) -> None:
         """Neither frame, tool nor place are known from here on."""
         self.frame = self.tool = ""
-        self.last = None
+        self.last, self.stands = None, False
 
     def report_once(self, about: Code, origin: Origin, key: str = "", **arguments: object) -> None:
         if (about, key) not in self.reported:
@@ -84,7 +85,7 @@ class Motion:
         goal = self.reached(move, target, offsets)
         length = path_length(move.kind, self.last, self.reached(move, via, via_offsets), goal)
         options = offsets + self.options(move, length) + skip
-        self.last = goal
+        self.last, self.stands = goal, term == "FINE"
         settings = f"{speed} {term}{options}    "
         if move.kind != "circular":
             return Line(f"{letter} {target} {settings}")
@@ -269,8 +270,11 @@ class Motion:
 
     def corner(self, move: ir.Move, distance: ir.Expression) -> str:
         value = measured(distance, "mm")
+        if value is None and move.kind != "joint":
+            inner = distance.value if isinstance(distance, ir.Quantity) and distance.unit == "mm" else distance
+            return f"CR {self.expressions.index(inner)}"  # M: a register, as with CNT
         if value is None:
-            raise CannotSayError("a corner distance is a constant")
+            raise CannotSayError("a corner distance of a joint move is a constant")
         if value == 0:
             return "FINE"
         if move.kind == "joint":

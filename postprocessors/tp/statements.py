@@ -56,7 +56,7 @@ class Printer:
 
     def __post_init__(self) -> None:
         self.motion = Motion(self.expressions, self.points, self.diagnostics, self.action, scratch=self.frames.scratch)
-        self.assignments = Assignments(self.expressions, self.points)
+        self.assignments = Assignments(self.expressions, self.points, self.frames.scratch)
         self.idioms = Idioms(self)
 
     # ---- lines and comments
@@ -143,6 +143,10 @@ class Printer:
             case ir.Nothing():
                 condition = modal_condition(origin)
                 self.put([Line(f"  {condition}")] if condition else [], origin)
+            case ir.LookAhead():
+                self.comments_only(origin)  # signals never stop the look-ahead behind CNT
+            case ir.WaitForMotion() if self.motion.stands:
+                self.comments_only(origin)
             case ir.If():
                 self.choice(statement)
             case ir.Switch():

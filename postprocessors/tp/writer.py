@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.passes.scope import ProgramScope
+from rpl.passes.scope import ProgramScope, Scope
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.target import OutputFile, WriteContext
 
 from . import tables
+from .assignments import Assignments
 from .dumps import dump_files
 from .expressions import CannotSayError, Expressions
 from .flow import Labels
@@ -33,6 +34,9 @@ LOST_DECLARATION = code(
     "tp-lost-declaration", Severity.LOSS, "TP has no place for {name}: {reason}", "it is left as a remark"
 )
 LOST_ROUTINE = code("tp-lost-routine", Severity.LOSS, "TP cannot say this about {name}: {reason}", "it is left out")
+TEXT_CASE = code(
+    "tp-text-case", Severity.WARNING, "{name} compares texts; TP takes capital and small letters for the same"
+)
 SAME_NAME = code(
     "tp-same-name", Severity.ERROR, "two programs would be called {name}", "rename one; TP's programs are all global"
 )
@@ -88,6 +92,7 @@ class _Writer:
         self.entries = _entries(program)
         self.monitors = monitors_of(program)
         self.taken: set[str] = set()
+        self.start: list[tuple[ir.Assign, Scope]] = []  # values of data before the program
         self.from_listings: set[str] = set()  # their points have postures of their own
 
     def module(self, module: ir.Module) -> list[Listing]:
@@ -104,6 +109,10 @@ class _Writer:
         """Registers need no declaration; what is none has no place."""
         match declaration:
             case ir.Variable(name=name) if _is_bank(name):
+                self.ledger.merged(declaration)
+                return []
+            case ir.Initialise(assign=assign):
+                self.start.append((assign, self.scopes.module(module)))
                 self.ledger.merged(declaration)
                 return []
             case ir.Unread(text="") | ir.ExternalDeclaration():
@@ -134,6 +143,8 @@ class _Writer:
             self.declaration(declaration, printer, named, steps)
         expressions.points = named
         printer.body(routine.body)
+        if expressions.texts_compared:
+            self.diagnostics.report(TEXT_CASE, routine.origin, name=routine.name)
         self.lost_parts(routine)
         entry = routine.name.lower() in self.entries
         header = self.header(module, routine)
@@ -193,13 +204,51 @@ class _Writer:
         for listing in listings:
             if listing.entry:
                 head = next((at for at, line in enumerate(listing.lines) if not line.first.startswith("  !")), 0)
-                listing.lines[head:head] = [*self.frames.setup(), *begin]
+                selected, first = self.standard_frames(listing, listings), self.first_values(listing)
+                listing.lines[head:head] = [*first, *self.frames.setup(), *selected, *begin]
             robot = self.context.robot
             if robot is not None and listing.name not in self.from_listings:
                 choose_postures(listing.points, self.frames, robot)
             for task in tasks:
                 if task.cyclic and task.entry.upper() == listing.name:
                     _repeat(listing)
+
+    def standard_frames(self, listing: Listing, listings: list[Listing]) -> list[Line]:
+        """World and flange where a program moves before it selects anything: a controller keeps what was selected
+        last, other controllers begin with these."""
+        if listing.name in self.from_listings:
+            return []
+        expressions = Expressions(self.scopes.module(self.program.modules[0]))
+        done: list[Line] = []
+        for word in ("UFRAME", "UTOOL"):
+            if _moves_before(listing, listings, word):
+                done.extend(self.frames.select(word, ir.System("null_frame"), expressions)[0])
+        return done
+
+    def first_values(self, listing: Listing) -> list[Line]:
+        """The values that data have before the program."""
+        done: list[Line] = []
+        for assign, scope in self.start:
+            try:
+                done.extend(
+                    Assignments(Expressions(scope, self.names), listing.points, self.frames.scratch).lines(assign)
+                )
+            except CannotSayError as error:
+                self.diagnostics.report(LOST_DECLARATION, assign.origin, name="this value", reason=str(error))
+                done.append(Line("  PAUSE"))
+        return done
+
+
+def _moves_before(listing: Listing, listings: list[Listing], word: str) -> bool:
+    """Does the program move, itself or by a call, before it selects a number of this kind?"""
+    moving = {one.name for one in listings if any(line.first.startswith((*_MOTION, "  CALL")) for line in one.lines)}
+    for line in listing.lines:
+        if line.first.startswith(f"  {word}_NUM="):
+            return False
+        called = line.first.partition("CALL ")[2].partition("(")[0].strip()
+        if line.first.startswith(_MOTION) or (called and called in moving):
+            return True
+    return False
 
 
 def _repeat(listing: Listing) -> None:

@@ -43,17 +43,21 @@ def write(text: str, names: Mapping[tuple[str, int], str] | None = None) -> tupl
     return {file.path: file.data.decode("ascii") for file in files}, [item.code.name for item in diagnostics]
 
 
-def listing(statements: str, names: Mapping[tuple[str, int], str] | None = None) -> tuple[str, list[str]]:
-    """The listing of a program with these statements."""
+def listing(
+    statements: str, names: Mapping[tuple[str, int], str] | None = None, entry: str = "m"
+) -> tuple[str, list[str]]:
+    """The listing of program p with these statements. It is called by program m, or started itself (`entry`)."""
     body = "\n".join(f"        {line}" for line in statements.splitlines())
-    text = f"{BANKS}ENTRY p\nMODULE cell\n    PROCEDURE p()\n{POINTS}{body}\n    END PROCEDURE\n{HELPERS}END MODULE\n"
+    caller = "    PROCEDURE m()\n        p()\n    END PROCEDURE\n"
+    own = f"    PROCEDURE p()\n{POINTS}{body}\n    END PROCEDURE\n"
+    text = f"{BANKS}ENTRY {entry}\nMODULE cell\n{caller}{own}{HELPERS}END MODULE\n"
     files, codes = write(text, names)
     return files["P.LS"], codes
 
 
-def lines(statements: str, names: Mapping[tuple[str, int], str] | None = None) -> list[str]:
+def lines(statements: str, names: Mapping[tuple[str, int], str] | None = None, entry: str = "m") -> list[str]:
     """The numbered lines of these statements without their numbers; nothing may be reported."""
-    text, codes = listing(statements, names)
+    text, codes = listing(statements, names, entry)
     assert not codes
     return numbered(text)
 
