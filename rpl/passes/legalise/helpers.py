@@ -189,18 +189,18 @@ FUNCTION rpl_power(a: REAL, b: REAL): REAL
     RETURN result
 END FUNCTION
 """,
-    # Two's complement of any length: what holds of non-negative numbers carries over by -1 - x for the complement.
+    # Two's complement of any length: what holds of non-negative numbers carries over by -1 - x for the complement. No
+    # helper calls itself, because not every target can.
     "rpl_band": """
 FUNCTION rpl_band(a: INT, b: INT): INT
     VAR x: INT
     VAR y: INT
     VAR bit: INT
     VAR sum: INT
-    IF a < 0 AND b < 0 THEN RETURN -1 - rpl_bor(-1 - a, -1 - b)
-    IF a < 0 THEN RETURN b - rpl_band(b, -1 - a)
-    IF b < 0 THEN RETURN a - rpl_band(a, -1 - b)
     x = a
     y = b
+    IF x < 0 THEN x = -1 - x
+    IF y < 0 THEN y = -1 - y
     bit = 1
     sum = 0
     WHILE x > 0 AND y > 0
@@ -209,6 +209,9 @@ FUNCTION rpl_band(a: INT, b: INT): INT
         y = y DIV 2
         bit = bit * 2
     END WHILE
+    IF a < 0 AND b < 0 THEN RETURN a + b + 1 + sum
+    IF a < 0 THEN RETURN b - sum
+    IF b < 0 THEN RETURN a - sum
     RETURN sum
 END FUNCTION
 """,
