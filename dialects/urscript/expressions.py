@@ -119,8 +119,8 @@ class Expressions:
                 return ir.TextLiteral(text)
             case nodes.Truth(value=truth):
                 return ir.BoolLiteral(truth)
-            case nodes.Var(name=name):
-                return ir.Name(name)
+            case nodes.Var():
+                return self.name(expression)
             case nodes.PoseOf(items=items):
                 return pose_literal([signed_literal(self.value(item, REAL)) for item in items])
             case nodes.ListOf(items=items):
@@ -140,6 +140,11 @@ class Expressions:
             case nodes.Apply():
                 return self.apply(expression, wanted)
         return self.text_of(expression, wanted)
+
+    def name(self, variable: nodes.Var) -> ir.Name:
+        """The variable by its name in the IR."""
+        symbol = self.symbol(variable)
+        return ir.Name(variable.name if symbol is None else symbol.spelled)
 
     def element_value(self, item: Expr, element: Kind | None) -> ir.Expression:
         """A list inside of a list is an array, whatever it is kept as."""

@@ -89,7 +89,7 @@ def _global(
 
 def _variable(symbol: Symbol, names: Names, scope: str) -> ir.Variable:
     type = ir.JointsType() if symbol.is_joints else type_of(symbol.kind, _known(names, symbol))
-    return ir.Variable(symbol.name, type, scope=scope, origin=replace(symbol.origin, comments=()))
+    return ir.Variable(symbol.spelled, type, scope=scope, origin=replace(symbol.origin, comments=()))
 
 
 def _known(names: Names, symbol: Symbol) -> dict[tuple[str, ...], str]:
@@ -119,7 +119,7 @@ def _routine(
         if _may_fall_off(statements):
             statements = (*statements, ir.Return(zero(function.returns), origin=function.node.end))
     parameters = tuple(
-        ir.Parameter(symbol.name, ir.JointsType() if symbol.is_joints else lowering.type(symbol.kind))
+        ir.Parameter(symbol.spelled, ir.JointsType() if symbol.is_joints else lowering.type(symbol.kind))
         for symbol in function.parameters.values()
     )
     declared = tuple(_variable(symbol, names, "routine") for symbol in function.locals.values())

@@ -36,6 +36,12 @@ class Symbol:
     stores: int = 0
     parameter: bool = False
     given: nodes.Store | None = None
+    told_apart: str = ""
+
+    @property
+    def spelled(self) -> str:
+        """Its name in the IR."""
+        return self.told_apart or self.name
 
     @property
     def is_joints(self) -> bool:
@@ -136,7 +142,28 @@ def collect(contents: list[tuple[Source, Block]]) -> Project:
             _declare_globals(function)
     for function in project.functions():
         _declare_locals(function, project)
+    _tell_apart(project)
     return project
+
+
+def _tell_apart(project: Project) -> None:
+    """Names that differ in case alone are one name to most other languages: the later spelling gets a number."""
+    spellings: dict[str, list[str]] = {}
+    for name in (*(f.name for f in project.functions()), *(symbol.name for symbol in project.symbols())):
+        known = spellings.setdefault(name.lower(), [])
+        if name not in known:
+            known.append(name)
+    changed: dict[str, str] = {}
+    for known in spellings.values():
+        for name in known[1:]:
+            number = 2
+            while f"{name}_{number}".lower() in spellings or f"{name}_{number}" in changed.values():
+                number += 1
+            changed[name] = f"{name}_{number}"
+    for function in project.functions():
+        function.name = changed.get(function.name, function.name)
+    for symbol in project.symbols():
+        symbol.told_apart = changed.get(symbol.name, "")
 
 
 def identifier(text: str) -> str:

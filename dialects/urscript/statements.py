@@ -61,7 +61,7 @@ class Statements(Calls):
         """The poses that the program gives to names once and for all."""
         symbols = [symbol for file in self.project.files for symbol in file.globals.values()]
         return {
-            symbol.name: self.value(symbol.given.value)
+            symbol.spelled: self.value(symbol.given.value)
             for symbol in symbols
             if symbol.given is not None and isinstance(symbol.given.value, nodes.PoseOf)
         }
@@ -138,7 +138,7 @@ class Statements(Calls):
         if isinstance(target, nodes.Var):
             kind = symbol.kind if symbol is not None else self.kind(value)
             stored = self.stored(value, kind, symbol is not None and symbol.is_joints)
-            return (ir.Assign(ir.Name(target.name), stored, origin=self.origin),)
+            return (ir.Assign(self.name(target), stored, origin=self.origin),)
         if isinstance(target, nodes.Member):
             return (ir.Assign(self.member(target, None), self.value(value, self.kind(target)), origin=self.origin),)
         assert isinstance(target, nodes.At)  # the syntax allows no other place
@@ -275,7 +275,7 @@ class Statements(Calls):
         if not isinstance(target, nodes.Var):
             handle = nodes.Number(number.value, str(number.value))
             return (start, *self.store_part(target, handle)) if isinstance(target, nodes.At) else (start,)
-        return (start, ir.Assign(ir.Name(target.name), number, origin=self.origin))
+        return (start, ir.Assign(self.name(target), number, origin=self.origin))
 
     def output_later(self, function: Function) -> ir.SetAfter | None:
         """A thread that only sleeps and then switches an output, nothing computed: an output that follows later."""

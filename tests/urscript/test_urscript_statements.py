@@ -159,6 +159,12 @@ def test_variables_of_the_program_are_global_and_others_local() -> None:
     assert [r.name for r in program.modules[0].routines] == ["p", "f"]
 
 
+def test_names_that_differ_in_case_alone_are_told_apart() -> None:
+    holds("X = 1\nx = 2\ndef f(T, t=1):\nreturn T - t\nend\nx = x + X", "x == 3 and X == 1", "f(5, t=3) == 2")
+    program, _ = read("def p():\nX = 1\nx = 2\nx = x + X\nend\n")
+    assert {d.name for d in program.modules[0].declarations if isinstance(d, ir.Variable)} == {"X", "x_2"}
+
+
 def test_nested_functions_of_one_name_stay_apart() -> None:
     holds(
         "def one():\ndef helper():\nreturn 1\nend\nreturn helper()\nend\n"
