@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 import click
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 
 required_robot = click.option("--robot", required=True, metavar="R", help="A robot's name (rpl robots) or .toml file.")
 dialect_option = click.option("--dialect", metavar="D", help="Language whose notation of a pose is used.")
+# Numbers and commas alone; everything else is in the notation of a language.
+_PLAIN = re.compile(r"[-+0-9.eE,;\s]*")
 tool_option = click.option(
     "--tool", metavar="POSE", help="Tool in the flange: a pose, or x,y,z or x,y,z,a,b,c (mm, deg)."
 )
@@ -58,7 +61,7 @@ def joints_of(text: str, what: str, model: RobotModel) -> FloatArray:
 
 def pose_of(text: str, what: str, notation: Notation) -> tuple[FloatArray, dict[str, int | None]]:
     """A pose (4, 4, mm) and its flags: the dialect's notation, or x,y,z or x,y,z,a,b,c with ZYX angles."""
-    if any(sign in text for sign in "{[("):
+    if _PLAIN.fullmatch(text) is None:
         try:
             return notation.parse_pose(text)
         except SourceError as error:
