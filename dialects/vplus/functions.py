@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 from lark import Token, Tree
 
@@ -254,11 +255,17 @@ def transformation(values: Sequence[ir.Expression], origin: Origin = NOWHERE) ->
     if pitch == 0.0 and 0.0 in (yaw, roll):
         turns = [values[3] if roll == 0.0 else values[5], ir.IntLiteral(0), ir.IntLiteral(0)]
     else:
-        about_y = rigid.rotation_of_zyx(0.0, pitch, 0.0)
-        whole = rigid.rotation_of_zyx(yaw, 0.0, 0.0).then(about_y).then(rigid.rotation_of_zyx(roll, 0.0, 0.0))
-        turns = [literal(angle) for angle in whole.zyx]
+        turns = list(_neutral_angles(yaw, pitch, roll))
     entries = zip(("x", "y", "z", "a", "b", "c"), (*values[:3], *turns), strict=True)
     return ir.Aggregate(tuple(entries), "pose", origin=origin)
+
+
+@lru_cache(maxsize=10_000)
+def _neutral_angles(yaw: float, pitch: float, roll: float) -> tuple[ir.Expression, ...]:
+    """The angles about z, y, x of the same rotation; programs write few different ones."""
+    about_y = rigid.rotation_of_zyx(0.0, pitch, 0.0)
+    whole = rigid.rotation_of_zyx(yaw, 0.0, 0.0).then(about_y).then(rigid.rotation_of_zyx(roll, 0.0, 0.0))
+    return tuple(literal(angle) for angle in whole.zyx)
 
 
 def constant(value: ir.Expression) -> float | None:

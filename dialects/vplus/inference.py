@@ -193,7 +193,7 @@ class _Looker:
 
     def __init__(self, symbols: Symbols, key: str, part: ProgramPart, programs: dict[str, ProgramPart]) -> None:
         self.symbols, self.key, self.part, self.programs = symbols, key, part, programs
-        self.nodes = list(walk(part.body))
+        self.nodes = list(walk(tuple(statement for statement in part.body if not is_settled(statement))))
         for name, value in _given(self.nodes):
             symbols.sources.setdefault(symbols.symbol(key, name), []).append((key, value))
 
@@ -301,6 +301,22 @@ class _Looker:
                 self.symbols.links.append((self.symbols.symbol(self.key, given), (key, significant(parameter))))
 
 
+def is_settled(statement: ir.Statement) -> bool:
+    """Does the statement hold nothing but written out numbers? Most of a generated program does; no name is in it."""
+    match statement:
+        case ir.Move(target=ir.Aggregate(entries=entries), via=None, speed=None, triggers=(), search=None):
+            return all(_is_number(value) for _, value in entries)
+        case ir.Assign(target=ir.Signal(index=ir.IntLiteral(), last=None), value=ir.BoolLiteral()):
+            return True
+    return isinstance(statement, ir.Nothing | ir.WaitForMotion)
+
+
+def _is_number(value: ir.Expression) -> bool:
+    if isinstance(value, ir.Unary):
+        value = value.operand
+    return isinstance(value, ir.IntLiteral | ir.RealLiteral)
+
+
 def largest(symbols: Symbols, program: str, index: ir.Expression, depth: int) -> int | None:
     """The largest value an index can have; None when nobody can foresee it."""
     if depth > _DEEPEST:
@@ -371,4 +387,4 @@ def _given(nodes: list[object]) -> Iterator[tuple[str, ir.Expression | None]]:
                 yield name, None
 
 
-__all__ = ["Entry", "Symbols", "element_type", "infer", "is_location"]
+__all__ = ["Entry", "Symbols", "element_type", "infer", "is_location", "is_settled"]

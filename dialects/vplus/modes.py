@@ -17,6 +17,8 @@ from .inference import Symbol, Symbols
 
 def by_value(programs: dict[str, ProgramPart], symbols: Symbols) -> frozenset[Symbol]:
     """The parameters that can be values."""
+    if not any(part.header.parameters for part in programs.values()):
+        return frozenset()
     nodes = {key: list(walk(part.body)) for key, part in programs.items()}
     if any(
         isinstance(node, ir.TaskControl | ir.DeclareInterrupt | ir.OnError) for all in nodes.values() for node in all

@@ -61,7 +61,7 @@ class Motion(Statements):
 
     def on_belt(self, given: Instruction) -> bool:
         """Does a move follow a conveyor? Only the controller can do that yet."""
-        if given.word not in _MOVES and given.word not in ("movec", "here"):
+        if "%" not in given.origin.text or (given.word not in _MOVES and given.word not in ("movec", "here")):
             return False
         return any("%" in self.written(tree) for tree in given.operands if tree is not None)
 

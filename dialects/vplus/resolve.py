@@ -12,7 +12,7 @@ from rpl import ir
 from rpl.ir.walk import rewrite
 
 from .expressions import root_name, significant
-from .inference import BOOL, POSE, REAL, Symbols, is_location
+from .inference import BOOL, POSE, REAL, Symbols, is_location, is_settled
 
 TEXT, JOINTS = "text", "joints"
 _COMPARISONS = frozenset(("=", "<>", "<", ">", "<=", ">="))
@@ -30,7 +30,7 @@ class Resolver:
 
     def body(self, body: ir.Body) -> ir.Body:
         """The body in its final form."""
-        return tuple(rewrite(statement, self.node) for statement in body)
+        return tuple(s if is_settled(s) else rewrite(s, self.node) for s in body)
 
     # ---- kinds
 

@@ -10,11 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from rpl import ir
-from rpl.ir.walk import children, walk
+from rpl.ir.walk import children
 
 from .blocks import DataPart, ProgramPart
 from .expressions import root_name, significant
-from .inference import Symbol, Symbols
+from .inference import Symbol, Symbols, is_settled
 
 _LOGIC = frozenset(("and", "or", "xor", "cand", "cor"))
 _COMPARISONS = frozenset(("=", "<>", "<", ">", "<=", ">="))
@@ -52,7 +52,8 @@ class _Finder:
             for key, part in self.programs.items():
                 self.program = key
                 for statement in part.body:
-                    self.statement(statement)
+                    if not is_settled(statement):
+                        self.statement(statement)
             self.connect()
         self.candidates &= self.reached()
         while self.connect():
@@ -187,9 +188,6 @@ class _Finder:
                 self.mentioned(text)
             case _:
                 self.numbers(children(statement))
-                for node in walk((statement,)):
-                    if isinstance(node, ir.Name):
-                        self.drop(node.id)
 
     def body(self, body: ir.Body) -> None:
         for statement in body:
