@@ -34,8 +34,8 @@ from rpl.passes.legalise.lookahead import stop_blends
 from rpl.passes.legalise.loops import fit_loops
 from rpl.passes.legalise.modal import modal_to_explicit
 from rpl.passes.legalise.movesettings import settings_at_moves
-from rpl.passes.legalise.numbered import number_data
 from rpl.passes.legalise.nextmove import settings_of_next_move
+from rpl.passes.legalise.numbered import number_data
 from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.parameters import fit_arguments
@@ -64,8 +64,9 @@ from rpl.passes.typing import normalise
 # make what a later one rewrites: errors make Repeat, switches make cor), then data and motion, geometry last. Structure
 # comes out of labels first (what follows the flow sees more) and again behind what makes jumps; labels come behind all
 # that makes or needs blocks. Functions become procedures when no pass makes calls any more; what that puts in front of
-# conditions makes loops, so these are fitted again; then nested expressions become steps (and again behind labels, whose
-# conditions are opposites), and nothing needs new variables of routines. Numbers are given when nothing has a name to add.
+# conditions makes loops, so these are fitted again; then nested expressions become steps (and again behind labels,
+# whose conditions are opposites), and nothing needs new variables of routines. Numbers are given when nothing has a
+# name to add.
 PASSES: tuple[Pass, ...] = (
     fold_pulses,
     rotation_vectors,
