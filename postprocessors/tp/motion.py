@@ -51,21 +51,22 @@ class Motion:
     tool: str = ""
     scratch: int = tables.PR.last
     before: list[Line] = field(default_factory=list)  # lines that a move needs in front of it
+    place: str = ""  # the point that the move before went to
     stands: bool = False  # the move before ended with FINE
     last: Position | None = None  # where the move before ended, in the frame in force
 
     @property
-    def state(self) -> tuple[str, str, Position | None]:
-        return self.frame, self.tool, self.last
+    def state(self) -> tuple[str, str, Position | None, str, bool]:
+        return self.frame, self.tool, self.last, self.place, self.stands
 
     @state.setter
-    def state(self, state: tuple[str, str, Position | None]) -> None:
-        self.frame, self.tool, self.last = state
+    def state(self, state: tuple[str, str, Position | None, str, bool]) -> None:
+        self.frame, self.tool, self.last, self.place, self.stands = state
 
     def forget(self) -> None:
         """Neither frame, tool nor place are known from here on."""
         self.frame = self.tool = ""
-        self.last, self.stands = None, False
+        self.last, self.stands, self.place = None, False, ""
 
     def report_once(self, about: Code, origin: Origin, key: str = "", **arguments: object) -> None:
         if (about, key) not in self.reported:
@@ -80,12 +81,13 @@ class Motion:
             raise CannotSayError(f"there is no {move.kind} move")
         self.refuse(move)
         via, via_offsets = self.via(move)
-        target, offsets = self.target(move, move.target)
+        target, offsets = self.in_tool(move) if move.relative == "tool" else self.target(move, move.target)
         speed, term = self.speed(move), self.blend(move)
         goal = self.reached(move, target, offsets)
         length = path_length(move.kind, self.last, self.reached(move, via, via_offsets), goal)
         options = offsets + self.options(move, length) + skip
         self.last, self.stands = goal, term == "FINE"
+        self.place = target if not offsets and move.relative is None else ""
         settings = f"{speed} {term}{options}    "
         if move.kind != "circular":
             return Line(f"{letter} {target} {settings}")
@@ -97,6 +99,15 @@ class Motion:
         if move.via is None:
             raise CannotSayError("a circle needs its point on the way")
         return self.target(move, move.via)
+
+    def in_tool(self, move: ir.Move) -> tuple[str, str]:
+        """A way along the tool: from the point of the move before, moved by Tool_Offset."""
+        if not self.place:
+            raise CannotSayError("a move along the tool has to come behind a move to a point")
+        self.before.append(
+            Line(f"  PR[{self.scratch}]={self.points.place(self.points.add(step_of(move.target, turned=True)))}")
+        )
+        return self.place, f" Tool_Offset,PR[{self.scratch}]"
 
     def reached(self, move: ir.Move, shown: str, offsets: str) -> Position | None:
         """The constant position that a move ends at; None when it is computed."""
@@ -297,7 +308,7 @@ class Motion:
             shown += " Wjnt"
         if move.relative in ("base", "joints"):
             shown += " INC"
-        elif move.relative is not None:
+        elif move.relative not in (None, "tool"):
             raise CannotSayError(f"a move relative to the {move.relative}")
         triggers = _pulses(move.triggers)
         if len(triggers) > tables.MOST_TRIGGERS:

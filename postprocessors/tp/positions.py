@@ -143,13 +143,13 @@ def point_number(name: str) -> int | None:
     return int(match[1]) if match else None
 
 
-def step_of(value: ir.Expression) -> Position:
+def step_of(value: ir.Expression, turned: bool = False) -> Position:
     """The way of a relative move; components that are left out are zero. INC adds component by component, so a turn in
-    degrees is something else than a composed one."""
+    degrees is something else than a composed one (`turned`: it may have one)."""
     parts = flat(value)
     names = _JOINTS if set(_JOINTS) & set(parts) else _POSE
     values = numbers({**dict.fromkeys(names, ir.RealLiteral(0.0)), **parts}, names)
-    if names == _POSE and any(values[3:]):
+    if names == _POSE and any(values[3:]) and not turned:
         raise CannotSayError("INC adds angles one by one; a turned relative move is something else")
     return Position("joints" if names == _JOINTS else "pose", tuple(values))
 

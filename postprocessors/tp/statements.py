@@ -103,7 +103,7 @@ class Printer:
 
     def in_force(self, word: str, number: str) -> None:
         self.frames.selected[word].add(number)
-        self.motion.last = None
+        self.motion.last, self.motion.place = None, ""
         if word == "UTOOL":
             self.motion.tool = number if number.isdigit() else ""
         else:
@@ -161,7 +161,10 @@ class Printer:
             case ir.Assign(target=ir.System(name="tool" | "base" as name), value=value):
                 self.select(name, value, origin)
             case ir.Assign():
-                self.put(self.assignments.lines(statement), origin)
+                lines = self.assignments.lines(statement)
+                self.put(lines, origin)
+                if any(line.first.startswith("  PR[") for line in lines):
+                    self.motion.place = ""
             case ir.Move():
                 self.move(statement)
             case ir.WaitUntil(timeout=limit) if limit is not None:

@@ -251,3 +251,9 @@ def test_an_action_counted_from_the_start_is_counted_from_the_end() -> None:
     text, codes = listing(f"{there}\n{half} SPEED 100 mm/s TRIGGER AT start DO SET do[3] TO ON")
     assert not codes
     assert "P[4] 100mm/sec FINE DB 31.4mm,DO[3]=ON" in text
+
+
+def test_a_way_along_the_tool_goes_from_the_point_before() -> None:
+    found = lines("MOVE LINEAR TO P1 SPEED 100 mm/s BLEND 5 mm\nMOVE LINEAR BY {z: -80} IN TOOL SPEED 100 mm/s")
+    assert found[1:] == ["PR[100]=P[3]", "L P[1] 100mm/sec FINE Tool_Offset,PR[100]"]
+    assert listing("MOVE LINEAR BY {z: -80} IN TOOL SPEED 100 mm/s")[1] == ["tp-guarded-stop"]
