@@ -77,7 +77,8 @@ def outcome_of(
     else:
         status = NOTED if notes else EXACT
     constructs = _constructs(read.program, diagnostics) if result.equal or refused else {}
-    return Outcome(status, tuple(notes), tuple(refused), constructs, "" if result.equal else result.as_text()), diagnostics
+    why = "" if result.equal else result.as_text()
+    return Outcome(status, tuple(notes), tuple(refused), constructs, why), diagnostics
 
 
 # ---- constructs: what the statements and expressions of a program are called
@@ -136,7 +137,8 @@ def _words(statement: ir.Statement) -> Iterator[str]:
                 yield "search while moving"
             if statement.triggers:
                 yield "output or call on the path"
-            yield f"corner: {type(statement.blend).__name__.removeprefix('Blend').lower()}" if statement.blend else "stop"
+            blend = type(statement.blend).__name__.removeprefix("Blend").lower()
+            yield "stop" if statement.blend is None else f"corner: {blend}"
         case ir.Assign(target=ir.Signal(kind=kind)):
             yield f"set {kind.replace('_', ' ').removesuffix(' out')} output" if kind != "flag" else "set a flag"
         case ir.Assign(target=ir.System(name=name)):
@@ -209,13 +211,13 @@ def page(outcomes: dict[str, dict[str, dict[str, object]]]) -> str:
     lines = [
         "# What is supported",
         "",
-        "This page is generated from the conformance run: every sample program of every language is executed, written in",
-        "every target, read back with that target's own reader, executed again, and the two runs are compared.",
+        "This page is generated from the conformance run: every sample program of every language is executed, written",
+        "in every target, read back with that target's own reader, executed again, and the two runs are compared.",
         "`python tests/conformance/outcomes.py` makes it.",
         "",
         "## Pairs",
         "",
-        "Per pair: programs written exactly / with a note / with a guarded stop, of all samples of the source language.",
+        "Per pair: programs written exactly / with a note / with a guarded stop, of all samples of the source.",
         "",
         "| from \\ to | " + " | ".join(targets) + " |",
         "|---|" + "---|" * len(targets),
@@ -267,7 +269,7 @@ def _construct_table(outcomes: dict[str, dict[str, dict[str, object]]], language
                 table[word][target] = _worst((table[word].get(target, EXACT), status))
     others = [target for target in targets if target != language]
     lines = [
-        "Every construct below is executed. `yes`: written exactly; `note`: written with a note; `stop`: refused with a",
+        "Every construct below is executed. `yes`: written exactly; `note`: written with a note; `stop`: refused by a",
         "guarded stop in the output, in at least one place where it was met; `-`: not compared.",
         "",
         "| construct | " + " | ".join(others) + " |",
@@ -280,24 +282,27 @@ def _construct_table(outcomes: dict[str, dict[str, dict[str, object]]], language
 
 
 def main(only: list[str]) -> None:
-    """Run every sample in every target (or those whose name holds one of the words) and write file and page."""
+    """Run every sample in every target and write file and page. Words: only samples whose name holds one of them;
+    `to:NAME`: only these targets (the rest stays as it was recorded)."""
     sys.path.insert(0, str(HERE))
     import test_conformance_samples as samples
 
     outcomes = recorded() if FILE.exists() and only else {}
+    targets = [word.removeprefix("to:") for word in only if word.startswith("to:")] or samples.TARGETS
+    only = [word for word in only if not word.startswith("to:")]
     for sample in samples.SAMPLES:
         name = samples.name_of(sample)
         if only and not any(word in name for word in only):
             continue
         wanted = samples.expected(sample)
-        outcomes[name] = {}
-        for target in samples.TARGETS:
+        before = outcomes.setdefault(name, {})
+        for target in targets:
             try:
                 outcome, _ = outcome_of(samples.programs_of(sample), target, wanted.robot, wanted.cell, wanted.entry)
             except RplError as error:
                 outcome = Outcome(DIFFERENT, why=f"{type(error).__name__}: {error}")
             reason = wanted.divergence(target)
-            outcomes[name][target] = outcome.as_json() | ({"reason": reason} if reason else {})
+            before[target] = outcome.as_json() | ({"reason": reason} if reason else {})
             print(f"{name} -> {target}: {outcome.status} {', '.join(outcome.refused)}", flush=True)
             if outcome.status == DIFFERENT:
                 print("   ", outcome.why.replace("\n", "\n    "), flush=True)
