@@ -194,12 +194,13 @@ def _falling_off(routine: ir.Routine) -> Make:
 
 def link_initial(linked: LinkedProgram, module: ir.Module, declaration: ir.Variable, slot: GlobalSlot) -> None:
     """How a global variable gets its first value, and what a data list then assigns to its parts."""
+    own = len(linked.slots) - 1  # linking may give places to the data that the value reads
     scope = linked.scopes.module(module)
     compiler = _Tracking(linked, scope)
     slot.initial = first_value(compiler, declaration)
     for assign in linked.initial_assigns(module, scope.fold(declaration.name)):
         slot.assigns.append(_initial_assign(compiler, assign))
-    slot.needs = compiler.used - {len(linked.slots) - 1}
+    slot.needs = compiler.used - {own}
 
 
 def _initial_assign(compiler: Compiler, assign: ir.Assign) -> Read:
