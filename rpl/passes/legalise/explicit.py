@@ -72,6 +72,9 @@ def _looking_ahead(routine: ir.Routine, moves: int) -> ir.Routine:
     return replace(routine, body=(ir.Assign(ir.System("advance"), ir.IntLiteral(moves)), *routine.body))
 
 
+# What a blend that begins where the braking would begin is for joint moves, of the largest corner of the target.
+JOINT_SPEED_BLEND = 0.2
+
 Environment = dict[str, ir.Expression]
 
 
@@ -243,6 +246,13 @@ class _Modal:
         match move.blend:
             case ir.BlendDistance(distance=size) if size is not None and not isinstance(size, ir.System):
                 return self.blend_of_size(move, size, wanted)
+            case ir.BlendSpeed(percent=percent) if not isinstance(percent, ir.System):
+                if move.kind == "joint":  # no measure of joint moves knows a speed: a small corner is the safe one
+                    self.report_once(JOINT_BLEND, move, size="a fifth of the largest one for joint moves")
+                    wanted["blend_joint"] = _divided(percent, 1.0 / JOINT_SPEED_BLEND)
+                    return ir.BlendPercent(ir.System("blend_joint"))
+                wanted["blend_speed"] = percent
+                return ir.BlendSpeed(ir.System("blend_speed"))
             case ir.BlendZone():
                 pass
             case _:
