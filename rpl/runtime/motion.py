@@ -209,6 +209,7 @@ class MotionQueue(RobotState):
         drive.started_s = self.machine.now
         self._watch_search(drive)
         self._drive(Piece(drive, drive.plan, self.machine.now))
+        self._end_if_found(drive)
         piece = self.piece
         if piece is None or not drive.blending:
             return
@@ -299,7 +300,9 @@ class MotionQueue(RobotState):
             self._done(piece.drive, False)
             following.started_s = now
             self.piece = None
+            self._watch_search(following)
             self._drive(Piece(following, rest, now))
+            self._end_if_found(following)
             self._after_corner(following)
             return
         if piece.open_end:
@@ -429,7 +432,6 @@ class MotionQueue(RobotState):
             if search.last == (search.edge == "rising"):  # true already: the move ends before it begins
                 search.found = True
                 search.hit(search.values, True)
-                self._reached(drive, search)
             return
         if search.edge != "either" and search.last == (search.edge == "rising") and search.stop != "none":
             self.queue.remove(drive)
@@ -438,6 +440,11 @@ class MotionQueue(RobotState):
             at = drive.order.at
             self.task.fail(ProgramError("search_already", "the searched signal is there before the search"), at)
             self.machine.ready(self.task)
+
+    def _end_if_found(self, drive: Drive) -> None:
+        """What is searched was there when the move began: it ends at once."""
+        if drive.order.search is not None and drive.order.search.found:
+            self._reached(drive, drive.order.search)
 
     def look_for_search(self) -> None:
         """Something changed: is it what the present move searches?"""

@@ -55,7 +55,8 @@ def key_of(port: SignalRef) -> Key:
 
 
 def is_bit_group(port: SignalRef) -> bool:
-    return port.name is None and (port.last is not None or port.kind.startswith("group_"))
+    """Is it made of numbered bits? A group known by its own number (FANUC GO[2]) is a signal by itself."""
+    return port.name is None and port.last is not None
 
 
 def group_bits(port: SignalRef) -> list[Key]:
