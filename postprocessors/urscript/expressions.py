@@ -228,7 +228,7 @@ class Expressions:
             case "round_half_away" | "trunc" | "floor" if self.whole(operand):
                 return self.printer.printed(operand)
             case "round_half_away":
-                return self.helper("rpl_round", self.text(operand))
+                return self.helper("rpl_rounded", self.text(operand))
             case "trunc":
                 return self.helper("rpl_trunc", self.text(operand))
             case "floor":
@@ -359,7 +359,7 @@ _SPECIAL: dict[str, _Special] = {
     "exp": lambda e, v: f"pow({_E}, {e.text(v[0])})",
     "log": lambda e, v: f"log({_E}, {e.text(v[0])})",
     "log10": lambda e, v: f"log(10, {e.text(v[0])})",
-    "round": lambda e, v: e.rounded("rpl_round", v),
+    "round": lambda e, v: e.rounded("rpl_rounded", v),
     "trunc": lambda e, v: e.rounded("rpl_trunc", v),
     "fraction": Expressions.fraction,
     "text_part": Expressions.part,

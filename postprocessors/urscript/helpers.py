@@ -21,8 +21,8 @@ _TEXTS: dict[str, str] = {
           return floor(value)
         end
     """,
-    "rpl_round": """
-        def rpl_round(value):
+    "rpl_rounded": """
+        def rpl_rounded(value):
           # the nearest whole number, halves away from zero
           if value < 0:
             return ceil(value - 0.5)
@@ -247,7 +247,7 @@ _TEXTS: dict[str, str] = {
             scale = scale * 10
             at = at + 1
           end
-          local size = rpl_round(norm(value) * scale)
+          local size = rpl_rounded(norm(value) * scale)
           local text = to_str(rpl_div(size, scale))
           local behind = to_str(rpl_mod(size, scale))
           if places > 0:
