@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity
@@ -16,12 +16,15 @@ from rpl.writing.target import OutputFile, WriteContext
 
 @dataclass(frozen=True, slots=True)
 class Translation:
-    """Written files, the program as it was written, names that changed, and what was lost (guarded stops)."""
+    """Written files, the program as it was written, names that changed, and what was lost (guarded stops). `registers`:
+    the source names of data that has numbers in the target, by (bank, number); their types beside."""
 
     files: tuple[OutputFile, ...]
     program: ir.Program
     renamed: Mapping[str, str]
     losses: tuple[Diagnostic, ...] = ()
+    registers: Mapping[tuple[str, int], str] = field(default_factory=dict)
+    register_types: Mapping[tuple[str, int], str] = field(default_factory=dict)
 
 
 def translate_program(
@@ -30,11 +33,13 @@ def translate_program(
     robot: str | None = None,
     to_robot: str | None = None,
     diagnostics: Diagnostics | None = None,
+    registers: Mapping[tuple[str, int], str] | None = None,
 ) -> Translation:
     """Write a program that was read in another language (or anew in its own).
 
     robot: the arm the source was written for; to_robot: the arm that will run the result (default: the same). Raises
-    UsageError for unknown names. What the target cannot say is written as a guarded stop and listed in `losses`.
+    UsageError for unknown names. `registers`: numbers that an earlier translation gave (Translation.registers). What
+    the target cannot say is written as a guarded stop and listed in `losses`.
     """
     collector = diagnostics if diagnostics is not None else Diagnostics()
     target = registry.target(target_name)
@@ -42,14 +47,18 @@ def translate_program(
     second = _load(to_robot) if to_robot and to_robot != robot else first
     source = read.dialects[0] if read.dialects else target_name
     context = Context(source, target_name, target.capabilities(), collector, first, second)
+    context.registers = registers or {}
     before = len(collector)
     program = legalise(read.program, context)
     renamed: dict[str, str] = {}
     if source != target_name:
         program, renamed = rename(program, target.capabilities().names)
-    files = target.write(program, WriteContext(collector, second, register_names=context.register_names))
+    given = WriteContext(collector, second, register_names=context.register_names, foreign=context.foreign)
+    files = target.write(program, given)
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
-    return Translation(tuple(files), program, renamed, losses)
+    return Translation(
+        tuple(files), program, renamed, losses, dict(context.register_names), dict(context.register_types)
+    )
 
 
 def _load(name: str | None) -> RobotModel | None:

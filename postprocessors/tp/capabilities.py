@@ -65,5 +65,6 @@ CAPABILITIES = Capabilities(
     functions_alone=True,
     move_settings=frozenset(("speed", "blend")),
     speeds=frozenset(("joint", "path", "rotation", "duration")),
+    move_functions=frozenset((":", "compose", "element_sum", "displaced_in_tool", "joints_to_target", "pose_of")),
     blends=frozenset(("BlendStop", "BlendPercent", "BlendDistance")),
 )

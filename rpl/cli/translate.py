@@ -46,6 +46,12 @@ OK, NO, GUARDED = 0, 1, 3
 )
 @click.option("--prove", "proving", is_flag=True, help="Run both programs and compare what they do.")
 @click.option("--cell", metavar="F.toml", help="Surroundings for the proof: inputs, parts, answers of the operator.")
+@click.option(
+    "--registers",
+    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="Numbers of data that an earlier translation wrote (registers.csv); they are kept.",
+)
 @click.option("--strict", is_flag=True, help="Take every approximation for an error.")
 @accept_option
 @json_option
@@ -58,6 +64,7 @@ def command(
     output: Path | None,
     proving: bool,
     cell: str | None,
+    registers: Path | None,
     strict: bool,
     accepted: Sequence[str],
     as_json: bool,
@@ -69,6 +76,7 @@ def command(
     """
     from rpl.project import read_program
     from rpl.translation import translate_program
+    from rpl.writing.registers import read_registers
 
     registry.target(target)
     diagnostics = collector(accepted)
@@ -80,12 +88,15 @@ def command(
         return _refuse(diagnostics, as_json)
     before = len(diagnostics)
     with waiting("writing"):
-        translation = translate_program(read, target, robot, to_robot, diagnostics)
+        kept = read_registers(registers) if registers is not None else None
+        translation = translate_program(read, target, robot, to_robot, diagnostics, kept)
     if strict:
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:
         return _refuse(diagnostics, as_json)
     written = _write(translation.files, output, as_json or proving)
+    if output is not None and translation.registers:
+        written.append(_write_registers(translation, output))
     proof = _prove(read, translation, target, robot, to_robot or robot, cell) if proving else None
     print_diagnostics(diagnostics)
     if as_json:
@@ -129,6 +140,15 @@ def _write(files: Sequence[OutputFile], output: Path | None, any_number: bool) -
             write_file(output / inside, file.data)
             rows.append({"path": file.path, "written": str(output / inside)})
     return rows
+
+
+def _write_registers(translation: Translation, output: Path) -> dict[str, object]:
+    """The numbers that data has got, beside the programs."""
+    from rpl.writing.registers import FILE_NAME, registers_text
+
+    text = registers_text(translation.registers, translation.register_types)
+    write_file(output / FILE_NAME, text.encode("utf-8"))
+    return {"path": FILE_NAME, "written": str(output / FILE_NAME)}
 
 
 def _text(file: OutputFile) -> str:

@@ -71,7 +71,8 @@ class Capabilities:
     Motion: move_settings: which of `tool`, `frame`, `speed`, `blend` a move says itself, the rest being modal (System
     tool, base, and modal_motion set); empty: all or none of them, in data of the types of RAPID or KRL. Only then:
     speeds: fields of Speed that the target says (for joint moves `joint`, `axis`; for the others `path`, ...);
-    blends: blend classes that it says (BlendStop always).
+    blends: blend classes that it says (BlendStop always). move_functions: functions (and `:`) that a move's target may
+    be although nothing else can: a place seen from another one, with simple operands.
 
     declared_groups: a group of signals exists only by a declaration with a name (KRL SIGNAL).
     """
@@ -140,3 +141,4 @@ class Capabilities:
     blends: frozenset[str] = frozenset()
     declared_groups: bool = False
     postures: str = "flags"
+    move_functions: frozenset[str] = frozenset()

@@ -17,6 +17,7 @@ from rpl.passes.capabilities import Bank
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.scope import Scope
+from rpl.passes.typewords import type_word
 from rpl.source import NOWHERE, Origin
 
 FULL = code(
@@ -118,6 +119,7 @@ class Numbers:
         used.update(numbers)
         for offset, at in enumerate(numbers):
             self.context.register_names[one.bank.name, at] = one.element(offset)
+            self.context.register_types[one.bank.name, at] = type_word(one.type) or ""
         return True
 
     def free(self, one: Wanted, kept: set[tuple[str, int]]) -> int | None:

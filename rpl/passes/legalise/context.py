@@ -45,7 +45,7 @@ class Arm(Protocol):
 class Context:
     """`source` and `target` are dialect names. `robot` is the arm the source was written for, `to_robot` the arm that
     will run the result; either may be None (then what needs it is reported). `taken` are all names in use, folded.
-    `register_names`: (bank, number) -> source name for data that has got a number, filled by the passes;
+    `register_names`: (bank, number) -> source name for data that has got a number, filled by the passes (types beside);
     `registers`: the numbers that an earlier translation gave, to be honoured."""
 
     source: str
@@ -56,6 +56,7 @@ class Context:
     to_robot: Arm | None = None
     taken: set[str] = field(default_factory=set)
     register_names: dict[tuple[str, int], str] = field(default_factory=dict)
+    register_types: dict[tuple[str, int], str] = field(default_factory=dict)
     registers: Mapping[tuple[str, int], str] = field(default_factory=dict)
 
     @property

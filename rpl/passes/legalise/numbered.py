@@ -259,6 +259,10 @@ class _Numbered(Rewriter):
                 return self.named(expression, name)
             case ir.Index(base=ir.Name(id=name), indices=indices):
                 return self.indexed(expression, name, indices)
+            case ir.Field() | ir.Binary() | ir.Unary():
+                known = constant(expression, self.scope)
+                if isinstance(known, int | float) and not isinstance(known, bool):
+                    return replace(literal(known) or expression, origin=expression.origin)
             case ir.Aggregate() if self.context.capabilities.points is not None:
                 point = self.inline(expression)
                 if point is not None:

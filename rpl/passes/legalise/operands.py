@@ -31,7 +31,7 @@ def is_operand(value: ir.Expression) -> bool:
         case ir.Signal(index=index, last=last):
             return all(one is None or _is_number(one) for one in (index, last))
         case ir.Aggregate(entries=entries):
-            return all(is_operand(one) and not isinstance(one, ir.Name | ir.Index) for _, one in entries)
+            return all(is_constant(one) or (isinstance(one, ir.Aggregate) and is_operand(one)) for _, one in entries)
         case ir.Convert(how="real", operand=operand):
             return is_operand(operand)
     return isinstance(value, _LITERALS)

@@ -10,8 +10,10 @@ from rpl.passes.legalise.aliases import without_aliases
 from rpl.passes.legalise.arrays import array_bases, array_sizes
 from rpl.passes.legalise.calls import rewrite_calls
 from rpl.passes.legalise.circles import circle_rules
+from rpl.passes.legalise.composition import compositions
 from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.context import Context, Pass, names_in
+from rpl.passes.legalise.corners import corners
 from rpl.passes.legalise.datalists import set_data_at_start
 from rpl.passes.legalise.defaults import starting_values
 from rpl.passes.legalise.elementwise import elementwise
@@ -107,12 +109,14 @@ PASSES: tuple[Pass, ...] = (
     references_as_copies,
     fit_loops,
     enums_to_constants,
+    corners,
     modal_to_explicit,
     explicit_to_modal,
     settings_at_moves,
     aggregates,
     geometry,
     flat_records,
+    compositions,
     functions_to_procedures,
     fit_arguments,
     fit_loops,

@@ -14,6 +14,7 @@ from rpl.passes.legalise.banks import own_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.effects import is_constant
 from rpl.passes.scope import Scope
+from rpl.passes.typewords import type_word
 
 _POSE = {"x", "y", "z", "a", "b", "c"}
 _POSITIONS = (ir.TargetType, ir.JointsType)
@@ -104,6 +105,7 @@ class Points:
             self.used.add(number)
             if label:
                 self.context.register_names[self.bank(), number] = label
+                self.context.register_types[self.bank(), number] = type_word(type) or ""
             variable = ir.Variable(name, type, value, storage="constant", scope="routine", label=label)
             self.made.append(variable)
             self.found[key] = ir.Name(name)

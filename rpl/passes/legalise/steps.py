@@ -16,6 +16,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion, negation
 from rpl.passes.legalise.effects import children, everything, is_constant
 from rpl.passes.legalise.operands import changing, is_operand, opposite, stands_still
+from rpl.passes.legalise.spread import is_computed, reads, spread
 from rpl.passes.legalise.usage import assigned_in
 
 POLLED = code(
@@ -29,6 +30,7 @@ TIMED = code("timed-wait-computed", Severity.LOSS, "a wait for a computed condit
 POLL_S = 0.012
 _COMPARISONS = ("=", "<>", "<", ">", "<=", ">=")
 _JOINING = {"and": "and", "or": "or", "cand": "and", "cor": "or"}
+_HELD = ir.IntLiteral(0)  # stands for a move's target while the rest of the move is looked at
 _STRUCTURES = (ir.If, ir.While, ir.Repeat, ir.For, ir.Switch, ir.Loop)
 
 
@@ -78,8 +80,11 @@ class _Steps(Hoister):
         """The expression where it is one part of something: an operand, an argument, a subscript."""
         if isinstance(expression, ir.Binary) and expression.op in ("cand", "cor") and not self.by_steps:
             return self._deciding(expression)
+        expression = _plain_number(expression)
         if is_operand(expression):
             return (), expression
+        if isinstance(expression, ir.Aggregate) and self.must_stand_alone(expression):
+            return self.stored((), expression)
         before, value = self.whole(expression, lvalue)
         if lvalue or is_operand(value) or not self.must_stand_alone(value):
             return before, value
@@ -92,6 +97,11 @@ class _Steps(Hoister):
 
     def stored(self, before: ir.Body, value: ir.Expression) -> Lowered:
         type = self.editor.type_of(value)
+        if type is not None and isinstance(value, ir.Aggregate) and self.can.constant_aggregates and is_computed(value):
+            place = self.temporary(type)
+            parts = spread(place, value)
+            if parts is not None:
+                return (*before, *self.several_steps(parts)), place
         if type is None or isinstance(value, ir.Aggregate) or isinstance(type, ir.ArrayType | ir.SignalType):
             return before, value
         if isinstance(type, ir.StringType) and not self.can.texts:
@@ -101,15 +111,21 @@ class _Steps(Hoister):
             return (*before, *self.decided(name, value)), name
         return (*before, ir.Assign(name, value)), name
 
+    def several_steps(self, parts: Sequence[ir.Assign]) -> ir.Body:
+        """Assignments of components, each as the target takes it."""
+        return tuple(one for part in parts for one in self.assigned(part, part.target, part.value))
+
     def must_stand_alone(self, value: ir.Expression) -> bool:
         """Does the target take this only as the whole right side of an assignment?"""
-        if isinstance(value, ir.Aggregate | ir.Quantity):
+        if isinstance(value, ir.Aggregate):
+            return self.can.constant_aggregates and not self.can.calculated_places and is_computed(value)
+        if isinstance(value, ir.Quantity):
             return False
-        return self.by_steps or isinstance(value, ir.Call | ir.Builtin)
+        return self.by_steps or isinstance(value, ir.Call | ir.Builtin | ir.Convert)
 
     def whole(self, expression: ir.Expression, lvalue: bool = False) -> Lowered:
         """The expression itself with parts that the target takes in it."""
-        function = isinstance(expression, ir.Call | ir.Builtin)
+        function = isinstance(expression, ir.Call | ir.Builtin | ir.Convert)
         strict = function or isinstance(expression, ir.Index | ir.Signal | ir.System) or self.by_steps
         if not strict:
             return super()._operands(expression, lvalue)
@@ -288,6 +304,36 @@ class _Steps(Hoister):
             statement, before, replace(statement, start=values[0], stop=values[1], step=step, body=body)
         )
 
+    def _move(self, statement: ir.Move, search: ir.Search | None) -> ir.Body:
+        """The target of a move may be what only a move can say."""
+        before, target = self.at_move(statement.target)
+        further, via = ((), None) if statement.via is None else self.at_move(statement.via)
+        self.simple_parts = self.by_steps or not self.can.calculated_places
+        done = super()._move(replace(statement, target=_HELD, via=None), search)
+        last = done[-1]
+        assert isinstance(last, ir.Move)  # _move keeps the statement's class
+        first = (*done[:-1], *before, *further)
+        if not first and target is statement.target and via is statement.via and last.target is _HELD:
+            same = replace(last, target=target, via=via)
+            return (statement if same == statement else same,)
+        return self._finished(statement, first, replace(last, target=target, via=via))
+
+    def at_move(self, target: ir.Expression) -> Lowered:
+        says = self.can.move_functions
+        match target:
+            case ir.Binary(op=":", left=left, right=right) if ":" in says:
+                before, base = self.at_move(left)
+                further, shift = self.operand(right)
+                return (*before, *further), replace(target, left=base, right=shift)
+            case ir.Builtin(function=name, arguments=(left, *rest)) if name in says:
+                before, base = self.at_move(left)
+                shifts = [self.operand(one) for one in rest]
+                steps_before = tuple(one for further, _ in shifts for one in further)
+                return (*before, *steps_before), replace(target, arguments=(base, *(value for _, value in shifts)))
+        if self.by_steps or not self.can.calculated_places:
+            return self.operand(target)
+        return self.lower(target)
+
     def _switch(self, statement: ir.Switch) -> ir.Body:
         simple = self.by_steps or not self.can.calculated_places
         before, selector = self.operand(statement.selector) if simple else self.lower(statement.selector)
@@ -297,6 +343,13 @@ class _Steps(Hoister):
 
     def assigned(self, statement: ir.Assign, target: ir.Expression, value: ir.Expression) -> ir.Body:
         first, place = self.lower(target, True)
+        if isinstance(value, ir.Aggregate) and self.must_stand_alone(value):
+            parts = None if reads(value, place) else spread(place, value)
+            if parts is not None:
+                return expansion(statement.origin, (*first, *self.several_steps(parts))) or (ir.Nothing(),)
+            first, value = self.stored(first, value)
+            return self._finished(statement, first, replace(statement, target=place, value=value))
+        value = _plain_number(value)
         if isinstance(target, ir.Signal) and not self.can.calculated_places:
             before, value = self.operand(value)
         elif self.by_steps and isinstance(self.editor.type_of(target), ir.BoolType) and _is_logic(value):
@@ -333,6 +386,19 @@ class _Steps(Hoister):
     def stands_still(self, value: ir.Expression) -> bool:
         own = isinstance(value, ir.Name) and value.id.lower() in self.editor.own
         return own or stands_still(value, self.changes)
+
+
+def _plain_number(value: ir.Expression) -> ir.Expression:
+    """A computed quantity as the arithmetic that it is."""
+    match value:
+        case ir.Magnitude(value=inner, unit=unit):
+            factor = ir.UNITS[unit]
+            done = _plain_number(inner)
+            return done if factor == 1.0 else ir.Binary("/", done, ir.RealLiteral(factor), origin=value.origin)
+        case ir.Quantity(value=inner, unit=unit) if not is_operand(inner):
+            factor = ir.UNITS[unit]
+            return inner if factor == 1.0 else ir.Binary("*", inner, ir.RealLiteral(factor), origin=value.origin)
+    return value
 
 
 def _is_logic(value: ir.Expression) -> bool:

@@ -35,7 +35,7 @@ CASES = [
     # body, declarations of the routine, of the module, what comes out
     ("a = 1\nb = a + 2", "VAR a, b: INT", "", ["R[1] := 1", "R[2] := (R[1] + 2)"]),
     ("p = TRUE\nq = p", "VAR p, q: BOOL", "", ["F[1] := True", "F[2] := F[1]"]),
-    ("a = limit * 2.0", "VAR a: REAL", "CONST limit: REAL = 2.5", ["R[1] := (2.5 * 2.0)"]),
+    ("a = limit * 2.0", "VAR a: REAL", "CONST limit: REAL = 2.5", ["R[1] := 5.0"]),
     ("a = R5", "VAR a: REAL", "VAR R5: REAL = 1.0\nVAR b: REAL = 2.0",
      ["R[5] := 1.0", "R[1] := 2.0", "R[2] := R[5]"]),
     ("list[2] = 4\na = list[2]", "VAR a: INT\nVAR list: ARRAY[3] OF INT", "",

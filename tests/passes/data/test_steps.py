@@ -207,3 +207,32 @@ def test_any_program_shows_the_same(body: list[str]) -> None:
     strict = passed(before, (decide_logic,), context(before, WEAK))
     same(strict, (steps,), context(strict, WEAK), entry="t", max_statements=20_000)
     same(before, (steps,), context(before, ALONE), entry="t", max_statements=20_000)
+
+
+SPREAD = """
+MODULE m
+    VAR p: TARGET = {x: 400, y: 0, z: 300, a: 0, b: 90, c: 0}
+    VAR q: POSE = {x: 1, y: 2, z: 3, a: 0, b: 90, c: 0}
+    PROCEDURE main()
+        VAR h: REAL = 20.0
+        MOVE TO p
+        MOVE LINEAR TO {x: p.x, y: p.y, z: p.z + h, a: p.a, b: p.b, c: p.c}
+        q = {x: h, y: h + 1.0, z: 3, a: 0, b: 90, c: 0}
+        q = {x: q.y, y: q.x, z: q.z, a: q.a, b: q.b, c: q.c}
+        q = {x: q.x + h, y: q.y, z: q.z, a: q.a, b: q.b, c: q.c}
+        MESSAGE value_text(q.x) & " " & value_text(q.y)
+        MOVE LINEAR TO offset(p, h, 0, h * 2.0)
+    END PROCEDURE
+END MODULE
+"""
+
+
+def test_computed_positions_are_put_together_in_a_variable() -> None:
+    target = replace(ALONE, constant_aggregates=True)
+    before = read(SPREAD)
+    after = same(before, (steps,), context(before, target), robot="kuka_kr6r900sixx", entry="main")
+    found = lines(after, "main")
+    assert found[:4] == ["joint p", "step := p", "step.z := (p.z + h)", "linear step"]
+    assert found[4:10] == ["q.x := h", "q.y := (h + 1.0)", "q.z := 3", "q.a := 0", "q.b := 90", "q.c := 0"]
+    assert found[10:15] == ["step2 := q", "step2.x := q.y", "step2.y := q.x", "q := step2", "q.x := (q.x + h)"]
+    assert found[-1] == "linear step"
