@@ -1,0 +1,237 @@
+"""Assignments as instructions: one operation each, helper variables where an operand is more than a variable."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from rpl import ir
+
+from . import tables
+from .errors import CannotSayError
+from .operands import Registers, bank_of, constant, element, is_digital, numbered, operand, signal, simple, variable
+from .positions import Positions
+
+
+
+@dataclass(slots=True)
+class Assignments:
+    """Prints assignments of one job into `lines`."""
+
+    registers: Registers
+    positions: Positions
+    lines: list[str] = field(default_factory=list)
+
+    def assign(self, assign: ir.Assign) -> list[str]:
+        self.lines = self.positions.lines = []
+        target, value = assign.target, assign.value
+        match target:
+            case ir.Signal():
+                self.output(target, value)
+            case ir.Field(base=base, name=name):
+                self.component(base, name, value)
+            case _:
+                place = variable(target)
+                if bank_of(place) == "P":
+                    self.positions.position(place, value)
+                else:
+                    self.number(place, value)
+        return self.lines
+
+    # ---- outputs
+
+    def output(self, target: ir.Signal, value: ir.Expression) -> None:
+        """`DOUT OT#(1) ON`, `DOUT OG#(1) B000`, `AOUT AO#(1) 5.0`."""
+        if target.kind in ("digital_in", "group_in", "analog_in"):
+            raise CannotSayError("an input cannot be set")
+        place = signal(target)
+        if target.kind == "analog_out":
+            self.lines.append(f"AOUT {place} {self.simple_number(value, 'R')}")
+        elif is_digital(target):
+            if isinstance(value, ir.BoolLiteral):
+                self.lines.append(f"DOUT {place} {'ON' if value.value else 'OFF'}")
+                return
+            self.lines.append(f"DOUT {place} {self.byte(value)}")
+        else:
+            known = constant(value)
+            if known is not None and not 0 <= known <= 255:
+                raise CannotSayError("a group of outputs takes 0 to 255")
+            self.lines.append(f"DOUT {place} {self.byte(value) if known is None else int(known)}")
+
+    def byte(self, value: ir.Expression) -> str:
+        """A value as a byte variable."""
+        shown = simple(value)
+        if shown is not None and bank_of(shown) == "B":
+            return shown
+        helper = self.registers.helper("B")
+        self.number(helper, value)
+        return helper
+
+    def simple_number(self, value: ir.Expression, bank: str) -> str:
+        """A constant or variable; anything else through a helper."""
+        shown = simple(value)
+        if shown is not None:
+            return shown
+        helper = self.registers.helper(bank)
+        self.number(helper, value)
+        return helper
+
+    # ---- numbers, truth values, texts
+
+    def number(self, place: str, value: ir.Expression) -> None:
+        """place := value."""
+        shown = simple(value)
+        if shown is not None:
+            self.fits(place, constant(value))
+            if shown != place:
+                self.lines.append(f"SET {place} {shown}")
+            return
+        match value:
+            case ir.Convert(how="real" | "trunc" | "bit", operand=inner):
+                self.converted(place, inner)
+            case ir.Signal():
+                self.input(place, value)
+            case ir.Binary():
+                self.operation(place, value)
+            case ir.Unary(op="-", operand=inner):
+                self.operation(place, ir.Binary("*", inner, ir.IntLiteral(-1)))
+            case ir.Builtin():
+                self.function(place, value)
+            case ir.Field(base=base, name=name):
+                self.read_component(place, base, name)
+            case ir.VendorValue(dialect="inform", text=text):
+                self.lines.append(f"GETS {place} {text}" if text.startswith("$") else f"{text} {place}")
+            case _:
+                raise CannotSayError(f"a value of this kind: {value.__class__.__name__}")
+
+    def fits(self, place: str, value: float | None) -> None:
+        limits = tables.RANGES.get(bank_of(place))
+        if value is not None and limits is not None and not limits[0] <= value <= limits[1]:
+            raise CannotSayError(f"{value:g} is outside of {limits[0]}..{limits[1]}, the range of {place}")
+
+    def converted(self, place: str, value: ir.Expression) -> None:
+        """A value of another type; SET drops the decimals where the place has none."""
+        if bank_of(place) == "R" or isinstance(value, ir.Signal | ir.Field):
+            self.number(place, value)
+            return
+        helper = self.registers.helper("R")
+        self.number(helper, value)
+        self.lines.append(f"SET {place} {helper}")
+
+    def input(self, place: str, given: ir.Signal) -> None:
+        """`DIN B000 IN#(1)`."""
+        if bank_of(place) in ("B",) or given.kind.startswith("analog"):
+            self.lines.append(f"DIN {place} {signal(given)}")
+            return
+        helper = self.registers.helper("B")
+        self.lines += [f"DIN {helper} {signal(given)}", f"SET {place} {helper}"]
+
+    def operation(self, place: str, value: ir.Binary) -> None:
+        """`SET a b`, `ADD a c`."""
+        if value.op == "&":
+            self.lines.append(f"CAT$ {place} {operand(value.left)} {operand(value.right)}")
+            return
+        if value.op == "mod":
+            self.remainder(place, value)
+            return
+        word = tables.ARITHMETIC.get(value.op) or tables.BITS.get(value.op)
+        if word is None:
+            raise CannotSayError(f"INFORM has no operation {value.op}")
+        if value.op in tables.BITS and bank_of(place) != "B":
+            raise CannotSayError("operations on bits are for bytes")
+        bank = bank_of(place)
+        left, right = self.simple_number(value.left, bank), self.simple_number(value.right, bank)
+        if right == place and left != place:
+            if value.op in ("+", "*", "band", "bor", "bxor"):
+                left, right = right, left
+            else:
+                helper = self.registers.helper(bank)
+                self.lines += [f"SET {helper} {right}"]
+                right = helper
+        if left != place:
+            self.lines.append(f"SET {place} {left}")
+        if word in ("ADD", "SUB") and right == "1" and bank in tables.WHOLE:
+            self.lines.append(f"{'INC' if word == 'ADD' else 'DEC'} {place}")
+        else:
+            self.lines.append(f"{word} {place} {right}")
+
+    def remainder(self, place: str, value: ir.Binary) -> None:
+        """left - left div right * right."""
+        bank = bank_of(place)
+        if bank not in tables.WHOLE:
+            raise CannotSayError("a remainder is for whole numbers")
+        left, right = self.simple_number(value.left, bank), self.simple_number(value.right, bank)
+        helper = self.registers.helper(bank)
+        self.lines += [f"SET {helper} {left}", f"DIV {helper} {right}", f"MUL {helper} {right}"]
+        if place in (left, right) and left != place:
+            other = self.registers.helper(bank)
+            self.lines += [f"SET {other} {left}", f"SUB {other} {helper}", f"SET {place} {other}"]
+            return
+        if left != place:
+            self.lines.append(f"SET {place} {left}")
+        self.lines.append(f"SUB {place} {helper}")
+
+    def function(self, place: str, value: ir.Builtin) -> None:
+        word = tables.FUNCTIONS.get(value.function)
+        if word is not None:
+            given = self.simple_number(value.arguments[0], "R")
+            if bank_of(given) != "R":
+                helper = self.registers.helper("R")
+                self.lines.append(f"SET {helper} {given}")
+                given = helper
+            self.lines.append(f"{word} {place} {given}")
+            return
+        word = tables.TEXT_FUNCTIONS.get(value.function)
+        if word is None:
+            raise CannotSayError(f"INFORM has no function {value.function}")
+        shown = " ".join(operand(one) for one in value.arguments)
+        self.lines.append(f"{word} {place} {shown}")
+
+    # ---- components of positions
+
+    def read_component(self, place: str, base: ir.Expression, name: str) -> None:
+        """GETE counts in 0.001 mm or 0.0001 degrees."""
+        number, counts = component(name)
+        known = self.positions.constants.known(base)
+        if known is not None and known.kind == "pose":
+            value = known.values[("x", "y", "z", "a", "b", "c").index(name)]
+            self.number(place, ir.RealLiteral(value))
+            return
+        source = self.positions.as_variable(base)
+        helper = self.registers.helper("D")
+        self.lines.append(f"GETE {helper} {source} ({number})")
+        if bank_of(place) == "R":
+            self.lines += [f"SET {place} {helper}", f"DIV {place} {counts:.1f}"]
+            return
+        real = self.registers.helper("R")
+        self.lines += [f"SET {real} {helper}", f"DIV {real} {counts:.1f}", f"SET {place} {real}"]
+
+    def component(self, base: ir.Expression, name: str, value: ir.Expression) -> None:
+        number, counts = component(name)
+        place = element(base)
+        if place is None or bank_of(place) != "P":
+            raise CannotSayError("only a position variable has components")
+        self.positions.changed(place)
+        known = constant(value)
+        if known is not None:
+            self.lines.append(f"SETE {place} ({number}) {round(known * counts)}")
+            return
+        match value:
+            case ir.Field(base=ir.Index() | ir.Name() as other, name=same) if component(same)[1] == counts:
+                source = element(other)
+                if source is not None and numbered(other) not in self.positions.constants.values:
+                    whole = self.registers.helper("D")
+                    self.lines.append(f"GETE {whole} {source} ({component(same)[0]})")
+                    self.lines.append(f"SETE {place} ({number}) {whole}")
+                    return
+        real, whole = self.registers.helper("R"), self.registers.helper("D")
+        self.number(real, value)
+        self.lines += [f"MUL {real} {counts:.1f}", f"SET {whole} {real}", f"SETE {place} ({number}) {whole}"]
+
+
+def component(name: str) -> tuple[int, int]:
+    """The number of a component and how many counts its unit has."""
+    lower = name.lower()
+    if lower not in tables.POSE_ELEMENTS:
+        raise CannotSayError(f"a position variable has no component {name} that can be counted here")
+    number = tables.POSE_ELEMENTS.index(lower) + 1
+    return number, round(1 / (tables.MM_PER_COUNT if number <= 3 else tables.DEG_PER_COUNT))

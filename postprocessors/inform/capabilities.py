@@ -1,0 +1,67 @@
+"""What a Yaskawa controller can say in INFORM, for the passes that rewrite the rest."""
+
+from __future__ import annotations
+
+from rpl.passes.capabilities import Capabilities, NameRules
+
+from . import tables
+
+CAPABILITIES = Capabilities(
+    statements=frozenset(
+        (
+            *("Assign", "CallRoutine", "If", "While", "For", "Label", "Goto", "Return", "Halt", "Wait", "WaitUntil"),
+            *("Pulse", "Message", "TaskControl", "Vendor", "Opaque", "Nothing", "Move", "Search"),
+        )
+    ),
+    functions=frozenset((*tables.FUNCTIONS, *tables.TEXT_FUNCTIONS, *tables.POSITION_FUNCTIONS)),
+    procedures=frozenset(),
+    system_variables=frozenset(("actual_pose", "actual_joints", "null_frame", "world")),
+    operators=frozenset((*tables.COMPARISONS, *tables.ARITHMETIC, *tables.BITS, "mod", "and", "or", "&", ":")),
+    types=frozenset(
+        (
+            *("IntType", "RealType", "BoolType", "StringType", "CharType", "PoseType", "TargetType", "JointsType"),
+            "ArrayType",
+        )
+    ),
+    names=NameRules(
+        longest=tables.LONGEST_NAME,
+        case_sensitive=False,
+        reserved=tables.RESERVED,
+        further="abcdefghijklmnopqrstuvwxyz0123456789_-",
+    ),
+    modal_motion=True,
+    notation="inform",
+    rotation="zyx",
+    conversions=frozenset(("real", "trunc", "bit")),
+    wait_timeout=True,
+    named_aggregates=True,
+    partial_aggregates=False,
+    constant_aggregates=True,
+    relative_moves=True,
+    function_routines=False,
+    parameters="none",
+    locals=False,
+    recursion=False,
+    search_results=frozenset(("found", "hit")),
+    task_operations=frozenset(("start", "join")),
+    banks={
+        "IntType": tables.D,
+        "RealType": tables.R,
+        "BoolType": tables.B,
+        "StringType": tables.S,
+        "PoseType": tables.P,
+        "TargetType": tables.P,
+        "JointsType": tables.P,
+    },
+    points=tables.POINTS,
+    records=False,
+    arrays=False,
+    expressions="steps",
+    calculated_places=False,
+    conditions="comparisons",
+    functions_alone=True,
+    index_base=None,
+    move_settings=frozenset(("tool", "frame", "speed", "blend")),
+    speeds=frozenset(("joint", "path", "rotation")),
+    blends=frozenset(("BlendStop", "BlendDistance", "BlendLevel")),
+)

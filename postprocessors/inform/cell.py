@@ -1,0 +1,95 @@
+"""What all jobs share: numbers of tools and user frames, and position variables that hold constants.
+
+A constant position that is needed as a variable is kept in a position variable of its own, whose value stands in the
+header of every job that uses it. Tools and user frames get their values by SETTOOL and MFRAME at the start.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from . import tables
+from .errors import CannotSayError
+from .operands import Registers
+from .places import WORLD, Position, Values, product
+
+_ARM_MM = 100.0  # how far the points that define a user frame are from its origin
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """A position and the tool and user frame (0: the base) that it is given in."""
+
+    position: Position
+    tool: int = 0
+    frame: int = 0
+
+
+@dataclass(slots=True)
+class Cell:
+    """Shared data of a program."""
+
+    registers: Registers
+    tool_of_variables: int = 0
+    kept: dict[Kept, int] = field(default_factory=dict)
+    tools: dict[Values, int] = field(default_factory=dict)
+    frames: dict[Values, int] = field(default_factory=dict)
+    by_variable: dict[str, int] = field(default_factory=dict)
+    last_tool: int = 0
+
+    def keep(self, what: Kept) -> int:
+        """The number of the position variable that holds a constant."""
+        if what not in self.kept:
+            self.kept[what] = self.registers.take("P")
+        return self.kept[what]
+
+    def tool(self, value: Values) -> int:
+        """The number of a constant tool; 0 is the flange."""
+        if value == WORLD:
+            return 0
+        if value not in self.tools:
+            self.tools[value] = self._next_tool()
+        return self.tools[value]
+
+    def tool_in(self, place: str) -> int:
+        """The number of a tool that is kept in a position variable."""
+        if place not in self.by_variable:
+            self.by_variable[place] = self._next_tool()
+        return self.by_variable[place]
+
+    def _next_tool(self) -> int:
+        self.last_tool += 1
+        if self.last_tool > tables.TOOLS:
+            raise CannotSayError(f"there are only {tables.TOOLS} tools")
+        return self.last_tool
+
+    def frame(self, value: Values) -> int:
+        """The number of a constant user frame; 0 stands for the base."""
+        if value == WORLD:
+            return 0
+        if value not in self.frames:
+            if len(self.frames) == tables.USER_FRAMES:
+                raise CannotSayError(f"there are only {tables.USER_FRAMES} user frames")
+            self.frames[value] = len(self.frames) + 1
+        return self.frames[value]
+
+    def value_of_tool(self, number: int) -> Values | None:
+        """None for a tool that is kept in a variable."""
+        if number == 0:
+            return WORLD
+        return next((value for value, n in self.tools.items() if n == number), None)
+
+    def value_of_frame(self, number: int) -> Values:
+        return next((value for value, n in self.frames.items() if n == number), WORLD)
+
+    def setup(self) -> Iterator[tuple[str, tuple[int, ...]]]:
+        """The instructions that give tools and frames their values, with the position variables in them."""
+        for value, number in self.tools.items():
+            kept = self.keep(Kept(Position("pose", value)))
+            yield f"SETTOOL TL#({number}) P{kept:03d}", (kept,)
+        for value, number in self.frames.items():
+            ways = (WORLD, (_ARM_MM, *WORLD[1:]), (0.0, _ARM_MM, *WORLD[2:]))
+            points = tuple(self.keep(Kept(Position("pose", product(value, way)))) for way in ways)
+            shown = " ".join(f"P{one:03d}" for one in points)
+            yield f"MFRAME UF#({number}) {shown}", points

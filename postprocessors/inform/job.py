@@ -1,0 +1,133 @@
+"""One job as text: the header as a state machine over its points, then the instructions.
+
+Points without a posture stand first, before any RCONF, because nothing takes an RCONF back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rpl import registry
+
+from . import tables
+from .cell import Cell, Kept
+from .errors import CannotSayError
+from .places import Position, matrix, values_of
+from .texts import ascii_text, fixed
+
+if TYPE_CHECKING:
+    from rpl.emulator.model import RobotModel
+
+_DATE = "2000/01/01 00:00"  # the same text for the same program
+
+
+@dataclass(slots=True)
+class Job:
+    """Header data and lines of one job. `tool`: that of positions that name none."""
+
+    name: str
+    cell: Cell
+    robot: RobotModel | None = None
+    tool: int = 0
+    lines: list[str] = field(default_factory=list)
+    points: dict[Kept, int] = field(default_factory=dict)
+    positions: set[int] = field(default_factory=set)  # position variables whose values the header gives
+    comment: str = ""
+    entry: bool = False
+    moves: bool = False
+
+    def point_of(self, position: Position, tool: int, frame: int, wanted: int | None) -> str:
+        """The taught point for a position; `wanted` is its number when that is free."""
+        what = Kept(self.sayable(position, tool), tool, 0 if position.kind == "joints" else frame)
+        if what not in self.points:
+            taken = set(self.points.values())
+            free = next(n for n in range(tables.POINTS.last + 2) if n not in taken)
+            number = free if wanted is None or wanted in taken else wanted
+            if number > tables.POINTS.last:
+                raise CannotSayError("there are no more numbers for points")
+            self.points[what] = number
+        return f"C{self.points[what]:05d}"
+
+    def constant(self, position: Position, tool: int = 0, frame: int = 0) -> str:
+        """A position variable that holds a constant."""
+        number = self.cell.keep(Kept(self.sayable(position, tool), tool, frame))
+        self.positions.add(number)
+        return f"P{number:03d}"
+
+    def sayable(self, position: Position, tool: int) -> Position:
+        """The position as a controller can keep it: joints as pulses where they can be counted, else as a pose."""
+        if any(position.external):
+            raise CannotSayError("positions of external axes are in pulses, which are not known here")
+        if position.kind != "joints":
+            return position
+        if self.robot is None:
+            raise CannotSayError("joint values need the arm (--robot): jobs have pulses, or poses with a posture")
+        if len(position.values) < self.robot.axes:
+            raise CannotSayError(f"{self.robot.name} has {self.robot.axes} axes")
+        if self.robot.pulses_per_degree is not None:
+            return position
+        return pose_of_joints(position, self.robot, self.cell.value_of_tool(tool))
+
+    def text(self) -> str:
+        head = ["/JOB", f"//NAME {self.name}", "//POS", *self.header(), "//INST", f"///DATE {_DATE}"]
+        if self.comment:
+            head.append(f"///COMM {ascii_text(self.comment)[:32].strip()}")
+        head.append("///ATTR SC,RW")
+        if self.moves:
+            head.append("///GROUP1 RB1")
+        return "\r\n".join((*head, "NOP", *self.lines, "END", ""))
+
+    def header(self) -> list[str]:
+        rows = [("C", number, kept) for kept, number in self.points.items()]
+        rows += [("P", number, kept) for kept, number in self.cell.kept.items() if number in self.positions]
+        rows.sort(key=lambda row: (bool(row[2].position.flags), row[0], row[2].position.kind, row[2].frame, row[1]))
+        counts = [sum(bank == kind for bank, _, _ in rows) for kind in ("C", "BC", "EC", "P", "BP", "EX")]
+        lines = [f"///NPOS {','.join(map(str, counts))}"]
+        if rows or self.moves:
+            lines.append(f"///TOOL {self.tool}")
+        state = {"TOOL": str(self.tool)}
+        for bank, number, kept in rows:
+            for word, value in self.wanted(kept).items():
+                if state.get(word) != value:
+                    state[word] = value
+                    lines.append(f"///{word} {value}".rstrip())
+                    if word in ("PULSE", "RECTAN"):
+                        state.pop("RECTAN" if word == "PULSE" else "PULSE", None)
+            lines.append(f"{bank}{number:05d}={self.values(kept.position)}")
+        return lines
+
+    def wanted(self, kept: Kept) -> dict[str, str]:
+        """The header lines that a point needs."""
+        found = {"TOOL": str(kept.tool)}
+        if kept.position.kind == "joints":
+            return {**found, "POSTYPE": "PULSE", "PULSE": ""}
+        if kept.frame:
+            found["USER"] = str(kept.frame)
+        found |= {"POSTYPE": "USER" if kept.frame else "BASE", "RECTAN": ""}
+        flags = dict(kept.position.flags)
+        if flags:
+            found["RCONF"] = ",".join(str(flags.get(name, 0)) for name in tables.FLAGS)
+        return found
+
+    def values(self, position: Position) -> str:
+        if position.kind == "joints":
+            counts = self.robot.pulses_per_degree if self.robot is not None else None
+            assert counts is not None  # `sayable` has made poses of the others
+            return ",".join(str(round(v * k)) for v, k in zip(position.values, counts, strict=False))
+        x, y, z, a, b, c = position.values
+        return ",".join((*(fixed(v, 3) for v in (x, y, z)), *(fixed(v, 4) for v in (c, b, a))))
+
+
+def pose_of_joints(position: Position, robot: RobotModel, tool: tuple[float, ...] | None) -> Position:
+    """The pose and posture of joints, in the base."""
+    make = registry.dialect("inform").notation
+    if tool is None or make is None:
+        raise CannotSayError("joint values with a tool that is kept in a variable")
+    joints = np.array(position.values[: robot.axes], dtype=np.float64)
+    flags: Mapping[str, int] = make().encode(robot, joints)
+    pose = np.asarray(robot.forward(joints) @ matrix(tool), dtype=np.float64)
+    return Position("pose", values_of(pose), tuple(flags.items()))

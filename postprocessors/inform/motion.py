@@ -1,0 +1,319 @@
+"""IR moves as MOVJ, MOVL, MOVC and IMOV: the point with its tool and frame, speed, positioning, condition."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from rpl import ir
+from rpl.diagnostics import Code, Diagnostics, Severity, code
+from rpl.passes.legalise.modal import MM_S_PER_PERCENT
+from rpl.source import Origin
+from rpl.writing.text import number_text
+
+from . import tables
+from .conditions import single
+from .errors import CannotSayError
+from .operands import bank_of, constant, element
+from .places import WORLD, Position, product, way_of
+from .positions import Positions
+
+RANGE = code(
+    "inform-range", Severity.WARNING, "{tag}={value:g} is written as {written}: a controller takes {least:g} to {most:g}"
+)
+TOOL_SPEED = code(
+    "inform-joint-speed",
+    Severity.WARNING,
+    "a joint move's tool speed has no counterpart; it is written in percent of the axes ({factor:g} mm/s a percent)",
+)
+JOINT_CORNER = code(
+    "inform-joint-corner",
+    Severity.WARNING,
+    "a joint move has positioning levels, no corner distance: {distance:g} mm is written as {written}",
+)
+LEFT_OUT = code("inform-left-out", Severity.WARNING, "INFORM has no place for {what} at a move; it is left out")
+NO_SPEED = code("inform-no-speed", Severity.WARNING, "the move says no speed; it is written without one")
+
+Number = Callable[[str, ir.Expression], None]
+
+
+@dataclass(slots=True)
+class Goal:
+    """Where a move went: the point as it is written, and its position where that is constant."""
+
+    place: str
+    tool: int
+    frame: int
+    position: Position | None
+
+
+@dataclass(slots=True)
+class Motion:
+    """Prints the moves of one job. `line_of_last`: the line of the last move, as long as nothing can come between."""
+
+    positions: Positions
+    number: Number
+    diagnostics: Diagnostics
+    names: dict[str, int] = field(default_factory=dict)  # point of the IR -> its number
+    lines: list[str] = field(default_factory=list)
+    last: Goal | None = None
+    line_of_last: int | None = None
+    reported: set[tuple[Code, str]] = field(default_factory=set)
+
+    def forget(self) -> None:
+        """Neither place nor line of the last move are known here."""
+        self.last, self.line_of_last = None, None
+        self.positions.in_tools.clear()
+
+    def report_once(self, about: Code, origin: Origin, key: str = "", **arguments: object) -> None:
+        if (about, key) not in self.reported:
+            self.reported.add((about, key))
+            self.diagnostics.report(about, origin, **arguments)
+
+    def move(self, move: ir.Move, done: list[str]) -> list[str]:
+        """The lines of a move behind those that are `done`; the line of a move before may become the start of an arc."""
+        self.lines = self.positions.lines = []
+        self.refuse(move)
+        tool = self.tool(move.tool)
+        if move.relative is not None:
+            goal, shown = self.relative(move, tool)
+        elif move.kind in tables.MOVES:
+            goal = self.goal(move.target, move.frame, tool)
+            shown = f"{tables.MOVES[move.kind]} {goal.place}"
+        else:
+            raise CannotSayError(f"there is no {move.kind} move")
+        speed, blend = self.speed(move), self.blend(move)
+        ending = self.ending(move)
+        if move.kind == "circular" and move.relative is None:
+            self.arc(move, tool, speed, done)
+        self.lines.append(" ".join(part for part in (shown, *speed, *blend, *ending) if part))
+        self.last = goal
+        self.line_of_last = len(done) + len(self.lines) - 1
+        self.positions.job.moves = True
+        if move.search is not None or move.relative is not None:
+            self.line_of_last = None
+            self.last = self.last if move.search is None else None
+        return self.lines
+
+    def refuse(self, move: ir.Move) -> None:
+        for what, found in (
+            ("a circle by its angle", move.swept),
+            ("a load", move.load),
+            ("a motion group of its own", move.group != 1),
+        ):
+            if found:
+                raise CannotSayError(f"a move has no place for {what}")
+        left = {
+            "settings of its own": bool(move.settings),
+            "an orientation rule": move.orientation not in (None, "variable", "wrist"),
+            "a circle's orientation rule": move.circle_orientation not in (None, "base"),
+            "an acceleration in mm/s2": move.speed is not None and move.speed.path_acceleration is not None,
+            "an acceleration in deg/s2": move.speed is not None and move.speed.axis_acceleration is not None,
+        }
+        for what, found in left.items():
+            if found:
+                self.report_once(LEFT_OUT, move.origin, what, what=what)
+
+    # ---- points
+
+    def tool(self, tool: ir.Expression | None) -> int:
+        """The tool's number; one that is kept in a variable is set first."""
+        if tool is None:
+            return self.positions.job.tool
+        known = self.positions.constants.known(tool)
+        cell = self.positions.job.cell
+        if known is not None:
+            return cell.tool(known.values)
+        place = element(tool)
+        if place is None or bank_of(place) != "P":
+            raise CannotSayError("a tool is a constant or in a position variable")
+        number = cell.tool_in(place)
+        if self.positions.in_tools.get(number) != place:
+            self.lines.append(f"SETTOOL TL#({number}) {place}")
+            self.positions.in_tools[number] = place
+        return number
+
+    def goal(self, target: ir.Expression, frame: ir.Expression | None, tool: int) -> Goal:
+        """The taught point or position variable of a target."""
+        job, constants = self.positions.job, self.positions.constants
+        base = Position("pose", WORLD) if frame is None else constants.known(frame)
+        while isinstance(target, ir.Builtin) and target.function in ("joints_to_target", "pose_of"):
+            target = target.arguments[0]
+        known = constants.known(target)
+        if known is not None and base is not None:
+            number = job.cell.frame(base.values)
+            wanted = self.names.get(target.id) if isinstance(target, ir.Name) else None
+            return Goal(job.point_of(known, tool, number, wanted), tool, number, known)
+        if tool != job.tool:
+            raise CannotSayError("positions in variables are driven to with one tool in a job, here it is another one")
+        if (base is None or base.values != WORLD) and not self.is_joints(target):
+            assert frame is not None  # no frame is the base
+            target = ir.Binary(":", frame, target)
+            return Goal(self.positions.as_variable(target), tool, 0, None)
+        place = self.positions.as_variable(target)
+        if job.cell.tool_of_variables != job.tool:
+            helper = self.positions.registers.helper("P")
+            unit = job.constant(Position("pose", WORLD), job.tool)
+            self.lines.append(f"MULMAT {helper} {unit} {place}")
+            place = helper
+        return Goal(place, tool, 0, None)
+
+    def is_joints(self, target: ir.Expression) -> bool:
+        known = self.positions.constants.known(target)
+        return known is not None and known.kind == "joints"
+
+    def relative(self, move: ir.Move, tool: int) -> tuple[Goal, str]:
+        """IMOV with the way in a position variable, or the place itself where it is known."""
+        way = way_of(move.target) or self.positions.constants.known(move.target)
+        frame = self.positions.constants.known(move.frame) if move.frame is not None else Position("pose", WORLD)
+        job = self.positions.job
+        if move.kind == "joint":
+            reached = None if way is None or frame is None else self.reached(move, way, tool, frame)
+            if reached is None:
+                raise CannotSayError("a relative joint move from a place that is not known here")
+            return reached, f"MOVJ {reached.place}"
+        if move.kind != "linear" or move.relative == "joints":
+            raise CannotSayError("a relative move in joints or on a circle")
+        if frame is None:
+            raise CannotSayError("a relative move in a computed frame")
+        number = job.cell.frame(frame.values)
+        place = self.positions.as_variable(move.target) if way is None else job.constant(way, tool)
+        if way is None and tool != job.tool:
+            raise CannotSayError("a computed way with another tool than the job's own")
+        word = "TF" if move.relative == "tool" else f"UF#({number})" if number else "BF"
+        goal = None if way is None else self.reached(move, way, tool, frame)
+        return goal or Goal("", tool, 0, None), f"IMOV {place} {word}"
+
+    def reached(self, move: ir.Move, way: Position, tool: int, frame: Position) -> Goal | None:
+        """Where a relative move comes to from the last place."""
+        last = self.last
+        if last is None or last.position is None or last.position.kind != way.kind or last.tool != tool:
+            return None
+        job = self.positions.job
+        start = last.position
+        if way.kind == "joints":
+            values = tuple(a + b for a, b in zip(start.values, way.values, strict=False))
+            return Goal(job.point_of(Position("joints", values), tool, 0, None), tool, 0, Position("joints", values))
+        if move.relative == "tool":
+            found = product(start.values, way.values)
+        elif not any(way.values[3:]) and job.cell.frame(frame.values) == last.frame:
+            found = (*(a + b for a, b in zip(start.values[:3], way.values[:3], strict=True)), *start.values[3:])
+        else:
+            return None
+        position = Position("pose", found, start.flags)
+        place = job.point_of(position, tool, last.frame, None) if move.kind == "joint" else ""
+        return Goal(place, tool, last.frame, position)
+
+    def arc(self, move: ir.Move, tool: int, speed: list[str], done: list[str]) -> None:
+        """The start of the arc and the point on the way. The start is the end of the move before, where that is linear
+        or an arc; else it is taught once more."""
+        if move.via is None:
+            raise CannotSayError("a circle needs its point on the way")
+        via = self.goal(move.via, move.frame, tool)
+        if self.line_of_last is not None and not self.lines:
+            before = done[self.line_of_last]
+            if before.startswith("MOVL "):
+                done[self.line_of_last] = f"MOVC {before[5:]}"
+            elif before.startswith("MOVC "):
+                done[self.line_of_last] = f"{before} FPT"
+        if self.line_of_last is None or not done[self.line_of_last].startswith("MOVC ") or self.lines:
+            if self.last is not None and self.last.place:
+                start = self.last.place
+            else:
+                start = self.positions.registers.helper("P")
+                self.lines.append(f"GETS {start} $PX000")
+            self.lines.append(" ".join(("MOVC", start, *speed, "PL=0")))
+        self.lines.append(" ".join(("MOVC", via.place, *speed)))
+
+    # ---- tags
+
+    def tag(self, tag: str, value: ir.Expression, origin: Origin) -> str:
+        """`V=100.0`; a computed value counts in parts of the unit."""
+        known = constant(value)
+        least, most, decimals = tables.TAGS[tag]
+        if known is not None:
+            written = number_text(min(max(known, least), most), decimals)
+            if abs(float(written) - known) > 10.0**-decimals * 0.5000001:
+                self.report_once(
+                    RANGE, origin, f"{tag}{known}", tag=tag, value=known, written=written, least=least, most=most
+                )
+            return f"{tag}={float(written):.{decimals}f}"
+        registers = self.positions.registers
+        real, whole = registers.helper("R"), registers.helper("D")
+        self.number(real, value)
+        self.lines += [f"MUL {real} {float(tables.COUNTS[tag]):.1f}", f"ADD {real} 0.5", f"SET {whole} {real}"]
+        return f"{tag}={whole}"
+
+    def speed(self, move: ir.Move) -> list[str]:
+        """VJ of a joint move, V or VR of another one, ACC."""
+        speed, found = move.speed or ir.Speed(), []
+        if move.kind == "joint":
+            if speed.joint is not None:
+                found.append(self.tag("VJ", speed.joint, move.origin))
+            elif speed.path is not None:
+                value = constant(speed.path)
+                if value is None:
+                    raise CannotSayError("a joint move with a computed tool speed")
+                self.report_once(TOOL_SPEED, move.origin, factor=MM_S_PER_PERCENT)
+                found.append(self.tag("VJ", ir.RealLiteral(value / MM_S_PER_PERCENT), move.origin))
+        elif speed.path is not None:
+            found.append(self.tag("V", speed.path, move.origin))
+        elif speed.rotation is not None:
+            found.append(self.tag("VR", speed.rotation, move.origin))
+        if speed.duration is not None:
+            self.report_once(LEFT_OUT, move.origin, "duration", what="a duration")
+        if move.acceleration is not None:
+            value = constant(move.acceleration)
+            if value is None:
+                self.report_once(LEFT_OUT, move.origin, "acceleration", what="a computed acceleration")
+            elif value < 100:
+                found.append(f"ACC={max(20, round(value))}")
+        if not found:
+            self.report_once(NO_SPEED, move.origin)
+        return found
+
+    def blend(self, move: ir.Move) -> list[str]:
+        match move.blend:
+            case None | ir.BlendStop():
+                return ["PL=0"]
+            case ir.BlendLevel(level=level):
+                return self.level(level)
+            case ir.BlendDistance(distance=distance) if distance is not None:
+                known = constant(distance)
+                if known == 0:
+                    return ["PL=0"]
+                if move.kind != "joint":
+                    return [self.tag("CR", distance, move.origin)]
+                if known is None:
+                    raise CannotSayError("a joint move with a computed corner distance")
+                level_of = max(n for n, size in enumerate(tables.LEVELS) if size <= known)
+                written = f"PL={level_of}"
+                if tables.LEVELS[level_of] != known:
+                    self.report_once(JOINT_CORNER, move.origin, written, distance=known, written=written)
+                return [written]
+        raise CannotSayError("this kind of corner")
+
+    def level(self, level: ir.Expression) -> list[str]:
+        known = constant(level)
+        if known is None:
+            shown = element(level)
+            if shown is None:
+                raise CannotSayError("a computed positioning level")
+            return [f"PL={shown}"]
+        if known == tables.STANDARD_LEVEL:
+            return []
+        if not 0 <= known < len(tables.LEVELS):
+            raise CannotSayError(f"there is no positioning level {known:g}")
+        return [f"PL={int(known)}"]
+
+    def ending(self, move: ir.Move) -> list[str]:
+        """NWAIT and UNTIL."""
+        found = ["NWAIT"] if move.concurrent else []
+        if move.search is not None:
+            if move.search.stop == "none":
+                raise CannotSayError("a search that does not stop the robot")
+            condition = single(move.search.condition)
+            if condition is None or "#" not in condition:
+                raise CannotSayError("UNTIL looks at one input")
+            found.append(f"UNTIL {condition}")
+        return found

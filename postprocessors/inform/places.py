@@ -1,0 +1,210 @@
+"""Constant positions: their values out of IR expressions, and what of the program's data never changes."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rpl import ir
+from rpl.emulator.rotations import matrix_to_zyx, pose_matrix, zyx_to_matrix
+from rpl.passes.legalise.startdata import INITIALISE
+from rpl.passes.rewrite import rewrite_parts
+
+from . import tables
+from .errors import CannotSayError
+from .operands import constant, numbered
+
+if TYPE_CHECKING:
+    from rpl.emulator.rotations import FloatArray
+
+_POSE = ("x", "y", "z", "a", "b", "c")
+_UNSET = 8e9  # RAPID's mark of an external axis that is not there
+Values = tuple[float, ...]
+WORLD: Values = (0.0,) * 6
+
+
+@dataclass(frozen=True, slots=True)
+class Position:
+    """kind: pose (x y z a b c; mm, deg) or joints (deg). `flags` of a pose with a posture; external axes e1 ..."""
+
+    kind: str
+    values: Values
+    flags: tuple[tuple[str, int], ...] = ()
+    external: Values = ()
+
+    def with_flags(self, flags: Mapping[str, int]) -> Position:
+        return replace(self, flags=tuple(flags.items()))
+
+
+def position_of(value: ir.Expression) -> Position | None:
+    """The position that is written out; None when it is computed or lacks components."""
+    parts = flat(value)
+    if "j1" in parts:
+        names = [name for name in tables.JOINT_ELEMENTS if name in parts]
+        found = _numbers(parts, names)
+        return None if found is None else Position("joints", found, (), _external(parts))
+    found = _numbers(parts, _POSE)
+    if found is None:
+        return None
+    flags = tuple((name, constant(parts[name])) for name in tables.FLAGS if name in parts)
+    if any(value is None for _, value in flags):
+        return None
+    kept = tuple((name, int(value)) for name, value in flags if value is not None)
+    return Position("pose", (*found[:3], *map(_turned, found[3:])), kept, _external(parts))
+
+
+def way_of(value: ir.Expression) -> Position | None:
+    """The way of a relative move: components that are left out are zero."""
+    parts = flat(value)
+    joints = any(name in parts for name in tables.JOINT_ELEMENTS)
+    names = tables.JOINT_ELEMENTS if joints else _POSE
+    found = _numbers({**dict.fromkeys(names, ir.RealLiteral(0.0)), **parts}, names)
+    return None if found is None else Position("joints" if joints else "pose", found, (), _external(parts))
+
+
+def flat(value: ir.Expression) -> dict[str, ir.Expression]:
+    """Components by name; those of nested parts beside the others."""
+    found: dict[str, ir.Expression] = {}
+    if isinstance(value, ir.Aggregate):
+        for name, entry in value.entries:
+            if isinstance(entry, ir.Aggregate):
+                found.update(flat(entry))
+            elif name is not None:
+                found[name.lower()] = entry
+    return found
+
+
+def _numbers(parts: Mapping[str, ir.Expression], names: tuple[str, ...] | list[str]) -> Values | None:
+    found = [constant(parts.get(name)) for name in names]
+    return None if None in found else tuple(float(one) + 0.0 for one in found if one is not None)
+
+
+def _external(parts: Mapping[str, ir.Expression]) -> Values:
+    """Positions of external axes, without those that are not there and zeros behind the last other one."""
+    values = [constant(parts[name]) for name in tables.EXTERNAL if name in parts]
+    found = [float(one) for one in values if one is not None and abs(one) < _UNSET]
+    while found and found[-1] == 0:
+        found.pop()
+    return tuple(found)
+
+
+def _turned(degrees: float) -> float:
+    """The angle within half a turn."""
+    return degrees if -180 <= degrees <= 180 else (degrees + 180) % 360 - 180
+
+
+# ---- matrices
+
+
+def matrix(values: Values) -> FloatArray:
+    return pose_matrix(list(values[:3]), zyx_to_matrix(list(values[3:6])))
+
+
+def values_of(pose: FloatArray) -> Values:
+    a, b, c = matrix_to_zyx(pose)
+    return tuple(float(round(float(one), 9)) + 0.0 for one in (*pose[:3, 3], a, b, c))
+
+
+def inverse(values: Values) -> Values:
+    return values_of(np.asarray(np.linalg.inv(matrix(values)), dtype=np.float64))
+
+
+def product(one: Values, other: Values) -> Values:
+    return values_of(np.asarray(matrix(one) @ matrix(other), dtype=np.float64))
+
+
+# ---- data that never changes
+
+
+@dataclass(slots=True)
+class Constants:
+    """Position variables that get one constant value at the start of the program and no other."""
+
+    values: dict[tuple[str, int], Position] = field(default_factory=dict)
+    points: dict[str, Position] = field(default_factory=dict)  # the taught points of the routine at hand
+
+    @classmethod
+    def of(cls, program: ir.Program) -> Constants:
+        assigned: Counter[tuple[str, int]] = Counter()
+        first: dict[tuple[str, int], Position] = {}
+        chosen = False
+
+        def note(target: ir.Expression) -> None:
+            nonlocal chosen
+            base = target.base if isinstance(target, ir.Field) else target
+            place = numbered(base)
+            if place is not None:
+                assigned[place] += 1
+            elif isinstance(base, ir.Index) and isinstance(base.base, ir.Name) and base.base.id == "P":
+                chosen = True
+
+        def body(statements: ir.Body) -> ir.Body:
+            for statement in statements:
+                if isinstance(statement, ir.Assign):
+                    note(statement.target)
+                if isinstance(statement, ir.Move) and statement.search is not None and statement.search.found:
+                    note(statement.search.found)
+                rewrite_parts(statement, lambda expression: expression, body)
+            return statements
+
+        for module in program.modules:
+            for routine in module.routines:
+                body(routine.body)
+                if not routine.name.lower().startswith(INITIALISE.lower()):
+                    continue
+                points = _points(routine)
+                for statement in routine.body:
+                    place = numbered(statement.target) if isinstance(statement, ir.Assign) else None
+                    if place is not None and isinstance(statement, ir.Assign):
+                        given = points.get(statement.value.id) if isinstance(statement.value, ir.Name) else None
+                        known = given or position_of(statement.value)
+                        if known is not None:
+                            first[place] = known
+        if chosen:
+            return cls()
+        return cls({place: value for place, value in first.items() if assigned[place] == 1})
+
+    def routine(self, routine: ir.Routine) -> Constants:
+        return Constants(self.values, _points(routine))
+
+    def known(self, expression: ir.Expression) -> Position | None:
+        """The position that an expression always is."""
+        match expression:
+            case ir.System(name="null_frame" | "world"):
+                return Position("pose", WORLD)
+            case ir.Aggregate():
+                return position_of(expression)
+            case ir.Name(id=name) if name in self.points:
+                return self.points[name]
+            case ir.Builtin(function="pose_of", arguments=(inner,)):
+                return self.known(inner)
+            case ir.Builtin(function="inverse", arguments=(inner,)):
+                found = self.known(inner)
+                return None if found is None or found.kind != "pose" else Position("pose", inverse(found.values))
+            case ir.Binary(op=":", left=left, right=right) | ir.Builtin(function="compose", arguments=(left, right)):
+                one, other = self.known(left), self.known(right)
+                if one is None or other is None or "joints" in (one.kind, other.kind):
+                    return None
+                return Position("pose", product(one.values, other.values))
+        place = numbered(expression)
+        return None if place is None else self.values.get(place)
+
+
+def _points(routine: ir.Routine) -> dict[str, Position]:
+    found: dict[str, Position] = {}
+    for declaration in routine.declarations:
+        if isinstance(declaration, ir.Variable) and declaration.initial is not None:
+            position = position_of(declaration.initial)
+            if position is not None and declaration.storage == "constant":
+                found[declaration.name] = position
+    return found
+
+
+def needs_cannot(position: Position | None, what: str) -> Position:
+    if position is None:
+        raise CannotSayError(f"{what} is computed")
+    return position

@@ -1,0 +1,170 @@
+"""Values of position variables: SET, MULMAT, INVMAT, ADD, SUB, CNVRT, GETS, and constants kept in variables."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from rpl import ir
+
+from . import tables
+from .errors import CannotSayError
+from .job import Job
+from .operands import Registers, bank_of, constant, element
+from .places import Constants, Position, flat, position_of
+
+_POSES = ("x", "y", "z", "a", "b", "c")
+
+
+@dataclass(slots=True)
+class Positions:
+    """Prints what gives position variables their values."""
+
+    registers: Registers
+    job: Job
+    constants: Constants
+    lines: list[str] = field(default_factory=list)
+    in_tools: dict[int, str] = field(default_factory=dict)  # tool -> the variable whose value it has just got
+
+    def changed(self, place: str) -> None:
+        """The variable has another value now."""
+        computed = "[" in place
+        self.in_tools = {n: one for n, one in self.in_tools.items() if not computed and "[" not in one and one != place}
+
+    def position(self, place: str, value: ir.Expression) -> None:
+        """place := value."""
+        self.changed(place)
+        shown = element(value) if isinstance(value, ir.Index | ir.Name) else None
+        if shown is not None:
+            if shown != place:
+                self.lines.append(f"SET {place} {shown}")
+            return
+        known = self.constants.known(value)
+        if known is not None:
+            self.lines.append(f"SET {place} {self.kept(known)}")
+            return
+        match value:
+            case ir.System(name="actual_pose") | ir.Builtin(function="current_target", arguments=()):
+                self.lines.append(f"GETS {place} $PX001")
+            case ir.System(name="actual_joints") | ir.Builtin(function="current_joints"):
+                self.lines.append(f"GETS {place} $PX000")
+            case ir.Builtin(function="current_target", arguments=arguments):
+                self.current(place, arguments)
+            case ir.Aggregate():
+                self.aggregate(place, value)
+            case ir.Binary(op=":", left=one, right=other) | ir.Builtin(function="compose", arguments=(one, other)):
+                self.product(place, one, other)
+            case ir.Builtin(function="displaced", arguments=(target, shift)):
+                self.product(place, shift, target)
+            case ir.Builtin(function="displaced_in_tool", arguments=(target, shift)):
+                self.product(place, target, shift)
+            case ir.Builtin(function="inverse", arguments=(inner,)):
+                self.lines.append(f"INVMAT {place} {self.as_variable(inner)}")
+            case ir.Builtin(function="pose_of", arguments=(inner,)):
+                self.position(place, inner)
+            case ir.Builtin(function="element_sum" | "element_difference" as how, arguments=(one, other)):
+                self.sum(place, one, other, "ADD" if how == "element_sum" else "SUB")
+            case ir.Builtin(function="offset", arguments=(base, *way)):
+                self.offset(place, base, way)
+            case ir.Builtin(function="joints_to_target" | "target_to_joints" as how, arguments=(inner, *more)):
+                self.converted(place, how, inner, more)
+            case ir.VendorValue(dialect="inform", text=text) if text.startswith("$"):
+                self.lines.append(f"GETS {place} {text}")
+            case _:
+                raise CannotSayError("INFORM does not calculate with positions like this")
+
+    def kept(self, position: Position) -> str:
+        """The position variable that holds a constant."""
+        return self.job.constant(position, self.job.cell.tool_of_variables)
+
+    def as_variable(self, value: ir.Expression) -> str:
+        """A position as a variable: its own, one that holds the constant, or a helper."""
+        shown = element(value) if isinstance(value, ir.Index | ir.Name) else None
+        if shown is not None:
+            if bank_of(shown) != "P":
+                raise CannotSayError("a position is needed")
+            return shown
+        known = self.constants.known(value)
+        if known is not None:
+            return self.kept(known)
+        helper = self.registers.helper("P")
+        self.position(helper, value)
+        return helper
+
+    def product(self, place: str, one: ir.Expression, other: ir.Expression) -> None:
+        """MULMAT place one other."""
+        self.lines.append(f"MULMAT {place} {self.as_variable(one)} {self.as_variable(other)}")
+
+    def sum(self, place: str, one: ir.Expression, other: ir.Expression, word: str) -> None:
+        first, second = self.as_variable(one), self.as_variable(other)
+        if second == place and first != place:
+            helper = self.registers.helper("P")
+            self.lines.append(f"SET {helper} {second}")
+            second = helper
+        if first != place:
+            self.lines.append(f"SET {place} {first}")
+        self.lines.append(f"{word} {place} {second}")
+
+    def offset(self, place: str, base: ir.Expression, way: list[ir.Expression]) -> None:
+        """Moved by x, y, z in the axes of its frame."""
+        values = [constant(one) for one in way]
+        if None in values:
+            raise CannotSayError("an offset that is computed component by component")
+        x, y, z = (float(one or 0.0) for one in values)
+        first = self.as_variable(base)
+        if first != place:
+            self.lines.append(f"SET {place} {first}")
+        if any((x, y, z)):
+            self.lines.append(f"ADD {place} {self.kept(Position('pose', (x, y, z, 0.0, 0.0, 0.0)))}")
+
+    def current(self, place: str, arguments: tuple[ir.Expression, ...]) -> None:
+        """Where the tool is, in a frame."""
+        frame = arguments[1] if len(arguments) > 1 else ir.System("null_frame")
+        self.tool_is_of_job(arguments[0])
+        self.lines.append(f"GETS {place} $PX001")
+        if frame not in (ir.System("null_frame"), ir.System("world")):
+            helper = self.registers.helper("P")
+            self.position(helper, ir.Builtin("inverse", (frame,)))
+            self.lines.append(f"MULMAT {place} {helper} {place}")
+
+    def tool_is_of_job(self, tool: ir.Expression) -> None:
+        known = self.constants.known(tool)
+        if known is None or self.job.cell.tool(known.values) != self.job.tool:
+            raise CannotSayError("the place of another tool than the job's own")
+
+    def converted(self, place: str, how: str, inner: ir.Expression, more: list[ir.Expression]) -> None:
+        """CNVRT place source PULSE or BF, with the tool's number."""
+        tool = ""
+        if more:
+            known = self.constants.known(more[0])
+            if known is None:
+                raise CannotSayError("a conversion with a computed tool")
+            tool = f" TL#({self.job.cell.tool(known.values)})"
+        frame = more[1] if len(more) > 1 else ir.System("null_frame")
+        source = inner
+        if frame not in (ir.System("null_frame"), ir.System("world")):
+            if how == "joints_to_target":
+                raise CannotSayError("a conversion into a user frame")
+            source = ir.Binary(":", frame, inner)
+        word = "PULSE" if how == "target_to_joints" else "BF"
+        self.lines.append(f"CNVRT {place} {self.as_variable(source)} {word}{tool}")
+
+    def aggregate(self, place: str, value: ir.Aggregate) -> None:
+        """Constant components from a variable that holds them, computed ones filled in behind."""
+        parts = flat(value)
+        computed = {name: part for name, part in parts.items() if constant(part) is None}
+        if not set(computed) <= set(_POSES) or not set(_POSES) <= set(parts):
+            raise CannotSayError("a position with computed joints or missing components")
+        zeros = tuple((n, ir.RealLiteral(0.0) if n in computed else part) for n, part in parts.items())
+        known = position_of(ir.Aggregate(zeros))
+        if known is None:
+            raise CannotSayError("a position with computed flags")
+        self.lines.append(f"SET {place} {self.kept(known)}")
+        for name, part in computed.items():
+            number = tables.POSE_ELEMENTS.index(name) + 1
+            counts = 1 / (tables.MM_PER_COUNT if number <= 3 else tables.DEG_PER_COUNT)
+            shown = element(part) if isinstance(part, ir.Index | ir.Name) else None
+            if shown is None:
+                raise CannotSayError("a component that is more than a variable")
+            real, whole = self.registers.helper("R"), self.registers.helper("D")
+            self.lines += [f"SET {real} {shown}", f"MUL {real} {counts:.1f}", f"SET {whole} {real}"]
+            self.lines.append(f"SETE {place} ({number}) {whole}")

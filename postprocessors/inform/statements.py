@@ -1,0 +1,360 @@
+"""IR statements as INFORM lines. What INFORM cannot say becomes a guarded stop: the original as remarks, then PAUSE."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.source import Origin
+from rpl.writing.ledger import EmissionLedger
+
+from . import tables
+from .assignments import Assignments
+from .conditions import alternatives, single, text
+from .errors import CannotSayError
+from .labels import Labels
+from .motion import Motion
+from .operands import constant, element, is_digital, operand, signal, variable
+from .texts import ascii_text, remarks
+
+GUARDED = code(
+    "inform-guarded-stop",
+    Severity.LOSS,
+    "INFORM cannot say this: {reason}",
+    "the program stops there with PAUSE; write the line by hand",
+)
+SPLIT_MESSAGE = code(
+    "inform-split-message", Severity.WARNING, "a message of more than {most} characters is written in several lines"
+)
+SEARCHED = code(
+    "inform-search",
+    Severity.WARNING,
+    "whether and where the search found its signal is asked behind the move, from the signal and the robot's place",
+)
+_HALTS = {"stop": "PAUSE", "exit": "ABORT"}
+_POLL_S = 0.01
+
+
+@dataclass(slots=True)
+class Printer:
+    """Prints the body of one job."""
+
+    assignments: Assignments
+    motion: Motion
+    labels: Labels
+    jobs: Mapping[str, str]  # routine, folded -> job
+    tasks: dict[str, str]  # job -> sub task, of the whole program
+    ledger: EmissionLedger
+    diagnostics: Diagnostics
+    lines: list[str] = field(default_factory=list)
+
+    # ---- lines and remarks
+
+    def put(self, lines: list[str], origin: Origin | None = None) -> None:
+        if origin is not None:
+            self.comments_only(origin)
+        for line in lines:
+            if len(line) > tables.LONGEST_LINE:
+                raise CannotSayError(f"a line of {len(line)} characters; a controller takes {tables.LONGEST_LINE}")
+            self.lines.append(line)
+
+    def line(self, line: str, origin: Origin | None = None) -> None:
+        self.put([line], origin)
+
+    def remark(self, about: str) -> None:
+        self.lines.extend(remarks(about))
+
+    def comments_only(self, origin: Origin) -> None:
+        for comment in origin.comments:
+            self.remark(comment.text)
+
+    # ---- bodies
+
+    def body(self, body: ir.Body, last: bool = False) -> None:
+        for at, statement in enumerate(body):
+            if last and at == len(body) - 1 and isinstance(statement, ir.Return) and statement.value is None:
+                self.comments_only(statement.origin)
+                self.ledger.merged(statement)
+                continue
+            self.statement(statement)
+
+    def statement(self, statement: ir.Statement) -> None:
+        """One statement, or its guarded stop."""
+        kept = len(self.lines)
+        self.assignments.registers.begin()
+        try:
+            self.written(statement)
+        except CannotSayError as error:
+            del self.lines[kept:]
+            self.guard(statement, str(error))
+        else:
+            self.ledger.written(statement)
+
+    def guard(self, statement: ir.Statement, reason: str) -> None:
+        self.comments_only(statement.origin)
+        original = statement.origin.text or getattr(statement, "text", "") or statement.__class__.__name__
+        for part in original.splitlines():
+            self.remark(part.strip())
+        self.lines.append("PAUSE")
+        self.diagnostics.report(GUARDED, statement.origin, reason=reason)
+        self.ledger.reported(statement)
+        self.motion.forget()
+
+    # ---- statements
+
+    def written(self, statement: ir.Statement) -> None:
+        origin = statement.origin
+        match statement:
+            case ir.Nothing() | ir.LookAhead():
+                self.comments_only(origin)
+            case ir.If():
+                self.choice(statement)
+            case ir.While():
+                self.repeating(statement)
+            case ir.For():
+                self.counting(statement)
+            case ir.Label(name=name):
+                self.motion.forget()
+                self.line(f"*{self.labels.name(name)}", origin)
+            case ir.Goto(label=name):
+                self.line(f"JUMP *{self.labels.name(name)}", origin)
+            case ir.Assign():
+                self.put(self.assignments.assign(statement), origin)
+            case ir.Move():
+                self.move(statement)
+            case ir.WaitUntil():
+                self.waiting(statement)
+            case ir.Message():
+                self.message(statement)
+            case ir.Opaque(text=given):
+                raise CannotSayError(f"it was not read ({given.strip()[:40]})")
+            case ir.Vendor(dialect=dialect, text=given):
+                if dialect != "inform":
+                    raise CannotSayError(f"it belongs to {dialect}")
+                self.put([part.strip() for part in given.splitlines()], origin)
+            case _:
+                self.line(self.simple(statement), origin)
+                if isinstance(statement, ir.CallRoutine | ir.Halt):
+                    self.motion.forget()
+
+    def simple(self, statement: ir.Statement) -> str:
+        match statement:
+            case ir.CallRoutine():
+                return self.call(statement)
+            case ir.Return(value=None):
+                return "RET"
+            case ir.Halt(kind=kind) if kind in _HALTS:
+                return _HALTS[kind]
+            case ir.Wait(time=time):
+                return f"TIMER {self.time(time, statement.origin)}"
+            case ir.Pulse(signal=ir.Signal() as given, value=ir.BoolLiteral(value=True), duration=duration):
+                return f"PULSE {signal(given)} {self.time(duration, statement.origin)}"
+            case ir.TaskControl(op="start", task=name, arguments=()):
+                return f"PSTART JOB:{self.job(name)} {self.sub(name, start=True)}"
+            case ir.TaskControl(op="join", task=name):
+                return f"PWAIT {self.sub(name, start=False)}"
+        raise CannotSayError(f"there is no {statement.__class__.__name__} of this kind")
+
+    def time(self, value: ir.Expression, origin: Origin) -> str:
+        """`T=0.50`; lines that compute it stand before."""
+        self.motion.lines = self.assignments.lines = self.assignments.positions.lines = []
+        shown = self.motion.tag("T", value, origin)
+        self.put(self.motion.lines)
+        return shown
+
+    def job(self, routine: str) -> str:
+        return self.jobs.get(routine.lower(), routine.upper())
+
+    def call(self, call: ir.CallRoutine) -> str:
+        if call.arguments:
+            raise CannotSayError("arguments that are left over")
+        if call.dynamic is not None:
+            return f"CALL JOB:{variable(call.dynamic)}"
+        return f"CALL JOB:{self.job(call.name)}"
+
+    def sub(self, task: str, start: bool) -> str:
+        """The sub task of a job."""
+        if task.lower() not in self.tasks:
+            if not start or len(self.tasks) == tables.MOST_SUBTASKS:
+                raise CannotSayError("there is no sub task for it")
+            self.tasks[task.lower()] = f"SUB{len(self.tasks) + 1}"
+        return self.tasks[task.lower()]
+
+    # ---- blocks
+
+    def inner(self, body: ir.Body) -> None:
+        self.motion.forget()
+        self.body(body)
+        self.motion.forget()
+
+    def choice(self, statement: ir.If) -> None:
+        branches = [(one, body) for one, body in statement.branches if one != ir.BoolLiteral(False)]
+        for _, body in statement.branches:
+            if not any(body is kept for _, kept in branches):
+                for inner in body:
+                    self.ledger.merged(inner)
+        always = next((at for at, (one, _) in enumerate(branches) if one == ir.BoolLiteral(True)), None)
+        if always is not None or not branches:
+            raise CannotSayError("a condition that is always the same")
+        shown = [alternatives(condition) for condition, _ in branches]
+        if len(branches) == 1 and not statement.otherwise and self.short(statement):
+            return
+        for at, ((_, body), found) in enumerate(zip(branches, shown, strict=True)):
+            word = "IFTHENEXP" if at == 0 else "ELSEIFEXP"
+            self.line(f"{word} {text(found)}", statement.origin if at == 0 else None)
+            self.inner(body)
+        if statement.otherwise:
+            self.line("ELSE")
+            self.inner(statement.otherwise)
+        self.line("ENDIF")
+
+    def short(self, statement: ir.If) -> bool:
+        """`JUMP *L IF IN#(1)=ON`, `CALL JOB:X IF B000=1`."""
+        (condition, body), *_ = statement.branches
+        shown = single(condition)
+        if shown is None or len(body) != 1 or body[0].origin.comments:
+            return False
+        match body[0]:
+            case ir.Goto(label=label):
+                deed = f"JUMP *{self.labels.name(label)}"
+            case ir.Return(value=None):
+                deed = "RET"
+            case ir.CallRoutine() as call:
+                deed = self.call(call)
+            case _:
+                return False
+        self.line(f"{deed} IF {shown}", statement.origin)
+        self.ledger.written(body[0])
+        if isinstance(body[0], ir.CallRoutine):
+            self.motion.forget()
+        return True
+
+    def repeating(self, loop: ir.While) -> None:
+        if loop.condition == ir.BoolLiteral(True):
+            again = self.labels.fresh("LOOP")
+            self.line(f"*{again}", loop.origin)
+            self.inner(loop.body)
+            self.line(f"JUMP *{again}")
+            return
+        self.line(f"WHILEEXP {text(alternatives(loop.condition))}", loop.origin)
+        self.inner(loop.body)
+        self.line("ENDWHILE")
+
+    def counting(self, loop: ir.For) -> None:
+        if loop.scoped or loop.automatic or loop.at_least_once or loop.keeps_last:
+            raise CannotSayError("a loop whose counter or first pass follows another language's rule")
+        counter = element(ir.Name(loop.counter))
+        if counter is None:
+            raise CannotSayError("a FOR counts in a numbered variable")
+        step = "" if loop.step is None or constant(loop.step) == 1 else f" STEP {operand(loop.step)}"
+        self.line(f"FOR {counter}={operand(loop.start)} TO {operand(loop.stop)}{step}", loop.origin)
+        self.inner(loop.body)
+        self.line(f"NEXT {counter}")
+
+    # ---- motion
+
+    def move(self, move: ir.Move) -> None:
+        begun, ended = self.triggered(move)
+        self.comments_only(move.origin)
+        given = ir.Move if not begun else None
+        del given
+        lines = self.motion.move(move, self.lines)
+        if begun:
+            lines[-1] += " NWAIT"
+        self.put(lines)
+        for action in (*begun, *ended):
+            self.action(action)
+        if begun or ended:
+            self.motion.line_of_last = None
+        for trigger in move.triggers:
+            if isinstance(trigger, ir.Trigger):
+                self.ledger.merged(trigger)
+        self.outcome(move)
+
+    def triggered(self, move: ir.Move) -> tuple[list[ir.Assign | ir.CallRoutine], list[ir.Assign | ir.CallRoutine]]:
+        """Actions at the start and at the end of the path."""
+        begun: list[ir.Assign | ir.CallRoutine] = []
+        ended: list[ir.Assign | ir.CallRoutine] = []
+        for trigger in move.triggers:
+            if not isinstance(trigger, ir.Trigger):
+                raise CannotSayError("an action on the path that is kept in a variable")
+            apart = [one for one in (trigger.distance, trigger.delay) if one is not None and constant(one) != 0]
+            if apart or trigger.reference not in ("start", "end"):
+                raise CannotSayError("an action on the path that is neither at its start nor at its end")
+            (begun if trigger.reference == "start" else ended).append(trigger.action)
+        if begun and ended:
+            raise CannotSayError("actions at the start and at the end of one path")
+        return begun, ended
+
+    def action(self, action: ir.Assign | ir.CallRoutine) -> None:
+        if isinstance(action, ir.CallRoutine):
+            self.line(self.call(action))
+        else:
+            self.put(self.assignments.assign(action))
+
+    def outcome(self, move: ir.Move) -> None:
+        """Whether and where a search found its signal."""
+        search = move.search
+        if search is None or (search.hit is None and search.found is None):
+            return
+        self.diagnostics.report(SEARCHED, move.origin)
+        if search.hit is not None:
+            flag = variable(search.hit)
+            ((left, _, right),) = alternatives(search.condition)[0]
+            self.line(f"DIN {flag} {left}")
+            if right == "OFF":
+                self.line(f"XOR {flag} 1")
+        if search.found is not None:
+            self.put(self.assignments.assign(ir.Assign(search.found, ir.System("actual_pose"))))
+
+    # ---- waits, messages
+
+    def waiting(self, wait: ir.WaitUntil) -> None:
+        if wait.error is not None:
+            raise CannotSayError("a wait that raises an error")
+        shown = single(wait.condition) if _plain(wait.condition) else None
+        self.comments_only(wait.origin)
+        if shown is None:
+            self.polling(wait)
+            return
+        limit = "" if wait.timeout is None else f" {self.time(wait.timeout, wait.origin)}"
+        self.line(f"WAIT {shown}{limit}")
+        if wait.timed_out is not None:
+            flag = variable(wait.timed_out)
+            self.put([f"GETS {flag} $B014", f"XOR {flag} 1"])
+
+    def polling(self, wait: ir.WaitUntil) -> None:
+        """A condition that WAIT does not take is looked at again and again."""
+        if wait.timeout is not None:
+            raise CannotSayError("a wait with a limit for a condition that is more than one input or byte")
+        opposite = alternatives(wait.condition, wanted=False)
+        self.put([f"WHILEEXP {text(opposite)}", f"TIMER T={_POLL_S:.2f}", "ENDWHILE"])
+
+    def message(self, message: ir.Message) -> None:
+        if message.kind == "clear":
+            self.line("CLS", message.origin)
+            return
+        if not isinstance(message.text, ir.TextLiteral):
+            self.line(f"MSG {variable(message.text)}", message.origin)
+            return
+        given = ascii_text(message.text.value).replace('"', "'")
+        most = tables.LONGEST_MESSAGE
+        if len(given) > most:
+            self.diagnostics.report(SPLIT_MESSAGE, message.origin, most=most)
+        parts = [given[at : at + most] for at in range(0, len(given), most)] or [""]
+        self.put([f'MSG "{part}"' for part in parts], message.origin)
+
+
+def _plain(condition: ir.Expression) -> bool:
+    """One comparison that WAIT takes: a signal or a byte."""
+    match condition:
+        case ir.Signal() | ir.Unary(op="not", operand=ir.Signal()):
+            return True
+        case ir.Binary(op="=" | "<>" as op, left=left, right=right):
+            place = None if isinstance(left, ir.Signal) else element(left)
+            return (is_digital(left) or op == "=") and (
+                isinstance(left, ir.Signal) or (place is not None and place.startswith("B"))
+            ) and not isinstance(right, ir.Signal)
+    return False

@@ -1,0 +1,90 @@
+"""INFORM's words, ranges and limits as data. `M` marks what rests on memory; each such row has a test.
+
+Ranges are those of a controller as it is delivered.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+from rpl.passes.capabilities import Bank
+
+B: Final = Bank("B", 0, 99)
+D: Final = Bank("D", 0, 99)
+I: Final = Bank("I", 0, 99)  # noqa: E741 - the controller's own letter
+R: Final = Bank("R", 0, 99)
+S: Final = Bank("S", 0, 99)
+P: Final = Bank("P", 0, 127)
+POINTS: Final = Bank("C", 0, 9998)
+BANKS: Final[Mapping[str, Bank]] = {bank.name: bank for bank in (B, D, I, R, S, P)}
+NUMBERS: Final = ("B", "I", "D", "R")
+WHOLE: Final = ("B", "I", "D")
+RANGES: Final[Mapping[str, tuple[int, int]]] = {
+    "B": (0, 255),
+    "I": (-32768, 32767),
+    "D": (-(2**31), 2**31 - 1),
+}
+TOOLS: Final = 63
+USER_FRAMES: Final = 63
+
+COMPARISONS: Final = frozenset(("=", "<>", "<", ">", "<=", ">="))
+OPPOSITE: Final[Mapping[str, str]] = {"=": "<>", "<>": "=", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
+TURNED: Final[Mapping[str, str]] = {"=": "=", "<>": "<>", "<": ">", ">": "<", "<=": ">=", ">=": "<="}
+ARITHMETIC: Final[Mapping[str, str]] = {"+": "ADD", "-": "SUB", "*": "MUL", "/": "DIV", "div": "DIV"}
+BITS: Final[Mapping[str, str]] = {"band": "AND", "bor": "OR", "bxor": "XOR"}
+FUNCTIONS: Final[Mapping[str, str]] = {"sin": "SIN", "cos": "COS", "atan": "ATAN", "sqrt": "SQRT"}
+TEXT_FUNCTIONS: Final[Mapping[str, str]] = {
+    "text_part": "MID$",
+    "text_length": "LEN",
+    "character_code": "ASC",
+    "from_code": "CHR$",
+    "text_value": "VAL",
+}
+# What the printer of positions says in its own way.
+POSITION_FUNCTIONS: Final = (
+    *("current_target", "current_joints", "target_to_joints", "joints_to_target", "inverse", "compose", "pose_of"),
+    *("displaced", "displaced_in_tool", "element_sum", "element_difference", "offset"),
+)
+POSE_ELEMENTS: Final = ("x", "y", "z", "c", "b", "a")
+EXTERNAL: Final = ("e1", "e2", "e3", "e4", "e5", "e6")
+JOINT_ELEMENTS: Final = ("j1", "j2", "j3", "j4", "j5", "j6")
+FLAGS: Final = ("noflip", "lower", "rear", "r180", "t180", "s180")
+
+# Elements of positions count in these parts (M: 0.0001 deg since the DX100), speeds and times in variables in these.
+MM_PER_COUNT: Final = 0.001
+DEG_PER_COUNT: Final = 0.0001
+COUNTS: Final[Mapping[str, int]] = {"V": 10, "VR": 10, "VJ": 100, "T": 100, "CR": 10}
+# Least and largest value of a tag, and its decimals. M: the ranges of V and CR.
+TAGS: Final[Mapping[str, tuple[float, float, int]]] = {
+    "V": (0.1, 1500.0, 1),
+    "VR": (0.1, 180.0, 1),
+    "VJ": (0.01, 100.0, 2),
+    "CR": (1.0, 500.0, 1),
+    "T": (0.01, 655.35, 2),
+    "ACC": (20, 100, 0),
+}
+# M: distances of PL=0..8 in mm, as a controller is delivered.
+LEVELS: Final = (0.0, 12.5, 25.0, 50.0, 100.0, 200.0, 300.0, 400.0, 500.0)
+STANDARD_LEVEL: Final = 9  # stands for a move without PL
+
+MOVES: Final[Mapping[str, str]] = {"joint": "MOVJ", "linear": "MOVL", "circular": "MOVC"}
+SIGNALS: Final[Mapping[str, str]] = {
+    "digital_in": "IN",
+    "digital_out": "OT",
+    "analog_in": "AI",
+    "analog_out": "AO",
+}
+# M: last numbers of the universal signals.
+LAST_SIGNAL: Final[Mapping[str, int]] = {"IN": 4096, "OT": 4096, "AI": 40, "AO": 40}
+DIRECT_INPUTS: Final = 9000  # direct inputs follow behind all others in the neutral numbering
+MOST_TERMS: Final = 8  # M: comparisons in one condition
+LONGEST_REMARK: Final = 32
+LONGEST_LABEL: Final = 8
+LONGEST_TEXT: Final = 32  # M: 16 before the DX200
+LONGEST_MESSAGE: Final = 32
+LONGEST_NAME: Final = 32
+LONGEST_OLD_NAME: Final = 8
+LONGEST_LINE: Final = 128  # M
+MOST_SUBTASKS: Final = 5  # M
+RESERVED: Final = frozenset(("all", "end", "nop"))

@@ -1,0 +1,201 @@
+"""A program in INFORM's terms to jobs: one `.JBI` file for each routine."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
+from rpl.writing.ledger import EmissionLedger
+from rpl.writing.target import OutputFile, WriteContext
+
+from . import tables
+from .assignments import Assignments
+from .cell import Cell
+from .errors import CannotSayError
+from .job import Job
+from .labels import Labels
+from .motion import Motion
+from .operands import Registers, element, numbered
+from .places import Constants
+from .positions import Positions
+from .statements import Printer
+from .texts import remarks
+
+LOST_DECLARATION = code(
+    "inform-lost-declaration", Severity.LOSS, "INFORM has no place for {name}: {reason}", "it is left as a remark"
+)
+LOST_ROUTINE = code("inform-lost-routine", Severity.LOSS, "INFORM cannot say this about {name}: {reason}")
+SAME_NAME = code("inform-same-name", Severity.ERROR, "two jobs would be called {name}", "rename one; jobs are global")
+LONG_NAME = code(
+    "inform-long-name", Severity.ERROR, "{name}: a job's name has at most {most} characters", "rename the routine"
+)
+
+
+def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
+    """All jobs. Raises InternalError when the ledger finds a node that nobody accounted for."""
+    ledger = EmissionLedger()
+    writer = _Writer(program, context, ledger)
+    jobs = [job for module in program.modules for job in writer.module(module)]
+    writer.finish(jobs)
+    ledger.check(program)
+    return [OutputFile(f"{job.name}.JBI", job.text().encode("ascii")) for job in jobs]
+
+
+class _Writer:
+    def __init__(self, program: ir.Program, context: WriteContext, ledger: EmissionLedger) -> None:
+        self.program, self.context, self.ledger = program, context, ledger
+        self.diagnostics = context.diagnostics
+        self.constants = Constants.of(program)
+        self.registers = Registers.of(program)
+        self.cell = Cell(self.registers)
+        self.entries = _entries(program)
+        self.tasks: dict[str, str] = {}
+        self.jobs = {
+            routine.name.lower(): routine.name.upper() for module in program.modules for routine in module.routines
+        }
+        self.taken: set[str] = set()
+        self.tools: dict[int, int] = {}  # id of a routine -> the tool of its positions in variables
+        self.choose_tools()
+
+    def choose_tools(self) -> None:
+        """The tool that positions in variables are driven to with, in each job and in most of them."""
+        everywhere: Counter[int] = Counter()
+        for module in self.program.modules:
+            for routine in module.routines:
+                constants = self.constants.routine(routine)
+                computed: Counter[int] = Counter()
+                all_moves: Counter[int] = Counter()
+                for node in walk(routine.body):
+                    if isinstance(node, ir.Move):
+                        tool = self.tool(node, constants)
+                        all_moves[tool] += 1
+                        frame = None if node.frame is None else constants.known(node.frame)
+                        if constants.known(node.target) is None or (node.frame is not None and frame is None):
+                            computed[tool] += 1
+                everywhere.update(computed)
+                most = (computed or all_moves).most_common(1)
+                self.tools[id(routine)] = most[0][0] if most else 0
+        if everywhere:
+            self.cell.tool_of_variables = everywhere.most_common(1)[0][0]
+
+    def tool(self, move: ir.Move, constants: Constants) -> int:
+        if move.tool is None:
+            return 0
+        known = constants.known(move.tool)
+        try:
+            if known is not None:
+                return self.cell.tool(known.values)
+            place = element(move.tool)
+            return 0 if place is None else self.cell.tool_in(place)
+        except CannotSayError:
+            return 0
+
+    # ---- modules and routines
+
+    def module(self, module: ir.Module) -> list[Job]:
+        self.ledger.written(module)
+        head: list[str] = []
+        for declaration in module.declarations:
+            head.extend(self.declaration(declaration))
+        jobs = [self.routine(module, routine) for routine in module.routines]
+        if jobs:
+            jobs[0].lines[:0] = head
+        return jobs
+
+    def declaration(self, declaration: ir.Declaration) -> Iterator[str]:
+        """Numbered variables need no declaration; what is none has no place."""
+        match declaration:
+            case ir.Variable(name=name) if numbered(ir.Name(name)) is not None or name in tables.BANKS:
+                self.ledger.merged(declaration)
+                return
+            case ir.Unread(text="") | ir.ExternalDeclaration():
+                self.ledger.merged(declaration)
+                for one in declaration.origin.comments:
+                    yield from remarks(one.text)
+                return
+        shown = getattr(declaration, "name", "this declaration")
+        self.diagnostics.report(LOST_DECLARATION, declaration.origin, name=shown, reason="it has no number")
+        self.ledger.reported(declaration)
+        yield from remarks(declaration.origin.text or str(shown))
+
+    def routine(self, module: ir.Module, routine: ir.Routine) -> Job:
+        name = routine.name.upper()
+        if name in self.taken:
+            self.diagnostics.report(SAME_NAME, routine.origin, name=name)
+        if len(name) > tables.LONGEST_NAME:
+            self.diagnostics.report(LONG_NAME, routine.origin, name=name, most=tables.LONGEST_NAME)
+        self.taken.add(name)
+        job = Job(name, self.cell, self.context.robot, self.tools[id(routine)])
+        printer = self.printer(routine, job)
+        self.ledger.written(routine)
+        printer.comments_only(routine.origin)
+        for declaration in routine.declarations:
+            if isinstance(declaration, ir.Variable) and declaration.name in printer.motion.names:
+                self.ledger.merged(declaration)
+                printer.comments_only(declaration.origin)
+            else:
+                printer.lines.extend(self.declaration(declaration))
+        printer.body(routine.body, last=True)
+        self.lost_parts(routine)
+        job.lines, job.entry = printer.lines, routine.name.lower() in self.entries
+        return job
+
+    def printer(self, routine: ir.Routine, job: Job) -> Printer:
+        constants = self.constants.routine(routine)
+        positions = Positions(self.registers, job, constants)
+        assignments = Assignments(self.registers, positions)
+        motion = Motion(positions, assignments.number, self.diagnostics)
+        motion.names = {name: int(name[1:]) for name in constants.points if name[:1] == "C" and name[1:].isdigit()}
+        labels = Labels.of(routine.body)
+        return Printer(assignments, motion, labels, self.jobs, self.tasks, self.ledger, self.diagnostics)
+
+    def lost_parts(self, routine: ir.Routine) -> None:
+        """What a job has no place for. The passes before carry over what they can."""
+        lost = [statement for handler in routine.handlers for statement in handler.body]
+        lost.extend((*routine.undo, *routine.backward))
+        reasons = [
+            *(["an error handler"] if lost or routine.handlers else []),
+            *(["a result"] if routine.returns is not None else []),
+            *(["parameters"] if routine.parameters else []),
+        ]
+        for reason in reasons:
+            self.diagnostics.report(LOST_ROUTINE, routine.origin, name=routine.name, reason=reason)
+        for statement in lost:
+            self.ledger.reported(statement)
+
+    # ---- the whole
+
+    def finish(self, jobs: list[Job]) -> None:
+        """Values of tools and user frames, and tasks that run beside, at the start of each job that may be started."""
+        background = [task for task in self.program.tasks if task.kind == "background"]
+        setup = list(self.cell.setup())
+        for job in jobs:
+            if not job.entry:
+                continue
+            at = next((n for n, line in enumerate(job.lines) if not line.startswith("'")), len(job.lines))
+            begin = [line for line, _ in setup]
+            for n, task in enumerate(background, len(self.tasks) + 1):
+                begin.append(f"PSTART JOB:{self.jobs.get(task.entry.lower(), task.entry.upper())} SUB{n}")
+            job.lines[at:at] = begin
+            job.positions.update(number for _, numbers in setup for number in numbers)
+        for task in background:
+            for job in jobs:
+                if task.cyclic and job.name == task.entry.upper():
+                    job.lines = ["*AGAIN", *job.lines, "JUMP *AGAIN"]
+
+
+def _entries(program: ir.Program) -> set[str]:
+    """Jobs that may be started, folded: the named entry, the tasks', else those that nobody calls."""
+    if program.entry:
+        return {program.entry.lower()}
+    motion = {task.entry.lower() for task in program.tasks if task.kind == "motion"}
+    if motion:
+        return motion
+    from rpl.passes.legalise.datalists import never_called
+
+    return set(never_called(program))
+
+
