@@ -1,0 +1,397 @@
+"""Statements that are neither moves nor blocks: assignments, calls, signals, waits, messages, tasks, stops."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import product
+from typing import TYPE_CHECKING
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
+from rpl.source import Origin
+
+from . import settings, tables
+from .expressions import UnsayableError
+
+if TYPE_CHECKING:
+    from .statements import Printer
+
+KEYS = code(
+    "vplus-keys",
+    Severity.WARNING,
+    "V+ has no keys to choose from: the operator types the number of the answer",
+)
+TIMER_RUNS = code(
+    "vplus-timer-runs", Severity.WARNING, "timers of V+ cannot be stopped; what is read later is the time until then"
+)
+ACKNOWLEDGE = code(
+    "vplus-acknowledge", Severity.WARNING, "a message that waits for the operator is written as TYPE and PAUSE"
+)
+_SET = (ir.PoseType, ir.TargetType, ir.JointsType, ir.VectorType, ir.RotationType, ir.AxesType)
+_LARGEST_COPY = 24
+_TOLD = frozenset(("notify", "state", "write", "error", "quit"))
+
+
+class Actions:
+    """Prints through the printer of a body."""
+
+    def __init__(self, printer: Printer) -> None:
+        self.printer = printer
+        self.expressions = printer.expressions
+
+    def write(self, statement: ir.Statement) -> None:
+        printer, origin = self.printer, statement.origin
+        match statement:
+            case ir.Assign():
+                self.assign(statement)
+            case ir.SetForNextMove(setting=ir.System(name=name), value=value):
+                self.all(settings.setting(name, value, False, self.expressions), statement)
+            case ir.DeclareInterrupt() | ir.ControlInterrupt():
+                self.all(printer.output.reactions.lines(statement, self.expressions), statement)
+            case ir.CallRoutine():
+                printer.line(self.call(statement), origin)
+                printer.motion.forget()
+            case ir.Message():
+                self.message(statement)
+            case ir.Wait(time=time, in_position=True) if not printer.output.facts.foreign:
+                printer.line(f"DELAY {self.expressions.measured(time, 's')}", origin)
+            case ir.Wait(in_position=in_position) | ir.WaitUntil(in_position=in_position):
+                waiting = self.waiting(statement)
+                printer.comments_only_before(origin)
+                if in_position and not printer.stands():
+                    printer.line("BREAK")
+                printer.line(waiting, _without_comments(origin))
+            case ir.WaitForMotion() if printer.stands() and printer.output.facts.foreign:
+                printer.comments_only(origin)
+            case ir.Trigger():
+                self.trigger(statement)
+            case _:
+                printer.line(self.simple(statement), origin)
+
+    def all(self, lines: list[str], statement: ir.Statement) -> None:
+        """Several steps of one statement; none leaves its comments."""
+        if not lines:
+            self.printer.comments_only(statement.origin)
+        for at, line in enumerate(lines):
+            self.printer.line(line, statement.origin if at == 0 else None)
+
+    def simple(self, statement: ir.Statement) -> str:
+        match statement:
+            case ir.ExitLoop():
+                return "EXIT"
+            case ir.NextPass():
+                return "NEXT"
+            case ir.Return(value=None):
+                return "RETURN"
+            case ir.Halt(kind="exit"):
+                return "HALT"
+            case ir.Halt(kind="stop"):
+                return "PAUSE"
+            case ir.WaitForMotion():
+                return "BREAK"
+            case ir.Do(procedure=procedure, arguments=arguments):
+                return self.procedure(procedure, arguments)
+            case ir.Dialog():
+                return self.dialog(statement)
+            case ir.TaskControl():
+                return self.task(statement)
+            case ir.OnError(routine=routine):
+                return f"REACTE {routine.lower()}" if routine else "REACTE"
+            case ir.TryNext():
+                return "RETURNE"
+        raise UnsayableError(f"there is no {statement.__class__.__name__}")
+
+    # ---- assignments
+
+    def assign(self, statement: ir.Assign) -> None:
+        target, value, origin = statement.target, statement.value, statement.origin
+        places = self.expressions.places
+        match target:
+            case ir.Name(id=name) if (declared := places.declared(name)) is not None:
+                self.output(declared, value, statement)
+            case ir.Signal():
+                self.output(target, value, statement)
+            case ir.System(name="flag", indices=(number,)):
+                self.output(ir.Signal("flag", number), value, statement)
+            case ir.System(name="timer" | "timer_stopped"):
+                self.timer(target, value, statement)
+            case ir.System(name=name):
+                self.all(settings.setting(name, value, True, self.expressions), statement)
+            case _ if isinstance(self.expressions.type(target), ir.ArrayType):
+                self.whole(statement)
+            case _:
+                self.printer.line(self.stored(target, value), origin)
+
+    def stored(self, target: ir.Expression, value: ir.Expression) -> str:
+        text = self.expressions.text
+        match target:
+            case ir.Field(base=base, name=name):
+                return f"SET {text(base)} = {self.expressions.places.locations.with_component(base, name, value)}"
+            case ir.Index(base=base) if isinstance(self.expressions.type(base), ir.StringType):
+                raise UnsayableError("one character of a text cannot be changed")
+        word = "SET " if isinstance(self.expressions.type(target), _SET) else ""
+        return f"{word}{text(target)} = {text(value)}"
+
+    def whole(self, statement: ir.Assign) -> None:
+        """A whole array: element by element."""
+        target, value = statement.target, statement.value
+        lines = [self.stored(place, one) for place, one in self.elements(target, value)]
+        self.all(lines, statement)
+
+    def elements(self, target: ir.Expression, value: ir.Expression) -> list[tuple[ir.Expression, ir.Expression]]:
+        type = self.expressions.type(target)
+        assert isinstance(type, ir.ArrayType)  # the caller asked
+        if isinstance(value, ir.Aggregate):
+            return listed(target, value, type)
+        bounds = [self.expressions.known(bound) if bound is not None else None for bound in type.dimensions]
+        if None in bounds:
+            raise UnsayableError("an array whose size is not known is copied")
+        places = list(product(*(range(type.base, int(bound or 0) + 1) for bound in bounds)))
+        if len(places) > _LARGEST_COPY:
+            raise UnsayableError("a large array is copied at once")
+        indices = [tuple(ir.IntLiteral(number) for number in place) for place in places]
+        return [(ir.Index(target, one), ir.Index(value, one)) for one in indices]
+
+    def output(self, signal: ir.Signal, value: ir.Expression, statement: ir.Assign) -> None:
+        """SIGNAL n, SIGNAL -n; by a calculated value both ways in a choice."""
+        printer, places, origin = self.printer, self.expressions.places, statement.origin
+        signal = places.numbered(signal)
+        if signal.kind == "analog_out" and signal.index is not None:
+            printer.line(f"AIO.OUT {self.expressions.text(signal.index)} = {self.expressions.text(value)}", origin)
+            return
+        if signal.kind.endswith("_in"):
+            raise UnsayableError("an input cannot be switched")
+        if places.is_group(signal):
+            printer.line(f"BITS {places.group(signal)} = {self.expressions.text(value)}", origin)
+            return
+        on, off = f"SIGNAL {places.number(signal)}", f"SIGNAL {places.number(signal, True)}"
+        if isinstance(value, ir.BoolLiteral):
+            printer.line(on if value.value else off, origin)
+            return
+        printer.line(f"IF {printer.condition(value)} THEN", origin)
+        printer.depth += 1
+        printer.line(on)
+        printer.depth -= 1
+        printer.line("ELSE")
+        printer.depth += 1
+        printer.line(off)
+        printer.depth -= 1
+        printer.line("END")
+
+    def timer(self, target: ir.System, value: ir.Expression, statement: ir.Assign) -> None:
+        """Timers always run; starting one says nothing, stopping one cannot be said."""
+        if target.name == "timer":
+            number = self.expressions.text(target.indices[0])
+            self.printer.line(f"TIMER {number} = {self.expressions.measured(value, 's')}", statement.origin)
+            return
+        self.printer.comments_only(statement.origin)
+        stops = value != ir.BoolLiteral(False) and statement.origin.text
+        if stops and "reset" not in statement.origin.text.lower():
+            self.printer.output.facts.once(TIMER_RUNS, statement.origin)
+
+    # ---- calls
+
+    def call(self, statement: ir.CallRoutine) -> str:
+        if statement.dynamic is not None:
+            raise UnsayableError("there is no call by a computed name")
+        return f"CALL {statement.name.lower()}{self.arguments(statement.name, statement.arguments)}"
+
+    def arguments(self, name: str, given: tuple[ir.Argument, ...]) -> str:
+        routine = self.expressions.scope.routine(name)
+        shown = []
+        for at, argument in enumerate(given):
+            parameter = routine.parameters[at] if routine is not None and at < len(routine.parameters) else None
+            shown.append("" if argument.value is None else self.argument(argument.value, parameter, routine))
+        while shown and not shown[-1]:
+            shown.pop()
+        return f"({', '.join(shown)})" if shown else "()"
+
+    def argument(self, value: ir.Expression, parameter: ir.Parameter | None, routine: ir.Routine | None) -> str:
+        """Variables are passed by reference; where the callee changes its copy, brackets pass the value."""
+        if isinstance(self.expressions.type(value), ir.ArrayType):
+            return self.expressions.places.whole_array(value)
+        text = self.expressions.text(value)
+        variable = isinstance(value, ir.Name | ir.Index) and "(" not in text
+        if not variable or parameter is None or parameter.mode != "value" or routine is None:
+            return text
+        if not self.is_own(value) or _stores(routine, parameter.name):
+            if isinstance(self.expressions.type(value), ir.JointsType):
+                name = self.expressions.notes.temporary("#p")
+                self.expressions.notes.step(f"SET {name} = {text}")
+                self.expressions.notes.autos.append(name)
+                return name
+            return f"({text})"
+        return text
+
+    def is_own(self, value: ir.Expression) -> bool:
+        """Is it a variable that only the caller can change, or one that nobody does?"""
+        name = value.base if isinstance(value, ir.Index) else value
+        symbol = self.expressions.scope.value(name.id) if isinstance(name, ir.Name) else None
+        if symbol is None:
+            return False
+        constant = isinstance(symbol.declaration, ir.Variable) and symbol.declaration.storage == "constant"
+        return constant or symbol.routine is not None
+
+    def procedure(self, name: str, arguments: tuple[ir.Expression | None, ...]) -> str:
+        given = [argument for argument in arguments if argument is not None]
+        if not given:
+            raise UnsayableError(f"there is no procedure {name}")
+        target = given[0]
+        step = given[1] if len(given) > 1 else ir.IntLiteral(1)
+        match name:
+            case "increment" | "decrement":
+                return self.stored(target, ir.Binary("+" if name == "increment" else "-", target, step))
+            case "clear":
+                return self.stored(target, ir.IntLiteral(0))
+            case "text_append" if len(given) == 2:
+                return self.stored(target, ir.Binary("&", target, given[1]))
+            case "text_copy" if len(given) == 2:
+                return self.stored(target, given[1])
+            case "text_clear":
+                return self.stored(target, ir.TextLiteral(""))
+        raise UnsayableError(f"there is no procedure {name}")
+
+    def task(self, statement: ir.TaskControl) -> str:
+        number = self.printer.output.tasks.get(statement.task.lower())
+        if number is None:
+            raise UnsayableError(f"there are at most {tables.TASKS} tasks beside the main one")
+        match statement.op:
+            case "start":
+                name = statement.task.lower()
+                return f"EXECUTE {number} {name}{self.arguments(statement.task, statement.arguments)}"
+            case "stop":
+                return f"ABORT {number}"
+            case "resume":
+                return f"PROCEED {number}"
+        raise UnsayableError(f"a program cannot {statement.op} another task")
+
+    # ---- waiting, path events
+
+    def waiting(self, statement: ir.Wait | ir.WaitUntil) -> str:
+        if isinstance(statement, ir.Wait):
+            return f"WAIT.EVENT , {self.expressions.measured(statement.time, 's')}"
+        if statement.timeout is not None or statement.error is not None:
+            raise UnsayableError("a wait whose time limit raises an error")
+        return f"WAIT {self.printer.condition(statement.condition, True)}"
+
+    def trigger(self, trigger: ir.Trigger) -> None:
+        """A step behind a move acts when the move has begun; that is all V+ has."""
+        action = trigger.action
+        late = trigger.delay is not None and self.expressions.known(trigger.delay) != 0
+        far = trigger.distance is not None and self.expressions.known(trigger.distance) != 0
+        if trigger.reference != "start" or late or far:
+            raise UnsayableError("an action on the path, away from its start")
+        signal = action.target if isinstance(action, ir.Assign) else None
+        if not isinstance(action, ir.Assign) or not isinstance(signal, ir.Signal):
+            raise UnsayableError("a call on the path")
+        places = self.expressions.places
+        if not isinstance(action.value, ir.BoolLiteral) or places.is_group(signal) or signal.kind == "analog_out":
+            raise UnsayableError("an action on the path other than a switched output")
+        self.printer.behind_move.append(f"SIGNAL {places.number(signal, not action.value.value)}")
+        self.printer.comments_only(trigger.origin)
+
+    def hand(self, body: ir.Body) -> tuple[str, int] | None:
+        """OPEN, CLOSE, RELAX: both solenoids of the hand switch when the next move begins."""
+        states: dict[int, bool] = {}
+        for statement in body[:2]:
+            match statement:
+                case ir.Trigger(
+                    reference="start",
+                    action=ir.Assign(
+                        target=ir.Signal(kind="digital_out", index=ir.IntLiteral(value=number)),
+                        value=ir.BoolLiteral(value=on),
+                    ),
+                    distance=None,
+                    delay=None,
+                ):
+                    states[number] = on
+        if set(states) != {tables.HAND_OPEN, tables.HAND_CLOSE}:
+            return None
+        if states[tables.HAND_OPEN]:
+            return "OPEN", 2
+        return ("CLOSE" if states[tables.HAND_CLOSE] else "RELAX"), 2
+
+    # ---- the operator
+
+    def message(self, message: ir.Message) -> None:
+        printer = self.printer
+        if message.kind == "clear":
+            printer.comments_only(message.origin)
+            return
+        if message.kind not in _TOLD:
+            raise UnsayableError(f"there is no message of kind {message.kind}")
+        text = message.text
+        if message.sender is not None and message.sender != ir.TextLiteral(""):
+            text = ir.Binary("&", ir.Binary("&", message.sender, ir.TextLiteral(": ")), text)
+        printer.line(f"TYPE {self.expressions.texts.items(text)}", message.origin)
+        if message.kind == "quit":
+            printer.output.facts.once(ACKNOWLEDGE, message.origin)
+            printer.line("PAUSE")
+
+    def dialog(self, dialog: ir.Dialog) -> str:
+        if dialog.timeout is not None or dialog.timed_out is not None:
+            raise UnsayableError("a dialog that ends by time")
+        question: ir.Expression = dialog.text
+        if dialog.sender is not None and dialog.sender != ir.TextLiteral(""):
+            question = ir.Binary("&", ir.Binary("&", dialog.sender, ir.TextLiteral(": ")), question)
+        if dialog.kind == "keys":
+            self.printer.output.facts.once(KEYS, dialog.origin)
+            for number, key in enumerate(dialog.keys, 1):
+                if key is not None:
+                    label: ir.Expression = ir.Binary("&", ir.TextLiteral(f" {number}="), key)
+                    if isinstance(key, ir.TextLiteral):
+                        label = ir.TextLiteral(f" {number}={key.value}")
+                    question = _joined(question, label)
+        return f"PROMPT {self.expressions.text(question)}, {self.expressions.text(dialog.answer)}"
+
+
+def listed(target: ir.Expression, value: ir.Aggregate, type: ir.ArrayType) -> list[tuple[ir.Expression, ir.Expression]]:
+    """Each element that a list fills, with its value."""
+    found: list[tuple[ir.Expression, ir.Expression]] = []
+
+    def fill(indices: tuple[ir.Expression, ...], part: ir.Expression) -> None:
+        if len(indices) == len(type.dimensions):
+            found.append((ir.Index(target, indices), part))
+            return
+        if not isinstance(part, ir.Aggregate):
+            raise UnsayableError("a part of an array is filled at once")
+        for number, (_, inner) in enumerate(part.entries, type.base):
+            fill((*indices, ir.IntLiteral(number)), inner)
+
+    fill((), value)
+    return found
+
+
+def _joined(one: ir.Expression, other: ir.Expression) -> ir.Expression:
+    if isinstance(one, ir.TextLiteral) and isinstance(other, ir.TextLiteral):
+        return ir.TextLiteral(one.value + other.value)
+    return ir.Binary("&", one, other)
+
+
+def _stores(routine: ir.Routine, name: str) -> bool:
+    """May the routine change this parameter?"""
+    key = name.lower()
+
+    def is_it(place: object) -> bool:
+        while isinstance(place, ir.Index | ir.Field):
+            place = place.base
+        return isinstance(place, ir.Name) and place.id.lower() == key
+
+    for node in walk(routine.body):
+        match node:
+            case ir.Assign(target=target) if is_it(target):
+                return True
+            case ir.For(counter=counter) if counter.lower() == key:
+                return True
+            case ir.Dialog(answer=answer) if is_it(answer):
+                return True
+            case ir.Do(arguments=(first, *_)) if is_it(first):
+                return True
+            case ir.CallRoutine(arguments=arguments) if any(is_it(one.value) for one in arguments):
+                return True
+    return False
+
+
+def _without_comments(origin: Origin) -> Origin:
+    return replace(origin, comments=tuple(comment for comment in origin.comments if comment.behind))

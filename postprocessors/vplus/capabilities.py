@@ -1,0 +1,59 @@
+"""What a V+ controller can say, for the passes that rewrite the rest."""
+
+from __future__ import annotations
+
+from rpl.passes.capabilities import Capabilities, NameRules
+
+from . import tables
+
+CAPABILITIES = Capabilities(
+    statements=tables.words(
+        """Assign CallRoutine If Switch For While Repeat Loop ExitLoop NextPass Label Goto Return Halt Wait WaitUntil
+        WaitForMotion DeclareInterrupt ControlInterrupt StopMotion ClearMotion Trigger Message Dialog Do TaskControl
+        SetForNextMove OnError TryNext Nothing Move Vendor Opaque"""
+    ),
+    functions=frozenset(
+        (
+            *tables.FUNCTIONS,
+            *tables.VALUES,
+            *("tan", "asin", "acos", "atan", "round", "trunc", "floor", "ceil", "sign", "compose", "pose_of"),
+            *("offset", "tool_offset", "displaced", "displaced_in_tool", "distance", "pose_zyz"),
+            *("zyz_yaw", "zyz_pitch", "zyz_roll", "joints_to_target", "is_reachable", "frame_from_points"),
+            *("text_part", "text_find", "text_equal", "number_text", "value_text", "format", "message_text"),
+            *("is_uninitialised", "dimension", "length", "bit_shift_left", "target_to_joints_near", "power"),
+        )
+    ),
+    procedures=tables.words("increment decrement clear text_append text_copy text_clear"),
+    system_variables=frozenset((*tables.SYSTEM, *tables.SETTINGS, "timer", "flag")),
+    operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary, *tables.WRITTEN_OPERATORS)),
+    types=tables.words("RealType BoolType StringType PoseType TargetType JointsType ArrayType"),
+    names=NameRules(
+        longest=tables.LONGEST_NAME,
+        case_sensitive=False,
+        reserved=tables.RESERVED,
+        first="abcdefghijklmnopqrstuvwxyz",
+        further="abcdefghijklmnopqrstuvwxyz0123456789_.",
+    ),
+    modal_motion=True,
+    notation="vplus",
+    rotation="zyx",
+    conversions=tables.words("real round_half_away trunc bit truth minus_bit floor code char"),
+    for_real=True,
+    timers=tables.TIMERS,
+    switch_types=tables.words("RealType IntType"),
+    poll_s=0.016,
+    else_if=False,
+    function_routines=False,
+    recursion=True,
+    next_move_settings=True,
+    task_operations=frozenset(("start", "stop")),
+    records=False,
+    relative_moves=True,
+    truth="minus_one",
+    index_base=0,
+    named_aggregates=True,
+    move_settings=frozenset(("speed", "blend")),
+    speeds=frozenset(("joint", "path", "duration")),
+    blends=tables.words("BlendDistance BlendPercent BlendSpeed BlendZone BlendLevel"),
+    postures="joints",
+)

@@ -1,0 +1,158 @@
+"""Moves of other languages that V+ has to be told to stop behind.
+
+A V+ program goes on as soon as a move begins, so a step behind a move acts early. Where another language's program acts
+at the corner (signals, messages, waits) before the next move, the corner becomes a stop (BREAK); exact stops always do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from rpl import ir
+from rpl.ir.walk import expressions
+
+MOVES, ACTS, ENDS = "moves", "acts", "ends"
+_QUIET = (ir.Nothing, ir.Label, ir.LookAhead, ir.SetForNextMove, ir.Trigger, ir.ExitLoop, ir.NextPass)
+_LOOKS = frozenset(("current_target", "current_joints", "current_position"))
+
+
+@dataclass(slots=True)
+class Corners:
+    """Which moves are followed by an action before the next move. `stopped`: identities of such moves that had a
+    corner."""
+
+    program: ir.Program
+    stopped: set[int] = field(default_factory=set)
+    routines: dict[str, ir.Routine] = field(default_factory=dict)
+    callers: dict[str, list[Callable[[], str]]] = field(default_factory=dict)
+    open: set[str] = field(default_factory=set)
+
+    @classmethod
+    def of(cls, program: ir.Program) -> Corners:
+        found = cls(program)
+        for module in program.modules:
+            for routine in module.routines:
+                found.routines.setdefault(routine.name.lower(), routine)
+        moves: list[tuple[ir.Move, Callable[[], str]]] = []
+        for key, routine in found.routines.items():
+            found.collect(routine.body, lambda key=key: found.after(key), moves)  # type: ignore[misc]
+        found.stopped = {id(move) for move, rest in moves if rest() == ACTS}
+        return found
+
+    def collect(self, body: ir.Body, rest: Callable[[], str], moves: list[tuple[ir.Move, Callable[[], str]]]) -> None:
+        """Every move that goes over a corner, and every call, with what follows it."""
+        for at, statement in enumerate(body):
+            behind = body[at + 1 :]
+
+            def follows(behind: ir.Body = behind) -> str:
+                return self.first(behind, rest)
+
+            match statement:
+                case ir.Move(blend=blend) if blend is not None and not isinstance(blend, ir.BlendStop):
+                    moves.append((statement, follows))
+                case ir.CallRoutine(name=name):
+                    self.callers.setdefault(name.lower(), []).append(follows)
+                case ir.While() | ir.Repeat() | ir.For() | ir.Loop():
+                    self.collect(statement.body, self.around(statement, follows), moves)
+                case _:
+                    for inner in _bodies(statement):
+                        self.collect(inner, follows, moves)
+
+    def around(self, loop: ir.While | ir.Repeat | ir.For | ir.Loop, follows: Callable[[], str]) -> Callable[[], str]:
+        """What follows the end of a loop's body: its condition, its body again, what stands behind it."""
+
+        def again() -> str:
+            condition = loop.condition if isinstance(loop, ir.While) else None
+            condition = loop.until if isinstance(loop, ir.Repeat) else condition
+            if condition is not None and looks(condition):
+                return ACTS
+            first = self.first(loop.body, lambda: MOVES)
+            if first == ACTS or isinstance(loop, ir.Loop):
+                return first
+            return follows()
+
+        return again
+
+    def after(self, key: str) -> str:
+        """What follows a routine's end at any of its calls."""
+        if key in self.open:
+            return MOVES
+        self.open.add(key)
+        found = [rest() for rest in self.callers.get(key, ())]
+        self.open.discard(key)
+        return ACTS if ACTS in found else MOVES
+
+    def first(self, body: ir.Body, rest: Callable[[], str]) -> str:
+        """What comes first: a move, or something that acts or looks at the world."""
+        for at, statement in enumerate(body):
+            match statement:
+                case ir.Move() | ir.WaitForMotion():
+                    return MOVES
+                case ir.Assign(target=target):
+                    if isinstance(target, ir.Signal | ir.System) or looks(statement):
+                        return ACTS
+                case ir.CallRoutine(name=name):
+                    found = self.called(name)
+                    if found != ENDS:
+                        return found
+                case ir.If() | ir.Switch():
+                    behind = body[at + 1 :]
+                    return self.choice(statement, lambda behind=behind: self.first(behind, rest))  # type: ignore[misc]
+                case ir.While() | ir.For() | ir.Repeat() | ir.Loop():
+                    found = self.around(statement, lambda: ENDS)()
+                    if found != ENDS:
+                        return found
+                case ir.Return():
+                    return rest()
+                case _ if not isinstance(statement, _QUIET):
+                    return ACTS
+        return rest()
+
+    def choice(self, statement: ir.If | ir.Switch, rest: Callable[[], str]) -> str:
+        asked: list[ir.Expression]
+        if isinstance(statement, ir.If):
+            asked = [condition for condition, _ in statement.branches]
+        else:
+            asked = [statement.selector]
+        if any(map(looks, asked)):
+            return ACTS
+        found = [self.first(body, rest) for body in (*_bodies(statement), ())]
+        return ACTS if ACTS in found else found[0]
+
+    def called(self, name: str) -> str:
+        routine = self.routines.get(name.lower())
+        if routine is None:
+            return ACTS
+        if name.lower() in self.open:
+            return MOVES
+        self.open.add(name.lower())
+        found = self.first(routine.body, lambda: ENDS)
+        self.open.discard(name.lower())
+        return found
+
+
+def looks(node: object) -> bool:
+    """Does it read a signal, the clock or where the robot is?"""
+    for one in expressions((node,)):
+        match one:
+            case ir.Signal() | ir.VendorValue():
+                return True
+            case ir.System(name=name):
+                row = ir.SYSTEM_VARIABLES.get(name)
+                if name in ("timer", "time") or (row is not None and row.stops_advance):
+                    return True
+            case ir.Builtin(function=function) if function in _LOOKS:
+                return True
+    return False
+
+
+def _bodies(statement: ir.Statement) -> tuple[ir.Body, ...]:
+    match statement:
+        case ir.If(branches=branches, otherwise=otherwise):
+            return (*(body for _, body in branches), otherwise)
+        case ir.Switch(cases=cases, default=default):
+            return (*(case.body for case in cases), default or ())
+        case ir.While(body=body) | ir.For(body=body) | ir.Repeat(body=body) | ir.Loop(body=body):
+            return (body,)
+    return ()

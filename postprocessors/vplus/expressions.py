@@ -1,0 +1,297 @@
+"""IR expressions as V+. What V+ cannot say raises UnsayableError, and the statement around it is guarded.
+
+A value that only a step of its own can give (the numbers of a location) asks for lines in front: `Notes.before`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from rpl import ir
+from rpl.errors import RplError
+from rpl.passes.fold import constant_number
+from rpl.passes.scope import Scope
+from rpl.passes.typing import type_of
+from rpl.writing.precedence import ATOM, ExpressionPrinter, Printed
+
+from . import spelling, tables
+
+
+class UnsayableError(RplError):
+    """V+ has no words for this; the statement is written as a guarded stop."""
+
+
+@dataclass(slots=True)
+class Notes:
+    """What printing a statement finds out on the way: steps in front of it, variables that these need, texts that lost
+    signs."""
+
+    before: list[str] = field(default_factory=list)
+    autos: list[str] = field(default_factory=list)
+    changed_texts: list[str] = field(default_factory=list)
+    steps: bool = True  # can steps stand in front?
+    taken: set[str] = field(default_factory=set)
+
+    def temporary(self, stem: str) -> str:
+        """A new variable of the program's own (with its sign)."""
+        sign = stem[:1] if stem[:1] in "$#" else ""
+        plain = stem[len(sign) :]
+        number = 1
+        while f"{plain}{number}" in self.taken:
+            number += 1
+        self.taken.add(f"{plain}{number}")
+        return f"{sign}{plain}{number}"
+
+    def step(self, line: str) -> None:
+        if not self.steps:
+            raise UnsayableError("a step of its own would have to stand inside of a condition")
+        self.before.append(line)
+
+
+class Expressions:
+    """Prints the expressions of one routine."""
+
+    def __init__(self, scope: Scope, notes: Notes) -> None:
+        from .places import Places
+        from .texts import Texts
+
+        self.scope, self.notes = scope, notes
+        self.printer = ExpressionPrinter(tables.OPERATORS, self._hook)
+        self.places, self.texts = Places(self), Texts(self)
+
+    def text(self, expression: ir.Expression) -> str:
+        return self.printer.text(expression)
+
+    def atom(self, expression: ir.Expression) -> str:
+        return self.printer.atom(expression)
+
+    def type(self, expression: ir.Expression) -> ir.Type | None:
+        return type_of(expression, self.scope)
+
+    def known(self, expression: ir.Expression) -> float | None:
+        return constant_number(expression, self.scope)
+
+    def listed(self, values: tuple[ir.Expression, ...]) -> str:
+        return ", ".join(self.text(value) for value in values)
+
+    def measured(self, value: ir.Expression, unit: str) -> str:
+        """A quantity in base units or `unit` as a plain number."""
+        return self.text(self.in_unit(value, unit))
+
+    def in_unit(self, value: ir.Expression, unit: str) -> ir.Expression:
+        match value:
+            case ir.Quantity(value=inner, unit=own):
+                return inner if own == unit else self.scaled(inner, ir.UNITS[own] / ir.UNITS[unit])
+        return self.scaled(value, 1.0 / ir.UNITS[unit])
+
+    def scaled(self, value: ir.Expression, factor: float) -> ir.Expression:
+        """`value * factor`, worked out when it is written as a number."""
+        if abs(factor - 1.0) < 1e-14:
+            return value
+        match value:
+            case ir.RealLiteral(value=number) | ir.IntLiteral(value=number):
+                return ir.RealLiteral(float(f"{number * factor:.12g}"))
+            case ir.Unary(op="-", operand=ir.RealLiteral() | ir.IntLiteral() as one):
+                return ir.Unary("-", self.scaled(one, factor))
+            case ir.Convert(how="real", operand=operand):
+                return self.scaled(operand, factor)
+            case ir.Binary(op="*", left=left, right=ir.RealLiteral() | ir.IntLiteral() as one):
+                return self.scaled(left, one.value * factor)
+        return ir.Binary("*", value, ir.RealLiteral(float(f"{factor:.12g}")))
+
+    # ---- leaves
+
+    def _hook(self, expression: ir.Expression, printer: ExpressionPrinter) -> str | Printed:
+        match expression:
+            case ir.IntLiteral(value=number, spelling=spelled):
+                return spelled if spelled.startswith("^") else str(number)
+            case ir.RealLiteral(value=real, spelling=spelled):
+                return spelling.literal(real, spelled)
+            case ir.BoolLiteral(value=truth):
+                return "TRUE" if truth else "FALSE"
+            case ir.TextLiteral(value=text):
+                return self.literal(text)
+            case ir.Name() | ir.Index() | ir.Field() | ir.Aggregate() | ir.Signal() | ir.System():
+                return self.places.value(expression)
+            case ir.Binary(op="div", left=left, right=right):
+                return f"INT({self.text(ir.Binary('/', left, right))})"
+            case ir.Builtin():
+                return self.builtin(expression)
+            case ir.Quantity(value=value, unit=unit):
+                return printer.printed(self.scaled(value, ir.UNITS[unit]))
+            case ir.Magnitude(value=value, unit=unit):
+                return printer.printed(self.scaled(value, 1.0 / ir.UNITS[unit]))
+            case ir.Convert():
+                return self.converted(expression)
+            case ir.VendorValue(dialect="vplus", text=text):
+                return text
+            case ir.VendorValue(dialect=dialect):
+                raise UnsayableError(f"a value that only {dialect} has")
+            case ir.Call(name=name):
+                raise UnsayableError(f"there are no user functions ({name})")
+        raise UnsayableError(f"there is no {_what(expression)}")
+
+    def literal(self, text: str) -> str | Printed:
+        shown, lost = spelling.pieces(text)
+        if lost:
+            self.notes.changed_texts.append(text)
+        return shown[0] if len(shown) == 1 else Printed("+".join(shown), tables.SUM)
+
+    def condition(self, expression: ir.Expression) -> str:
+        """An expression where only its truth counts."""
+        if isinstance(expression, ir.Convert) and expression.how in ("truth", "minus_bit"):
+            expression = expression.operand
+        return self.text(expression)
+
+    # ---- conversions
+
+    def converted(self, expression: ir.Convert) -> str | Printed:
+        operand = expression.operand
+        match expression.how:
+            case "real" | "minus_bit":
+                return self.printer.printed(operand)
+            case "bit" if isinstance(operand, ir.BoolLiteral):
+                return "1" if operand.value else "0"
+            case "bit":
+                return Printed(f"-{self.atom(operand)}", tables.SIGN)
+            case "truth":
+                return Printed(f"{self.printer.text(operand, tables.RELATION + 1)} <> 0", tables.RELATION)
+            case "trunc":
+                return f"INT({self.text(operand)})"
+            case "floor":
+                return self.rounded("floor", (operand,))
+            case "round_half_away":
+                return self.rounded("round", (operand,))
+            case "code":
+                return f"ASC({self.text(operand)})"
+            case "char":
+                return f"$CHR({self.text(operand)})"
+        raise UnsayableError(f"there is no conversion {expression.how}")
+
+    def rounded(self, name: str, values: tuple[ir.Expression, ...]) -> str | Printed:
+        """Rounding and cutting, to whole numbers or to a constant count of decimals."""
+        value, places = values[0], values[1] if len(values) > 1 else ir.IntLiteral(0)
+        if not isinstance(places, ir.IntLiteral):
+            raise UnsayableError("rounding to a computed count of decimals")
+        if places.value:
+            scale = ir.RealLiteral(10.0**places.value)
+            inner = self.rounded(name, (ir.Binary("*", value, scale),))
+            whole = inner if isinstance(inner, str) else f"({inner.text})"
+            return Printed(f"{whole}/{self.text(scale)}", tables.PRODUCT)
+        shown = self.repeated(value)
+        cut = f"INT({shown})"
+        match name:
+            case "trunc":
+                return cut
+            case "floor":  # a comparison is -1 where it holds
+                return Printed(f"{cut}+({shown} < {cut})", tables.SUM)
+            case "ceil":
+                return Printed(f"{cut}-({shown} > {cut})", tables.SUM)
+        grouped = shown if re.fullmatch(r"[\w.$]+", shown) else f"({shown})"
+        return f"INT({grouped}+0.5*SIGN({shown}))"
+
+    def repeated(self, value: ir.Expression) -> str:
+        """The text of a value that is written more than once: kept in a variable when it is long or random."""
+        text = self.text(value)
+        if len(text) <= _SHORT and "RANDOM" not in text:
+            return self.printer.text(value, tables.RELATION + 1)
+        return self.kept(text, "r")
+
+    def kept(self, text: str, stem: str) -> str:
+        """A variable of the program's own that holds a value."""
+        name = self.notes.temporary(stem)
+        self.notes.step(f"{name} = {text}")
+        self.notes.autos.append(name)
+        return name
+
+    # ---- functions
+
+    def builtin(self, call: ir.Builtin) -> str | Printed:
+        name, values = call.function, call.arguments
+        if name in tables.VALUES and not values:
+            return tables.VALUES[name]
+        special = _SPECIAL.get(name)
+        if special is not None:
+            return special(self, values)
+        if name in ("round", "trunc", "floor", "ceil"):
+            return self.rounded(name, values)
+        if name in tables.FUNCTIONS:
+            return f"{tables.FUNCTIONS[name]}({self.listed(values)})"
+        found = self.places.locations.function(call)
+        found = found if found is not None else self.texts.function(name, values)
+        if found is None:
+            raise UnsayableError(f"there is no function {name}")
+        return found
+
+    def tangent(self, values: tuple[ir.Expression, ...]) -> Printed:
+        angle = self.repeated(values[0])
+        return Printed(f"SIN({angle})/COS({angle})", tables.PRODUCT)
+
+    def arc(self, values: tuple[ir.Expression, ...], cosine: bool) -> str:
+        """asin and acos by the angle of a vector."""
+        one = self.repeated(values[0])
+        other = f"SQRT(1-SQR({one}))"
+        return f"ATAN2({other}, {one})" if cosine else f"ATAN2({one}, {other})"
+
+    def sign(self, values: tuple[ir.Expression, ...]) -> Printed:
+        value = self.repeated(values[0])
+        return Printed(f"({value} < 0)-({value} > 0)", tables.SUM)
+
+    def shifted(self, values: tuple[ir.Expression, ...]) -> Printed:
+        count = self.known(values[1])
+        if count is None:
+            raise UnsayableError("a shift by a computed count of bits")
+        return Printed(f"{self.printer.text(values[0], tables.PRODUCT)}*{2 ** int(count)}", tables.PRODUCT)
+
+    def power(self, values: tuple[ir.Expression, ...]) -> str | Printed:
+        count = self.known(values[1])
+        if count == 2:
+            return f"SQR({self.text(values[0])})"
+        if count is None or not count.is_integer() or not 0 < count <= _LARGEST_POWER:
+            raise UnsayableError("there is no power but the square")
+        base = self.repeated(values[0])
+        factor = base if re.fullmatch(r"[\w.$]+", base) else f"({base})"
+        return Printed("*".join([factor] * int(count)), tables.PRODUCT)
+
+    def undefined(self, values: tuple[ir.Expression, ...]) -> Printed:
+        return Printed(f"NOT DEFINED({self.text(values[0])})", tables.SIGN)
+
+    def dimension(self, values: tuple[ir.Expression, ...]) -> str:
+        type = self.type(values[0])
+        number = values[1].value if len(values) > 1 and isinstance(values[1], ir.IntLiteral) else 1
+        if isinstance(type, ir.ArrayType) and 0 < number <= len(type.dimensions):
+            bound = type.dimensions[number - 1]
+            if bound is not None:
+                last = self.known(bound)
+                if last is not None:
+                    return spelling.number(last - type.base + 1)
+        if isinstance(type, ir.StringType):
+            return f"LEN({self.text(values[0])})"
+        raise UnsayableError("an array cannot be asked for its size")
+
+
+_SHORT = 30
+_LARGEST_POWER = 6
+_Special = Callable[[Expressions, tuple[ir.Expression, ...]], "str | Printed"]
+_SPECIAL: dict[str, _Special] = {
+    "tan": Expressions.tangent,
+    "asin": lambda e, v: e.arc(v, False),
+    "acos": lambda e, v: e.arc(v, True),
+    "atan": lambda e, v: f"ATAN2({e.text(v[0])}, 1)",
+    "sign": Expressions.sign,
+    "power": Expressions.power,
+    "bit_shift_left": Expressions.shifted,
+    "is_uninitialised": Expressions.undefined,
+    "dimension": Expressions.dimension,
+    "length": Expressions.dimension,
+}
+
+
+def _what(expression: ir.Expression) -> str:
+    words = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", expression.__class__.__name__).lower()
+    return f"{words} {getattr(expression, 'how', getattr(expression, 'op', ''))}".strip()
+
+
+__all__ = ["ATOM", "Expressions", "Notes", "UnsayableError"]

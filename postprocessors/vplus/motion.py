@@ -1,0 +1,271 @@
+"""IR moves as V+ steps: MOVE, MOVES, APPRO, DEPART, DRIVE, MOVEC, and the settings in front of them.
+
+Locations of V+ say nothing of the arm's posture. Where a move must reach one, the words (LEFTY, ABOVE, FLIP) stand in
+front of it, unless the arm is known to be in it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from rpl import ir, registry
+from rpl.diagnostics import Code, Diagnostics, Severity, code
+from rpl.source import Origin
+
+from . import settings, spelling, tables
+from .corners import Corners
+from .expressions import Expressions, UnsayableError
+
+if TYPE_CHECKING:
+    from rpl.emulator.model import RobotModel
+
+CORNER = code(
+    "vplus-corner",
+    Severity.WARNING,
+    "V+ takes corners by its own measure; the size given here is not carried over",
+)
+STOPPED = code(
+    "vplus-corner-stopped",
+    Severity.WARNING,
+    "the robot stops at this corner: V+ would execute the next step when the move begins",
+)
+LEFT_OUT = code("vplus-left-out", Severity.WARNING, "V+ has no place for {what} at a move; it is left out")
+ARC = code("vplus-arc", Severity.WARNING, "only eV+ controllers have MOVEC")
+NO_ARM = code(
+    "vplus-joint-speed",
+    Severity.WARNING,
+    "no arm is named: speeds of the leading axis are written as percent of {limit:g} deg/s",
+    "name the arm with --to-robot",
+)
+POSTURE = code(
+    "vplus-posture",
+    Severity.WARNING,
+    "the posture of the arm is not written, because no arm is named",
+    "name the arm with --to-robot",
+)
+_WORDS = {"joint": "MOVE", "linear": "MOVES"}
+_AXIS_DEG_S = 180.0  # M: stands in for the slowest axis where no arm is named
+
+
+@dataclass(slots=True)
+class MotionFacts:
+    """What all programs of one file share. `usual`: percent that the program sets for all its joint moves."""
+
+    diagnostics: Diagnostics
+    robot: RobotModel | None
+    foreign: bool
+    corners: Corners
+    usual: float | None = None
+    reported: set[tuple[Code, str]] = field(default_factory=set)
+
+    def once(self, about: Code, origin: Origin, key: str = "", **arguments: object) -> None:
+        if (about, key) not in self.reported:
+            self.reported.add((about, key))
+            self.diagnostics.report(about, origin, **arguments)
+
+
+class Motion:
+    """Prints moves inside of one routine. `posture`: words that the arm is known to obey."""
+
+    def __init__(self, expressions: Expressions, facts: MotionFacts) -> None:
+        self.expressions, self.facts = expressions, facts
+        self.posture: tuple[str, ...] = ()
+
+    def forget(self) -> None:
+        """The arm may be in any posture from here on."""
+        self.posture = ()
+
+    def move(self, move: ir.Move) -> tuple[list[str], str, list[str]]:
+        """Steps in front, the move, steps behind."""
+        self.refuse(move)
+        before = [line for place, value in move.settings for line in self.own(place, value)]
+        target, asked = self.solved(move)
+        before += self.postured(asked)
+        before += self.speed(move)
+        step = self.step(move, target)
+        if move.kind == "joint" and isinstance(self.expressions.type(target), ir.JointsType):
+            self.forget()
+        return before, step, self.behind(move)
+
+    def own(self, place: ir.Expression, value: ir.Expression) -> list[str]:
+        if not isinstance(place, ir.System):
+            raise UnsayableError("a move with a setting of its own")
+        return settings.setting(place.name, value, False, self.expressions)
+
+    def refuse(self, move: ir.Move) -> None:
+        for what, found in (
+            ("a circle by its angle", move.swept),
+            ("a tool of its own", move.tool),
+            ("a frame of its own", move.frame),
+            ("a load of its own", move.load),
+            ("an orientation rule of its own", move.orientation not in (None, "variable")),
+            ("actions on its path", move.triggers),
+            ("a search", move.search),
+            ("a motion group", move.group != 1),
+            ("spline blocks", move.motion_class == "spline"),
+        ):
+            if found:
+                raise UnsayableError(f"a move with {what}")
+
+    # ---- where to
+
+    def solved(self, move: ir.Move) -> tuple[ir.Expression, tuple[str, ...]]:
+        """The target, and the posture in which it is to be reached."""
+        target = move.target
+        if not (isinstance(target, ir.Builtin) and target.function == "target_to_joints_near"):
+            return target, ()
+        place, near = target.arguments[0], target.arguments[1]
+        entries = dict(near.entries) if isinstance(near, ir.Aggregate) else {}
+        joints = [self.expressions.known(value) for name, value in entries.items() if name in tables.AXES]
+        if move.kind != "joint" or not joints or None in joints or len(target.arguments) > 2:
+            raise UnsayableError("a move to the solution nearest to joints")
+        return place, self.words([float(value or 0.0) for value in joints], move.origin)
+
+    def words(self, joints: list[float], origin: Origin) -> tuple[str, ...]:
+        """The posture of joints."""
+        robot = self.facts.robot
+        make = registry.dialect("vplus").notation
+        if robot is None or make is None:
+            self.facts.once(POSTURE, origin)
+            return ()
+        import numpy as np
+
+        flags = make().encode(robot, np.array(joints[: robot.axes], dtype=np.float64))
+        elbow_only = len({branch.shoulder for branch in robot.arm.branches}) == 1
+        used = ("shoulder",) if elbow_only else ("shoulder", "elbow", "wrist")
+        return tuple(tables.FLAGS[name][flags[name]] for name in used if name in flags)
+
+    def postured(self, asked: tuple[str, ...]) -> list[str]:
+        new = [word for word in asked if word not in self.posture]
+        if asked:
+            self.posture = asked
+        return new
+
+    def step(self, move: ir.Move, target: ir.Expression) -> str:
+        text = self.expressions.text
+        if move.relative is not None:
+            return self.relative(move, target)
+        if move.kind == "circular":
+            if move.via is None:
+                raise UnsayableError("a circle needs its point on the way")
+            self.facts.once(ARC, move.origin)
+            return f"MOVEC {text(move.via)}, {text(target)}"
+        word = _WORDS.get(move.kind)
+        if word is None:
+            raise UnsayableError(f"there is no {move.kind} move")
+        match target:
+            case ir.System(name="home_joints"):
+                return "READY"
+            case ir.Builtin(function="aligned"):
+                return "ALIGN"
+            case ir.Builtin(function="tool_offset", arguments=(place, x, y, z)) if self.zero(x) and self.zero(y):
+                suffix = "S" if word == "MOVES" else ""
+                return f"APPRO{suffix} {text(place)}, {text(_negated(z))}"
+        return f"{word} {text(target)}"
+
+    def zero(self, value: ir.Expression) -> bool:
+        return self.expressions.known(value) == 0
+
+    def relative(self, move: ir.Move, target: ir.Expression) -> str:
+        """An offset from where the move before ends."""
+        word, text = _WORDS.get(move.kind), self.expressions.text
+        if word is None or not isinstance(target, ir.Aggregate):
+            raise UnsayableError("a relative move by a value that is not written out")
+        steps = {name: value for name, value in target.entries if name is not None and not self.zero(value)}
+        if move.relative == "joints":
+            return self.drive(move, steps)
+        place = [text(steps.get(axis, ir.IntLiteral(0))) for axis in tables.PLACES]
+        turned = set(steps) - set(tables.PLACES)
+        if move.relative == "tool":
+            if not turned and set(steps) <= {"z"}:
+                suffix = "S" if word == "MOVES" else ""
+                return f"DEPART{suffix} {text(_negated(steps.get('z', ir.IntLiteral(0))))}"
+            offset = text(ir.Binary(":", ir.System("end_pose"), target))
+            return f"{word} {offset}"
+        if turned:
+            raise UnsayableError("a relative move that turns the tool in the axes of the frame")
+        return f"{word} SHIFT(DEST BY {', '.join(place)})"
+
+    def drive(self, move: ir.Move, steps: dict[str, ir.Expression]) -> str:
+        """DRIVE moves one joint."""
+        if len(steps) != 1 or move.kind != "joint":
+            raise UnsayableError("a relative move of several joints")
+        ((name, value),) = steps.items()
+        if name not in tables.AXES:
+            raise UnsayableError("there are no external axes")
+        speed = ""
+        if move.speed is not None and move.speed.joint is not None:
+            speed = f", {self.expressions.text(self.bare(move.speed.joint))}"
+        return f"DRIVE {tables.AXES.index(name) + 1}, {self.expressions.text(value)}{speed}"
+
+    # ---- how
+
+    def bare(self, value: ir.Expression) -> ir.Expression:
+        return value.value if isinstance(value, ir.Quantity) and value.unit == "percent" else value
+
+    def speed(self, move: ir.Move) -> list[str]:
+        speed, found = move.speed, []
+        if speed is None or move.relative == "joints":
+            return []
+        for what, value in (
+            ("an acceleration", speed.path_acceleration or speed.axis_acceleration or move.acceleration),
+            ("a turning speed", speed.rotation if speed.path is None else None),
+            ("a speed profile", speed.profile),
+        ):
+            if value is not None:
+                self.facts.once(LEFT_OUT, move.origin, what, what=what)
+        if move.kind == "joint":
+            percent = self.percent(speed, move.origin)
+            known = None if percent is None else self.expressions.known(percent)
+            if percent is not None and (known is None or known != self.facts.usual):
+                found.append(f"SPEED {self.rounded(percent)}")
+        elif speed.path is not None:
+            found.append(f"SPEED {self.rounded(speed.path)} MMPS")
+        if speed.duration is not None:
+            found.append(f"DURATION {self.expressions.measured(speed.duration, 's')}")
+        return found
+
+    def percent(self, speed: ir.Speed, origin: Origin) -> ir.Expression | None:
+        if speed.joint is not None:
+            return self.bare(speed.joint)
+        if speed.axis is None:
+            return None
+        limit = _AXIS_DEG_S
+        if self.facts.robot is not None:
+            limit = float(min(self.facts.robot.speeds))
+        else:
+            self.facts.once(NO_ARM, origin, limit=limit)
+        return self.expressions.scaled(self.expressions.in_unit(speed.axis, "deg/s"), 100.0 / limit)
+
+    def rounded(self, value: ir.Expression) -> str:
+        known = self.expressions.known(value) if not isinstance(value, ir.Name) else None
+        return self.expressions.measured(value, "mm/s") if known is None else spelling.number(known, 4)
+
+    def behind(self, move: ir.Move) -> list[str]:
+        """BREAK where the robot stops at the target."""
+        if not self.facts.foreign:
+            return ["BREAK"] if isinstance(move.blend, ir.BlendStop) else []
+        if move.blend is None or isinstance(move.blend, ir.BlendStop):
+            return ["BREAK"]
+        if id(move) in self.facts.corners.stopped:
+            self.facts.diagnostics.report(STOPPED, move.origin)
+            return ["BREAK"]
+        if not _as_here(move.blend):
+            self.facts.once(CORNER, move.origin)
+        return []
+
+
+def _as_here(blend: ir.Blend) -> bool:
+    return isinstance(blend, ir.BlendSpeed) and blend.percent == ir.IntLiteral(100)
+
+
+def _negated(value: ir.Expression) -> ir.Expression:
+    match value:
+        case ir.Unary(op="-", operand=operand):
+            return operand
+        case ir.IntLiteral(value=number):
+            return ir.IntLiteral(-number)
+        case ir.RealLiteral(value=real):
+            return ir.RealLiteral(-real if real else 0.0)
+    return ir.Unary("-", value)

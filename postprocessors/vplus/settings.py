@@ -1,0 +1,102 @@
+"""Modal settings as V+ steps: SPEED, ACCEL, DURATION, FINE, CPON, postures, TOOL and BASE.
+
+The reader makes two or three settings of one SPEED (joints, path, turning); side by side they become one again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rpl import ir
+
+from . import spelling, tables
+from .expressions import Expressions, UnsayableError
+
+_SPEEDS = ("joint_speed", "path_speed", "swivel_speed")
+Setting = ir.Assign | ir.SetForNextMove
+
+
+def parts(setting: ir.Statement) -> tuple[str, ir.Expression, bool] | None:
+    """Name, value, and whether it stays."""
+    match setting:
+        case ir.Assign(target=ir.System(name=name), value=value):
+            return name, value, True
+        case ir.SetForNextMove(setting=ir.System(name=name), value=value):
+            return name, value, False
+    return None
+
+
+def speed(body: Sequence[ir.Statement], expressions: Expressions) -> tuple[str, int] | None:
+    """One SPEED of the settings at the head of a body, and how many there are."""
+    found: list[tuple[ir.Expression, bool]] = []
+    for statement, name in zip(body, _SPEEDS, strict=False):
+        known = parts(statement)
+        if known is None or known[0] != name or (found and known[2] != found[0][1]):
+            break
+        found.append((known[1], known[2]))
+    if len(found) < 2:
+        return None
+    always = " ALWAYS" if found[0][1] else ""
+    joint, path = found[0][0], found[1][0]
+    if len(found) == 3:
+        turning = _share(found[2][0], tables.FULL_ROTATION_SPEED_DEG_S, expressions)
+        if _share(path, tables.FULL_PATH_SPEED_MM_S, expressions) == expressions.text(joint):
+            shown = expressions.text(joint)
+            return f"SPEED {shown}{f', {turning}' if turning != shown else ''}{always}", 3
+        return f"SPEED {expressions.text(path)}, {turning} MMPS{always}", 3
+    return f"SPEED {expressions.text(path)} MMPS{always}", 2
+
+
+def _share(value: ir.Expression, full: float, expressions: Expressions) -> str:
+    """A speed as percent of the full one."""
+    known = expressions.known(value)
+    if known is not None:
+        return spelling.number(known * 100.0 / full, 9)
+    return expressions.text(expressions.scaled(value, 100.0 / full))
+
+
+def acceleration(body: Sequence[ir.Statement], expressions: Expressions) -> tuple[str, int] | None:
+    """ACCEL up, down."""
+    names = ("acceleration_percent", "deceleration_percent")
+    values = []
+    for statement, name in zip(body, names, strict=False):
+        known = parts(statement)
+        if known is None or known[0] != name or not known[2]:
+            break
+        values.append(expressions.text(known[1]))
+    return (f"ACCEL {', '.join(values)}", len(values)) if values else None
+
+
+def setting(name: str, value: ir.Expression, always: bool, expressions: Expressions) -> list[str]:
+    """The step(s) that set one variable."""
+    text, ending = expressions.text, " ALWAYS" if always else ""
+    match name:
+        case "tool" | "base":
+            if not always:
+                raise UnsayableError(f"a {name} for one move")
+            shown = text(value)
+            if name == "base" and shown[:1].isdigit():
+                raise UnsayableError("a base that is a number")
+            return [f"{name.upper()} {shown}"]
+        case "override":
+            return [f"SPEED {text(value)} MONITOR"]
+        case "deceleration_percent":
+            return [f"ACCEL , {text(value)}"]
+        case "move_duration":
+            return [f"DURATION {expressions.measured(value, 's')}{ending}"]
+        case "blending" if isinstance(value, ir.BoolLiteral):
+            return [f"{'CPON' if value.value else 'CPOFF'}{ending}"]
+        case "end_tolerance":
+            known = expressions.known(value)
+            if known is not None and known > 100.0:
+                return [f"COARSE {spelling.number(known / tables.COARSE_FACTOR, 9)}{ending}"]
+            return [f"FINE {text(value)}{ending}"]
+        case "joint_speed":  # path speeds stand at their moves
+            return [f"SPEED {text(value)}{ending}"]
+        case "path_speed":
+            return [f"SPEED {text(value)} MMPS{ending}"]
+        case "posture_shoulder" | "posture_elbow" | "posture_wrist" if isinstance(value, ir.EnumLiteral):
+            word = tables.POSTURES.get((name, value.member.lower()))
+            if word is not None:
+                return [word]
+    raise UnsayableError(f"there is no setting for {name.replace('_', ' ')}")

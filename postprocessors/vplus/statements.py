@@ -1,0 +1,301 @@
+"""IR statements as V+ steps. What V+ cannot say becomes a guarded stop: the original as a comment, then PAUSE."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.walk import walk
+from rpl.passes.scope import Scope
+from rpl.source import Comment, Origin
+from rpl.writing.ledger import EmissionLedger
+
+from . import settings, spelling, tables
+from .actions import Actions
+from .expressions import Expressions, Notes, UnsayableError
+from .motion import Motion, MotionFacts
+from .reactions import Reactions
+
+GUARDED = code(
+    "vplus-guarded-stop",
+    Severity.LOSS,
+    "V+ cannot say this: {reason}",
+    "the program stops there with PAUSE; write the step by hand",
+)
+TEXT_CHANGED = code("vplus-text", Severity.WARNING, "a text is written in plain ASCII: {text}")
+STEP, FIRST = "    ", "        "
+
+
+@dataclass(slots=True)
+class Output:
+    """What all programs of one file share. `tasks`: number of each program that runs beside the main one."""
+
+    ledger: EmissionLedger
+    diagnostics: Diagnostics
+    facts: MotionFacts
+    reactions: Reactions
+    taken: set[str]
+    tasks: dict[str, int] = field(default_factory=dict)
+
+
+class Printer:
+    """Prints the body of one program."""
+
+    def __init__(self, scope: Scope, output: Output, labels: dict[str, str] | None = None) -> None:
+        self.scope, self.output = scope, output
+        self.ledger, self.diagnostics = output.ledger, output.diagnostics
+        self.lines: list[str] = []
+        self.depth = 0
+        self.labels = labels or {}
+        self.notes = Notes(taken=output.taken)
+        self.expressions = Expressions(scope, self.notes)
+        self.motion = Motion(self.expressions, output.facts)
+        self.actions = Actions(self)
+        self.behind_move: list[str] = []  # what triggers do when the next move has begun
+
+    # ---- lines and comments
+
+    def line(self, text: str, origin: Origin | None = None) -> None:
+        """One step, behind those that its values need, with the comments that belong to its statement."""
+        behind = ""
+        for comment in origin.comments if origin else ():
+            if comment.behind:
+                behind = f" ;{_one_line(comment.text)}"
+            else:
+                self.comment(comment)
+        before, self.notes.before = self.notes.before, []
+        for one in (*before, text):
+            whole = self.fitted(one)
+            if one is text and behind:
+                if len(whole) + len(behind) > tables.LONGEST_LINE:
+                    self.remark(behind.removeprefix(" ;"))
+                else:
+                    whole += behind
+            self.lines.append(whole)
+
+    def fitted(self, text: str) -> str:
+        """The step, indented as far as the line is long enough."""
+        if len(text) > tables.LONGEST_LINE:
+            raise UnsayableError(f"a line of {len(text)} characters; at most {tables.LONGEST_LINE} are read")
+        indent = FIRST + STEP * self.depth
+        return indent[: tables.LONGEST_LINE - len(text)] + text
+
+    def more(self, *texts: str) -> None:
+        for text in texts:
+            self.line(text)
+
+    def comment(self, comment: Comment) -> None:
+        self.remark(comment.text)
+
+    def remark(self, text: str) -> None:
+        indent = FIRST + STEP * self.depth
+        for part in text.splitlines() or [""]:
+            plain = spelling.ascii_text(part.rstrip())
+            room = tables.LONGEST_LINE - len(indent) - 1
+            for start in range(0, max(len(plain), 1), room):
+                self.lines.append(f"{indent};{plain[start : start + room]}".rstrip())
+
+    def comments_only(self, origin: Origin) -> None:
+        for comment in origin.comments:
+            self.comment(comment)
+
+    # ---- bodies
+
+    def body(self, body: ir.Body, inner: bool = True) -> None:
+        self.depth += inner
+        at = 0
+        while at < len(body):
+            at += self.joined(body[at:]) or self.one(body[at])
+        self.depth -= inner
+
+    def one(self, statement: ir.Statement) -> int:
+        self.statement(statement)
+        return 1
+
+    def joined(self, body: ir.Body) -> int:
+        """Statements that are one step of V+. Counts them."""
+        try:
+            found = self.together(body)
+        except UnsayableError:
+            self.notes.before.clear()
+            return 0  # each is then guarded on its own
+        if found is None:
+            return 0
+        text, count = found
+        for statement in body[:count]:
+            self.comments_only(statement.origin)
+            self.ledger.merged(statement)
+        self.line(text)
+        return count
+
+    def together(self, body: ir.Body) -> tuple[str, int] | None:
+        match body[0]:
+            case ir.Assign(target=ir.System()) | ir.SetForNextMove():
+                return settings.speed(body, self.expressions) or settings.acceleration(body, self.expressions)
+            case ir.StopMotion() if len(body) > 1 and isinstance(body[1], ir.ClearMotion):
+                return "BRAKE", 2
+            case ir.WaitForMotion() as wait if len(body) > 1:  # TOOL and BASE wait for the robot by themselves
+                known = settings.parts(body[1])
+                if known is not None and known[0] in ("tool", "base") and body[1].origin == wait.origin:
+                    return settings.setting(known[0], known[1], known[2], self.expressions)[0], 2
+            case ir.Trigger():
+                return self.actions.hand(body)
+        return None
+
+    def statement(self, statement: ir.Statement) -> None:
+        """One statement, or its guarded stop."""
+        kept, depth, known = len(self.lines), self.depth, len(self.notes.changed_texts)
+        try:
+            self.written(statement)
+        except UnsayableError as error:
+            del self.lines[kept:]
+            self.notes.before.clear()
+            self.depth, self.notes.steps = depth, True
+            self.guard(statement, str(error))
+        else:
+            self.ledger.written(statement)
+        for text in self.notes.changed_texts[known:]:
+            self.diagnostics.report(TEXT_CHANGED, statement.origin, text=text)
+
+    def guard(self, statement: ir.Statement, reason: str) -> None:
+        self.comments_only(statement.origin)
+        self.remark(statement.origin.text or getattr(statement, "text", "") or statement.__class__.__name__)
+        self.line("PAUSE")
+        self.diagnostics.report(GUARDED, statement.origin, reason=reason)
+        self.ledger.reported(statement)
+
+    def written(self, statement: ir.Statement) -> None:
+        match statement:
+            case ir.Nothing(origin=origin):
+                self.comments_only(origin)
+            case ir.Opaque(text=text):
+                raise UnsayableError(f"it was not read ({text.strip()[:40]})")
+            case ir.Vendor(dialect=dialect, text=text, origin=origin):
+                if dialect != "vplus":
+                    raise UnsayableError(f"it belongs to {dialect}")
+                self.line(text, origin)
+            case ir.Label(name=name):
+                self.motion.forget()
+                self.comments_only(statement.origin)
+                self.lines.append(f" {self.labels.get(name.lower(), name)}")
+            case ir.Goto(label=label):
+                self.line(f"GOTO {self.labels.get(label.lower(), label)}", statement.origin)
+            case ir.Move():
+                self.move(statement)
+            case ir.If() | ir.Switch() | ir.For() | ir.While() | ir.Repeat() | ir.Loop():
+                self.motion_unknown(statement)
+                self.block(statement)
+                self.motion_unknown(statement)
+            case _:
+                self.actions.write(statement)
+
+    def motion_unknown(self, block: ir.Statement) -> None:
+        """A block that moves leaves the arm in a posture that depends on the run."""
+        if any(isinstance(node, ir.Move | ir.CallRoutine) for node in walk((block,))):
+            self.motion.forget()
+
+    def move(self, move: ir.Move) -> None:
+        before, step, behind = self.motion.move(move)
+        inner, self.notes.before = self.notes.before, []
+        self.comments_only_before(move.origin)
+        self.more(*inner, *before)
+        self.line(step, _behind_only(move.origin))
+        waiting, self.behind_move = self.behind_move, []
+        self.more(*waiting, *behind)
+
+    def comments_only_before(self, origin: Origin) -> None:
+        for comment in origin.comments:
+            if not comment.behind:
+                self.comment(comment)
+
+    def stands(self) -> bool:
+        """Does the robot stand for certain when the last line has been executed?"""
+        return bool(self.lines) and self.lines[-1].strip() == "BREAK"
+
+    # ---- blocks
+
+    def condition(self, expression: ir.Expression, again: bool = False) -> str:
+        """`again`: it is looked at more than once, so no step can stand in front."""
+        self.notes.steps = not again
+        text = self.expressions.condition(expression)
+        self.notes.steps = True
+        return text
+
+    def block(self, statement: ir.Statement) -> None:
+        origin = statement.origin
+        match statement:
+            case ir.If(branches=branches, otherwise=otherwise):
+                self.branches(branches, otherwise, origin)
+            case ir.Switch():
+                self.switch(statement)
+            case ir.For():
+                self.counting(statement)
+            case ir.While(condition=condition, body=body):
+                self.line(f"WHILE {self.condition(condition, True)} DO", origin)
+                self.body(body)
+                self.line("END")
+            case ir.Repeat(until=until, body=body):
+                ending = f"UNTIL {self.condition(until, True)}"
+                self.line("DO", origin)
+                self.body(body)
+                self.line(ending)
+            case ir.Loop(body=body):
+                self.line("WHILE TRUE DO", origin)
+                self.body(body)
+                self.line("END")
+
+    def branches(
+        self, branches: tuple[tuple[ir.Expression, ir.Body], ...], otherwise: ir.Body, origin: Origin | None
+    ) -> None:
+        """IF ... THEN ... ELSE ... END; a lone jump stands behind its condition."""
+        (condition, body), *rest = branches
+        shown = self.condition(condition)
+        match body:
+            case (ir.Goto(label=label, origin=at) as jump,) if not rest and not otherwise and not at.comments:
+                self.line(f"IF {shown} GOTO {self.labels.get(label.lower(), label)}", origin)
+                self.ledger.written(jump)
+                return
+        self.line(f"IF {shown} THEN", origin)
+        self.body(body)
+        if rest or otherwise:
+            self.line("ELSE")
+            if rest:
+                self.depth += 1
+                self.branches(tuple(rest), otherwise, None)
+                self.depth -= 1
+            else:
+                self.body(otherwise)
+        self.line("END")
+
+    def switch(self, statement: ir.Switch) -> None:
+        if not statement.cases:
+            raise UnsayableError("a choice without a case")
+        self.line(f"CASE {self.expressions.text(statement.selector)} OF", statement.origin)
+        self.depth += 1
+        for case in statement.cases:
+            self.line(f"VALUE {', '.join(self.expressions.text(value) for value in case.values)}:", case.origin)
+            self.body(case.body)
+        if statement.default is not None:
+            self.line("ANY")
+            self.body(statement.default)
+        self.depth -= 1
+        self.line("END")
+
+    def counting(self, loop: ir.For) -> None:
+        if loop.scoped or loop.automatic or loop.at_least_once or loop.keeps_last:
+            raise UnsayableError("a loop whose counter or first pass follows another language's rule")
+        text = self.expressions.text
+        step = f" STEP {text(loop.step)}" if loop.step is not None else ""
+        counter = text(ir.Name(loop.counter))
+        self.line(f"FOR {counter} = {text(loop.start)} TO {text(loop.stop)}{step}", loop.origin)
+        self.body(loop.body)
+        self.line("END")
+
+
+def _one_line(text: str) -> str:
+    return spelling.ascii_text(" ".join(text.split()))
+
+
+def _behind_only(origin: Origin) -> Origin:
+    return replace(origin, comments=tuple(comment for comment in origin.comments if comment.behind))

@@ -1,0 +1,134 @@
+"""How V+ spells the neutral vocabulary, as data. What no manual at hand states is marked `M:`."""
+
+from __future__ import annotations
+
+from rpl.writing.precedence import Operator, OperatorTable
+
+
+def words(text: str) -> frozenset[str]:
+    """The words of a list."""
+    return frozenset(text.split())
+
+
+# Words that cannot be names: of steps, of operators and functions.
+RESERVED = words(
+    """abort above abs accel accel.set aio.in aio.out align always and any appro appros asc atan2 attach auto band base
+    below bits bmask bor brake break bxor by call calls case clear.event close closei coarse com config cos cpoff cpon
+    cycle.end decompose defbelt define defined delay depart departs dest detach device disable distance do double drive
+    duration dx dy dz else enable end error execute exit false fine flip fclose fopen fopena fopend fopenr fopenw for
+    fract frame fseek getc global goto halt here hand hour.meter id if ignore inrange int inverse iostat ips kill last
+    left lefty len local lock loc max min mmps mod monitor move movec movef moves movesf movest movet multiple nest
+    next noflip nonull nooverlap normal not null of off on open openi or outside overlap parameter pause pi pos proceed
+    program prompt random react reacte reacti read ready real relax relaxi release reset retry return returne righty
+    runsig rx ry rz scale select set set.event setbelt shift sig sig.ins sign signal sin single speed sqr sqrt state
+    step stop switch task tas then time timer to tool trans true type until val value wait wait.event while window
+    write xor zero belt dry.run power cp uppper here phere pdest ppoint encode decode chr mid fldw alter alton altoff
+    latch noop user spin payload update load save net calibrate mcs write mc prime sstep xstep"""
+)
+LONGEST_NAME = 15  # without the sign of the type
+LONGEST_LINE = 120
+TIMERS = 15  # TIMER 1 .. 15 can be set
+TASKS = 7  # M: tasks beside the one that runs the program, on the smallest controllers
+
+# Relations bind loosest, OR like +, AND like * (see the reader's page).
+RELATION, SUM, PRODUCT, SIGN, COMPOUND = 10, 20, 30, 40, 50
+_BINARY = {
+    "=": Operator("==", RELATION, "none"),
+    "<>": Operator("<>", RELATION, "none"),
+    "<": Operator("<", RELATION, "none"),
+    ">": Operator(">", RELATION, "none"),
+    "<=": Operator("<=", RELATION, "none"),
+    ">=": Operator(">=", RELATION, "none"),
+    "+": Operator("+", SUM, spaced=False),
+    "&": Operator("+", SUM, spaced=False),
+    "-": Operator("-", SUM, spaced=False),
+    "or": Operator("OR", SUM),
+    "cor": Operator("OR", SUM),
+    "xor": Operator("XOR", SUM),
+    "bor": Operator("BOR", SUM),
+    "bxor": Operator("BXOR", SUM),
+    "*": Operator("*", PRODUCT, spaced=False),
+    "/": Operator("/", PRODUCT, spaced=False),
+    "mod": Operator("MOD", PRODUCT),
+    "and": Operator("AND", PRODUCT),
+    "cand": Operator("AND", PRODUCT),
+    "band": Operator("BAND", PRODUCT),
+    ":": Operator(":", COMPOUND, spaced=False),
+}
+OPERATORS = OperatorTable(
+    binary=_BINARY,
+    unary={
+        "-": Operator("-", SIGN),
+        "+": Operator("+", SIGN),
+        "not": Operator("NOT", SIGN),
+        "bnot": Operator("COM", SIGN),
+    },
+    mixed=(frozenset(("or", "cor", "xor", "and", "cand", "band", "bor", "bxor")),),
+)
+WRITTEN_OPERATORS = frozenset(("div",))  # written with a function
+
+FUNCTIONS = {
+    "abs": "ABS",
+    "sqrt": "SQRT",
+    "sin": "SIN",
+    "cos": "COS",
+    "atan2": "ATAN2",
+    "min": "MIN",
+    "max": "MAX",
+    "fraction": "FRACT",
+    "inverse": "INVERSE",
+    "text_length": "LEN",
+    "text_value": "VAL",
+    "from_code": "$CHR",
+    "character_code": "ASC",
+    "error_text": "$ERROR",
+}
+# Spelled without an argument.
+VALUES = {
+    "random": "RANDOM",
+    "time_text": "$TIME()",
+    "current_target": "HERE",
+    "current_joints": "#PHERE",
+}
+SYSTEM = {
+    "tool": "TOOL",
+    "base": "BASE",
+    "null_frame": "NULL",
+    "world": "NULL",
+    "actual_pose": "HERE",
+    "end_pose": "DEST",
+    "actual_joints": "#PHERE",
+    "error_number": "ERROR(-1)",
+    "time": "TIMER(-3)",
+}
+SETTINGS = words(
+    """acceleration_percent deceleration_percent override blending end_tolerance move_duration posture_shoulder
+    posture_elbow posture_wrist"""
+)
+POSTURES = {
+    ("posture_shoulder", "front"): "RIGHTY",
+    ("posture_shoulder", "back"): "LEFTY",
+    ("posture_elbow", "up"): "ABOVE",
+    ("posture_elbow", "down"): "BELOW",
+    ("posture_wrist", "flip"): "FLIP",
+    ("posture_wrist", "noflip"): "NOFLIP",
+}
+# The notation's flags as words: (0, 1).
+FLAGS = {"shoulder": ("RIGHTY", "LEFTY"), "elbow": ("ABOVE", "BELOW"), "wrist": ("NOFLIP", "FLIP")}
+
+# Signals: what is added to a neutral number, and the largest one.
+SIGNALS = {"digital_out": 0, "digital_in": 1000, "flag": 2000}
+GROUPS = {"group_out": "digital_out", "group_in": "digital_in"}
+MOST_SIGNALS = 999
+ROBOT_SIGNALS = (3001, 3999)
+MOST_BITS = 32
+HAND_OPEN, HAND_CLOSE = 3001, 3002  # M: the hand's solenoids
+# M: what 100 percent of SPEED is for straight lines and for turning (the reader's figures).
+FULL_PATH_SPEED_MM_S = 1000.0
+FULL_ROTATION_SPEED_DEG_S = 180.0
+COARSE_FACTOR = 10.0  # M: COARSE 100 is so many times as wide as FINE 100
+PRIORITY_TOP = 128  # neutral priorities go down from it
+AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
+EXTERNAL = ("e1", "e2", "e3", "e4", "e5", "e6")
+PLACES = ("x", "y", "z")
+UNUSED = 9e8  # an external axis that does not exist stands at 9E9

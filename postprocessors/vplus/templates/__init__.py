@@ -1,0 +1,1 @@
+"""Frame of V+ files; a package so that the wheel holds it."""

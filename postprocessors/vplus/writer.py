@@ -1,0 +1,304 @@
+"""A program as one `.v2` file: its programs, then the values of its global variables in data sections."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from typing import TYPE_CHECKING
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
+from rpl.passes.fold import constant_number
+from rpl.passes.scope import ProgramScope, Scope
+from rpl.writing.ledger import EmissionLedger
+from rpl.writing.target import OutputFile, WriteContext
+
+from . import spelling, tables
+from .corners import Corners
+from .data import declared, stored, values
+from .expressions import UnsayableError
+from .motion import MotionFacts
+from .namespace import names_of, one_namespace, starts
+from .reactions import Reactions
+from .statements import FIRST, Output, Printer
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+LOST_DECLARATION = code(
+    "vplus-lost-declaration", Severity.LOSS, "V+ cannot declare {name}: {reason}", "it is left as a comment"
+)
+LOST_HANDLER = code("vplus-lost-handler", Severity.LOSS, "V+ has no error handlers; the one of {name} is left out")
+_ORDER = (".LOCATIONS", ".REALS", ".STRINGS")
+
+
+@cache
+def _environment() -> Environment:
+    from jinja2 import DictLoader, Environment, StrictUndefined
+
+    folder = resources.files(__package__ or "").joinpath("templates")
+    texts = {"program": folder.joinpath("program.v2.j2").read_text("utf-8")}
+    return Environment(
+        loader=DictLoader(texts), undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, autoescape=False
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramText:
+    """What the template needs of one program."""
+
+    head: str
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """What the template needs of one data section."""
+
+    word: str
+    lines: tuple[str, ...]
+
+
+def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
+    """The file of a program. Raises InternalError when the ledger finds a node that nobody accounted for."""
+    return [_File(program, context).file()]
+
+
+class _File:
+    def __init__(self, program: ir.Program, context: WriteContext) -> None:
+        self.program = one_namespace(program)
+        self.scopes = ProgramScope(self.program)
+        self.ledger, self.diagnostics = EmissionLedger(), context.diagnostics
+        corners = Corners.of(self.program) if context.foreign else Corners(self.program)
+        facts = MotionFacts(context.diagnostics, context.robot, context.foreign, corners)
+        self.starting = starts(self.program)
+        if context.foreign:
+            facts.usual = self.usual()
+        self.output = Output(
+            self.ledger, context.diagnostics, facts, Reactions(self.program), names_of(self.program), self.tasks()
+        )
+        self.background = {task.entry.lower(): task for task in self.program.tasks if task.kind == "background"}
+        self.sections: dict[str, list[str]] = {}
+
+    def file(self) -> OutputFile:
+        first = self.program.modules[0]
+        remarks = Printer(self.scopes.module(first), self.output)
+        for module in self.program.modules:
+            self.ledger.written(module)
+            remarks.comments_only(module.origin)
+            for declaration in module.declarations:
+                self.data(declaration, self.scopes.module(module), remarks)
+        programs = [self.routine(module, routine) for module in self.program.modules for routine in module.routines]
+        programs.sort(key=lambda one: not one[1])
+        sections = [Section(word, tuple(self.sections[word])) for word in _ORDER if word in self.sections]
+        text = (
+            _environment()
+            .get_template("program")
+            .render(
+                before=[line.strip() for line in remarks.lines],
+                programs=[one for one, _ in programs],
+                sections=sections,
+            )
+        )
+        self.ledger.check(self.program)
+        text = "\r\n".join(line.rstrip() for line in text.splitlines()) + "\r\n"
+        name = re.sub(r"[^\w.]", "_", first.name.lower()).strip(".") or "program"
+        return OutputFile(f"{name}.v2", text.encode("ascii", "replace"))
+
+    # ---- facts of the whole program
+
+    def tasks(self) -> dict[str, int]:
+        """A number for each program that is executed beside the main one."""
+        names = [task.entry.lower() for task in self.program.tasks if task.kind == "background"]
+        names += [node.task.lower() for node in walk(self.program) if isinstance(node, ir.TaskControl)]
+        return {name: number for number, name in enumerate(dict.fromkeys(names), 1) if number <= tables.TASKS}
+
+    def usual(self) -> float | None:
+        """The speed of joint moves that the program sets once for all."""
+        counts: Counter[float] = Counter()
+        for module in self.program.modules:
+            for routine in module.routines:
+                scope = self.scopes.routine(module, routine)
+                for node in walk(routine.body):
+                    if isinstance(node, ir.Move) and node.kind == "joint" and node.speed is not None:
+                        percent = node.speed.joint
+                        bare = percent.value if isinstance(percent, ir.Quantity) else percent
+                        known = constant_number(bare, scope) if bare is not None else None
+                        if known is not None and known > 0:
+                            counts[known] += 1
+        return counts.most_common(1)[0][0] if counts else None
+
+    # ---- data
+
+    def data(self, declaration: ir.Declaration, scope: Scope, printer: Printer) -> None:
+        """A global variable: its first value, if it has one."""
+        origin = declaration.origin
+        try:
+            match declaration:
+                case ir.Variable():
+                    self.place_values(declaration, scope)
+                    printer.comments_only(origin)
+                case ir.Initialise(assign=ir.Assign(target=target, value=value)):
+                    type = printer.expressions.type(target)
+                    if type is None:
+                        raise UnsayableError("its type is not known")
+                    self.add(*stored(target, type, value, scope))
+                case ir.SignalDeclaration(name=name, signal=signal):
+                    printer.comments_only(origin)
+                    printer.remark(f" {name} is {printer.expressions.text(signal)}")
+                case ir.ExternalDeclaration() | ir.Unread(text="") | ir.RecordDeclaration() | ir.AliasDeclaration():
+                    printer.comments_only(origin)
+                case ir.Unread(text=text):
+                    raise UnsayableError(f"it was not read ({text.strip()[:40]})")
+                case _:
+                    raise UnsayableError(f"there is no {declaration.__class__.__name__}")
+        except UnsayableError as error:
+            self.lost(declaration, printer, str(error))
+        else:
+            self.ledger.written(declaration)
+
+    def place_values(self, variable: ir.Variable, scope: Scope) -> None:
+        lines = [stored(place, type, value, scope) for place, type, value in values(variable)]
+        for section, line in lines:
+            self.add(section, line)
+
+    def add(self, section: str, line: str) -> None:
+        self.sections.setdefault(section, []).append(line)
+
+    def lost(self, declaration: ir.Declaration, printer: Printer, reason: str) -> None:
+        name = str(getattr(declaration, "name", "this"))
+        printer.comments_only(declaration.origin)
+        printer.remark(f" {declaration.origin.text or name}")
+        self.diagnostics.report(LOST_DECLARATION, declaration.origin, name=name, reason=reason)
+        self.ledger.reported(declaration)
+
+    # ---- programs
+
+    def routine(self, module: ir.Module, routine: ir.Routine) -> tuple[ProgramText, bool]:
+        """A program, and whether it is one to start with."""
+        scope = self.scopes.routine(module, routine)
+        printer = Printer(scope, self.output, _labels(routine))
+        remarks = Printer(scope, self.output)
+        remarks.comments_only(routine.origin)
+        self.ledger.written(routine)
+        if routine.kind == "function" or routine.returns is not None:
+            self.diagnostics.report(
+                LOST_DECLARATION, routine.origin, name=routine.name, reason="there are no user functions"
+            )
+        first = routine.name.lower() in self.starting
+        initial = self.own_data(routine, printer)
+        values_first, printer.lines = printer.lines, []
+        if first:
+            self.opening(routine, printer)
+        task = self.background.get(routine.name.lower())
+        again = task is not None and task.cyclic
+        if again:
+            printer.more("WHILE TRUE DO")
+        printer.body(routine.body, again)
+        if again:
+            printer.depth += 1
+            printer.line("WAIT")
+            printer.depth -= 1
+            printer.line("END")
+        self.handlers(routine)
+        lines = [*remarks.lines, *_declarations(initial, printer.notes.autos), *values_first, *printer.lines]
+        return ProgramText(_head(routine), tuple(lines)), first
+
+    def own_data(self, routine: ir.Routine, printer: Printer) -> list[tuple[str, str]]:
+        """(AUTO or LOCAL, name) of each variable; their first values are printed."""
+        found: list[tuple[str, str]] = []
+        for declaration in routine.declarations:
+            try:
+                if isinstance(declaration, ir.Variable):
+                    word = "LOCAL" if declaration.storage == "persistent" else "AUTO"
+                    found.append((word, declared(declaration, printer.expressions)))
+                    printer.comments_only(declaration.origin)
+                    if word == "LOCAL" and declaration.initial is not None:
+                        self.first_time(declaration, printer)
+                    else:
+                        for place, _, value in values(declaration):
+                            printer.line(printer.actions.stored(place, value))
+                elif isinstance(declaration, ir.Unread) and declaration.text:
+                    raise UnsayableError(f"it was not read ({declaration.text.strip()[:40]})")
+                else:
+                    printer.comments_only(declaration.origin)
+            except UnsayableError as error:
+                self.lost(declaration, printer, str(error))
+            else:
+                self.ledger.written(declaration)
+        return found
+
+    def first_time(self, variable: ir.Variable, printer: Printer) -> None:
+        """The first value of a variable that keeps its value between calls."""
+        places = values(variable)
+        asked = printer.expressions.text(places[0][0])
+        printer.line(f"IF NOT DEFINED({asked}) THEN")
+        printer.depth += 1
+        for place, _, value in places:
+            printer.line(printer.actions.stored(place, value))
+        printer.depth -= 1
+        printer.line("END")
+
+    def opening(self, routine: ir.Routine, printer: Printer) -> None:
+        """What a program that is started does first: its speed, the tasks beside it."""
+        if routine.name.lower() in self.background:
+            return
+        usual = self.output.facts.usual
+        if usual is not None:
+            printer.line(f"SPEED {spelling.number(usual, 4)} ALWAYS")
+        for name in self.background:
+            number = self.output.tasks.get(name)
+            if number is not None:
+                printer.line(f"EXECUTE {number} {name}()")
+
+    def handlers(self, routine: ir.Routine) -> None:
+        """What a program has no place for. The passes before carry over what they can."""
+        lost = [statement for handler in routine.handlers for statement in handler.body]
+        lost.extend((*routine.undo, *routine.backward))
+        if routine.handlers or lost:
+            self.diagnostics.report(LOST_HANDLER, routine.origin, name=routine.name)
+        for statement in lost:
+            self.ledger.reported(statement)
+
+
+def _head(routine: ir.Routine) -> str:
+    names = []
+    for parameter in routine.parameters:
+        name = spelling.spelled(parameter.name, parameter.type)
+        if isinstance(parameter.type, ir.ArrayType):
+            name += f"[{',' * (len(parameter.type.dimensions) - 1)}]"
+        names.append(name)
+    return f".PROGRAM {routine.name.lower()}({', '.join(names)})"
+
+
+def _labels(routine: ir.Routine) -> dict[str, str]:
+    """A number for each label: its own where all are numbers, else 10, 20, ..."""
+    names = [node.name.lower() for node in walk(routine.body) if isinstance(node, ir.Label)]
+    if all(name.isdigit() for name in names):
+        return {name: name for name in names}
+    return {name: str(number * 10) for number, name in enumerate(dict.fromkeys(names), 1)}
+
+
+def _declarations(found: list[tuple[str, str]], autos: list[str]) -> list[str]:
+    """AUTO and LOCAL lines, as many names in each as fit."""
+    lines = []
+    for word, names in (
+        ("AUTO", [*(name for kind, name in found if kind == "AUTO"), *autos]),
+        ("LOCAL", [name for kind, name in found if kind == "LOCAL"]),
+    ):
+        line = ""
+        for name in names:
+            if line and len(line) + len(name) + 2 > tables.LONGEST_LINE:
+                lines.append(line)
+                line = ""
+            line = f"{line}, {name}" if line else f"{FIRST}{word} {name}"
+        if line:
+            lines.append(line)
+    return lines
+
+
+__all__ = ["write"]
