@@ -138,7 +138,7 @@ class Expressions:
         last = tables.LAST_SIGNAL[word] if self.limited else _LAST
         if not 1 <= value <= last:
             raise CannotSayError(f"{word}[{value:g}] is outside of 1..{last}")
-        name = comment(self.names.get((word, int(value)), ""))
+        name = comment(self.names.get((signal.kind, int(value)), ""))
         return f"{word}[{int(value)}{':' + name if name else ''}]"
 
     # ---- operands

@@ -134,7 +134,8 @@ def test_a_circle_goes_over_two_lines_under_one_number() -> None:
 
 
 def test_names_of_registers_are_comments() -> None:
-    names = {("R", 1): "number of boxes on the pallet", ("PR", 3): "spot:[x]"}
+    names = {("R", 1): "number of boxes on the pallet", ("PR", 3): "spot:[x]", ("digital_out", 1): "grip"}
+    assert lines("SET do[1] TO ON", names) == ["DO[1:grip]=ON"]
     assert lines("R[1] = PR[3].x", names) == ["R[1:number of boxes]=PR[3,1:spotx]"]
 
 
