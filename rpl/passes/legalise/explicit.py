@@ -253,6 +253,9 @@ class _Modal:
                     return ir.BlendPercent(ir.System("blend_joint"))
                 wanted["blend_speed"] = percent
                 return ir.BlendSpeed(ir.System("blend_speed"))
+            case ir.BlendPercent(percent=percent) if move.kind == "joint" and not isinstance(percent, ir.System):
+                wanted["blend_joint"] = percent
+                return ir.BlendPercent(ir.System("blend_joint"))
             case ir.BlendZone():
                 pass
             case _:
