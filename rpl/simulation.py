@@ -241,6 +241,18 @@ def find_entry(program: ir.Program, linked: LinkedProgram, entry: str | None) ->
     raise UsageError(f"which routine is the program? {_listed(candidates)} (name one with --entry)")
 
 
+def entry_name(program: ir.Program, entry: str | None = None) -> str | None:
+    """The name of the routine that a run starts with; None when several tasks start or it cannot be told."""
+    from rpl.linking import link
+
+    if program.tasks and entry is None:
+        return None
+    try:
+        return find_entry(program, link(program), entry).name
+    except UsageError:
+        return None
+
+
 def _starts(routine: ir.Routine) -> bool:
     return routine.kind == "procedure" and all(parameter.optional for parameter in routine.parameters)
 
@@ -273,8 +285,10 @@ def _called(program: ir.Program, caller: ir.Routine) -> set[str]:
                 match node:
                     case ir.CallRoutine(name=name) | ir.Call(name=name):
                         names.add(name.lower())
-                    case ir.ConnectInterrupt(routine=name):
+                    case ir.ConnectInterrupt(routine=name) | ir.TaskControl(task=name):
                         names.add(name.lower())
+                    case ir.OnError(routine=trap) if trap is not None:
+                        names.add(trap.lower())
     return names
 
 
@@ -284,4 +298,4 @@ def _listed(candidates: list[tuple[ir.Module, ir.Routine]]) -> str:
     return "candidates are " + ", ".join(routine.name for _, routine in candidates)
 
 
-__all__ = ["RunError", "RunResult", "Simulation", "find_entry", "run_program"]
+__all__ = ["RunError", "RunResult", "Simulation", "entry_name", "find_entry", "run_program"]

@@ -169,6 +169,7 @@ def _prove(
     from rpl.project import read_sources
     from rpl.proof.prove import load_cell, prove_programs
     from rpl.proof.wiring import with_signal_names
+    from rpl.simulation import entry_name
     from rpl.source import source_from_bytes
 
     sources = [source_from_bytes(file.path, file.data) for file in translation.files]
@@ -179,7 +180,11 @@ def _prove(
         raise InternalError(f"what was written cannot be read back: {errors[0].as_text()}")
     with waiting("proving"):
         again_named = with_signal_names(back.program, translation.program)
-        return prove_programs(read.program, again_named, robot, to_robot, load_cell(cell))
+        entry = entry_name(read.program)
+        to_entry = translation.renamed.get(entry, entry) if entry else None
+        return prove_programs(
+            read.program, again_named, robot, to_robot, load_cell(cell), entry=entry, to_entry=to_entry
+        )
 
 
 def _document(

@@ -20,6 +20,7 @@ from rpl.ir.walk import walk
 from rpl.project import ReadProgram, read_sources
 from rpl.proof.prove import prove_programs
 from rpl.proof.wiring import with_signal_names
+from rpl.simulation import entry_name
 from rpl.source import source_from_bytes
 from rpl.translation import translate_program
 
@@ -65,6 +66,7 @@ def outcome_of(
     errors = [item.as_text() for item in again.of(Severity.ERROR)]
     if errors:
         return Outcome(DIFFERENT, why="; ".join(errors[:3])), diagnostics
+    entry = entry_name(read.program, entry)
     to_entry = translation.renamed.get(entry, entry) if entry else None
     named = with_signal_names(back.program, translation.program)
     result = prove_programs(read.program, named, robot, robot, cell, entry=entry, to_entry=to_entry)  # type: ignore[arg-type]
