@@ -224,11 +224,11 @@ def find_entry(program: ir.Program, linked: LinkedProgram, entry: str | None) ->
     that nobody calls. Raises UsageError with the candidates."""
     wanted = entry or program.entry
     if wanted:
-        found = linked.find_routine(wanted)
+        found = linked.find_routine(wanted) or _any_case(program, wanted)
         if found is None:
             raise UsageError(f"there is no routine {wanted}: {_listed(_startable(program))}")
         return found[1]
-    main = linked.find_routine(MAIN)
+    main = linked.find_routine(MAIN) or _any_case(program, MAIN)
     if main is not None and _starts(main[1]):
         return main[1]
     startable = [(m, r) for m, r in _startable(program) if not _is_empty(r)]
@@ -251,6 +251,12 @@ def entry_name(program: ir.Program, entry: str | None = None) -> str | None:
         return find_entry(program, link(program), entry).name
     except UsageError:
         return None
+
+
+def _any_case(program: ir.Program, wanted: str) -> tuple[ir.Module, ir.Routine] | None:
+    """The only routine of that name in capital or small letters, in a language that tells them apart."""
+    found = [(m, r) for m in program.modules for r in m.routines if r.name.lower() == wanted.lower()]
+    return found[0] if len(found) == 1 else None
 
 
 def _starts(routine: ir.Routine) -> bool:
