@@ -62,3 +62,8 @@ def test_calls_carry_settings_in_and_out() -> None:
 
 def test_computed_settings_are_unknown() -> None:
     assert speeds(f"$path_speed = p.x\np.x = 2\n{MOVE}") == [None]
+
+
+def test_a_routine_that_sets_nothing_changes_nothing_for_its_other_callers() -> None:
+    more = "PROCEDURE quiet()\non = TRUE\nEND PROCEDURE\nPROCEDURE other()\n$path_speed = 10.0\nquiet()\nEND PROCEDURE\n"
+    assert speeds(f"$path_speed = 90.0\nquiet()\n{MOVE}\nother()\nquiet()", more) == [90.0]

@@ -108,6 +108,8 @@ class _Modal:
 
     def other(self, statement: ir.Statement, known: Environment) -> list[ir.Statement]:
         match statement:
+            case ir.Assign(target=ir.System(name="acceleration_percent")) if self.context.capabilities.move_settings:
+                return [statement]  # it decides on corners; movesettings leaves it out then
             case ir.Assign(target=ir.System(name=name)) if name in _CHECKS:
                 setting = name.replace("_", " ")
                 self.context.diagnostics.report(DROPPED, statement.origin, name=setting)

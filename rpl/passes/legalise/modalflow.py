@@ -15,9 +15,13 @@ from rpl.passes.legalise.usage import Usage, each_expression, usage_of
 from rpl.passes.scope import ProgramScope, Scope
 
 SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distance", "blend_joint"))
+# What else is followed, because the size of a corner that a speed decides depends on it. The values are those of a
+# controller that says nothing (mm/s2 and percent, as the emulator takes them).
+BRAKING = {"blend_speed": 100.0, "path_acceleration": 5000.0, "acceleration_percent": 100.0}
+_FOLLOWED = SETTINGS | BRAKING.keys()
 # Setting -> constant; None: it depends on the run. A place that is never reached has no state.
 State = dict[str, "ir.Expression | None"]
-_UNKNOWN: State = dict.fromkeys(SETTINGS)
+_UNKNOWN: State = dict.fromkeys(_FOLLOWED)
 _ROUNDS = 40
 
 
@@ -63,7 +67,7 @@ class Flow:
     @classmethod
     def of(cls, program: ir.Program, defaults: dict[str, float | bool | str]) -> Flow:
         """Follow the program; `defaults` are the system variables of its language at the start."""
-        start: State = {name: _default(name, defaults) for name in SETTINGS}
+        start: State = {name: _default(name, defaults) for name in _FOLLOWED}
         flow = cls(usage_of(program), start)
         _Follower(program, flow).follow()
         return flow
@@ -81,7 +85,7 @@ class Flow:
 def _default(name: str, defaults: dict[str, float | bool | str]) -> ir.Expression | None:
     if name == "base":
         return ir.System("null_frame")
-    value = defaults.get(name)
+    value = defaults.get(name, BRAKING.get(name))
     return ir.RealLiteral(float(value)) if isinstance(value, int | float) else None
 
 
@@ -97,6 +101,7 @@ class _Follower:
         self.scopes = ProgramScope(program)
         self.routines = {r.name.lower(): (m, r) for m in reversed(program.modules) for r in m.routines}
         self.beside = _beside(program)
+        self.setting = _setting_routines(program)
         self.entries: dict[str, State | None] = dict.fromkeys(self.routines)
         self.exits: dict[str, State | None] = dict.fromkeys(self.routines)
         self.loops: list[_Loop] = []
@@ -205,7 +210,7 @@ class _Follower:
                 return None if after is None else self.called(name, after)
             case ir.CallRoutine():
                 return dict(_UNKNOWN)
-            case ir.Assign(target=ir.System(name=name), value=value) if name in SETTINGS:
+            case ir.Assign(target=ir.System(name=name), value=value) if name in _FOLLOWED:
                 new = self.stable(value) if name not in self.flow.usage.interrupting else None
                 self.note_setting(statement, new is not None and state[name] == new)
                 return {**state, name: new}
@@ -237,6 +242,8 @@ class _Follower:
         if key not in self.routines:
             return state
         self.entries[key] = joined(self.entries[key], state)
+        if key not in self.setting and self.exits[key] is not None:
+            return state
         return self.exits[key]
 
     # ---- constants
@@ -275,3 +282,24 @@ def _beside(program: ir.Program) -> set[str]:
             case ir.ConnectInterrupt(routine=name) | ir.TaskControl(task=name) | ir.Routine(name=name, kind="trap"):
                 names.add(name.lower())
     return names
+
+
+def _setting_routines(program: ir.Program) -> set[str]:
+    """Routines that change a setting, themselves or by what they call: behind all others it is as it was before."""
+    calls: dict[str, set[str]] = {}
+    found: set[str] = set()
+    for module in program.modules:
+        for routine in module.routines:
+            name = routine.name.lower()
+            called = calls.setdefault(name, set())
+            for node in walk(routine):
+                match node:
+                    case ir.Assign(target=ir.System(name=setting)) if setting in _FOLLOWED:
+                        found.add(name)
+                    case ir.CallRoutine(name=other, dynamic=None) | ir.Call(name=other):
+                        called.add(other.lower())
+                    case ir.CallRoutine():
+                        found.add(name)
+    while more := {name for name, called in calls.items() if name not in found and called & found}:
+        found |= more
+    return found

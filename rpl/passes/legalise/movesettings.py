@@ -18,7 +18,7 @@ from rpl.passes.rewrite import rewrite_parts
 
 _TYPES: dict[str, ir.Type] = {"tool": ir.PoseType(), "base": ir.PoseType()}
 # Settings that such a target has no word for, so that they cannot stay modal either.
-_LEFT_OUT = DROPPED_SETTINGS | {"swivel_speed", "twist_speed"}
+_LEFT_OUT = DROPPED_SETTINGS | {"swivel_speed", "twist_speed", "acceleration_percent"}
 _PARTS = {
     "tool": ("tool",),
     "base": ("frame",),
@@ -198,16 +198,46 @@ class _Settings:
                 levels = rules_of(self.context.source).blend_levels
                 size = ir.RealLiteral(levels[level] if level < len(levels) else 0.0)
                 self.report_once(JOINT_BLEND, move, f"level {level}", size=f"{size.value:g} mm")
+            case ir.BlendPercent(path=ir.BlendDistance(distance=distance)) if (
+                distance is not None and not _modal(move.blend.path) and move.kind != "joint"
+            ):
+                size = plain(self.expression(distance))  # the measure of path moves goes before the percent
             case ir.BlendPercent(percent=percent):
                 size = self.by_percent(move, percent, state, own)
-            case ir.BlendSpeed():
-                size = self.value("blend_distance", state, own)
-                self.report_once(JOINT_BLEND, move, "speed", size="the modal size")
+            case ir.BlendSpeed(percent=percent):
+                size = self.by_speed(move, percent, state, own)
             case _:
                 return rewrite_parts(move.blend, self.expression)
         if isinstance(size, ir.RealLiteral | ir.IntLiteral) and size.value == 0:
             return ir.BlendStop()
         return ir.BlendDistance(size)
+
+    def by_speed(
+        self, move: ir.Move, percent: ir.Expression, state: State, own: dict[str, ir.Expression]
+    ) -> ir.Expression:
+        """The way in which a move brakes from a part of its speed: v^2 / 2a, in mm."""
+        known = {**state, **own}
+        if isinstance(percent, ir.System):
+            percent = known.get("blend_speed") or percent
+        path = (move.speed.path if move.speed is not None else None) or self.value("path_speed", state, own)
+        path, factor = plain(self.expression(path)), 1.0
+        for value, power in (
+            (percent, 2),
+            (known.get("path_acceleration"), -1),
+            (known.get("acceleration_percent"), -1),
+        ):
+            number = plain(value) if value is not None else None
+            if not isinstance(number, ir.RealLiteral) or number.value <= 0.0:
+                self.report_once(JOINT_BLEND, move, "speed", size="the modal size")
+                return self.value("blend_distance", state, own)
+            factor *= number.value**power
+        factor /= 2.0 * 100.0  # (percent / 100)^2 over 2 a (percent / 100)
+        if isinstance(path, ir.RealLiteral):
+            size = ir.RealLiteral(float(f"{path.value**2 * factor:.6g}"))
+            self.report_once(JOINT_BLEND, move, f"speed {size.value}", size=f"{size.value:g} mm")
+            return size
+        self.report_once(JOINT_BLEND, move, "speed", size="the way in which the move brakes")
+        return ir.Binary("*", ir.Binary("*", path, path), ir.RealLiteral(float(f"{factor:.6g}")))
 
     def by_percent(
         self, move: ir.Move, percent: ir.Expression, state: State, own: dict[str, ir.Expression]
