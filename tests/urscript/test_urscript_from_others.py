@@ -1,0 +1,70 @@
+"""Programs of other languages mean the same as URScript: written, read back, run, compared."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from rpl.cell import Cell
+from rpl.diagnostics import Diagnostics, Severity
+from rpl.project import read_sources
+from rpl.proof.prove import ProofResult, prove_programs
+from rpl.proof.wiring import with_signal_names
+from rpl.source import source_from_bytes, source_from_text
+from rpl.translation import translate_program
+
+ROBOTS = {"vplus": "adept_viper_s650", "tp": "fanuc_lrmate200id", "rpl": "ur5e", "krl": "kuka_kr6_r700_sixx"}
+SUFFIX = {"vplus": "v2", "tp": "ls", "rpl": "rpl", "krl": "src"}
+
+
+def translated(language: str, text: str, cell: Cell | None = None) -> tuple[str, list[str], ProofResult]:
+    """The script, the codes of its losses, and what the proof says."""
+    source = source_from_text(f"main.{SUFFIX[language]}", text)
+    read = Diagnostics()
+    program = read_sources([source], language, read)
+    assert not read.has_errors, [item.as_text() for item in read]
+    diagnostics = Diagnostics()
+    robot = ROBOTS[language]
+    result = translate_program(program, "urscript", robot, diagnostics=diagnostics)
+    (file,) = result.files
+    again = Diagnostics()
+    back = read_sources([source_from_bytes(file.path, file.data)], "urscript", again)
+    assert not again.has_errors, [item.as_text() for item in again]
+    named = with_signal_names(back.program, result.program)
+    proof = prove_programs(program.program, named, robot, robot, cell, entry="main", to_entry="main")
+    return file.data.decode(), [item.code.name for item in diagnostics.of(Severity.LOSS)], proof
+
+
+def equal(language: str, text: str, cell: Cell | None = None) -> str:
+    """The script of a program that has to mean the same, without a loss."""
+    script, losses, proof = translated(language, text, cell)
+    assert not losses, script
+    assert proof.equal, f"{proof.as_text()}\n{script}"
+    return script
+
+
+VPLUS = """.PROGRAM main()
+        SET a = TRANS(300, -200, 120, 0, 180, 0)
+        SET b = TRANS(400, -200, 120, 0, 180, 0)
+        SET c = TRANS(400, 0, 120, 0, 180, 0)
+        SPEED 100 ALWAYS
+        MOVE #PPOINT(0, -90, 180, 180, 60, 0)
+        MOVE a
+        BREAK
+{lines}
+        BREAK
+        SIGNAL 1
+.END
+"""
+
+
+def test_continuous_path_leaves_each_move_where_its_braking_would_begin() -> None:
+    script = equal("vplus", VPLUS.format(lines="        SPEED 40\n        MOVES b\n        MOVES c"))
+    (radius,) = re.findall(r"movel\(b, .*r=([\d.]+)\)", script)
+    speed = float(re.findall(r"movel\(b, v=([\d.]+)", script)[0]) * 1000.0
+    assert float(radius) * 1000.0 == pytest.approx(speed**2 / 10000.0, rel=0.01)
+
+
+def test_full_acceleration_decides_the_corner_too() -> None:
+    equal("vplus", VPLUS.format(lines="        ACCEL 50\n        SPEED 40\n        MOVES b\n        MOVES c"))
