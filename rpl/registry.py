@@ -76,13 +76,18 @@ class Dialect:
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """A language that can be written. `write` raises InternalError when its ledger finds an unwritten node."""
+    """A language that can be written. `write` raises InternalError when its ledger finds an unwritten node.
+
+    What its controller loads: lines of at most `longest_line` characters (0: any), text in one of the `encodings`.
+    """
 
     name: str
     title: str
     capabilities: Callable[[], Capabilities]
     write: WriteProgram
     options: Mapping[str, str] = field(default_factory=dict)
+    longest_line: int = 0
+    encodings: tuple[str, ...] = ("utf-8",)
 
 
 @cache

@@ -24,4 +24,10 @@ def _write(program: Program, context: WriteContext) -> list[OutputFile]:
     return write(program, context)
 
 
-TARGET = Target(name="krl", title="KUKA KRL", capabilities=_capabilities, write=_write)
+TARGET = Target(
+    name="krl",
+    title="KUKA KRL",
+    capabilities=_capabilities,
+    write=_write,
+    encodings=("cp1252", "utf-8"),
+)

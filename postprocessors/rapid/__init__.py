@@ -30,4 +30,5 @@ TARGET = Target(
     _capabilities,
     _write,
     options={"header": "yes: begin each module with the load header of program files"},
+    encodings=("latin-1", "utf-8"),
 )

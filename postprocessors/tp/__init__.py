@@ -29,5 +29,7 @@ TARGET = Target(
     title="FANUC TP",
     capabilities=_capabilities,
     write=_write,
+    longest_line=320,
+    encodings=("ascii",),
     options={"names": "longest program name: 36 (default) or 8 for old controllers"},
 )

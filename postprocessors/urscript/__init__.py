@@ -25,5 +25,10 @@ def _write(program: Program, context: WriteContext) -> list[OutputFile]:
 
 
 TARGET = Target(
-    name="urscript", title="Universal Robots URScript", capabilities=_capabilities, write=_write, options={}
+    name="urscript",
+    title="Universal Robots URScript",
+    capabilities=_capabilities,
+    write=_write,
+    options={},
+    encodings=("ascii",),
 )

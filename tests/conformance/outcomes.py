@@ -13,6 +13,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from loading import objections
+
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity
 from rpl.errors import RplError
@@ -63,7 +65,7 @@ def outcome_of(
     again = Diagnostics()
     sources = [source_from_bytes(file.path, file.data) for file in translation.files]
     back = read_sources(sources, target, again)
-    errors = [item.as_text() for item in again.of(Severity.ERROR)]
+    errors = [item.as_text() for item in again.of(Severity.ERROR)] or objections(translation.files, back, target)
     if errors:
         return Outcome(DIFFERENT, why="; ".join(errors[:3])), diagnostics
     entry = entry_name(read.program, entry)
@@ -242,7 +244,8 @@ def _of(outcomes: dict[str, dict[str, dict[str, object]]], language: str) -> dic
 def _cell(outcomes: dict[str, dict[str, dict[str, object]]], language: str, target: str) -> str:
     counts = defaultdict(int)
     for found in _of(outcomes, language).values():
-        counts[str(found[target]["status"])] += 1
+        if target in found:
+            counts[str(found[target]["status"])] += 1
     text = f"{counts[EXACT]} / {counts[NOTED]} / {counts[REFUSED]}"
     return text + (f", {counts[DIFFERENT]} differ" if counts[DIFFERENT] else "")
 
