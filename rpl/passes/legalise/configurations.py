@@ -107,7 +107,7 @@ class _Configurations(Rewriter):
             return ()
         known = rules_of(self.context.source).system_defaults
         joint, path = _CHECKS
-        wanted = [path] if self.foreign and path not in known else []
+        wanted = [path] if self.foreign and not known.get(path, False) else []
         wanted += [joint] if self.nearest and not self.exact else []
         return tuple(_check(name, False) for name in sorted(wanted) if self.can_set(name))
 
