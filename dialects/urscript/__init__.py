@@ -81,8 +81,8 @@ def _notation() -> Notation:
 
 
 # Neutral numbers of digital and analog signals by the pendant's names: first number, name.
-_DIGITAL = ((17, "tool_{}[{}]"), (9, "config_{}[{}]"), (1, "digital_{}[{}]"))
-_ANALOG = ((3, "tool_analog_{}[{}]"), (1, "analog_{}[{}]"))
+_DIGITAL = ((19, "{}put_boolean_register_{}"), (17, "tool_{}[{}]"), (9, "config_{}[{}]"), (1, "digital_{}[{}]"))
+_ANALOG = ((5, "{}put_float_register_{}"), (3, "tool_analog_{}[{}]"), (1, "analog_{}[{}]"))
 
 
 def _signal_name(kind: str, number: int) -> str:

@@ -11,7 +11,7 @@ from .expressions import BUILTINS, Expressions
 from .functions import BindError, Builtin, bind
 from .kinds import BOOL, INT, REAL, Kind, is_joints, is_number
 from .nodes import Expr
-from .rules import FIRST_SIGNAL, LEGACY_ANALOG, LEGACY_DIGITAL, POSE_DIST_COUNTS_ANGLE, STEP_TIME_S
+from .rules import FIRST_REGISTER, FIRST_SIGNAL, LEGACY_ANALOG, LEGACY_DIGITAL, POSE_DIST_COUNTS_ANGLE, STEP_TIME_S
 from .scopes import Function
 
 Bound = dict[str, Expr | None]
@@ -93,7 +93,13 @@ class Calls(Expressions):
         return ir.Signal(kind, ir.Binary("+", self.value(number, INT), ir.IntLiteral(first)))
 
     def register(self, name: str, kind: str, address: Expr | None) -> ir.Signal | None:
-        """A register of the fieldbus or of RTDE is a signal with a name; its number has to be written out."""
+        """A register of the fieldbus or of RTDE: a signal with a number where it holds a truth or a real number,
+        else one with a name, whose number has to be written out."""
+        first = FIRST_REGISTER.get(name.partition("_")[2])
+        if first is not None and address is not None:
+            if isinstance(address, nodes.Number) and isinstance(address.value, int):
+                return ir.Signal(kind, ir.IntLiteral(address.value + first))
+            return ir.Signal(kind, ir.Binary("+", self.value(address, INT), ir.IntLiteral(first)))
         if not isinstance(address, nodes.Number):
             return None
         return ir.Signal(kind, name=f"{name}_{address.spelling}")

@@ -24,6 +24,10 @@ STEP_TIME_S: Final = 0.002
 # pose_sub.
 POSE_DIST_COUNTS_ANGLE: Final = True
 
+# First neutral number of the general purpose registers that are signals like others, behind those of the control box:
+# boolean registers 0-127 are digital 19-146, floating-point registers 0-47 analog 5-52.
+FIRST_REGISTER: Final = {"boolean_register": 19, "float_register": 5}
+
 # First neutral number of each kind of signal by the function that names it. The numbers of one robot lie side by side:
 # standard 1-8, configurable 9-16, tool 17-18 (analog: standard 1-2, tool 3-4).
 FIRST_SIGNAL: Final = {

@@ -162,35 +162,41 @@ _TEXTS: dict[str, str] = {
     """,
     "rpl_digital_in": """
         def rpl_digital_in(number):
-          # inputs counted from 1: standard, configurable, tool
+          # inputs counted from 1: standard, configurable, tool, general purpose registers
           if number <= 8:
             return get_standard_digital_in(number - 1)
           elif number <= 16:
             return get_configurable_digital_in(number - 9)
+          elif number <= 18:
+            return get_tool_digital_in(number - 17)
           end
-          return get_tool_digital_in(number - 17)
+          return read_input_boolean_register(number - 19)
         end
     """,
     "rpl_digital_out": """
         def rpl_digital_out(number):
-          # outputs counted from 1: standard, configurable, tool
+          # outputs counted from 1: standard, configurable, tool, general purpose registers
           if number <= 8:
             return get_standard_digital_out(number - 1)
           elif number <= 16:
             return get_configurable_digital_out(number - 9)
+          elif number <= 18:
+            return get_tool_digital_out(number - 17)
           end
-          return get_tool_digital_out(number - 17)
+          return read_output_boolean_register(number - 19)
         end
     """,
     "rpl_set_digital_out": """
         def rpl_set_digital_out(number, level):
-          # outputs counted from 1: standard, configurable, tool
+          # outputs counted from 1: standard, configurable, tool, general purpose registers
           if number <= 8:
             set_standard_digital_out(number - 1, level)
           elif number <= 16:
             set_configurable_digital_out(number - 9, level)
-          else:
+          elif number <= 18:
             set_tool_digital_out(number - 17, level)
+          else:
+            write_output_boolean_register(number - 19, level)
           end
         end
     """,

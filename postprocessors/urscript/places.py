@@ -226,6 +226,8 @@ class Places:
                 raise self.refuse("an analog signal by a computed number")
             return self.expressions.helper(f"rpl_digital_{way}", self.expressions.text(signal.index))
         where, at = self.interface(interface, int(number))
+        if where in tables.REGISTERS:
+            return f"read_{way}put_{where}_register({at})"
         return f"get_{where}_{interface}_{way}({at})"
 
     def register(self, signal: ir.Signal, way: str) -> str:
@@ -273,6 +275,8 @@ class Places:
         where, at = self.interface(interface, int(number))
         if where == "tool" and interface == "analog":
             raise self.refuse("the tool has no analog output")
+        if where in tables.REGISTERS:
+            return f"write_output_{where}_register({at}, {text})"
         return f"set_{where}_{interface}_out({at}, {text})"
 
     def system(self, name: str, indices: tuple[ir.Expression, ...]) -> str | Printed:

@@ -109,8 +109,9 @@ EXTERNAL = ("e1", "e2", "e3", "e4", "e5", "e6")
 PLACES = {"x": 0, "y": 1, "z": 2}
 
 # Physical digital signals counted from 1: (first, last, infix of the controller's functions).
-DIGITAL = ((1, 8, "standard"), (9, 16, "configurable"), (17, 18, "tool"))
-ANALOG = ((1, 2, "standard"), (3, 4, "tool"))
+DIGITAL = ((1, 8, "standard"), (9, 16, "configurable"), (17, 18, "tool"), (19, 146, "boolean"))
+ANALOG = ((1, 2, "standard"), (3, 4, "tool"), (5, 52, "float"))
+REGISTERS = ("boolean", "float")  # general purpose registers, read and written by functions of another form
 FLAGS = 32  # set_flag(0) .. set_flag(31): internal digital signals, counted from 1 here as the others
 
 # M: what movej, movel and movep do without v and a (script manual's defaults), deg/s and mm/s.

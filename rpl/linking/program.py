@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 # How far a language's own number of a signal may lie below the neutral one.
-_SPELLED_LATER = 17
+_SPELLED_LATER = 20
 
 
 class GlobalSlot:

@@ -65,5 +65,6 @@ def test_computed_settings_are_unknown() -> None:
 
 
 def test_a_routine_that_sets_nothing_changes_nothing_for_its_other_callers() -> None:
-    more = "PROCEDURE quiet()\non = TRUE\nEND PROCEDURE\nPROCEDURE other()\n$path_speed = 10.0\nquiet()\nEND PROCEDURE\n"
+    more = "PROCEDURE quiet()\non = TRUE\nEND PROCEDURE\n"
+    more += "PROCEDURE other()\n$path_speed = 10.0\nquiet()\nEND PROCEDURE\n"
     assert speeds(f"$path_speed = 90.0\nquiet()\n{MOVE}\nother()\nquiet()", more) == [90.0]
