@@ -51,6 +51,9 @@ class Facts:
 
     chosen: set[int] = field(default_factory=set)  # arrays with an element chosen at run time, or used whole
     counters: set[int] = field(default_factory=set)
+    copied: dict[int, list[tuple[ir.ArrayType, Scope]]] = field(
+        default_factory=dict
+    )  # arrays stored into it as a whole
 
 
 def number_data(program: ir.Program, context: Context) -> ir.Program:
@@ -149,7 +152,7 @@ class _Numbered(Rewriter):
             if element.__class__.__name__ not in self.context.capabilities.types:
                 self.context.diagnostics.report(NO_BANK, declaration.origin, name=declaration.name)
             return
-        sizes = sizes_of(type, scope) if isinstance(type, ir.ArrayType) else ()
+        sizes = self.sizes(declaration, type, scope) if isinstance(type, ir.ArrayType) else ()
         if sizes is None:
             self.context.diagnostics.report(NO_BANK, declaration.origin, name=declaration.name)
             return
@@ -157,6 +160,15 @@ class _Numbered(Rewriter):
         alone = id(declaration) in self.facts.counters
         made = Wanted(key, aliases, bank, element, sizes, base, declaration, declaration.origin, alone, chosen)
         found.append(made)
+
+    def sizes(self, declaration: ir.Variable, type: ir.ArrayType, scope: Scope) -> tuple[int, ...] | None:
+        """Elements in each dimension; of an open array as many as the largest that is stored into it has."""
+        found = sizes_of(type, scope)
+        if found is None:
+            copied = [sizes_of(other, where) for other, where in self.facts.copied.get(id(declaration), ())]
+            known = [one for one in copied if one is not None and len(one) == len(type.dimensions)]
+            found = tuple(map(max, zip(*known, strict=True))) if known else None
+        return found
 
     def bank_of(self, type: ir.Type) -> Bank | None:
         """The bank for a type; numbers and texts of one kind may be kept with the other."""
@@ -241,6 +253,33 @@ class _Numbered(Rewriter):
         )
 
     # ---- uses
+
+    def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+        match statement:
+            case ir.Assign(target=ir.Name(id=name), value=value):
+                place = self.array(name)
+                if place is not None:
+                    done = self.copied(statement, place, value)
+                    if done is not None:
+                        return done
+        return super().statement(statement)
+
+    def array(self, name: str) -> Place | None:
+        symbol = self.scope.value(name)
+        place = None if symbol is None else self.places.get(id(symbol.declaration))
+        return place if place is not None and place.wanted.sizes else None
+
+    def copied(self, statement: ir.Assign, place: Place, value: ir.Expression) -> list[ir.Statement] | None:
+        """A whole array, element by element."""
+        count = place.wanted.count
+        if isinstance(value, ir.Aggregate):
+            parts = _elements(value, len(place.wanted.sizes), count)
+            return [replace(statement, target=self.at(place, at), value=self.expression(one)) for at, one in parts]
+        source = self.array(value.id) if isinstance(value, ir.Name) else None
+        if source is None or source.wanted.sizes[1:] != place.wanted.sizes[1:]:
+            return None
+        elements = range(min(count, source.wanted.count))
+        return [replace(statement, target=self.at(place, at), value=self.at(source, at)) for at in elements]
 
     def placed(self, statement: ir.Statement) -> list[ir.Statement]:
         self.helpers_in_use = 0
@@ -429,6 +468,12 @@ def _look(body: ir.Body, scope: Scope, facts: Facts) -> None:
     def statement(one: ir.Statement) -> None:
         if isinstance(one, ir.For) and not one.scoped:
             facts.counters.add(declared(one.counter))
+        match one:
+            case ir.Assign(target=ir.Name(id=name), value=ir.Name(id=other)):
+                symbol = scope.value(other)
+                type = None if symbol is None else scope.resolve(symbol.type)
+                if isinstance(type, ir.ArrayType):
+                    facts.copied.setdefault(declared(name), []).append((type, scope))
         each_expression(one, expression)
 
     each_statement(body, statement)

@@ -7,6 +7,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.aggregates import aggregates
 from rpl.passes.legalise.aliases import without_aliases
+from rpl.passes.legalise.arithmetic import arithmetic
 from rpl.passes.legalise.arrays import array_bases, array_sizes
 from rpl.passes.legalise.calls import rewrite_calls
 from rpl.passes.legalise.circles import circle_rules
@@ -117,6 +118,7 @@ PASSES: tuple[Pass, ...] = (
     geometry,
     flat_records,
     compositions,
+    arithmetic,
     functions_to_procedures,
     fit_arguments,
     fit_loops,

@@ -46,6 +46,8 @@ CASES = [
      ["R[2] := 0", "for R1 = 1 to 3", "  R[2] := (R[2] + R1)"]),
     ("i = 1\ngrid[i, 2] = 5", "VAR i: INT\nVAR grid: ARRAY[2, 3] OF INT = {{1, 2, 3}, {4, 5, 6}}", "",
      [*(f"R[{2 + k}] := {1 + k}" for k in range(6)), "R[1] := 1", "R[8] := (R[1] * 3)", "R[R[8]] := 5"]),
+    ("list[2] = 4\nother = list", "VAR list: ARRAY[2] OF INT = {1, 2}\nVAR other: ARRAY[2] OF INT", "",
+     ["R[1] := 1", "R[2] := 2", "R[2] := 4", "R[3] := R[1]", "R[4] := R[2]"]),
 ]  # fmt: skip
 
 
