@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity
@@ -57,8 +57,22 @@ def translate_program(
     files = target.write(program, given)
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
     return Translation(
-        tuple(files), program, renamed, losses, dict(context.register_names), dict(context.register_types)
+        tuple(files), _with_signals(program, context), renamed, losses, dict(context.register_names), dict(context.register_types)
     )
+
+
+def _with_signals(program: ir.Program, context: Context) -> ir.Program:
+    """The program with the names of signals that have become numbers, for whoever compares or reads it."""
+    signals = [
+        ir.SignalDeclaration(name, ir.Signal(kind, ir.IntLiteral(number)), scope="global")
+        for (kind, number), name in sorted(context.register_names.items())
+        if kind in ir.SIGNAL_KINDS
+    ]
+    if not signals or not program.modules:
+        return program
+    first = program.modules[0]
+    home = ir.Module("signal_names", first.dialect, tuple(signals), task=first.task, public=True)
+    return replace(program, modules=(*program.modules, home))
 
 
 def _load(name: str | None) -> RobotModel | None:
