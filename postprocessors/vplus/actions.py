@@ -30,6 +30,8 @@ ACKNOWLEDGE = code(
 )
 _SET = (ir.PoseType, ir.TargetType, ir.JointsType, ir.VectorType, ir.RotationType, ir.AxesType)
 _LARGEST_COPY = 24
+_LONGEST_NAME = tables.LONGEST_NAME + 2
+_COMPONENTS = ("x", "y", "z", "a", "b", "c")
 _TOLD = frozenset(("notify", "state", "write", "error", "quit"))
 
 
@@ -66,6 +68,8 @@ class Actions:
                 printer.comments_only(origin)
             case ir.Trigger():
                 self.trigger(statement)
+            case ir.Pulse():
+                self.pulse(statement)
             case _:
                 printer.line(self.simple(statement), origin)
 
@@ -131,7 +135,32 @@ class Actions:
             case ir.Index(base=base) if isinstance(self.expressions.type(base), ir.StringType):
                 raise UnsayableError("one character of a text cannot be changed")
         word = "SET " if isinstance(self.expressions.type(target), _SET) else ""
-        return f"{word}{text(target)} = {text(value)}"
+        place = text(target)
+        room = tables.LONGEST_LINE - len(word) - len(place) - 3
+        return f"{word}{place} = {self.expressions.shortened(value, room)}"
+
+    def components(self, body: ir.Body) -> tuple[str, int] | None:
+        """x, y, z (and a, b, c) of one location, given side by side: one SET."""
+        first = body[0]
+        assert isinstance(first, ir.Assign) and isinstance(first.target, ir.Field)  # the caller asked
+        place, parts = first.target.base, dict[str, ir.Expression]()
+        if not isinstance(self.expressions.type(place), ir.PoseType | ir.TargetType):
+            return None
+        for statement, name in zip(body, _COMPONENTS, strict=False):
+            match statement:
+                case ir.Assign(target=ir.Field(base=base, name=other), value=value) if base == place and other == name:
+                    own = ir.Field(place, name)
+                    if any(isinstance(one, ir.Field) and one.base == place and one != own for one in walk((value,))):
+                        break
+                    parts[name] = value
+                case _:
+                    break
+        count = 6 if len(parts) == 6 else 3
+        if len(parts) < count or (count == 6 and any(node == place for node in walk(tuple(parts.values())))):
+            return None
+        given = {name: parts[name] for name in _COMPONENTS[:count]}
+        shown = self.expressions.places.locations.composed(place, given)
+        return f"SET {self.expressions.text(place)} = {shown}", count
 
     def whole(self, statement: ir.Assign) -> None:
         """A whole array: element by element."""
@@ -203,6 +232,12 @@ class Actions:
         for at, argument in enumerate(given):
             parameter = routine.parameters[at] if routine is not None and at < len(routine.parameters) else None
             shown.append("" if argument.value is None else self.argument(argument.value, parameter, routine))
+        while sum(len(one) + 2 for one in shown) > tables.LONGEST_LINE - len(name) - 10:
+            at = max(range(len(shown)), key=lambda place: len(shown[place]))
+            value = given[at].value
+            if len(shown[at]) <= _LONGEST_NAME or value is None or isinstance(value, ir.Name | ir.Index):
+                break
+            shown[at] = self.expressions.moved_in_front(value)
         while shown and not shown[-1]:
             shown.pop()
         return f"({', '.join(shown)})" if shown else "()"
@@ -312,6 +347,22 @@ class Actions:
             return "OPEN", 2
         return ("CLOSE" if states[tables.HAND_CLOSE] else "RELAX"), 2
 
+    def pulse(self, pulse: ir.Pulse) -> None:
+        """The signal changes while the program goes on: a program of its own waits and sets it back."""
+        signal = pulse.signal
+        if isinstance(signal, ir.Name):
+            signal = self.expressions.places.declared(signal.id) or signal
+        if not isinstance(signal, ir.Signal) or not isinstance(pulse.value, ir.BoolLiteral):
+            raise UnsayableError("a pulse of a level that is calculated")
+        if self.expressions.places.is_group(signal) or signal.kind.endswith("_in"):
+            raise UnsayableError("a pulse of anything but one digital output")
+        task = self.printer.output.helper_task(signal)
+        number = self.expressions.places.number(self.expressions.places.numbered(signal), not pulse.value.value)
+        self.printer.line(f"SIGNAL {number}", pulse.origin)
+        time = self.expressions.measured(pulse.duration, "s")
+        self.printer.line(f"EXECUTE {task} rpl.pulse({_by_value(number)}, {time})")
+        self.expressions.notes.helpers.add("rpl.pulse")
+
     # ---- the operator
 
     def message(self, message: ir.Message) -> None:
@@ -361,6 +412,11 @@ def listed(target: ir.Expression, value: ir.Aggregate, type: ir.ArrayType) -> li
 
     fill((), value)
     return found
+
+
+def _by_value(number: str) -> str:
+    """A number as an argument: a variable in brackets."""
+    return f"({number})" if number[:1].isalpha() else number
 
 
 def _joined(one: ir.Expression, other: ir.Expression) -> ir.Expression:

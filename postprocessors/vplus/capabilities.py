@@ -10,7 +10,7 @@ CAPABILITIES = Capabilities(
     statements=tables.words(
         """Assign CallRoutine If Switch For While Repeat Loop ExitLoop NextPass Label Goto Return Halt Wait WaitUntil
         WaitForMotion DeclareInterrupt ControlInterrupt StopMotion ClearMotion Trigger Message Dialog Do TaskControl
-        SetForNextMove OnError TryNext Nothing Move Vendor Opaque"""
+        LookAhead Pulse SetForNextMove OnError TryNext Nothing Move Vendor Opaque"""
     ),
     functions=frozenset(
         (
@@ -19,8 +19,20 @@ CAPABILITIES = Capabilities(
             *("tan", "asin", "acos", "atan", "round", "trunc", "floor", "ceil", "sign", "compose", "pose_of"),
             *("offset", "tool_offset", "displaced", "displaced_in_tool", "distance", "pose_zyz"),
             *("zyz_yaw", "zyz_pitch", "zyz_roll", "joints_to_target", "is_reachable", "frame_from_points"),
-            *("text_part", "text_find", "text_equal", "number_text", "value_text", "format", "message_text"),
-            *("is_uninitialised", "dimension", "length", "bit_shift_left", "target_to_joints_near", "power"),
+            *(
+                "text_part",
+                "text_find",
+                "text_equal",
+                "text_upper",
+                "text_lower",
+                "text_map",
+                "number_text",
+                "value_text",
+                "format",
+                "message_text",
+            ),
+            *("text_upper", "text_lower", "text_map"),
+            *("is_uninitialised", "bit_shift_left", "target_to_joints_near", "power"),
         )
     ),
     procedures=tables.words("increment decrement clear text_append text_copy text_clear"),
@@ -52,7 +64,7 @@ CAPABILITIES = Capabilities(
     truth="minus_one",
     index_base=0,
     named_aggregates=True,
-    move_settings=frozenset(("speed", "blend")),
+    move_settings=frozenset(("frame", "speed", "blend")),
     speeds=frozenset(("joint", "path", "duration")),
     blends=tables.words("BlendDistance BlendPercent BlendSpeed BlendZone BlendLevel"),
     postures="joints",

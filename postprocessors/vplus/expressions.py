@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.errors import RplError
@@ -30,9 +30,11 @@ class Notes:
 
     before: list[str] = field(default_factory=list)
     autos: list[str] = field(default_factory=list)
+    helpers: set[str] = field(default_factory=set)
     changed_texts: list[str] = field(default_factory=list)
     steps: bool = True  # can steps stand in front?
     taken: set[str] = field(default_factory=set)
+    own: set[str] = field(default_factory=set)  # names made here
 
     def temporary(self, stem: str) -> str:
         """A new variable of the program's own (with its sign)."""
@@ -42,6 +44,7 @@ class Notes:
         while f"{plain}{number}" in self.taken:
             number += 1
         self.taken.add(f"{plain}{number}")
+        self.own.add(f"{plain}{number}")
         return f"{sign}{plain}{number}"
 
     def step(self, line: str) -> None:
@@ -113,8 +116,12 @@ class Expressions:
                 return "TRUE" if truth else "FALSE"
             case ir.TextLiteral(value=text):
                 return self.literal(text)
+            case ir.Name(id=name) if name.lstrip("$#") in self.notes.own:
+                return name
             case ir.Name() | ir.Index() | ir.Field() | ir.Aggregate() | ir.Signal() | ir.System():
                 return self.places.value(expression)
+            case ir.Binary(op="**", left=left, right=right):
+                return self.power((left, right))
             case ir.Binary(op="div", left=left, right=right):
                 return f"INT({self.text(ir.Binary('/', left, right))})"
             case ir.Builtin():
@@ -199,12 +206,53 @@ class Expressions:
             return self.printer.text(value, tables.RELATION + 1)
         return self.kept(text, "r")
 
-    def kept(self, text: str, stem: str) -> str:
+    def kept(self, text: str, stem: str, word: str = "") -> str:
         """A variable of the program's own that holds a value."""
         name = self.notes.temporary(stem)
-        self.notes.step(f"{name} = {text}")
+        self.notes.step(f"{word}{name} = {text}")
         self.notes.autos.append(name)
         return name
+
+    def moved_in_front(self, value: ir.Expression) -> str:
+        """The value in a variable of the program's own, the step that sets it short enough."""
+        stem, word = "t", ""
+        match self.type(value):
+            case ir.StringType() | ir.CharType():
+                stem = "$t"
+            case ir.JointsType():
+                stem, word = "#t", "SET "
+            case ir.PoseType() | ir.TargetType() | ir.VectorType() | ir.RotationType():
+                stem, word = "p", "SET "
+        return self.kept(self.shortened(value, tables.LONGEST_LINE - 16), stem, word)
+
+    def shortened(self, value: ir.Expression, room: int) -> str:
+        """The text of a value in at most `room` signs, as far as parts of it can be calculated in front."""
+        known = len(self.notes.before), len(self.notes.autos)
+        text = self.text(value)
+        while len(text) > room and self.notes.steps:
+            del self.notes.before[known[0] :]
+            del self.notes.autos[known[1] :]
+            parts = [(len(self.text(part)), at) for at, part in enumerate(_operands(value))]
+            del self.notes.before[known[0] :]
+            del self.notes.autos[known[1] :]
+            if not parts or max(parts)[0] <= _NAME:
+                return self.text(value)
+            at = max(parts)[1]
+            name = self.moved_in_front(_operands(value)[at])
+            value = _with_operand(value, at, ir.Name(name))
+            known = len(self.notes.before), len(self.notes.autos)
+            text = self.text(value)
+        return text
+
+    def fitted(self, values: list[ir.Expression], room: int) -> list[str]:
+        """Values side by side in one step, the longest ones calculated in front where they are too long together."""
+        shown = [self.text(value) for value in values]
+        while sum(len(one) + 2 for one in shown) > room and self.notes.steps:
+            at = max(range(len(shown)), key=lambda place: len(shown[place]))
+            if len(shown[at]) <= _NAME:
+                return shown
+            shown[at] = self.moved_in_front(values[at])
+        return shown
 
     # ---- functions
 
@@ -250,13 +298,28 @@ class Expressions:
         if count == 2:
             return f"SQR({self.text(values[0])})"
         if count is None or not count.is_integer() or not 0 < count <= _LARGEST_POWER:
-            raise UnsayableError("there is no power but the square")
+            if count == 0.5:
+                return f"SQRT({self.text(values[0])})"
+            return self.raised(*values)
         base = self.repeated(values[0])
         factor = base if re.fullmatch(r"[\w.$]+", base) else f"({base})"
         return Printed("*".join([factor] * int(count)), tables.PRODUCT)
 
     def undefined(self, values: tuple[ir.Expression, ...]) -> Printed:
         return Printed(f"NOT DEFINED({self.text(values[0])})", tables.SIGN)
+
+    def raised(self, base: ir.Expression, exponent: ir.Expression) -> str:
+        """Any whole power, by a program that comes along."""
+        name = self.notes.temporary("t")
+        self.notes.autos.append(name)
+        self.notes.step(f"CALL rpl.power({self.value(base)}, {self.value(exponent)}, {name})")
+        self.notes.helpers.add("rpl.power")
+        return name
+
+    def value(self, expression: ir.Expression) -> str:
+        """An argument by its value."""
+        text = self.text(expression)
+        return f"({text})" if isinstance(expression, ir.Name | ir.Index) else text
 
     def dimension(self, values: tuple[ir.Expression, ...]) -> str:
         type = self.type(values[0])
@@ -273,6 +336,7 @@ class Expressions:
 
 
 _SHORT = 30
+_NAME = 17  # a value that is no longer than this gets no variable
 _LARGEST_POWER = 6
 _Special = Callable[[Expressions, tuple[ir.Expression, ...]], "str | Printed"]
 _SPECIAL: dict[str, _Special] = {
@@ -287,6 +351,39 @@ _SPECIAL: dict[str, _Special] = {
     "dimension": Expressions.dimension,
     "length": Expressions.dimension,
 }
+
+
+def _operands(value: ir.Expression) -> tuple[ir.Expression, ...]:
+    """The parts of a value that could be calculated before."""
+    match value:
+        case ir.Binary(left=left, right=right):
+            return left, right
+        case ir.Unary(operand=operand) | ir.Convert(operand=operand):
+            return _operands(operand) if isinstance(operand, ir.Binary | ir.Builtin) else (operand,)
+        case ir.Builtin(arguments=arguments) if value.function not in ("format", "message_text", "is_uninitialised"):
+            return arguments
+        case ir.Aggregate(entries=entries):
+            return tuple(part for _, part in entries)
+        case ir.Field(base=base):
+            return (base,)
+    return ()
+
+
+def _with_operand(value: ir.Expression, at: int, new: ir.Expression) -> ir.Expression:
+    """The value with one of its parts exchanged."""
+    match value:
+        case ir.Binary():
+            return replace(value, left=new) if at == 0 else replace(value, right=new)
+        case ir.Unary(operand=operand) | ir.Convert(operand=operand):
+            inner = _with_operand(operand, at, new) if isinstance(operand, ir.Binary | ir.Builtin) else new
+            return replace(value, operand=inner)
+        case ir.Builtin(arguments=arguments):
+            return replace(value, arguments=(*arguments[:at], new, *arguments[at + 1 :]))
+        case ir.Aggregate(entries=entries):
+            return replace(value, entries=(*entries[:at], (entries[at][0], new), *entries[at + 1 :]))
+        case ir.Field():
+            return replace(value, base=new)
+    return value
 
 
 def _what(expression: ir.Expression) -> str:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _ZERO = ir.IntLiteral(0)
 _TURNS = (("a", "RZ"), ("b", "RY"), ("c", "RX"))
 _ZYZ = {"zyz_yaw": 3, "zyz_pitch": 4, "zyz_roll": 5}
-_ORIGIN = ("x", "y", "z")
+_SHORT = 9
 
 
 class Locations:
@@ -103,21 +103,23 @@ class Locations:
         if known is not None:
             return spelling.number(rigid.clean(known), spelling.PLACES)
         place = self.expressions.printer.text(base, tables.COMPOUND)
-        if len(place) > 15:
-            name_of = self.expressions.notes.temporary("turned")
-            self.expressions.notes.step(f"SET {name_of} = {place}")
-            self.expressions.notes.autos.append(name_of)
-            place = name_of
+        if len(place) > _SHORT:
+            place = self.expressions.kept(place, "p", "SET ")
 
         def row(axis: str, along: str) -> str:
             unit = {"x": "1", "y": "0, 1", "z": "0, 0, 1"}[along]
             return f"D{axis}({place}:TRANS({unit}))-D{axis}({place})"
 
         if name == "a":
-            return f"ATAN2({row('Y', 'x')}, {row('X', 'x')})"
-        if name == "b":
-            return f"ATAN2(-({row('Z', 'x')}), SQRT(SQR({row('Z', 'y')})+SQR({row('Z', 'z')})))"
-        return f"ATAN2({row('Z', 'y')}, {row('Z', 'z')})"
+            text = f"ATAN2({row('Y', 'x')}, {row('X', 'x')})"
+        elif name == "b":
+            across = [row("Z", "y"), row("Z", "z")]
+            if self.expressions.notes.steps:
+                across = [self.expressions.kept(one, "r") for one in across]
+            text = f"ATAN2(-({row('Z', 'x')}), SQRT(SQR({across[0]})+SQR({across[1]})))"
+        else:
+            text = f"ATAN2({row('Z', 'y')}, {row('Z', 'z')})"
+        return self.expressions.kept(text, f"angle.{name}") if self.expressions.notes.steps else text
 
     def with_component(self, base: ir.Expression, name: str, value: ir.Expression) -> str:
         """A location or joints with one number changed."""
@@ -131,7 +133,7 @@ class Locations:
             return f"#PPOINT({', '.join(given)})"
         place = self.expressions.text(base)
         if name in tables.PLACES:
-            step = self.expressions.text(ir.Binary("-", value, ir.Field(base, name)))
+            step = self.expressions.text(_change(value, ir.Field(base, name)))
             steps = [step if axis == name else "0" for axis in tables.PLACES]
             while steps[-1] == "0":
                 steps.pop()
@@ -143,6 +145,14 @@ class Locations:
             f"{word}({self.expressions.text(value) if one == name else self.euler(base, one)})" for one, word in _TURNS
         ]
         return ":".join((at_place, *turns))
+
+    def composed(self, place: ir.Expression, parts: dict[str, ir.Expression]) -> str:
+        """A location whose x, y, z and perhaps a, b, c are all given anew."""
+        if len(parts) > len(tables.PLACES):
+            shown = self.pose(ir.Aggregate(tuple(parts.items()), "pose"), parts)
+            return shown if isinstance(shown, str) else shown.text
+        steps = [self.expressions.text(_change(parts[axis], ir.Field(place, axis))) for axis in tables.PLACES]
+        return f"SHIFT({self.expressions.text(place)} BY {', '.join(steps)})"
 
     # ---- functions
 
@@ -190,6 +200,16 @@ class Locations:
 
     def inner(self, place: ir.Expression) -> str:
         return self.expressions.printer.text(place, tables.COMPOUND + 1)
+
+
+def _change(value: ir.Expression, old: ir.Expression) -> ir.Expression:
+    """What is added to a component."""
+    match value:
+        case ir.Binary(op="+", left=left, right=right) if left == old:
+            return right
+        case ir.Binary(op="-", left=left, right=right) if left == old:
+            return ir.Unary("-", right)
+    return ir.Binary("-", value, old)
 
 
 _NOWHERE = rigid.Vector(0.0, 0.0, 0.0)

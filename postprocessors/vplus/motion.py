@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 from rpl import ir, registry
 from rpl.diagnostics import Code, Diagnostics, Severity, code
+from rpl.passes import rigid
+from rpl.passes.fold import constant
 from rpl.source import Origin
 
 from . import settings, spelling, tables
@@ -81,9 +83,10 @@ class Motion:
         self.refuse(move)
         before = [line for place, value in move.settings for line in self.own(place, value)]
         target, asked = self.solved(move)
+        frame = self.frame(move.frame)
         before += self.postured(asked)
         before += self.speed(move)
-        step = self.step(move, target)
+        step = self.step(move, target, frame)
         if move.kind == "joint" and isinstance(self.expressions.type(target), ir.JointsType):
             self.forget()
         return before, step, self.behind(move)
@@ -97,7 +100,6 @@ class Motion:
         for what, found in (
             ("a circle by its angle", move.swept),
             ("a tool of its own", move.tool),
-            ("a frame of its own", move.frame),
             ("a load of its own", move.load),
             ("an orientation rule of its own", move.orientation not in (None, "variable")),
             ("actions on its path", move.triggers),
@@ -142,15 +144,29 @@ class Motion:
             self.posture = asked
         return new
 
-    def step(self, move: ir.Move, target: ir.Expression) -> str:
+    def frame(self, frame: ir.Expression | None) -> ir.Expression | None:
+        """The frame that the target stands in; None where it is the robot's base."""
+        if frame is None or constant(frame, self.expressions.scope) == rigid.IDENTITY:
+            return None
+        if isinstance(self.expressions.type(frame), ir.WorkObjectType):
+            return ir.Binary(":", ir.Field(frame, "user_frame"), ir.Field(frame, "object_frame"))
+        return frame
+
+    def placed(self, target: ir.Expression, frame: ir.Expression | None) -> ir.Expression:
+        """A target in the robot's base: `frame:target`."""
+        if frame is None or isinstance(self.expressions.type(target), ir.JointsType):
+            return target
+        return ir.Binary(":", frame, target)
+
+    def step(self, move: ir.Move, target: ir.Expression, frame: ir.Expression | None) -> str:
         text = self.expressions.text
         if move.relative is not None:
-            return self.relative(move, target)
+            return self.relative(move, target, frame)
         if move.kind == "circular":
             if move.via is None:
                 raise UnsayableError("a circle needs its point on the way")
             self.facts.once(ARC, move.origin)
-            return f"MOVEC {text(move.via)}, {text(target)}"
+            return f"MOVEC {text(self.placed(move.via, frame))}, {text(self.placed(target, frame))}"
         word = _WORDS.get(move.kind)
         if word is None:
             raise UnsayableError(f"there is no {move.kind} move")
@@ -161,13 +177,13 @@ class Motion:
                 return "ALIGN"
             case ir.Builtin(function="tool_offset", arguments=(place, x, y, z)) if self.zero(x) and self.zero(y):
                 suffix = "S" if word == "MOVES" else ""
-                return f"APPRO{suffix} {text(place)}, {text(_negated(z))}"
-        return f"{word} {text(target)}"
+                return f"APPRO{suffix} {text(self.placed(place, frame))}, {text(_negated(z))}"
+        return f"{word} {text(self.placed(target, frame))}"
 
     def zero(self, value: ir.Expression) -> bool:
         return self.expressions.known(value) == 0
 
-    def relative(self, move: ir.Move, target: ir.Expression) -> str:
+    def relative(self, move: ir.Move, target: ir.Expression, frame: ir.Expression | None) -> str:
         """An offset from where the move before ends."""
         word, text = _WORDS.get(move.kind), self.expressions.text
         if word is None or not isinstance(target, ir.Aggregate):
@@ -185,6 +201,9 @@ class Motion:
             return f"{word} {offset}"
         if turned:
             raise UnsayableError("a relative move that turns the tool in the axes of the frame")
+        if frame is not None:
+            here = ir.Binary(":", ir.Builtin("inverse", (frame,)), ir.System("end_pose"))
+            return f"{word} {self.expressions.atom(frame)}:SHIFT({text(here)} BY {', '.join(place)})"
         return f"{word} SHIFT(DEST BY {', '.join(place)})"
 
     def drive(self, move: ir.Move, steps: dict[str, ir.Expression]) -> str:
@@ -242,11 +261,16 @@ class Motion:
         known = self.expressions.known(value) if not isinstance(value, ir.Name) else None
         return self.expressions.measured(value, "mm/s") if known is None else spelling.number(known, 4)
 
+    def is_stop(self, blend: ir.Blend) -> bool:
+        """Is it an exact stop, or a corner of no size?"""
+        size = _size(blend)
+        return isinstance(blend, ir.BlendStop) or (size is not None and self.zero(size))
+
     def behind(self, move: ir.Move) -> list[str]:
         """BREAK where the robot stops at the target."""
         if not self.facts.foreign:
             return ["BREAK"] if isinstance(move.blend, ir.BlendStop) else []
-        if move.blend is None or isinstance(move.blend, ir.BlendStop):
+        if move.blend is None or self.is_stop(move.blend):
             return ["BREAK"]
         if id(move) in self.facts.corners.stopped:
             self.facts.diagnostics.report(STOPPED, move.origin)
@@ -254,6 +278,15 @@ class Motion:
         if not _as_here(move.blend):
             self.facts.once(CORNER, move.origin)
         return []
+
+
+def _size(blend: ir.Blend) -> ir.Expression | None:
+    match blend:
+        case ir.BlendDistance(distance=size) | ir.BlendPercent(percent=size) | ir.BlendSpeed(percent=size):
+            return size
+        case ir.BlendZone(distance=size):
+            return size
+    return None
 
 
 def _as_here(blend: ir.Blend) -> bool:

@@ -10,6 +10,7 @@ from rpl.ir.walk import walk
 from rpl.passes.scope import Scope
 from rpl.source import Comment, Origin
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.text import wrapped
 
 from . import settings, spelling, tables
 from .actions import Actions
@@ -25,6 +26,7 @@ GUARDED = code(
 )
 TEXT_CHANGED = code("vplus-text", Severity.WARNING, "a text is written in plain ASCII: {text}")
 STEP, FIRST = "    ", "        "
+_ROOM = tables.LONGEST_LINE - 12  # of a condition between its words
 
 
 @dataclass(slots=True)
@@ -37,6 +39,17 @@ class Output:
     reactions: Reactions
     taken: set[str]
     tasks: dict[str, int] = field(default_factory=dict)
+    helpers: set[str] = field(default_factory=set)
+    pulses: list[ir.Signal] = field(default_factory=list)
+
+    def helper_task(self, signal: ir.Signal) -> int:
+        """The task that ends the pulses of a signal."""
+        if signal not in self.pulses:
+            self.pulses.append(signal)
+        number = tables.TASKS - self.pulses.index(signal)
+        if number <= len(self.tasks):
+            raise UnsayableError(f"pulses need tasks of their own, and there are {tables.TASKS}")
+        return number
 
 
 class Printer:
@@ -48,7 +61,7 @@ class Printer:
         self.lines: list[str] = []
         self.depth = 0
         self.labels = labels or {}
-        self.notes = Notes(taken=output.taken)
+        self.notes = Notes(taken=output.taken, helpers=output.helpers)
         self.expressions = Expressions(scope, self.notes)
         self.motion = Motion(self.expressions, output.facts)
         self.actions = Actions(self)
@@ -93,8 +106,7 @@ class Printer:
         for part in text.splitlines() or [""]:
             plain = spelling.ascii_text(part.rstrip())
             room = tables.LONGEST_LINE - len(indent) - 1
-            for start in range(0, max(len(plain), 1), room):
-                self.lines.append(f"{indent};{plain[start : start + room]}".rstrip())
+            self.lines.extend(f"{indent};{one}".rstrip() for one in wrapped(plain, room))
 
     def comments_only(self, origin: Origin) -> None:
         for comment in origin.comments:
@@ -141,6 +153,8 @@ class Printer:
                     return settings.setting(known[0], known[1], known[2], self.expressions)[0], 2
             case ir.Trigger():
                 return self.actions.hand(body)
+            case ir.Assign(target=ir.Field()):
+                return self.actions.components(body)
         return None
 
     def statement(self, statement: ir.Statement) -> None:
@@ -175,6 +189,8 @@ class Printer:
                 if dialect != "vplus":
                     raise UnsayableError(f"it belongs to {dialect}")
                 self.line(text, origin)
+            case ir.LookAhead(origin=origin):
+                self.comments_only(origin)  # programs of V+ always run ahead
             case ir.Label(name=name):
                 self.motion.forget()
                 self.comments_only(statement.origin)
@@ -217,8 +233,10 @@ class Printer:
 
     def condition(self, expression: ir.Expression, again: bool = False) -> str:
         """`again`: it is looked at more than once, so no step can stand in front."""
+        if isinstance(expression, ir.Convert) and expression.how in ("truth", "minus_bit"):
+            expression = expression.operand
         self.notes.steps = not again
-        text = self.expressions.condition(expression)
+        text = self.expressions.shortened(expression, _ROOM)
         self.notes.steps = True
         return text
 

@@ -65,7 +65,7 @@ OPERATORS = OperatorTable(
     },
     mixed=(frozenset(("or", "cor", "xor", "and", "cand", "band", "bor", "bxor")),),
 )
-WRITTEN_OPERATORS = frozenset(("div",))  # written with a function
+WRITTEN_OPERATORS = frozenset(("div", "**"))  # written with a function
 
 FUNCTIONS = {
     "abs": "ABS",

@@ -134,6 +134,17 @@ class Texts:
 
     # ---- functions
 
+    def made(self, program: str, text: ir.Expression, further: list[ir.Expression]) -> str:
+        """A text that a program which comes along makes."""
+        expressions = self.expressions
+        notes = expressions.notes
+        shown = ", ".join(expressions.value(value) for value in (text, *further))
+        name = notes.temporary("$t")
+        notes.step(f"CALL {program}({shown}, {name})")
+        notes.autos.append(name)
+        notes.helpers.add(program)
+        return name
+
     def function(self, name: str, values: tuple[ir.Expression, ...]) -> str | Printed | None:
         expressions = self.expressions
         match name, values:
@@ -144,6 +155,11 @@ class Texts:
             case "text_find", (text, start, wanted):
                 tail = "" if start == ir.IntLiteral(1) else f", {expressions.text(start)}"
                 return f"POS({expressions.text(text)}, {expressions.text(wanted)}{tail})"
+            case (("text_upper" | "text_lower" | "text_map"), (text, *further)):
+                return self.made(f"rpl.{name.removeprefix('text_')}", text, further)
+            case "text_equal", (one, other, ir.BoolLiteral(value=True)):
+                upper = [self.made("rpl.upper", value, []) for value in (one, other)]
+                return Printed(f"{upper[0]} == {upper[1]}", tables.RELATION)
             case "text_equal", (one, other, *rest) if not rest or rest[0] == ir.BoolLiteral(False):
                 level = tables.RELATION + 1
                 left, right = (expressions.printer.text(value, level) for value in (one, other))

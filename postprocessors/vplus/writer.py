@@ -21,6 +21,7 @@ from . import spelling, tables
 from .corners import Corners
 from .data import declared, stored, values
 from .expressions import UnsayableError
+from .helpers import HELPERS, with_needed
 from .motion import MotionFacts
 from .namespace import names_of, one_namespace, starts
 from .reactions import Reactions
@@ -94,6 +95,10 @@ class _File:
                 self.data(declaration, self.scopes.module(module), remarks)
         programs = [self.routine(module, routine) for module in self.program.modules for routine in module.routines]
         programs.sort(key=lambda one: not one[1])
+        programs += [
+            (ProgramText(HELPERS[name][0], tuple(FIRST + step for step in HELPERS[name][1])), False)
+            for name in with_needed(self.output.helpers)
+        ]
         sections = [Section(word, tuple(self.sections[word])) for word in _ORDER if word in self.sections]
         text = (
             _environment()
@@ -220,7 +225,7 @@ class _File:
                     if word == "LOCAL" and declaration.initial is not None:
                         self.first_time(declaration, printer)
                     else:
-                        for place, _, value in values(declaration):
+                        for place, _, value in values(declaration) or _filled(declaration, routine):
                             printer.line(printer.actions.stored(place, value))
                 elif isinstance(declaration, ir.Unread) and declaration.text:
                     raise UnsayableError(f"it was not read ({declaration.text.strip()[:40]})")
@@ -263,6 +268,18 @@ class _File:
             self.diagnostics.report(LOST_HANDLER, routine.origin, name=routine.name)
         for statement in lost:
             self.ledger.reported(statement)
+
+
+def _filled(variable: ir.Variable, routine: ir.Routine) -> list[tuple[ir.Expression, ir.Type, ir.Expression]]:
+    """A location that gets its components one by one begins as NULL."""
+    name = ir.Name(variable.name)
+    if not isinstance(variable.type, ir.PoseType | ir.TargetType):
+        return []
+    for node in walk(routine.body):
+        match node:
+            case ir.Assign(target=ir.Field(base=ir.Name(id=other))) if other.lower() == variable.name.lower():
+                return [(name, variable.type, ir.System("null_frame"))]
+    return []
 
 
 def _head(routine: ir.Routine) -> str:

@@ -1,0 +1,69 @@
+"""Programs that a written file brings along for what V+ has no function for."""
+
+from __future__ import annotations
+
+# Head and steps of each, by name.
+HELPERS: dict[str, tuple[str, tuple[str, ...]]] = {
+    "rpl.upper": (
+        ".PROGRAM rpl.upper($text, $result)",
+        (
+            "; The text in upper case.",
+            'CALL rpl.map(($text), "abcdefghijklmnopqrstuvwxyz", "ABCDEFGHIJKLMNOPQRSTUVWXYZ", $result)',
+        ),
+    ),
+    "rpl.lower": (
+        ".PROGRAM rpl.lower($text, $result)",
+        (
+            "; The text in lower case.",
+            'CALL rpl.map(($text), "ABCDEFGHIJKLMNOPQRSTUVWXYZ", "abcdefghijklmnopqrstuvwxyz", $result)',
+        ),
+    ),
+    "rpl.map": (
+        ".PROGRAM rpl.map($text, $from, $to, $result)",
+        (
+            "; Each sign that stands in one list becomes the one at its place in the other.",
+            "AUTO at, place, $sign",
+            '$result = ""',
+            "FOR at = 1 TO LEN($text)",
+            "    $sign = $MID($text, at, 1)",
+            "    place = POS($from, $sign)",
+            "    IF place > 0 THEN",
+            "        $sign = $MID($to, place, 1)",
+            "    END",
+            "    $result = $result+$sign",
+            "END",
+        ),
+    ),
+    "rpl.power": (
+        ".PROGRAM rpl.power(base.of, exponent, result)",
+        (
+            "; A whole power; stops at a broken one.",
+            "AUTO count",
+            "IF exponent <> INT(exponent) THEN",
+            '    TYPE "this power cannot be calculated"',
+            "    PAUSE",
+            "END",
+            "result = 1",
+            "FOR count = 1 TO ABS(exponent)",
+            "    result = result*base.of",
+            "END",
+            "IF exponent < 0 THEN",
+            "    result = 1/result",
+            "END",
+        ),
+    ),
+    "rpl.pulse": (
+        ".PROGRAM rpl.pulse(number, seconds)",
+        (
+            "; Ends a pulse on a signal.",
+            "WAIT.EVENT , seconds",
+            "SIGNAL -number",
+        ),
+    ),
+}
+_NEEDS = {"rpl.upper": "rpl.map", "rpl.lower": "rpl.map"}
+
+
+def with_needed(names: set[str]) -> list[str]:
+    """The programs and those that they call."""
+    return sorted(names | {_NEEDS[name] for name in names if name in _NEEDS})
