@@ -56,8 +56,9 @@ def translate_program(
     given = WriteContext(collector, second, register_names=context.register_names, foreign=context.foreign)
     files = target.write(program, given)
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
+    named = _with_signals(program, context)
     return Translation(
-        tuple(files), _with_signals(program, context), renamed, losses, dict(context.register_names), dict(context.register_types)
+        tuple(files), named, renamed, losses, dict(context.register_names), dict(context.register_types)
     )
 
 
