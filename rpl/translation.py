@@ -57,9 +57,7 @@ def translate_program(
     files = target.write(program, given)
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
     named = _with_signals(program, context)
-    return Translation(
-        tuple(files), named, renamed, losses, dict(context.register_names), dict(context.register_types)
-    )
+    return Translation(tuple(files), named, renamed, losses, dict(context.register_names), dict(context.register_types))
 
 
 def _with_signals(program: ir.Program, context: Context) -> ir.Program:
