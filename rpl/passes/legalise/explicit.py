@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
+from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.datalists import never_called
 from rpl.passes.legalise.modal import DROPPED, JOINT_BLEND, MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
@@ -40,7 +41,8 @@ EARLY_LOGIC = code(
 _CHECKS = frozenset(
     {
         *("joint_configuration_check", "path_configuration_check", "singularity_mode", "acceleration_percent"),
-        *("acceleration_ramp", "deceleration_percent", "speed_limit", "load"),
+        *("acceleration_ramp", "deceleration_percent", "speed_limit", "load", "end_tolerance", "move_duration"),
+        *("posture_shoulder", "posture_elbow", "posture_wrist", "blending"),
     }
 )
 
@@ -54,12 +56,14 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     reported: set[Code] = set()
     entries = never_called(program)
     looks_ahead = "advance" in context.capabilities.system_variables
+    on_paths = any(isinstance(node, ir.Move) and node.kind != "joint" for node in walk(*program.modules))
     modules = []
     for module in program.modules:
         routines = []
         for routine in module.routines:
             if looks_ahead and routine.name.lower() in entries and routine.body:
                 routine = _looking_ahead(routine, rules_of(context.target).advance.moves)
+                routine = _slowing(routine, context) if on_paths else routine
             worker = _Modal(context, scopes.routine(module, routine), assigned, reported)
             handlers = tuple(replace(handler, body=worker.body(handler.body, {})) for handler in routine.handlers)
             routines.append(replace(routine, body=worker.body(routine.body, {}), handlers=handlers))
@@ -70,6 +74,15 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
 def _looking_ahead(routine: ir.Routine, moves: int) -> ir.Routine:
     """A routine that a program may start with allows the look-ahead that blending needs."""
     return replace(routine, body=(ir.Assign(ir.System("advance"), ir.IntLiteral(moves)), *routine.body))
+
+
+def _slowing(routine: ir.Routine, context: Context) -> ir.Routine:
+    """Where the source slows down on a path that its axes cannot follow, and the target would stop with an error."""
+    name = "path_limit_rule"
+    source, target = (rules_of(one).system_defaults.get(name, "reduce") for one in (context.source, context.target))
+    if source == target or source != "reduce" or name not in context.capabilities.system_variables:
+        return routine
+    return replace(routine, body=(ir.Assign(ir.System(name), ir.EnumLiteral("reduce")), *routine.body))
 
 
 # What a blend that begins where the braking would begin is for joint moves, of the largest corner of the target.

@@ -40,6 +40,7 @@ from rpl.passes.legalise.movesettings import settings_at_moves
 from rpl.passes.legalise.nextmove import settings_of_next_move
 from rpl.passes.legalise.numbered import number_data
 from rpl.passes.legalise.numbers import numbers
+from rpl.passes.legalise.onemove import settings_of_one_move
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.parameters import fit_arguments
 from rpl.passes.legalise.polling import poll_waits
@@ -111,6 +112,7 @@ PASSES: tuple[Pass, ...] = (
     fit_loops,
     enums_to_constants,
     corners,
+    settings_of_one_move,
     modal_to_explicit,
     explicit_to_modal,
     settings_at_moves,
