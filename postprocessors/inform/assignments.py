@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from rpl import ir
+from rpl.passes.rewrite import rewrite_parts
 
 from . import tables
 from .errors import CannotSayError
 from .operands import Registers, bank_of, constant, element, is_digital, numbered, operand, signal, simple, variable
 from .positions import Positions
-
 
 
 @dataclass(slots=True)
@@ -19,10 +19,13 @@ class Assignments:
 
     registers: Registers
     positions: Positions
-    lines: list[str] = field(default_factory=list)
+
+    @property
+    def lines(self) -> list[str]:
+        return self.positions.lines
 
     def assign(self, assign: ir.Assign) -> list[str]:
-        self.lines = self.positions.lines = []
+        self.positions.lines = []
         target, value = assign.target, assign.value
         match target:
             case ir.Signal():
@@ -36,6 +39,19 @@ class Assignments:
                 else:
                     self.number(place, value)
         return self.lines
+
+    def prepared(self, condition: ir.Expression) -> tuple[list[str], ir.Expression]:
+        """The condition with components of positions in variables, and the lines that put them there."""
+        self.positions.lines = []
+
+        def change(expression: ir.Expression) -> ir.Expression:
+            if isinstance(expression, ir.Field):
+                helper = self.registers.helper("R")
+                self.number(helper, expression)
+                return ir.Name(helper)
+            return rewrite_parts(expression, change)
+
+        return self.lines, change(condition)
 
     # ---- outputs
 
@@ -86,8 +102,8 @@ class Assignments:
                 self.lines.append(f"SET {place} {shown}")
             return
         match value:
-            case ir.Convert(how="real" | "trunc" | "bit", operand=inner):
-                self.converted(place, inner)
+            case ir.Convert(how=how, operand=inner):
+                self.converted(place, how, inner)
             case ir.Signal():
                 self.input(place, value)
             case ir.Binary():
@@ -108,14 +124,32 @@ class Assignments:
         if value is not None and limits is not None and not limits[0] <= value <= limits[1]:
             raise CannotSayError(f"{value:g} is outside of {limits[0]}..{limits[1]}, the range of {place}")
 
-    def converted(self, place: str, value: ir.Expression) -> None:
+    def converted(self, place: str, how: str, value: ir.Expression) -> None:
         """A value of another type; SET drops the decimals where the place has none."""
-        if bank_of(place) == "R" or isinstance(value, ir.Signal | ir.Field):
-            self.number(place, value)
-            return
-        helper = self.registers.helper("R")
-        self.number(helper, value)
-        self.lines.append(f"SET {place} {helper}")
+        match how:
+            case "real" | "bit":
+                self.number(place, value)
+            case "code" | "char":
+                self.lines.append(f"{'ASC' if how == 'code' else 'CHR$'} {place} {operand(value)}")
+            case "truth":
+                shown = self.simple_number(value, "R")
+                self.lines.extend([f"IFTHENEXP {shown}<>0", f"SET {place} 1", "ELSE", f"SET {place} 0", "ENDIF"])
+            case _:
+                self.whole(place, how, value)
+
+    def whole(self, place: str, how: str, value: ir.Expression) -> None:
+        """A whole number of a real one: cut, rounded, or the next one below."""
+        real = self.registers.helper("R")
+        self.number(real, value)
+        goal = place if bank_of(place) in tables.WHOLE else self.registers.helper("D")
+        if how == "round_half_away":
+            self.lines.extend([f"IFTHENEXP {real}<0.0", f"SUB {real} 0.5", "ELSE", f"ADD {real} 0.5", "ENDIF"])
+        self.lines.append(f"SET {goal} {real}")
+        if how == "floor":
+            cut = self.registers.helper("R")
+            self.lines.extend([f"SET {cut} {goal}", f"IFTHENEXP {cut}>{real}", f"DEC {goal}", "ENDIF"])
+        if goal != place:
+            self.lines.append(f"SET {place} {goal}")
 
     def input(self, place: str, given: ir.Signal) -> None:
         """`DIN B000 IN#(1)`."""
@@ -123,7 +157,7 @@ class Assignments:
             self.lines.append(f"DIN {place} {signal(given)}")
             return
         helper = self.registers.helper("B")
-        self.lines += [f"DIN {helper} {signal(given)}", f"SET {place} {helper}"]
+        self.lines.extend([f"DIN {helper} {signal(given)}", f"SET {place} {helper}"])
 
     def operation(self, place: str, value: ir.Binary) -> None:
         """`SET a b`, `ADD a c`."""
@@ -145,7 +179,7 @@ class Assignments:
                 left, right = right, left
             else:
                 helper = self.registers.helper(bank)
-                self.lines += [f"SET {helper} {right}"]
+                self.lines.extend([f"SET {helper} {right}"])
                 right = helper
         if left != place:
             self.lines.append(f"SET {place} {left}")
@@ -161,16 +195,20 @@ class Assignments:
             raise CannotSayError("a remainder is for whole numbers")
         left, right = self.simple_number(value.left, bank), self.simple_number(value.right, bank)
         helper = self.registers.helper(bank)
-        self.lines += [f"SET {helper} {left}", f"DIV {helper} {right}", f"MUL {helper} {right}"]
+        self.lines.extend([f"SET {helper} {left}", f"DIV {helper} {right}", f"MUL {helper} {right}"])
         if place in (left, right) and left != place:
             other = self.registers.helper(bank)
-            self.lines += [f"SET {other} {left}", f"SUB {other} {helper}", f"SET {place} {other}"]
+            self.lines.extend([f"SET {other} {left}", f"SUB {other} {helper}", f"SET {place} {other}"])
             return
         if left != place:
             self.lines.append(f"SET {place} {left}")
         self.lines.append(f"SUB {place} {helper}")
 
     def function(self, place: str, value: ir.Builtin) -> None:
+        if value.function == "abs":
+            self.number(place, value.arguments[0])
+            self.lines.extend([f"IFTHENEXP {place}<0", f"MUL {place} -1", "ENDIF"])
+            return
         word = tables.FUNCTIONS.get(value.function)
         if word is not None:
             given = self.simple_number(value.arguments[0], "R")
@@ -200,10 +238,10 @@ class Assignments:
         helper = self.registers.helper("D")
         self.lines.append(f"GETE {helper} {source} ({number})")
         if bank_of(place) == "R":
-            self.lines += [f"SET {place} {helper}", f"DIV {place} {counts:.1f}"]
+            self.lines.extend([f"SET {place} {helper}", f"DIV {place} {counts:.1f}"])
             return
         real = self.registers.helper("R")
-        self.lines += [f"SET {real} {helper}", f"DIV {real} {counts:.1f}", f"SET {place} {real}"]
+        self.lines.extend([f"SET {real} {helper}", f"DIV {real} {counts:.1f}", f"SET {place} {real}"])
 
     def component(self, base: ir.Expression, name: str, value: ir.Expression) -> None:
         number, counts = component(name)
@@ -225,7 +263,7 @@ class Assignments:
                     return
         real, whole = self.registers.helper("R"), self.registers.helper("D")
         self.number(real, value)
-        self.lines += [f"MUL {real} {counts:.1f}", f"SET {whole} {real}", f"SETE {place} ({number}) {whole}"]
+        self.lines.extend([f"MUL {real} {counts:.1f}", f"SET {whole} {real}", f"SETE {place} ({number}) {whole}"])
 
 
 def component(name: str) -> tuple[int, int]:

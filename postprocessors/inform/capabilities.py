@@ -13,7 +13,7 @@ CAPABILITIES = Capabilities(
             *("Pulse", "Message", "TaskControl", "Vendor", "Opaque", "Nothing", "Move", "Search"),
         )
     ),
-    functions=frozenset((*tables.FUNCTIONS, *tables.TEXT_FUNCTIONS, *tables.POSITION_FUNCTIONS)),
+    functions=frozenset((*tables.FUNCTIONS, *tables.TEXT_FUNCTIONS, *tables.POSITION_FUNCTIONS, "abs")),
     procedures=frozenset(),
     system_variables=frozenset(("actual_pose", "actual_joints", "null_frame", "world")),
     operators=frozenset((*tables.COMPARISONS, *tables.ARITHMETIC, *tables.BITS, "mod", "and", "or", "&", ":")),
@@ -32,7 +32,7 @@ CAPABILITIES = Capabilities(
     modal_motion=True,
     notation="inform",
     rotation="zyx",
-    conversions=frozenset(("real", "trunc", "bit")),
+    conversions=frozenset(("real", "trunc", "round_half_away", "bit", "truth", "floor", "code", "char")),
     wait_timeout=True,
     named_aggregates=True,
     partial_aggregates=False,

@@ -19,7 +19,9 @@ from .places import WORLD, Position, product, way_of
 from .positions import Positions
 
 RANGE = code(
-    "inform-range", Severity.WARNING, "{tag}={value:g} is written as {written}: a controller takes {least:g} to {most:g}"
+    "inform-range",
+    Severity.WARNING,
+    "{tag}={value:g} is written as {written}; a controller takes {least:g} to {most:g}",
 )
 TOOL_SPEED = code(
     "inform-joint-speed",
@@ -55,10 +57,13 @@ class Motion:
     number: Number
     diagnostics: Diagnostics
     names: dict[str, int] = field(default_factory=dict)  # point of the IR -> its number
-    lines: list[str] = field(default_factory=list)
     last: Goal | None = None
     line_of_last: int | None = None
     reported: set[tuple[Code, str]] = field(default_factory=set)
+
+    @property
+    def lines(self) -> list[str]:
+        return self.positions.lines
 
     def forget(self) -> None:
         """Neither place nor line of the last move are known here."""
@@ -71,8 +76,8 @@ class Motion:
             self.diagnostics.report(about, origin, **arguments)
 
     def move(self, move: ir.Move, done: list[str]) -> list[str]:
-        """The lines of a move behind those that are `done`; the line of a move before may become the start of an arc."""
-        self.lines = self.positions.lines = []
+        """The lines of a move behind those that are `done`; the move before may become the start of an arc."""
+        self.positions.lines = []
         self.refuse(move)
         tool = self.tool(move.tool)
         if move.relative is not None:
@@ -175,7 +180,7 @@ class Motion:
         if move.kind != "linear" or move.relative == "joints":
             raise CannotSayError("a relative move in joints or on a circle")
         if frame is None:
-            raise CannotSayError("a relative move in a computed frame")
+            return Goal("", tool, 0, None), f"IMOV {self.turned_way(move, way, tool)} BF"
         number = job.cell.frame(frame.values)
         place = self.positions.as_variable(move.target) if way is None else job.constant(way, tool)
         if way is None and tool != job.tool:
@@ -183,6 +188,17 @@ class Motion:
         word = "TF" if move.relative == "tool" else f"UF#({number})" if number else "BF"
         goal = None if way is None else self.reached(move, way, tool, frame)
         return goal or Goal("", tool, 0, None), f"IMOV {place} {word}"
+
+    def turned_way(self, move: ir.Move, way: Position | None, tool: int) -> str:
+        """A way in the axes of a computed frame as one in those of the base: frame . way - frame."""
+        if move.frame is None or move.relative == "tool" or way is None or any(way.values[3:]):
+            raise CannotSayError("a turned relative move in a computed frame")
+        if tool != self.positions.job.tool:
+            raise CannotSayError("a computed way with another tool than the job's own")
+        helper, frame = self.positions.registers.helper("P"), self.positions.as_variable(move.frame)
+        kept = self.positions.job.constant(way, tool)
+        self.lines.extend([f"MULMAT {helper} {frame} {kept}", f"SUB {helper} {frame}"])
+        return helper
 
     def reached(self, move: ir.Move, way: Position, tool: int, frame: Position) -> Goal | None:
         """Where a relative move comes to from the last place."""
@@ -241,7 +257,7 @@ class Motion:
         registers = self.positions.registers
         real, whole = registers.helper("R"), registers.helper("D")
         self.number(real, value)
-        self.lines += [f"MUL {real} {float(tables.COUNTS[tag]):.1f}", f"ADD {real} 0.5", f"SET {whole} {real}"]
+        self.lines.extend([f"MUL {real} {float(tables.COUNTS[tag]):.1f}", f"ADD {real} 0.5", f"SET {whole} {real}"])
         return f"{tag}={whole}"
 
     def speed(self, move: ir.Move) -> list[str]:

@@ -54,9 +54,10 @@ class Registers:
         return found
 
     def take(self, bank: str) -> int:
-        """The highest number that nobody has."""
+        """The highest number of a controller as it is delivered that nobody has, else the next one above."""
         limits, used = tables.BANKS[bank], self.used.setdefault(bank, set())
-        for number in range(limits.last, limits.first - 1, -1):
+        standard = int(tables.STANDARD_LAST[bank])
+        for number in (*range(standard, limits.first - 1, -1), *range(standard + 1, limits.last + 1)):
             if number not in used:
                 used.add(number)
                 return number

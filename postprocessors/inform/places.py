@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import takewhile
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rpl import ir
-from rpl.emulator.rotations import matrix_to_zyx, pose_matrix, zyx_to_matrix
+from rpl.emulator.rotations import matrix_to_zyx, pose_matrix, quaternion_to_matrix, zyx_to_matrix
 from rpl.passes.legalise.startdata import INITIALISE
 from rpl.passes.rewrite import rewrite_parts
 
 from . import tables
-from .errors import CannotSayError
 from .operands import constant, numbered
 
 if TYPE_CHECKING:
@@ -47,6 +47,10 @@ def position_of(value: ir.Expression) -> Position | None:
         names = [name for name in tables.JOINT_ELEMENTS if name in parts]
         found = _numbers(parts, names)
         return None if found is None else Position("joints", found, (), _external(parts))
+    quaternion = _numbers(parts, ("q1", "q2", "q3", "q4"))
+    if quaternion is not None:
+        angles = matrix_to_zyx(quaternion_to_matrix(list(quaternion)))
+        parts |= dict(zip(("a", "b", "c"), (ir.RealLiteral(float(one)) for one in angles), strict=True))
     found = _numbers(parts, _POSE)
     if found is None:
         return None
@@ -78,7 +82,7 @@ def flat(value: ir.Expression) -> dict[str, ir.Expression]:
     return found
 
 
-def _numbers(parts: Mapping[str, ir.Expression], names: tuple[str, ...] | list[str]) -> Values | None:
+def _numbers(parts: Mapping[str, ir.Expression], names: Sequence[str]) -> Values | None:
     found = [constant(parts.get(name)) for name in names]
     return None if None in found else tuple(float(one) + 0.0 for one in found if one is not None)
 
@@ -128,7 +132,8 @@ class Constants:
     points: dict[str, Position] = field(default_factory=dict)  # the taught points of the routine at hand
 
     @classmethod
-    def of(cls, program: ir.Program) -> Constants:
+    def of(cls, program: ir.Program, entries: Collection[str] = ()) -> Constants:
+        """`entries`: routines that may be started; what stands at their very beginning happens once, too."""
         assigned: Counter[tuple[str, int]] = Counter()
         first: dict[tuple[str, int], Position] = {}
         chosen = False
@@ -154,10 +159,10 @@ class Constants:
         for module in program.modules:
             for routine in module.routines:
                 body(routine.body)
-                if not routine.name.lower().startswith(INITIALISE.lower()):
+                if not (routine.name.lower() in entries or routine.name.lower().startswith(INITIALISE)):
                     continue
                 points = _points(routine)
-                for statement in routine.body:
+                for statement in takewhile(_is_setting, routine.body):
                     place = numbered(statement.target) if isinstance(statement, ir.Assign) else None
                     if place is not None and isinstance(statement, ir.Assign):
                         given = points.get(statement.value.id) if isinstance(statement.value, ir.Name) else None
@@ -194,6 +199,13 @@ class Constants:
         return None if place is None else self.values.get(place)
 
 
+def _is_setting(statement: ir.Statement) -> bool:
+    """Does a program without moves, jumps or decisions go on behind it?"""
+    if isinstance(statement, ir.CallRoutine):
+        return statement.name.lower().startswith(INITIALISE)
+    return isinstance(statement, ir.Assign | ir.Nothing)
+
+
 def _points(routine: ir.Routine) -> dict[str, Position]:
     found: dict[str, Position] = {}
     for declaration in routine.declarations:
@@ -202,9 +214,3 @@ def _points(routine: ir.Routine) -> dict[str, Position]:
             if position is not None and declaration.storage == "constant":
                 found[declaration.name] = position
     return found
-
-
-def needs_cannot(position: Position | None, what: str) -> Position:
-    if position is None:
-        raise CannotSayError(f"{what} is computed")
-    return position

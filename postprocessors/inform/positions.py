@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from rpl import ir
@@ -10,7 +11,7 @@ from . import tables
 from .errors import CannotSayError
 from .job import Job
 from .operands import Registers, bank_of, constant, element
-from .places import Constants, Position, flat, position_of
+from .places import WORLD, Constants, Position, flat, position_of
 
 _POSES = ("x", "y", "z", "a", "b", "c")
 
@@ -23,6 +24,7 @@ class Positions:
     job: Job
     constants: Constants
     lines: list[str] = field(default_factory=list)
+    number: Callable[[str, ir.Expression], None] | None = None  # prints the value of a number
     in_tools: dict[int, str] = field(default_factory=dict)  # tool -> the variable whose value it has just got
 
     def changed(self, place: str) -> None:
@@ -108,13 +110,36 @@ class Positions:
         """Moved by x, y, z in the axes of its frame."""
         values = [constant(one) for one in way]
         if None in values:
-            raise CannotSayError("an offset that is computed component by component")
+            self.computed_offset(place, base, way)
+            return
         x, y, z = (float(one or 0.0) for one in values)
         first = self.as_variable(base)
         if first != place:
             self.lines.append(f"SET {place} {first}")
         if any((x, y, z)):
             self.lines.append(f"ADD {place} {self.kept(Position('pose', (x, y, z, 0.0, 0.0, 0.0)))}")
+
+    def computed_offset(self, place: str, base: ir.Expression, way: list[ir.Expression]) -> None:
+        """The way is made component by component, then added."""
+        shift = self.registers.helper("P")
+        first = self.as_variable(base)
+        self.lines.append(f"SET {shift} {self.kept(Position('pose', WORLD))}")
+        for number, one in enumerate(way, 1):
+            if constant(one) == 0:
+                continue
+            self.element(shift, number, one)
+        if first != place:
+            self.lines.append(f"SET {place} {first}")
+        self.lines.append(f"ADD {place} {shift}")
+
+    def element(self, place: str, number: int, value: ir.Expression) -> None:
+        """SETE of a computed component."""
+        if self.number is None:
+            raise CannotSayError("a computed component")
+        counts = 1 / (tables.MM_PER_COUNT if number <= 3 else tables.DEG_PER_COUNT)
+        real, whole = self.registers.helper("R"), self.registers.helper("D")
+        self.number(real, value)
+        self.lines += [f"MUL {real} {counts:.1f}", f"SET {whole} {real}", f"SETE {place} ({number}) {whole}"]
 
     def current(self, place: str, arguments: tuple[ir.Expression, ...]) -> None:
         """Where the tool is, in a frame."""
@@ -160,11 +185,4 @@ class Positions:
             raise CannotSayError("a position with computed flags")
         self.lines.append(f"SET {place} {self.kept(known)}")
         for name, part in computed.items():
-            number = tables.POSE_ELEMENTS.index(name) + 1
-            counts = 1 / (tables.MM_PER_COUNT if number <= 3 else tables.DEG_PER_COUNT)
-            shown = element(part) if isinstance(part, ir.Index | ir.Name) else None
-            if shown is None:
-                raise CannotSayError("a component that is more than a variable")
-            real, whole = self.registers.helper("R"), self.registers.helper("D")
-            self.lines += [f"SET {real} {shown}", f"MUL {real} {counts:.1f}", f"SET {whole} {real}"]
-            self.lines.append(f"SETE {place} ({number}) {whole}")
+            self.element(place, tables.POSE_ELEMENTS.index(name) + 1, part)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.source import Origin
+from rpl.source import NOWHERE, Origin
 from rpl.writing.ledger import EmissionLedger
 
 from . import tables
@@ -73,12 +73,31 @@ class Printer:
     # ---- bodies
 
     def body(self, body: ir.Body, last: bool = False) -> None:
+        loose: list[ir.Trigger] = []  # actions on the path of the next move
         for at, statement in enumerate(body):
+            if isinstance(statement, ir.Trigger):
+                loose.append(statement)
+                continue
+            if isinstance(statement, ir.Move) and loose:
+                self.with_triggers(statement, loose)
+                loose = []
+                continue
             if last and at == len(body) - 1 and isinstance(statement, ir.Return) and statement.value is None:
                 self.comments_only(statement.origin)
                 self.ledger.merged(statement)
                 continue
             self.statement(statement)
+        for trigger in loose:
+            self.statement(trigger)
+
+    def with_triggers(self, move: ir.Move, triggers: list[ir.Trigger]) -> None:
+        """A move and the actions that stand before it."""
+        joined = replace(move, triggers=(*move.triggers, *triggers))
+        for trigger in triggers:
+            self.comments_only(trigger.origin)
+            self.ledger.merged(trigger)
+        self.ledger.merged(move)
+        self.statement(joined)
 
     def statement(self, statement: ir.Statement) -> None:
         """One statement, or its guarded stop."""
@@ -159,7 +178,7 @@ class Printer:
 
     def time(self, value: ir.Expression, origin: Origin) -> str:
         """`T=0.50`; lines that compute it stand before."""
-        self.motion.lines = self.assignments.lines = self.assignments.positions.lines = []
+        self.assignments.positions.lines = []
         shown = self.motion.tag("T", value, origin)
         self.put(self.motion.lines)
         return shown
@@ -198,6 +217,13 @@ class Printer:
         always = next((at for at, (one, _) in enumerate(branches) if one == ir.BoolLiteral(True)), None)
         if always is not None or not branches:
             raise CannotSayError("a condition that is always the same")
+        if len(branches) == 1:
+            (condition, body), *_ = branches
+            lines, condition = self.assignments.prepared(condition)
+            self.comments_only(statement.origin)
+            self.put(lines)
+            statement = replace(statement, branches=((condition, body),), origin=NOWHERE)
+            branches = [(condition, body)]
         shown = [alternatives(condition) for condition, _ in branches]
         if len(branches) == 1 and not statement.otherwise and self.short(statement):
             return
@@ -258,8 +284,6 @@ class Printer:
     def move(self, move: ir.Move) -> None:
         begun, ended = self.triggered(move)
         self.comments_only(move.origin)
-        given = ir.Move if not begun else None
-        del given
         lines = self.motion.move(move, self.lines)
         if begun:
             lines[-1] += " NWAIT"
@@ -354,7 +378,9 @@ def _plain(condition: ir.Expression) -> bool:
             return True
         case ir.Binary(op="=" | "<>" as op, left=left, right=right):
             place = None if isinstance(left, ir.Signal) else element(left)
-            return (is_digital(left) or op == "=") and (
-                isinstance(left, ir.Signal) or (place is not None and place.startswith("B"))
-            ) and not isinstance(right, ir.Signal)
+            return (
+                (is_digital(left) or op == "=")
+                and (isinstance(left, ir.Signal) or (place is not None and place.startswith("B")))
+                and not isinstance(right, ir.Signal)
+            )
     return False

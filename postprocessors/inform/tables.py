@@ -10,12 +10,14 @@ from typing import Final
 
 from rpl.passes.capabilities import Bank
 
-B: Final = Bank("B", 0, 99)
-D: Final = Bank("D", 0, 99)
-I: Final = Bank("I", 0, 99)  # noqa: E741 - the controller's own letter
-R: Final = Bank("R", 0, 99)
-S: Final = Bank("S", 0, 99)
-P: Final = Bank("P", 0, 127)
+# M: a controller can be given more variables than it is delivered with (STANDARD_LAST).
+B: Final = Bank("B", 0, 999)
+D: Final = Bank("D", 0, 999)
+I: Final = Bank("I", 0, 999)  # noqa: E741 - the controller's own letter
+R: Final = Bank("R", 0, 999)
+S: Final = Bank("S", 0, 999)
+P: Final = Bank("P", 0, 999)
+STANDARD_LAST: Final[Mapping[str, int]] = {**dict.fromkeys(("B", "D", "I", "R", "S"), 99), "P": 127}
 POINTS: Final = Bank("C", 0, 9998)
 BANKS: Final[Mapping[str, Bank]] = {bank.name: bank for bank in (B, D, I, R, S, P)}
 NUMBERS: Final = ("B", "I", "D", "R")
@@ -40,6 +42,7 @@ TEXT_FUNCTIONS: Final[Mapping[str, str]] = {
     "character_code": "ASC",
     "from_code": "CHR$",
     "text_value": "VAL",
+    "value_text": "VAL2STR",
 }
 # What the printer of positions says in its own way.
 POSITION_FUNCTIONS: Final = (

@@ -23,6 +23,7 @@ from .places import Constants
 from .positions import Positions
 from .statements import Printer
 from .texts import remarks
+from .unchanged import unchanged
 
 LOST_DECLARATION = code(
     "inform-lost-declaration", Severity.LOSS, "INFORM has no place for {name}: {reason}", "it is left as a remark"
@@ -36,6 +37,9 @@ LONG_NAME = code(
 
 def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     """All jobs. Raises InternalError when the ledger finds a node that nobody accounted for."""
+    same = unchanged(program)
+    if same is not None:
+        return same
     ledger = EmissionLedger()
     writer = _Writer(program, context, ledger)
     jobs = [job for module in program.modules for job in writer.module(module)]
@@ -48,10 +52,10 @@ class _Writer:
     def __init__(self, program: ir.Program, context: WriteContext, ledger: EmissionLedger) -> None:
         self.program, self.context, self.ledger = program, context, ledger
         self.diagnostics = context.diagnostics
-        self.constants = Constants.of(program)
         self.registers = Registers.of(program)
         self.cell = Cell(self.registers)
         self.entries = _entries(program)
+        self.constants = Constants.of(program, self.entries)
         self.tasks: dict[str, str] = {}
         self.jobs = {
             routine.name.lower(): routine.name.upper() for module in program.modules for routine in module.routines
@@ -147,6 +151,7 @@ class _Writer:
         constants = self.constants.routine(routine)
         positions = Positions(self.registers, job, constants)
         assignments = Assignments(self.registers, positions)
+        positions.number = assignments.number
         motion = Motion(positions, assignments.number, self.diagnostics)
         motion.names = {name: int(name[1:]) for name in constants.points if name[:1] == "C" and name[1:].isdigit()}
         labels = Labels.of(routine.body)
@@ -197,5 +202,3 @@ def _entries(program: ir.Program) -> set[str]:
     from rpl.passes.legalise.datalists import never_called
 
     return set(never_called(program))
-
-

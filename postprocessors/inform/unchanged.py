@@ -1,0 +1,37 @@
+"""Jobs that were read and not changed: they are written as they stand in their files.
+
+Their texts are read anew; where that gives the same program, nothing has been rewritten since, and the texts say
+everything, also what the neutral program does not keep (dates, groups, points that nobody uses).
+"""
+
+from __future__ import annotations
+
+from pathlib import PureWindowsPath
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics
+from rpl.project import read_sources
+from rpl.source import Source
+from rpl.writing.target import OutputFile
+
+_HEADER = "NPOS"  # every job has it, no module of another language
+
+
+def unchanged(program: ir.Program) -> list[OutputFile] | None:
+    """The files of a program that is exactly what its own jobs say; None for any other program."""
+    sources: list[Source] = []
+    for module in program.modules:
+        jobs = [routine for routine in module.routines if routine.origin.source is not None]
+        if not module.routines:
+            continue
+        source = module.origin.source
+        if source is None or not jobs or _HEADER not in dict(module.attributes):
+            return None
+        if source not in sources:
+            sources.append(source)
+    if not sources or read_sources(sources, "inform", Diagnostics()).program != program:
+        return None
+    names = [PureWindowsPath(source.path).name for source in sources]
+    if len({name.upper() for name in names}) < len(names):
+        return None
+    return [OutputFile(name, source.data) for name, source in zip(names, sources, strict=True)]
