@@ -22,8 +22,8 @@ _PATH = frozenset(
 
 
 def settings_of_one_move(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets with modal motion; spline moves have settings of their own there."""
-    if not context.capabilities.modal_motion:
+    """Only for targets whose speeds are all modal; spline moves have settings of their own there."""
+    if not context.capabilities.modal_motion or context.capabilities.move_settings:
         return program
     flow = Flow.of(program, dict(rules_of(context.source).system_defaults))
     reported: set[str] = set()
