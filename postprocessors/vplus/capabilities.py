@@ -66,6 +66,6 @@ CAPABILITIES = Capabilities(
     named_aggregates=True,
     move_settings=frozenset(("frame", "speed", "blend")),
     speeds=frozenset(("joint", "path", "duration")),
-    blends=tables.words("BlendDistance BlendPercent BlendSpeed BlendZone BlendLevel"),
+    blends=tables.words("BlendDistance BlendPercent BlendSpeed BlendZone"),
     postures="joints",
 )

@@ -13,7 +13,7 @@ from rpl import ir
 from rpl.ir.walk import expressions
 
 MOVES, ACTS, ENDS = "moves", "acts", "ends"
-_QUIET = (ir.Nothing, ir.Label, ir.LookAhead, ir.SetForNextMove, ir.Trigger, ir.ExitLoop, ir.NextPass)
+_QUIET = (ir.Nothing, ir.Label, ir.LookAhead, ir.SetForNextMove, ir.Trigger, ir.ExitLoop, ir.NextPass, ir.Do)
 _LOOKS = frozenset(("current_target", "current_joints", "current_position"))
 
 

@@ -275,7 +275,7 @@ class Expressions:
 
     def tangent(self, values: tuple[ir.Expression, ...]) -> Printed:
         angle = self.repeated(values[0])
-        return Printed(f"SIN({angle})/COS({angle})", tables.PRODUCT)
+        return Printed(f"SIN({angle}) / COS({angle})", tables.PRODUCT)
 
     def arc(self, values: tuple[ir.Expression, ...], cosine: bool) -> str:
         """asin and acos by the angle of a vector."""

@@ -168,6 +168,8 @@ def plus(value: ir.Expression, offset: int) -> ir.Expression:
             return ir.RealLiteral(real + offset)
         case ir.Binary(op="-", left=left, right=ir.IntLiteral(value=number)) if number == offset:
             return left
+        case ir.Binary(op="+", left=left, right=ir.IntLiteral(value=number)):
+            return plus(left, number + offset)
         case ir.Binary(op="-", left=left, right=ir.RealLiteral(value=real)) if real == offset:
             return left
     return ir.Binary("+", value, ir.IntLiteral(offset)) if offset else value

@@ -48,7 +48,7 @@ _BINARY = {
     "bor": Operator("BOR", SUM),
     "bxor": Operator("BXOR", SUM),
     "*": Operator("*", PRODUCT, spaced=False),
-    "/": Operator("/", PRODUCT, spaced=False),
+    "/": Operator("/", PRODUCT),
     "mod": Operator("MOD", PRODUCT),
     "and": Operator("AND", PRODUCT),
     "cand": Operator("AND", PRODUCT),
