@@ -277,6 +277,8 @@ class Expressions:
         if not isinstance(places, ir.IntLiteral):
             raise UnsayableError("rounding to a computed count of decimals")
         scale = spelling.real_text(10.0**places.value)
+        if name == "rpl_rounded":
+            return self.helper("rpl_decimals", self.text(values[0]), scale)
         inner = self.helper(name, f"{self.atom(values[0])} * {scale}")
         return Printed(f"{inner} / {scale}", tables.PRODUCT)
 

@@ -30,6 +30,12 @@ _TEXTS: dict[str, str] = {
           return floor(value + 0.5)
         end
     """,
+    "rpl_decimals": """
+        def rpl_decimals(value, scale):
+          # the value rounded to the decimals that a scale of 10, 100, ... keeps
+          return rpl_rounded(value * scale) / scale
+        end
+    """,
     "rpl_div": """
         def rpl_div(number, divisor):
           # whole division, cut toward zero

@@ -272,11 +272,15 @@ def _stands(rest: ir.Body) -> bool:
 
 def _polls(loop: ir.While | ir.Repeat | ir.Loop) -> bool:
     """Does the loop look at signals without ever taking time? The controller wants a pause in each pass then."""
-    looks = False
+    looks, written = False, set()
     for node in walk(loop):
+        match node:
+            case ir.Assign(target=ir.Signal() as target):
+                written.add(id(target))
+            case ir.Signal():
+                looks = looks or id(node) not in written
         if isinstance(node, _TIMED):
             return False
-        looks = looks or isinstance(node, ir.Signal)
     return looks
 
 

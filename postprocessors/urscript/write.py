@@ -17,6 +17,7 @@ from .declarations import header, variable_line
 from .expressions import UnsayableError
 from .helpers import HELPERS, with_needed
 from .namespace import called_names, names_of, one_namespace, programs
+from .readings import clean_readings
 from .statements import INDENT, Output, Printer
 
 if TYPE_CHECKING:
@@ -66,6 +67,7 @@ class _Script:
         self.ledger = EmissionLedger()
         skipped = [routine for module in program.modules for routine in module.routines if id(routine) in others]
         self.program, self.start = one_namespace(_without(program, skipped), start)
+        self.program, self.start = self.cleaned()
         self.scopes = ProgramScope(self.program)
         self.diagnostics = context.diagnostics
         taken = names_of(self.program) | set(HELPERS)
@@ -76,6 +78,15 @@ class _Script:
         self.started = {
             node.task.lower() for node in walk(self.program) if isinstance(node, ir.TaskControl) and node.op == "start"
         }
+
+    def cleaned(self) -> tuple[ir.Program, ir.Routine | None]:
+        """The program with numbers that are read out of poses rounded, and its start there."""
+        done = clean_readings(self.program)
+        for module, new in zip(self.program.modules, done.modules, strict=True):
+            for routine, rounded in zip(module.routines, new.routines, strict=True):
+                if routine is self.start:
+                    return done, rounded
+        return done, self.start
 
     def file(self) -> OutputFile:
         name = self.name()

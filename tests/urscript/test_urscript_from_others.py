@@ -68,3 +68,43 @@ def test_continuous_path_leaves_each_move_where_its_braking_would_begin() -> Non
 
 def test_full_acceleration_decides_the_corner_too() -> None:
     equal("vplus", VPLUS.format(lines="        ACCEL 50\n        SPEED 40\n        MOVES b\n        MOVES c"))
+
+
+RPL = """VAR p: POSE = {{x: 300, y: 0.57, z: 300, a: 90, b: 0, c: 0}}
+VAR x: REAL = 0
+PROCEDURE main()
+{lines}
+END PROCEDURE
+"""
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "x = p.a\nSET do[1] TO x = 90",
+        "SET do[1] TO p.a = 90 AND p.y = 0.57",
+        "p.b = 5\nx = p.b + p.a\nSET do[1] TO x = 95",
+        "p.x = 57.3\nSET do[1] TO p.x >= 57.3 AND p.x <= 57.3",
+        "p.a = 44\nSET do[1] TO TRUNC(p.a) = 44",
+    ],
+)
+def test_numbers_out_of_poses_are_those_of_the_source(lines: str) -> None:
+    equal("rpl", RPL.format(lines=lines))
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "SET do[19] TO TRUE\nSET do[1] TO do[19] AND NOT do[20]",
+        "VAR n: INT = 16\nFOR n = 16 TO 22\nSET do[n] TO TRUE\nEND FOR\nSET do[40] TO do[n - 1]",
+        "SET ao[7] TO 2.5\nSET do[1] TO ao[7] > 2",
+    ],
+)
+def test_signals_beyond_the_control_box_are_registers(lines: str) -> None:
+    script = equal("rpl", RPL.format(lines=lines))
+    assert "write_output_boolean_register(" in script or "write_output_float_register(" in script
+
+
+def test_a_loop_that_only_sets_outputs_takes_no_time() -> None:
+    lines = "WHILE x < 3\nSET do[2] TO x > 1\nx = x + 1\nEND WHILE\nSET do[1] TO x = 3"
+    assert "sync()" not in equal("rpl", RPL.format(lines=lines))

@@ -67,7 +67,7 @@ VAR row: ARRAY[3] OF INT = {1, 2, 3}
         ("row[1] = row[i]", ["row[0] = row[i - 1]"]),
         ("spot.x = 120", ["spot[0] = 0.12"]),
         ("spot.y = x", ["spot[1] = x / 1000.0"]),
-        ("x = spot.z", ["x = spot[2] * 1000.0"]),
+        ("x = spot.z", ["x = rpl_decimals(spot[2] * 1000.0, 100000.0)"]),
         ("spot.a = 90", ["spot = rpl_turned(spot, 2, 90)"]),
         ("home.j2 = -45", ["home[1] = -0.785398163397"]),
         ("WAIT 0.5 s", ["sleep(0.5)"]),
