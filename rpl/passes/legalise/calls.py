@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, Lowered, edit_bodies, edit_routines, expansion
 from rpl.passes.legalise.effects import Effects, is_constant
@@ -20,6 +21,9 @@ from rpl.passes.scope import ProgramScope
 
 _LONGEST_PRODUCT = 4
 _HELPER_OPERATORS = {"band": "rpl_band", "bor": "rpl_bor", "bxor": "rpl_bxor"}
+# Conversions of a BOOL to a number: what TRUE becomes (FALSE becomes 0).
+_BIT_WEIGHTS = {"bit": 1, "minus_bit": -1}
+_TURNED = {"<": ">", ">": "<", "<=": ">=", ">=": "<="}
 # Procedures whose result is TRUE where texts have room enough.
 _ALWAYS_WORK = frozenset(("text_append", "text_copy", "text_clear", "format_into"))
 _HELPER_FUNCTIONS = {
@@ -198,14 +202,15 @@ class _Calls(TextHoister):
 
     def comparison(self, e: ir.Binary) -> ir.Expression | None:
         """A BOOL read as 0 or 1 and compared is the BOOL; texts compare by a function where they must."""
-        match e.left, e.right:
-            case ir.Convert(how="bit", operand=one), ir.Convert(how="bit", operand=other) if e.op in ("=", "<>"):
-                return ir.Binary(e.op, one, other)
-            case ir.Convert(how="bit", operand=bit), ir.IntLiteral(value=value) | ir.RealLiteral(value=value):
-                return _bit_test(e.op, bit, value)
-            case ir.IntLiteral(value=value) | ir.RealLiteral(value=value), ir.Convert(how="bit", operand=bit):
-                turned = {"<": ">", ">": "<", "<=": ">=", ">=": "<="}.get(e.op, e.op)
-                return _bit_test(turned, bit, value)
+        for left, right, op in ((e.left, e.right, e.op), (e.right, e.left, _TURNED.get(e.op, e.op))):
+            value = constant_number(right, self.editor.scope)
+            match left, right:
+                case ir.Convert(how=how, operand=one), ir.Convert(how=other_how, operand=other) if (
+                    how == other_how and how in _BIT_WEIGHTS and op in ("=", "<>")
+                ):
+                    return ir.Binary(op, one, other)
+                case ir.Convert(how=how, operand=bit), _ if how in _BIT_WEIGHTS and value is not None:
+                    return _bit_test(op, bit, value, _BIT_WEIGHTS[how])
         if e.op not in ("=", "<>") or self.capabilities.text_results or not self.can("text_equal"):
             return None
         if not all(isinstance(self.editor.type_of(side), ir.StringType) for side in (e.left, e.right)):
@@ -248,6 +253,16 @@ class _Calls(TextHoister):
                 if self._read_by_target(operand):
                     return None
                 return self.helpers.call("rpl_bit", operand)
+            case "minus_bit" if isinstance(operand, ir.BoolLiteral):
+                return ir.Unary("-", ir.IntLiteral(1)) if operand.value else ir.IntLiteral(0)
+            case "minus_bit" if "bit" in self.capabilities.conversions:
+                return ir.Unary("-", ir.Convert("bit", operand))
+            case "minus_bit":
+                return self.helpers.call("rpl_minus_bit", operand)
+            case "floor" if self.can("floor"):
+                return ir.Builtin("floor", (operand,))
+            case "floor":
+                return self.helpers.call("rpl_floor", operand)
             case "code" if self.can("character_code"):
                 return ir.Builtin("character_code", (operand,))
             case "char" if self.can("from_code"):
@@ -277,8 +292,8 @@ def _real(value: ir.Expression) -> ir.Expression:
     return ir.Binary("*", value, ir.RealLiteral(1.0))
 
 
-def _bit_test(op: str, bit: ir.Expression, value: float) -> ir.Expression:
-    """`bit op value` for a bit that is 0 or 1."""
+def _bit_test(op: str, bit: ir.Expression, value: float, weight: int) -> ir.Expression:
+    """`bit op value` for a bit that is 0 or `weight`."""
     tests = {
         "=": lambda b: b == value,
         "<>": lambda b: b != value,
@@ -287,7 +302,7 @@ def _bit_test(op: str, bit: ir.Expression, value: float) -> ir.Expression:
         "<=": lambda b: b <= value,
         ">=": lambda b: b >= value,
     }
-    when_set, when_clear = tests[op](1), tests[op](0)
+    when_set, when_clear = tests[op](weight), tests[op](0)
     if when_set == when_clear:
         return ir.BoolLiteral(when_set)
     return bit if when_set else ir.Unary("not", bit)

@@ -105,6 +105,12 @@ FUNCTION rpl_bit(b: BOOL): INT
     RETURN 0
 END FUNCTION
 """,
+    "rpl_minus_bit": """
+FUNCTION rpl_minus_bit(b: BOOL): INT
+    IF b THEN RETURN -1
+    RETURN 0
+END FUNCTION
+""",
     # e to the power: x = k ln 2 + r with r small, a series for r, then k doublings or halvings
     "rpl_exp": """
 FUNCTION rpl_exp(x: REAL): REAL

@@ -1,4 +1,4 @@
-"""Rotation vectors, and numbers counted in other units than the IR's, for targets that know neither.
+"""Rotation vectors, ZYZ angles, and numbers counted in other units than the IR's, for targets that know neither.
 
 A pose written with constants becomes its components (x, y, z, a, b, c); a computed one is made by a function brought
 along, as are the parts of a rotation vector, interpolated poses and sums of poses. `Quantity` in metres or radians and
@@ -17,6 +17,7 @@ from rpl.passes import rigid
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.library import call, composed, function, minus, number, part, plus, times
 from rpl.passes.legalise.support import with_support
+from rpl.passes.legalise.zyzangles import ZYZ_PARTS, zyz_part, zyz_pose
 
 _REAL, _POSE, _INT = ir.RealType(), ir.PoseType(), ir.IntType()
 _COMPONENTS = ("x", "y", "z", "a", "b", "c")
@@ -58,6 +59,11 @@ class _Worker:
         if name in _PARTS:
             of = _posed(arguments[0])
             return node if of is None else self.made("rotation_vector_part", of, ir.IntLiteral(_PARTS.index(name) + 1))
+        if name == "pose_zyz":
+            known = [one for one in map(_number, arguments[3:]) if one is not None]
+            return zyz_pose(arguments[:3], arguments[3:], known)
+        if name in ZYZ_PARTS:
+            return self.made("zyz_part", *arguments, ir.IntLiteral(ZYZ_PARTS.index(name) + 1))
         if name in _MAKERS:
             return self.made(name, *arguments)
         return node
@@ -301,6 +307,7 @@ _MAKERS: dict[str, Callable[[_Worker], Made]] = {
     "rotation_vector_part": _vector_part,
     "interpolate_pose": _interpolated,
     "rotation_angle": _angle,
+    "zyz_part": lambda worker: zyz_part(),
     "pose_sum": _summed,
     "pose_difference": _subtracted,
 }
