@@ -63,6 +63,7 @@ class ModalFlow:
         self.routine: ir.Routine | None = None
         every = list(scopes.routines())
         self.scope_of = {id(routine): scopes.routine(module, routine) for module, routine in every}
+        self.changed = self.changes(every)
         called = self.called(every)
         start: State = dict.fromkeys((f"${name}" for name in _MODAL), rigid.IDENTITY)
         roots = [routine for _, routine in every if id(routine) not in called]
@@ -86,6 +87,36 @@ class ModalFlow:
             for body in bodies(routine):
                 each_statement(body, lambda one, scope=scope: found.update(map(id, _callees(one, scope))))  # type: ignore[misc]
         return found
+
+    def changes(self, every: list[tuple[ir.Module, ir.Routine]]) -> dict[int, set[str] | None]:
+        """What each routine assigns, itself or by its calls; None when that is not known."""
+        own: dict[int, set[str]] = {}
+        calls: dict[int, set[int]] = {}
+        unknown: set[int] = set()
+        for _, routine in every:
+            key, scope = id(routine), self.scope_of[id(routine)]
+            own[key], calls[key] = set(), set()
+
+            def look(one: ir.Statement, key: int = key, scope: Scope = scope) -> None:
+                calls[key].update(map(id, _callees(one, scope)))
+                match one:
+                    case ir.Assign(target=target):
+                        own[key].add(_changed(target))
+                    case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
+                        unknown.add(key)
+
+            for body in bodies(routine):
+                each_statement(body, look)
+        growing = True
+        while growing:
+            growing = False
+            for key, callees in calls.items():
+                more = set().union(*(own[one] for one in callees if one in own)) - own[key]
+                lost = key not in unknown and not callees.isdisjoint(unknown)
+                own[key] |= more
+                unknown |= {key} if lost else set()
+                growing = growing or bool(more) or lost
+        return {key: None if key in unknown else names for key, names in own.items()}
 
     def visit(self, routine: ir.Routine, state: State) -> None:
         self.routine, self.ends = routine, []
@@ -175,9 +206,11 @@ class ModalFlow:
             self.calls[key] = dict(passed)
         end = self.exits.get(key)
         if end is not None:
+            changed = self.changed[key]
             for name in [name for name in state if name in passed and end.get(name) != state[name]]:
-                del state[name]
-            state.update(end)
+                if changed is None or name in changed:
+                    del state[name]
+            state.update({name: value for name, value in end.items() if changed is None or name in changed})
 
     def of_move(self, move: ir.Move, state: State, scope: Scope) -> Frames:
         settings = {place.name: value for place, value in move.settings if isinstance(place, ir.System)}
@@ -210,6 +243,14 @@ class ModalFlow:
             user, item = pose_of(value.part("user_frame")), pose_of(value.part("object_frame"))
             return user.then(item) if user and item else None
         return pose_of(value)
+
+
+def _changed(target: ir.Expression) -> str:
+    """The name in a state that an assignment changes."""
+    match target:
+        case ir.System(name=name) | ir.Field(base=ir.System(name=name)):
+            return f"${name}"
+    return base_name(target) or ""
 
 
 def _put(state: State, name: str, value: Value | None) -> None:
