@@ -46,6 +46,8 @@ class _Arithmetic(Rewriter):
                 key = f"{name}_whole" if whole and f"{name}_whole" in _MADE else name
                 if key in _MADE and len(arguments) == len(_MADE[key](self)[0]):
                     return self.made(key, *map(self.expression, arguments))
+            case ir.Convert(how="real", operand=operand) if "IntType" not in self.context.capabilities.types:
+                return self.expression(operand)
             case ir.Convert(how=how, operand=operand) if how not in self.context.capabilities.conversions:
                 done = self.converted(expression, how, operand)
                 if done is not None:

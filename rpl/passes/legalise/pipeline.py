@@ -60,6 +60,7 @@ from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
 from rpl.passes.legalise.timers import timers_to_clocks
 from rpl.passes.legalise.triggers import triggers
+from rpl.passes.legalise.truths import truths_to_numbers
 from rpl.passes.legalise.unused import drop_unused
 from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.typing import normalise
@@ -132,6 +133,7 @@ PASSES: tuple[Pass, ...] = (
     name_errors,
     drop_unused,
     one_spelling,
+    truths_to_numbers,
     number_data,
 )
 
