@@ -277,7 +277,7 @@ def _motion(
     first = [stretch for stretch in ours if not _stands(stretch)]
     second = [stretch for stretch in theirs if not _stands(stretch)]
     groups = _aligned(first, second)
-    loose = set() if same_language else _at_joint_corners(groups) | _at_cuts(groups)
+    loose = set() if same_language else _at_measured_corners(groups) | _at_cuts(groups)
     found: Difference | None = None
     for number, (a, b) in enumerate(groups):
         if number in loose and a and b:
@@ -288,14 +288,16 @@ def _motion(
     return found
 
 
-def _at_joint_corners(groups: Sequence[Group]) -> set[int]:
-    """Groups of one move each that begin or end with a corner between moves of which one is a joint move."""
+def _at_measured_corners(groups: Sequence[Group]) -> set[int]:
+    """Groups of one move each that begin or end with a corner between moves of which one is a joint move, or whose size
+    one of the controllers makes by its own measure."""
     found: set[int] = set()
     for number, (a, b) in enumerate(groups[:-1]):
         later_a, later_b = groups[number + 1]
         if not (len(a) == len(b) == len(later_a) == len(later_b) == 1) or a[0].stops or b[0].stops:
             continue
-        if "joint" in (a[0].motion, later_a[0].motion) and a[0].goal is not None and b[0].goal is not None:
+        measured = "joint" in (a[0].motion, later_a[0].motion) or a[0].own_measure or b[0].own_measure
+        if measured and a[0].goal is not None and b[0].goal is not None:
             found |= {number, number + 1}
     return found
 

@@ -92,7 +92,8 @@ class Stretch:
     """One move as it was driven: tool poses (k, 4, 4) in the robot's base frame, mm, at times (k,), and the joints (n,)
     at its end. motion: joint, linear, circular, spline. `stops`: the robot came to rest at its end. `goal`: the
     programmed end, x y z in mm and the quaternion w x y z (7,), which a blended move passes at a distance. `cut`: an
-    interrupt or a search ended it on its way."""
+    interrupt or a search ended it on its way. `own_measure`: its corner is as large as the controller's speed or
+    percent make it, not a length."""
 
     motion: str
     times: FloatArray
@@ -102,6 +103,7 @@ class Stretch:
     place: Place = field(default_factory=Place)
     goal: FloatArray | None = None
     cut: bool = False
+    own_measure: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -160,7 +160,8 @@ def _stretch(event: Event) -> Stretch:
         goal = np.array([*event.data["xyz_mm"], *event.data["quat_wxyz"]], dtype=float)
     way, when = np.concatenate(poses), np.concatenate(times)
     cut = bool(event.data.get("interrupted"))
-    return Stretch(motion, when, way, joints, event.stops, place_of(event.origin), goal, cut)
+    own_measure = event.blend in ("percent", "speed")
+    return Stretch(motion, when, way, joints, event.stops, place_of(event.origin), goal, cut, own_measure)
 
 
 def _sampled(leg: Leg) -> FloatArray:

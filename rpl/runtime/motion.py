@@ -382,7 +382,8 @@ class MotionQueue(RobotState):
             data["interrupted"] = True
         self.machine.moves += 1
         origin = drive.order.code.origin(drive.order.at)
-        self.machine.event("move", data, self.task, origin, legs=legs, stops=stops)
+        blend = drive.order.blend.kind
+        self.machine.event("move", data, self.task, origin, legs=legs, stops=stops, blend=blend)
 
     # ---- triggers and searches
 

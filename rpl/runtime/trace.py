@@ -33,7 +33,7 @@ class Leg:
 class Event:
     """One happening. `data` is what the trace prints beside time, task, kind and place. For comparing runs: `port` is
     the signal of an output or input, `names` all its names; `legs` is how a move was driven (empty without a robot) and
-    `stops` whether it ended in rest."""
+    `stops` whether it ended in rest; `blend` the kind of its corner (see orders.BlendOrder)."""
 
     t: float
     task: str
@@ -44,6 +44,7 @@ class Event:
     names: tuple[str, ...] = ()
     legs: tuple[Leg, ...] = ()
     stops: bool = True
+    blend: str = ""
 
     def __deepcopy__(self, memo: object) -> Event:
         return self
