@@ -597,7 +597,6 @@ def _product(a: Any, b: Any) -> Any:
     return product % 2**31 if isinstance(product, int) and abs(product) > 2**60 else product
 
 
-
 FUNCTIONS: dict[str, Any] = {
     "abs": abs,
     "sqrt": math.sqrt,
