@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import edit_bodies, map_body
@@ -19,6 +20,11 @@ from rpl.passes.legalise.modal import JOINT_BLEND, ZONE_MM_PER_PERCENT
 from rpl.passes.legalise.modalflow import Flow
 from rpl.passes.legalise.movesettings import plain
 
+PROCESS = code(
+    "process-move",
+    Severity.WARNING,
+    "a move that keeps the tool's speed constant is written as a path move, which may slow down at its corners",
+)
 # What a controller brakes with that says nothing, mm/s2: the emulator's value.
 _BRAKING_MM_S2 = 5000.0
 
@@ -36,13 +42,13 @@ def corners(program: ir.Program, context: Context) -> ir.Program:
 
 
 def _foreign(node: object) -> bool:
-    """Is it a move with a corner of a size of its own, in percent or by speed?"""
+    """Is it a process move, or one with a corner of a size of its own, in percent or by speed?"""
     if not isinstance(node, ir.Move):
         return False
     match node.blend:
         case ir.BlendPercent(percent=size) | ir.BlendSpeed(percent=size):
             return not isinstance(size, ir.System)
-    return False
+    return node.motion_class == "process"
 
 
 class _Corners:
@@ -58,8 +64,15 @@ class _Corners:
 
     def statement(self, statement: ir.Statement) -> ir.Body:
         if isinstance(statement, ir.Move) and _foreign(statement):
-            return (replace(statement, blend=self.corner(statement)),)
+            done = replace(statement, blend=self.corner(statement))
+            return (self.classic(done) if done.motion_class == "process" else done,)
         return (inside(statement, self.body),)
+
+    def classic(self, move: ir.Move) -> ir.Move:
+        if "process" not in self.reported:
+            self.reported.add("process")
+            self.context.diagnostics.report(PROCESS, move.origin)
+        return replace(move, motion_class="classic")
 
     def corner(self, move: ir.Move) -> ir.Blend | None:
         match move.blend:

@@ -308,8 +308,11 @@ class _Explicit:
     def own_speed(self, move: ir.Move, known: Environment, own: dict[str, ir.Expression]) -> ir.Speed:
         """A move's speed as a value: one that says only numbers (percent, mm/s, deg/s) is made like the modal ones."""
         speed = move.speed
-        if speed is not None and (speed.profile is not None or speed.duration is not None):
+        if speed is not None and speed.profile is not None:
             return speed
+        if speed is not None and speed.duration is not None:
+            plain = replace(move, speed=replace(speed, duration=None))
+            return replace(self.own_speed(plain, known, own), duration=speed.duration)
         if speed is not None:
             given = {"joint_speed": speed.joint, "path_speed": speed.path}
             own = {**own, **{name: value for name, value in given.items() if value is not None}}

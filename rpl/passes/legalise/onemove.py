@@ -12,13 +12,14 @@ from rpl import ir
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.jumps import inside
-from rpl.passes.legalise.modal import DROPPED
+from rpl.passes.legalise.modal import DROPPED, USUAL
 from rpl.passes.legalise.modalflow import Flow
 
 _JOINT = frozenset(("joint_speed", "joint_acceleration"))
 _PATH = frozenset(
     ("path_speed", "swivel_speed", "twist_speed", "path_acceleration", "swivel_acceleration", "twist_acceleration")
 )
+_TURNING = frozenset(("orientation_mode", "circle_orientation"))
 
 
 def settings_of_one_move(program: ir.Program, context: Context) -> ir.Program:
@@ -43,18 +44,33 @@ class _Around:
         return map_body(body, self.statement)
 
     def statement(self, statement: ir.Statement) -> ir.Body:
-        if isinstance(statement, ir.Move) and statement.settings and statement.motion_class == "classic":
-            return self.move(statement)
+        if isinstance(statement, ir.Move) and statement.motion_class == "classic":
+            statement = self.turned(statement)
+            if statement.settings:
+                return self.move(statement)
         return (inside(statement, self.body),)
 
+    def turned(self, move: ir.Move) -> ir.Move:
+        """How the tool turns on the way, as settings."""
+        own = {"orientation_mode": move.orientation, "circle_orientation": move.circle_orientation}
+        can = self.editor.capabilities.system_variables
+        added = tuple(
+            (ir.System(name), ir.EnumLiteral(word))
+            for name, word in own.items()
+            if word is not None and name in can and word != USUAL[name]
+        )
+        if not any(own.values()) or not can.issuperset(own):
+            return move
+        return replace(move, settings=(*move.settings, *added), orientation=None, circle_orientation=None)
+
     def move(self, move: ir.Move) -> ir.Body:
-        used = _JOINT if move.kind == "joint" else _PATH
+        used = _JOINT | _TURNING if move.kind == "joint" else _PATH | _TURNING
         here, later = move.origin, replace(move.origin, comments=())
         before: list[ir.Statement] = []
         behind: list[ir.Statement] = []
         for place, value in move.settings:
             name = place.name if isinstance(place, ir.System) else ""
-            if name in _JOINT | _PATH and name in self.editor.capabilities.system_variables:
+            if name in _JOINT | _PATH | _TURNING and name in self.editor.capabilities.system_variables:
                 if name in used:
                     self.around(ir.System(name), value, move, before, behind)
             elif name not in self.reported:
@@ -73,6 +89,8 @@ class _Around:
         behind: list[ir.Statement],
     ) -> None:
         old = self.flow.at(move).get(place.name)
+        if place.name in _TURNING:
+            old = ir.EnumLiteral(USUAL[place.name])
         if old is None:
             kept = self.editor.temporary(f"old_{place.name}", ir.RealType())
             one = replace(place, indices=(ir.IntLiteral(1),)) if place.name.startswith("joint") else place

@@ -26,7 +26,7 @@ NUMBERED = code(
     "signal-number-chosen", Severity.WARNING, "signal {name} gets number {number}; wire or map it accordingly"
 )
 # Numbers a computed index is expected to reach where the program shows no larger one.
-_REACH = 16
+_REACH = 32
 _FLAGS = 64
 
 
