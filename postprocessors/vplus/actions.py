@@ -159,8 +159,15 @@ class Actions:
         if len(parts) < count or (count == 6 and any(node == place for node in walk(tuple(parts.values())))):
             return None
         given = {name: parts[name] for name in _COMPONENTS[:count]}
-        shown = self.expressions.places.locations.composed(place, given)
-        return f"SET {self.expressions.text(place)} = {shown}", count
+        name, locations = self.expressions.text(place), self.expressions.places.locations
+        shown = locations.composed(place, given)
+        while len(shown) + len(name) + 7 > tables.LONGEST_LINE:
+            longest = max(given, key=lambda axis: len(self.expressions.text(given[axis])))
+            if len(self.expressions.text(given[longest])) <= _LONGEST_NAME:
+                return None
+            given[longest] = ir.Name(self.expressions.moved_in_front(given[longest]))
+            shown = locations.composed(place, given)
+        return f"SET {name} = {shown}", count
 
     def whole(self, statement: ir.Assign) -> None:
         """A whole array: element by element."""

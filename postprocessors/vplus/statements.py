@@ -132,7 +132,8 @@ class Printer:
         except UnsayableError:
             self.notes.before.clear()
             return 0  # each is then guarded on its own
-        if found is None:
+        if found is None or len(found[0]) > tables.LONGEST_LINE:
+            self.notes.before.clear()
             return 0
         text, count = found
         for statement in body[:count]:
