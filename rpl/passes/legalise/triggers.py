@@ -54,6 +54,10 @@ class _Stored:
             if isinstance(statement, ir.Trigger):
                 waiting.append(statement)
                 continue
+            if isinstance(statement, ir.Move) and not _at_the_move(statement.triggers):
+                waiting += [one for one in statement.triggers if isinstance(one, ir.Trigger)]
+                own = tuple(one for one in statement.triggers if not isinstance(one, ir.Trigger))
+                statement = replace(statement, triggers=own)
             if waiting and isinstance(statement, ir.Move):
                 names: list[ir.Expression] = []
                 for trigger in waiting:
@@ -83,6 +87,15 @@ class _Stored:
             ir.ConnectInterrupt(ir.Name(handle), trap, origin=later),
             ir.DefineTrigger(ir.Name(name), replace(trigger, origin=later), ir.Name(handle), origin=later),
         ]
+
+
+def _at_the_move(triggers: tuple[ir.Expression | ir.Trigger, ...]) -> bool:
+    """Can the events stand at the move itself: stored ones, or one in the middle of its corner?"""
+    own = [one for one in triggers if isinstance(one, ir.Trigger)]
+    if not own:
+        return True
+    alone = len(triggers) == 1
+    return alone and own[0].reference == "middle" and own[0].distance is None and own[0].delay is None
 
 
 class _Before:
