@@ -209,6 +209,9 @@ class Assignments:
             self.number(place, value.arguments[0])
             self.lines.extend([f"IFTHENEXP {place}<0", f"MUL {place} -1", "ENDIF"])
             return
+        if value.function == "number_text":
+            self.number_text(place, value.arguments)
+            return
         word = tables.FUNCTIONS.get(value.function)
         if word is not None:
             given = self.simple_number(value.arguments[0], "R")
@@ -223,6 +226,14 @@ class Assignments:
             raise CannotSayError(f"INFORM has no function {value.function}")
         shown = " ".join(operand(one) for one in value.arguments)
         self.lines.append(f"{word} {place} {shown}")
+
+    def number_text(self, place: str, arguments: tuple[ir.Expression, ...]) -> None:
+        """A number without decimals as text."""
+        if constant(arguments[1]) != 0:
+            raise CannotSayError("a text of a number with a fixed count of decimals")
+        helper = self.registers.helper("D")
+        self.whole(helper, "round_half_away", arguments[0])
+        self.lines.append(f"VAL2STR {place} {helper}")
 
     # ---- components of positions
 

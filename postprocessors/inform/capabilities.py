@@ -13,7 +13,7 @@ CAPABILITIES = Capabilities(
             *("Pulse", "Message", "TaskControl", "Vendor", "Opaque", "Nothing", "Move", "Search"),
         )
     ),
-    functions=frozenset((*tables.FUNCTIONS, *tables.TEXT_FUNCTIONS, *tables.POSITION_FUNCTIONS, "abs")),
+    functions=frozenset((*tables.FUNCTIONS, *tables.TEXT_FUNCTIONS, *tables.POSITION_FUNCTIONS, "abs", "number_text")),
     procedures=frozenset(),
     system_variables=frozenset(("actual_pose", "actual_joints", "null_frame", "world")),
     operators=frozenset((*tables.COMPARISONS, *tables.ARITHMETIC, *tables.BITS, "mod", "and", "or", "&", ":")),

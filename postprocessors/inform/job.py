@@ -42,7 +42,11 @@ class Job:
 
     def point_of(self, position: Position, tool: int, frame: int, wanted: int | None) -> str:
         """The taught point for a position; `wanted` is its number when that is free."""
-        what = Kept(self.sayable(position, tool), tool, 0 if position.kind == "joints" else frame)
+        if position.kind == "joints":
+            frame = 0
+            if self.cell.value_of_tool(tool) is None:
+                tool = 0  # the joints are the same with any tool; that of the flange has a known value
+        what = Kept(self.sayable(position, tool), tool, frame)
         if what not in self.points:
             taken = set(self.points.values())
             free = next(n for n in range(tables.POINTS.last + 2) if n not in taken)
@@ -54,6 +58,8 @@ class Job:
 
     def constant(self, position: Position, tool: int = 0, frame: int = 0) -> str:
         """A position variable that holds a constant."""
+        if position.kind == "joints" and self.cell.value_of_tool(tool) is None:
+            tool = 0
         number = self.cell.keep(Kept(self.sayable(position, tool), tool, frame))
         self.positions.add(number)
         return f"P{number:03d}"

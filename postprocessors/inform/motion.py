@@ -59,6 +59,7 @@ class Motion:
     names: dict[str, int] = field(default_factory=dict)  # point of the IR -> its number
     last: Goal | None = None
     line_of_last: int | None = None
+    stands: bool = False  # the move before ended in a stop
     reported: set[tuple[Code, str]] = field(default_factory=set)
 
     @property
@@ -67,7 +68,7 @@ class Motion:
 
     def forget(self) -> None:
         """Neither place nor line of the last move are known here."""
-        self.last, self.line_of_last = None, None
+        self.last, self.line_of_last, self.stands = None, None, False
         self.positions.in_tools.clear()
 
     def report_once(self, about: Code, origin: Origin, key: str = "", **arguments: object) -> None:
@@ -92,7 +93,7 @@ class Motion:
         if move.kind == "circular" and move.relative is None:
             self.arc(move, tool, speed, done)
         self.lines.append(" ".join(part for part in (shown, *speed, *blend, *ending) if part))
-        self.last = goal
+        self.last, self.stands = goal, blend == ["PL=0"] and not move.concurrent
         self.line_of_last = len(done) + len(self.lines) - 1
         self.positions.job.moves = True
         if move.search is not None or move.relative is not None:

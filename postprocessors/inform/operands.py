@@ -56,8 +56,9 @@ class Registers:
     def take(self, bank: str) -> int:
         """The highest number of a controller as it is delivered that nobody has, else the next one above."""
         limits, used = tables.BANKS[bank], self.used.setdefault(bank, set())
-        standard = int(tables.STANDARD_LAST[bank])
-        for number in (*range(standard, limits.first - 1, -1), *range(standard + 1, limits.last + 1)):
+        standard = tables.STANDARD_LAST[bank]
+        numbers: list[int] = [*range(standard, limits.first - 1, -1), *range(standard + 1, limits.last + 1)]
+        for number in numbers:
             if number not in used:
                 used.add(number)
                 return number

@@ -78,6 +78,15 @@ class Printer:
             if isinstance(statement, ir.Trigger):
                 loose.append(statement)
                 continue
+            if isinstance(statement, ir.WaitForMotion) and self.motion.stands:
+                self.comments_only(statement.origin)
+                self.ledger.merged(statement)
+                continue
+            if isinstance(statement, ir.Move) and _awaited(body, at):
+                stopped = replace(statement, blend=ir.BlendStop())
+                self.with_triggers(statement, loose, stopped)
+                loose = []
+                continue
             if isinstance(statement, ir.Move) and loose:
                 self.with_triggers(statement, loose)
                 loose = []
@@ -90,9 +99,9 @@ class Printer:
         for trigger in loose:
             self.statement(trigger)
 
-    def with_triggers(self, move: ir.Move, triggers: list[ir.Trigger]) -> None:
-        """A move and the actions that stand before it."""
-        joined = replace(move, triggers=(*move.triggers, *triggers))
+    def with_triggers(self, move: ir.Move, triggers: list[ir.Trigger], like: ir.Move | None = None) -> None:
+        """A move (or one like it) and the actions that stand before it."""
+        joined = replace(like or move, triggers=(*move.triggers, *triggers))
         for trigger in triggers:
             self.comments_only(trigger.origin)
             self.ledger.merged(trigger)
@@ -369,6 +378,12 @@ class Printer:
             self.diagnostics.report(SPLIT_MESSAGE, message.origin, most=most)
         parts = [given[at : at + most] for at in range(0, len(given), most)] or [""]
         self.put([f'MSG "{part}"' for part in parts], message.origin)
+
+
+def _awaited(body: ir.Body, at: int) -> bool:
+    """Does the program wait for the end of this move?"""
+    behind = (one for one in body[at + 1 :] if not isinstance(one, ir.Nothing))
+    return isinstance(next(behind, None), ir.WaitForMotion)
 
 
 def _plain(condition: ir.Expression) -> bool:
