@@ -53,6 +53,7 @@ from rpl.passes.legalise.rotationvectors import rotation_vectors
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
 from rpl.passes.legalise.signals import name_signals, number_signals
+from rpl.passes.legalise.speeds import fit_speeds
 from rpl.passes.legalise.spelling import one_spelling
 from rpl.passes.legalise.steps import steps
 from rpl.passes.legalise.structure import labels_to_structure
@@ -112,6 +113,7 @@ PASSES: tuple[Pass, ...] = (
     references_as_copies,
     fit_loops,
     enums_to_constants,
+    fit_speeds,
     corners,
     settings_of_one_move,
     modal_to_explicit,
