@@ -27,6 +27,9 @@ class Corners:
     routines: dict[str, ir.Routine] = field(default_factory=dict)
     callers: dict[str, list[Callable[[], str]]] = field(default_factory=dict)
     open: set[str] = field(default_factory=set)
+    labels: dict[tuple[str, str], Callable[[], str]] = field(default_factory=dict)
+    homes: dict[int, str] = field(default_factory=dict)  # routine of each jump, by the jump's identity
+    current: str = ""
 
     @classmethod
     def of(cls, program: ir.Program) -> Corners:
@@ -36,6 +39,7 @@ class Corners:
                 found.routines.setdefault(routine.name.lower(), routine)
         moves: list[tuple[ir.Move, Callable[[], str]]] = []
         for key, routine in found.routines.items():
+            found.current = key
             found.collect(routine.body, lambda key=key: found.after(key), moves)  # type: ignore[misc]
         found.stopped = {id(move) for move, rest in moves if rest() == ACTS}
         return found
@@ -51,6 +55,10 @@ class Corners:
             match statement:
                 case ir.Move(blend=blend) if blend is not None and not isinstance(blend, ir.BlendStop):
                     moves.append((statement, follows))
+                case ir.Label(name=name):
+                    self.labels[self.current, name.lower()] = follows
+                case ir.Goto():
+                    self.homes[id(statement)] = self.current
                 case ir.CallRoutine(name=name):
                     self.callers.setdefault(name.lower(), []).append(follows)
                 case ir.While() | ir.Repeat() | ir.For() | ir.Loop():
@@ -105,9 +113,22 @@ class Corners:
                         return found
                 case ir.Return():
                     return rest()
+                case ir.Goto():
+                    return self.jumped(statement)
                 case _ if not isinstance(statement, _QUIET):
                     return ACTS
         return rest()
+
+    def jumped(self, jump: ir.Goto) -> str:
+        """What follows a jump's label."""
+        key = self.homes.get(id(jump), ""), jump.label.lower()
+        mark = f"{key[0]}:{key[1]}"
+        if key not in self.labels or mark in self.open:
+            return MOVES if mark in self.open else ACTS
+        self.open.add(mark)
+        found = self.labels[key]()
+        self.open.discard(mark)
+        return found
 
     def choice(self, statement: ir.If | ir.Switch, rest: Callable[[], str]) -> str:
         asked: list[ir.Expression]

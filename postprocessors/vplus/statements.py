@@ -127,13 +127,14 @@ class Printer:
 
     def joined(self, body: ir.Body) -> int:
         """Statements that are one step of V+. Counts them."""
+        known = len(self.notes.autos)
         try:
             found = self.together(body)
         except UnsayableError:
-            self.notes.before.clear()
-            return 0  # each is then guarded on its own
+            found = None  # each is then guarded on its own
         if found is None or len(found[0]) > tables.LONGEST_LINE:
             self.notes.before.clear()
+            del self.notes.autos[known:]
             return 0
         text, count = found
         for statement in body[:count]:
