@@ -14,6 +14,7 @@ from rpl.proof.compare import Tolerance, Verdict, compare
 from rpl.proof.difference import Difference
 from rpl.proof.record import Record
 from rpl.proof.recording import record_of
+from rpl.proof.wiring import in_words_of
 
 if TYPE_CHECKING:
     from rpl.cell import Cell
@@ -73,7 +74,8 @@ def prove_programs(
     if second is None:
         second = first
     record_a = _run(program_a, first, cell, entry, max_time_s)
-    record_b = _run(program_b, second, cell, to_entry if to_entry is not None else entry, max_time_s)
+    theirs = in_words_of(cell, program_a, program_b) if cell is not None else None
+    record_b = _run(program_b, second, theirs, to_entry if to_entry is not None else entry, max_time_s)
     tolerance = Tolerance() if path_mm is None else replace(Tolerance(), path_mm=path_mm)
     verdict = compare(record_a, record_b, tolerance)
     refuted = verdict.difference is not None

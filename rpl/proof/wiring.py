@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rpl import ir
+from rpl import ir, registry
+from rpl.cell import Cell
+from rpl.linking import link
 
 _WIRING = "signal_names"
 
@@ -32,3 +34,24 @@ def with_signal_names(program: ir.Program, written: ir.Program) -> ir.Program:
 
 def _declared(module: ir.Module) -> dict[str, ir.SignalDeclaration]:
     return {one.name.lower(): one for one in module.declarations if isinstance(one, ir.SignalDeclaration)}
+
+
+def in_words_of(cell: Cell, first: ir.Program, second: ir.Program) -> Cell:
+    """The cell for a run of the second program, when it was written for the first: signals that the first one's language
+    spells by number (V+ 1001, URScript digital_in[0]) as the second one's language spells the same signal."""
+    ours, theirs = ({module.dialect for module in one.modules} for one in (first, second))
+    if ours == theirs or not ours or len(theirs) != 1 or not (cell.inputs or cell.reactions):
+        return cell
+    known, spell = link(first).alias, registry.dialect(*theirs).signal_name
+
+    def named(signal: str) -> str:
+        port = known(signal)
+        if port is None or port.name is not None or port.number is None or port.last is not None:
+            return signal
+        return spell(port.kind, port.number)
+
+    return replace(
+        cell,
+        inputs=tuple(replace(one, signal=named(one.signal)) for one in cell.inputs),
+        reactions=tuple(replace(one, when=named(one.when), signal=named(one.signal)) for one in cell.reactions),
+    )
