@@ -79,6 +79,7 @@ class Target:
     """A language that can be written. `write` raises InternalError when its ledger finds an unwritten node.
 
     What its controller loads: lines of at most `longest_line` characters (0: any), text in one of the `encodings`.
+    `options`: names of the target's own options and what they say; `fitted` gives the capabilities under some of them.
     """
 
     name: str
@@ -88,6 +89,15 @@ class Target:
     options: Mapping[str, str] = field(default_factory=dict)
     longest_line: int = 0
     encodings: tuple[str, ...] = ("utf-8",)
+    fitted: Callable[[Mapping[str, str]], Capabilities] | None = None
+
+    def capabilities_under(self, options: Mapping[str, str]) -> Capabilities:
+        """What the controller can say when these options are given. Raises UsageError for an option it has not."""
+        unknown = next((name for name in options if name not in self.options), None)
+        if unknown is not None:
+            known = "; ".join(f"{name}: {about}" for name, about in self.options.items())
+            raise UsageError(f"{self.name} has no option {unknown!r}" + (f": there is {known}" if known else ""))
+        return self.fitted(options) if self.fitted is not None and options else self.capabilities()
 
 
 @cache

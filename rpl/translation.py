@@ -34,26 +34,28 @@ def translate_program(
     to_robot: str | None = None,
     diagnostics: Diagnostics | None = None,
     registers: Mapping[tuple[str, int], str] | None = None,
+    options: Mapping[str, str] | None = None,
 ) -> Translation:
     """Write a program that was read in another language (or anew in its own).
 
     robot: the arm the source was written for; to_robot: the arm that will run the result (default: the same). Raises
-    UsageError for unknown names. `registers`: numbers that an earlier translation gave (Translation.registers). What
-    the target cannot say is written as a guarded stop and listed in `losses`.
+    UsageError for unknown names. `registers`: numbers that an earlier translation gave (Translation.registers).
+    `options`: the target's own, by name (Target.options). What the target cannot say is written as a guarded stop and listed in `losses`.
     """
     collector = diagnostics if diagnostics is not None else Diagnostics()
     target = registry.target(target_name)
     first = _load(robot)
     second = _load(to_robot) if to_robot and to_robot != robot else first
     source = read.dialects[0] if read.dialects else target_name
-    context = Context(source, target_name, target.capabilities(), collector, first, second)
+    capabilities = target.capabilities_under(options or {})
+    context = Context(source, target_name, capabilities, collector, first, second)
     context.registers = registers or {}
     before = len(collector)
     program = legalise(read.program, context)
     renamed: dict[str, str] = {}
     if source != target_name:
-        program, renamed = rename(program, target.capabilities().names)
-    given = WriteContext(collector, second, register_names=context.register_names, foreign=context.foreign)
+        program, renamed = rename(program, capabilities.names)
+    given = WriteContext(collector, second, options or {}, context.register_names, context.foreign)
     files = target.write(program, given)
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
     named = _with_signals(program, context)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from rpl.registry import Target
@@ -24,6 +25,12 @@ def _write(program: Program, context: WriteContext) -> list[OutputFile]:
     return write(program, context)
 
 
+def _fitted(options: Mapping[str, str]) -> Capabilities:
+    from .capabilities import fitted
+
+    return fitted(options)
+
+
 TARGET = Target(
     name="tp",
     title="FANUC TP",
@@ -32,4 +39,5 @@ TARGET = Target(
     longest_line=320,
     encodings=("ascii",),
     options={"names": "longest program name: 36 (default) or 8 for old controllers"},
+    fitted=_fitted,
 )

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
+
+from rpl.errors import UsageError
 from rpl.passes.capabilities import Capabilities, NameRules
 
 from . import tables
@@ -68,3 +72,11 @@ CAPABILITIES = Capabilities(
     move_functions=frozenset((":", "compose", "element_sum", "displaced_in_tool", "joints_to_target", "pose_of")),
     blends=frozenset(("BlendStop", "BlendPercent", "BlendDistance")),
 )
+
+
+def fitted(options: Mapping[str, str]) -> Capabilities:
+    """`names=8`: program names of old controllers. Raises UsageError for another number."""
+    longest = options.get("names", str(CAPABILITIES.names.longest))
+    if longest not in ("8", str(CAPABILITIES.names.longest)):
+        raise UsageError(f"names={longest}: a program name has 8 characters on old controllers, else 36")
+    return replace(CAPABILITIES, names=replace(CAPABILITIES.names, longest_routine=int(longest)))

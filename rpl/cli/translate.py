@@ -52,6 +52,9 @@ OK, NO, GUARDED = 0, 1, 3
     metavar="FILE",
     help="Numbers of data that an earlier translation wrote (registers.csv); they are kept.",
 )
+@click.option(
+    "--option", "options", multiple=True, metavar="NAME=VALUE", help="An option of the target language; repeatable."
+)
 @click.option("--strict", is_flag=True, help="Take every approximation for an error.")
 @accept_option
 @json_option
@@ -65,6 +68,7 @@ def command(
     proving: bool,
     cell: str | None,
     registers: Path | None,
+    options: Sequence[str],
     strict: bool,
     accepted: Sequence[str],
     as_json: bool,
@@ -78,7 +82,8 @@ def command(
     from rpl.translation import translate_program
     from rpl.writing.registers import read_registers
 
-    registry.target(target)
+    own = _options(options)
+    registry.target(target).capabilities_under(own)
     diagnostics = collector(accepted)
     with waiting("reading"):
         read = read_program(paths, dialect_exists(dialect), diagnostics)
@@ -89,7 +94,7 @@ def command(
     before = len(diagnostics)
     with waiting("writing"):
         kept = read_registers(registers) if registers is not None else None
-        translation = translate_program(read, target, robot, to_robot, diagnostics, kept)
+        translation = translate_program(read, target, robot, to_robot, diagnostics, kept, own)
     if strict:
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:
@@ -106,6 +111,17 @@ def command(
     if proof is not None and not proof.equal:
         return NO
     return GUARDED if diagnostics.has_losses else OK
+
+
+def _options(written: Sequence[str]) -> dict[str, str]:
+    """`name=value` each."""
+    found: dict[str, str] = {}
+    for one in written:
+        name, sign, value = one.partition("=")
+        if not sign or not name.strip():
+            raise UsageError(f"--option takes NAME=VALUE, not {one!r}")
+        found[name.strip()] = value.strip()
+    return found
 
 
 def _refuse(diagnostics: Diagnostics, as_json: bool) -> int:

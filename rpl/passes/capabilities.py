@@ -10,13 +10,15 @@ from rpl.ir.types import Type
 
 @dataclass(frozen=True, slots=True)
 class NameRules:
-    """What the target accepts as a name. `reserved` in lower case when names are case-insensitive."""
+    """What the target accepts as a name. `reserved` in lower case when names are case-insensitive. `longest_routine`:
+    the length of a routine's name where that is shorter (0: as any other)."""
 
     longest: int
     case_sensitive: bool
     reserved: frozenset[str]
     first: str = "abcdefghijklmnopqrstuvwxyz"
     further: str = "abcdefghijklmnopqrstuvwxyz0123456789_"
+    longest_routine: int = 0
 
 
 @dataclass(frozen=True, slots=True)

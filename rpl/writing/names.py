@@ -16,7 +16,7 @@ def rename(program: ir.Program, rules: NameRules) -> tuple[ir.Program, dict[str,
     """The program with names that the target accepts, and source name -> new name of those that changed."""
     collector = _Collector()
     collector.program(program)
-    mangler = NameMangler(rules, collector.names)
+    mangler = NameMangler(rules, collector.names, routines=collector.routines)
     changed = mangler.renamed()
     if not changed:
         return program, {}
@@ -30,6 +30,7 @@ class _Collector:
     def __init__(self) -> None:
         self.names: dict[str, None] = {}
         self.fields: set[str] = set()
+        self.routines: list[str] = []
 
     def add(self, name: str | None) -> None:
         if name:
@@ -42,6 +43,7 @@ class _Collector:
                 self.declaration(declaration)
             for routine in module.routines:
                 self.add(routine.name)
+                self.routines.append(routine.name)
                 for parameter in routine.parameters:
                     self.add(parameter.name)
                 for declaration in routine.declarations:

@@ -151,10 +151,18 @@ class NameMangler:
     legal keep their spelling, whatever the others need. Taken names are compared as the target compares them.
     """
 
-    __slots__ = ("_back", "_forth", "_rules", "_source_sensitive", "_taken")
+    __slots__ = ("_back", "_forth", "_routines", "_rules", "_source_sensitive", "_taken")
 
-    def __init__(self, rules: NameRules, names: Iterable[str] = (), *, source_case_sensitive: bool = False) -> None:
+    def __init__(
+        self,
+        rules: NameRules,
+        names: Iterable[str] = (),
+        *,
+        source_case_sensitive: bool = False,
+        routines: Iterable[str] = (),
+    ) -> None:
         self._rules = rules
+        self._routines = {name.lower() for name in routines}
         self._source_sensitive = source_case_sensitive
         self._forth: dict[str, str] = {}
         self._back: dict[str, str] = {}
@@ -170,7 +178,7 @@ class NameMangler:
         """May the target use this name as it is (apart from other names)?"""
         rules = self._rules
         return (
-            0 < len(name) <= rules.longest
+            0 < len(name) <= self._longest(name)
             and name[0].lower() in rules.first
             and all(sign.lower() in rules.further for sign in name[1:])
             and not self._reserved(name)
@@ -181,11 +189,11 @@ class NameMangler:
         known = self._forth.get(self._key(source))
         if known is not None:
             return known
-        return self._keep(source, self._free(self._spelled(source)))
+        return self._keep(source, self._free(self._spelled(source), self._longest(source)))
 
     def fresh(self, hint: str) -> str:
         """A new name that no source name has; it restores to itself."""
-        found = self._free(self._spelled(hint))
+        found = self._free(self._spelled(hint), self._rules.longest)
         self._taken.add(self._folded(found))
         return found
 
@@ -222,16 +230,20 @@ class NameMangler:
             text = f"{'n' if 'n' in rules.first else rules.first[0]}{text}"
         return text
 
-    def _free(self, wanted: str) -> str:
+    def _longest(self, source: str) -> int:
+        rules = self._rules
+        return rules.longest_routine or rules.longest if source.lower() in self._routines else rules.longest
+
+    def _free(self, wanted: str, longest: int) -> str:
         count = 1
         while True:
             tail = "" if count == 1 else f"_{count}" if "_" in self._rules.further else str(count)
-            candidate = wanted[: self._rules.longest - len(tail)] + tail
+            candidate = wanted[: longest - len(tail)] + tail
             if self._folded(candidate) not in self._taken and self.legal(candidate):
                 return candidate
             count += 1
             if count > 1_000_000:
-                raise InternalError(f"no free name for {wanted!r} in {self._rules.longest} characters")
+                raise InternalError(f"no free name for {wanted!r} in {longest} characters")
 
 
 __all__ = [

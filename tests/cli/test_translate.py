@@ -69,3 +69,42 @@ def test_a_folder_that_cannot_be_written_is_a_usage_error(
 def test_unknown_names(program: Path, option: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["translate", str(program), "--to", "krl", *option]) == 2
     assert "nobody" in capsys.readouterr().err
+
+
+LONG_NAMES = """DEF first_program()
+put_down_the_part()
+put_down_the_box()
+END
+DEF put_down_the_part()
+$OUT[1]=TRUE
+END
+DEF put_down_the_box()
+$OUT[2]=TRUE
+END
+"""
+
+
+def test_an_option_of_the_target(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Old controllers take program names of 8 characters."""
+    path = tmp_path / "first_program.src"
+    path.write_text(LONG_NAMES)
+    out = tmp_path / "out"
+    wanted = ["translate", str(path), "--to", "tp", "-o", str(out), "--option", "names=8", "--prove", "--json"]
+    assert run(wanted) == 0
+    assert json.loads(capsys.readouterr().out)["proof"]["equal"]
+    names = sorted(one.stem for one in out.glob("*.LS"))
+    assert names == ["FIRST_PR", "PUT_DOWN", "PUT_DO_2"]
+    assert "CALL PUT_DOWN " in (out / "FIRST_PR.LS").read_text()
+
+
+@pytest.mark.parametrize(
+    ("given", "answer"),
+    [
+        ("nams=8", "there is names: longest program name"),
+        ("names=9", "8 characters"),
+        ("names", "NAME=VALUE"),
+    ],
+)
+def test_an_option_that_is_none(given: str, answer: str, program: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["translate", str(program), "--to", "tp", "--option", given]) == 2
+    assert answer in capsys.readouterr().err
