@@ -27,7 +27,8 @@ WHOLES = ("abs({n})", "min({n}, 3)", "max({n}, 3)", "to_bit({n} > 2)", "to_bit((
 
 
 def program(v: float, w: float, u: float, n: int) -> str:
-    values = {"v": f"({v:.6f})", "w": f"({w:.6f})", "u": f"({u:.6f})", "n": f"({n})"}
+    reals = {name: f"({round(value, 6) + 0.0:.6f})" for name, value in (("v", v), ("w", w), ("u", u))}  # no -0.0
+    values = {**reals, "n": f"({n})"}
     lines = [f"MESSAGE number_text({one.format(**values)}, 4)" for one in (*REALS, *WHOLES)]
     return "\n".join(("MODULE m", "PROCEDURE main()", *lines, "END PROCEDURE", "END MODULE", ""))
 
