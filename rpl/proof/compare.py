@@ -8,7 +8,7 @@ two controllers never agree on accelerations.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,7 +28,7 @@ class Tolerance:
 
     place_mm: where on a moving path an output may switch. wait_s: of a timed wait. time_share: of a whole run's time.
     polling_share: of the time since the start, by which two polling loops may differ (other accelerations before them).
-    look_s: a single wait up to this long may be one look of a polling loop.
+    look_s: a single wait up to this long may be one look of a polling loop. step_s: a controller's cycle.
     """
 
     path_mm: float = 0.01
@@ -40,6 +40,7 @@ class Tolerance:
     time_share: float = 0.01
     polling_share: float = 0.05
     look_s: float = 0.1
+    step_s: float = 0.01
     number: float = 1e-6
 
 
@@ -137,24 +138,36 @@ def _task_events(
 ) -> Difference | None:
     """The first two that differ. `foreign`: where only one language looks again and again for what the other waits for
     (which is no event by itself), its looks count for nothing."""
-    at, there = 0, 0
-    while at < len(ours) or there < len(theirs):
-        first = ours[at] if at < len(ours) else None
-        second = theirs[there] if there < len(theirs) else None
-        if first is not None and second is not None and same_event(first, second, tolerance):
-            at, there = at + 1, there + 1
-        elif foreign and first is not None and _is_looking(first, tolerance):
-            at += 1
-        elif foreign and second is not None and _is_looking(second, tolerance):
-            there += 1
-        else:
+    for first, second in _matched(ours, theirs, tolerance, foreign):
+        if first is None or second is None or not same_event(first, second, tolerance):
             return _event_difference(task, first, second)
     return None
 
 
+def _matched(
+    ours: Sequence[Happening], theirs: Sequence[Happening], tolerance: Tolerance, foreign: bool
+) -> Iterator[tuple[Happening | None, Happening | None]]:
+    """Happening beside happening, also where they differ, without the looks that only one language has."""
+    at, there = 0, 0
+    while at < len(ours) or there < len(theirs):
+        first = ours[at] if at < len(ours) else None
+        second = theirs[there] if there < len(theirs) else None
+        same = first is not None and second is not None and same_event(first, second, tolerance)
+        if not same and foreign and first is not None and _is_looking(first, tolerance):
+            at += 1
+        elif not same and foreign and second is not None and _is_looking(second, tolerance):
+            there += 1
+        else:
+            yield first, second
+            at, there = at + 1, there + 1
+
+
 def _is_looking(happening: Happening, tolerance: Tolerance) -> bool:
-    """Is it a loop of short waits, as programs have that look for a condition?"""
-    return happening.kind == "wait" and happening.times > 1 and happening.longest_s <= tolerance.look_s
+    """Is it a loop of short waits, as programs have that look for a condition, or the only cycle of one?"""
+    if happening.kind != "wait" or happening.value is None:
+        return False
+    longest = tolerance.look_s if happening.times > 1 else tolerance.step_s
+    return happening.longest_s <= longest
 
 
 def same_event(a: Happening, b: Happening, tolerance: Tolerance) -> bool:
@@ -255,7 +268,13 @@ def _geometry(a: Record, b: Record, tolerance: Tolerance, verdict: Verdict) -> D
     for task, ours, others in pairs:
         if not same_language:
             ours, others = _without_conditions(ours), _without_conditions(others)
-        for first, second in zip(ours, others, strict=False):
+        for first, second in _matched(ours, others, tolerance, not same_language):
+            if first is None or second is None:
+                break
+            if not same_language and _in_joint_move(a, task, first) and _in_joint_move(b, task, second):
+                verdict.corners += 1
+                verdict.max_corner_mm = max(verdict.max_corner_mm, abs(first.along - second.along))
+                continue
             slack = tolerance.place_mm if first.moving or second.moving else 10.0 * tolerance.path_mm
             if first.kind == "output" and same_arm and abs(first.along - second.along) > slack:
                 text = (
@@ -263,6 +282,13 @@ def _geometry(a: Record, b: Record, tolerance: Tolerance, verdict: Verdict) -> D
                 )
                 return Difference("place", "geometry", text, side(first), side(second), task)
     return None
+
+
+def _in_joint_move(record: Record, task: str, happening: Happening) -> bool:
+    """Did it come while a joint move was on its way? A program goes on there where the controller's own measure of such
+    a move's corner lets it."""
+    ways = record.motion.get(task) or (next(iter(record.motion.values())) if len(record.motion) == 1 else ())
+    return any(stretch.motion == "joint" and stretch.times[0] < happening.t < stretch.times[-1] for stretch in ways)
 
 
 def _motion(

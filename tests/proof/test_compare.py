@@ -95,6 +95,25 @@ def test_time_counts_between_programs_of_one_language_only() -> None:
     assert (foreign.level, foreign.difference) == ("geometry", None)
 
 
+def test_one_cycle_of_another_controller_s_waiting_loop_is_no_event() -> None:
+    look = Happening("wait", 0.9, 0.002, longest_s=0.002)
+    other = replace(changed(look, OUT, NOTE, WAIT, END), language="rapid")
+    assert compare(RUN, other, TOLERANCE).difference is None
+    assert compare(RUN, replace(other, language="krl"), TOLERANCE).difference is not None
+    longer = replace(changed(replace(look, value=0.05, longest_s=0.05), OUT, NOTE, WAIT, END), language="rapid")
+    assert compare(RUN, longer, TOLERANCE).difference is not None
+
+
+def test_places_on_joint_moves_are_each_controller_s_own() -> None:
+    way = line((0, 0, 0), (100, 0, 0), motion="joint")
+    way = replace(way, times=way.times * 2.0)
+    run = replace(RUN, motion={"main": (way,)}, tasks={"main": (replace(OUT, along=50.0), END)})
+    other = replace(run, tasks={"main": (replace(OUT, along=60.0), END)}, language="rapid")
+    verdict = compare(run, other, TOLERANCE)
+    assert verdict.difference is None and verdict.max_corner_mm == 10.0
+    assert compare(run, replace(other, language="krl"), TOLERANCE).difference is not None
+
+
 def test_one_move_equals_two_on_the_same_line() -> None:
     halves = moved(line((0, 0, 0), (60, 0, 0), stops=False), line((60, 0, 0), (100, 0, 0)), MOTION[1])
     assert compare(RUN, halves, TOLERANCE).difference is None

@@ -112,8 +112,9 @@ class _Modal:
                 fly_by = isinstance(new[-1], ir.Move) and new[-1].blend not in (None, ir.BlendStop())
                 continue
             if fly_by and isinstance(statement, ir.WaitUntil | ir.Assign) and _stops(statement):
-                self.context.diagnostics.report(EARLY_LOGIC, statement.origin)
-                done.append(ir.LookAhead(origin=replace(statement.origin, comments=())))
+                if "LookAhead" in self.context.capabilities.statements:
+                    self.context.diagnostics.report(EARLY_LOGIC, statement.origin)
+                    done.append(ir.LookAhead(origin=replace(statement.origin, comments=())))
             elif not isinstance(statement, ir.Assign | ir.Nothing | ir.WaitUntil):
                 fly_by = False
             done.extend(self.other(statement, known))
