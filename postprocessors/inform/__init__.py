@@ -29,5 +29,4 @@ TARGET = Target(
     title="Yaskawa INFORM",
     capabilities=_capabilities,
     write=_write,
-    options={"generation": "dx (default: blocks, job names of 32 characters) or nx (NX100: jumps, names of 8)"},
 )

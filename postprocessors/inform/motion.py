@@ -146,8 +146,8 @@ class Motion:
         while isinstance(target, ir.Builtin) and target.function in ("joints_to_target", "pose_of"):
             target = target.arguments[0]
         known = constants.known(target)
-        if known is not None and base is not None:
-            number = job.cell.frame(base.values)
+        if known is not None and (base is not None or known.kind == "joints"):
+            number = 0 if base is None else job.cell.frame(base.values)
             wanted = self.names.get(target.id) if isinstance(target, ir.Name) else None
             return Goal(job.point_of(known, tool, number, wanted), tool, number, known)
         if tool != job.tool:

@@ -136,6 +136,7 @@ class Constants:
         """`entries`: routines that may be started; what stands at their very beginning happens once, too."""
         assigned: Counter[tuple[str, int]] = Counter()
         first: dict[tuple[str, int], Position] = {}
+        before: dict[tuple[str, int], Position] = {}  # from the start of the program on
         chosen = False
 
         def note(target: ir.Expression) -> None:
@@ -157,6 +158,12 @@ class Constants:
             return statements
 
         for module in program.modules:
+            for declaration in module.declarations:
+                if isinstance(declaration, ir.Initialise):
+                    given = position_of(declaration.assign.value)
+                    place = numbered(declaration.assign.target)
+                    if place is not None and given is not None:
+                        before[place] = given
             for routine in module.routines:
                 body(routine.body)
                 if not (routine.name.lower() in entries or routine.name.lower().startswith(INITIALISE)):
@@ -171,7 +178,8 @@ class Constants:
                             first[place] = known
         if chosen:
             return cls()
-        return cls({place: value for place, value in first.items() if assigned[place] == 1})
+        once = {place: value for place, value in first.items() if assigned[place] == 1}
+        return cls(once | {place: value for place, value in before.items() if not assigned[place]})
 
     def routine(self, routine: ir.Routine) -> Constants:
         return Constants(self.values, _points(routine))

@@ -87,7 +87,6 @@ LONGEST_LABEL: Final = 8
 LONGEST_TEXT: Final = 32  # M: 16 before the DX200
 LONGEST_MESSAGE: Final = 32
 LONGEST_NAME: Final = 32
-LONGEST_OLD_NAME: Final = 8
 LONGEST_LINE: Final = 128  # M
 MOST_SUBTASKS: Final = 5  # M
 RESERVED: Final = frozenset(("all", "end", "nop"))

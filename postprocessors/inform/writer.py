@@ -61,6 +61,7 @@ class _Writer:
             routine.name.lower(): routine.name.upper() for module in program.modules for routine in module.routines
         }
         self.taken: set[str] = set()
+        self.start: list[ir.Assign] = []  # values of data before the program
         self.tools: dict[int, int] = {}  # id of a routine -> the tool of its positions in variables
         self.choose_tools()
 
@@ -113,6 +114,10 @@ class _Writer:
         """Numbered variables need no declaration; what is none has no place."""
         match declaration:
             case ir.Variable(name=name) if numbered(ir.Name(name)) is not None or name in tables.BANKS:
+                self.ledger.merged(declaration)
+                return
+            case ir.Initialise(assign=assign):
+                self.start.append(assign)
                 self.ledger.merged(declaration)
                 return
             case ir.Unread(text="") | ir.ExternalDeclaration():
@@ -176,12 +181,13 @@ class _Writer:
     def finish(self, jobs: list[Job]) -> None:
         """Values of tools and user frames, and tasks that run beside, at the start of each job that may be started."""
         background = [task for task in self.program.tasks if task.kind == "background"]
+        first = {job.name: self.first_values(job) for job in jobs if job.entry}
         setup = list(self.cell.setup())
         for job in jobs:
             if not job.entry:
                 continue
             at = next((n for n, line in enumerate(job.lines) if not line.startswith("'")), len(job.lines))
-            begin = [line for line, _ in setup]
+            begin = [*first[job.name], *(line for line, _ in setup)]
             for n, task in enumerate(background, len(self.tasks) + 1):
                 begin.append(f"PSTART JOB:{self.jobs.get(task.entry.lower(), task.entry.upper())} SUB{n}")
             job.lines[at:at] = begin
@@ -190,6 +196,21 @@ class _Writer:
             for job in jobs:
                 if task.cyclic and job.name == task.entry.upper():
                     job.lines = ["*AGAIN", *job.lines, "JUMP *AGAIN"]
+
+    def first_values(self, job: Job) -> list[str]:
+        """The values that data have before the program."""
+        positions = Positions(self.registers, job, self.constants)
+        assignments = Assignments(self.registers, positions)
+        positions.number = assignments.number
+        done: list[str] = []
+        for assign in self.start:
+            self.registers.begin()
+            try:
+                done.extend(assignments.assign(assign))
+            except CannotSayError as error:
+                self.diagnostics.report(LOST_DECLARATION, assign.origin, name="this value", reason=str(error))
+                done.append("PAUSE")
+        return done
 
 
 def _entries(program: ir.Program) -> set[str]:
