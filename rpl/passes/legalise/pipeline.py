@@ -46,6 +46,7 @@ from rpl.passes.legalise.parameters import fit_arguments
 from rpl.passes.legalise.polling import poll_waits
 from rpl.passes.legalise.prelude import link_prelude
 from rpl.passes.legalise.pulses import fold_pulses
+from rpl.passes.legalise.reactions import reactions
 from rpl.passes.legalise.references import references_as_copies
 from rpl.passes.legalise.refusals import refuse
 from rpl.passes.legalise.resumes import resumes
@@ -90,6 +91,7 @@ PASSES: tuple[Pass, ...] = (
     without_aliases,
     stop_blends,
     triggers,
+    reactions,
     resumes,
     interrupts,
     refuse,
