@@ -108,3 +108,11 @@ def test_signals_beyond_the_control_box_are_registers(lines: str) -> None:
 def test_a_loop_that_only_sets_outputs_takes_no_time() -> None:
     lines = "WHILE x < 3\nSET do[2] TO x > 1\nx = x + 1\nEND WHILE\nSET do[1] TO x = 3"
     assert "sync()" not in equal("rpl", RPL.format(lines=lines))
+
+
+def test_a_move_along_the_tool_starts_where_the_last_pass_of_a_loop_went() -> None:
+    lines = """        FOR n = 1 TO 2
+            MOVES b:TRANS(0, n * 20)
+        END
+        DEPARTS 40"""
+    assert "get_actual_tcp_pose" not in equal("vplus", VPLUS.format(lines=lines))

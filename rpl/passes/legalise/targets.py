@@ -1,7 +1,8 @@
 """Relative moves and targets with missing components, for targets whose moves want a whole target.
 
 Both start from where the last move ends. Where that is the move before in the same straight run of statements, its
-target is used; else the robot is asked where it stands, and the move before must not be blended.
+target is used; moves of a loop or a choice before it note where they go; else the robot is asked where it stands, and
+the move before must not be blended.
 """
 
 from __future__ import annotations
@@ -10,7 +11,10 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.editing import map_body
+from rpl.passes.legalise.jumps import inside
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
@@ -108,7 +112,7 @@ class _Whole:
         if any(name in values and not _is_zero(values[name]) for name in _ANGLES):
             self.context.diagnostics.report(TURNED, move.origin)
             return [move]
-        start = self.last_target(done, move)
+        start = self.last_target(done, move) or self.noted(done, move)
         if start is None:
             self.stop_before(done)
             start = ir.System("actual_pose")
@@ -127,12 +131,46 @@ class _Whole:
                     if not same or isinstance(type_of(target, self.scope), ir.JointsType | None):
                         return None
                     return target if isinstance(target, ir.Aggregate | ir.Builtin) or _is_place(target) else None
-                case ir.Assign(target=ir.Signal()) | ir.Nothing() | ir.Wait() | ir.WaitUntil() | ir.LookAhead():
-                    continue
-                case ir.Assign(target=ir.System(name=name)) if name not in ("tool", "base"):
-                    continue
-            return None
+            if not _passes(statement):
+                return None
         return None
+
+    def noted(self, done: list[ir.Statement], move: ir.Move) -> ir.Expression | None:
+        """Where the last move of the block before ends: a variable that its moves set, where they can be blended."""
+        at = len(done) - 1
+        while at >= 0 and _passes(done[at]):
+            at -= 1
+        if at < 0 or not isinstance(done[at], _BLOCKS):
+            return None
+        moves = [node for node in walk((done[at],)) if isinstance(node, ir.Move)]
+        types = {type_of(one.target, self.scope) for one in moves}
+        quiet = not any(isinstance(node, _UNKNOWN_MOVES) for node in walk((done[at],)))
+        same = all(
+            (one.tool, one.frame, one.relative, one.search) == (move.tool, move.frame, None, None) for one in moves
+        )
+        type = types.pop() if len(types) == 1 else None
+        blended = any(one.blend not in (None, ir.BlendStop()) for one in moves)
+        if not (quiet and same and blended) or not isinstance(type, ir.PoseType | ir.TargetType):
+            return None
+        before, block = done[:at], done[at]
+        place = ir.Name(self.context.fresh("rpl_place"))
+        self.declared.append(ir.Variable(place.id, type, scope="routine"))
+        start = self.last_target(before, move)
+        if start is None:
+            self.stop_before(before)
+            start = ir.System("actual_pose")
+
+        def note(statement: ir.Statement) -> ir.Body:
+            if isinstance(statement, ir.Move):
+                later = replace(statement.origin, comments=())
+                return ir.Assign(place, statement.target, origin=statement.origin), replace(
+                    statement, target=place, origin=later
+                )
+            return (inside(statement, lambda body: map_body(body, note)),)
+
+        done[at:] = [*note(block), *done[at + 1 :]]
+        done[:at] = [*before, ir.Assign(place, start, origin=replace(block.origin, comments=()))]
+        return place
 
     def stop_before(self, done: list[ir.Statement]) -> None:
         """The move before must end where it says, or the robot is asked on its way."""
@@ -143,6 +181,20 @@ class _Whole:
                     self.context.diagnostics.report(STOPPED_FOR_POSITION, statement.origin)
                     done[at] = replace(statement, blend=ir.BlendStop())
                 return
+
+
+_BLOCKS = (ir.If, ir.Switch, ir.For, ir.While, ir.Repeat, ir.Loop)
+_UNKNOWN_MOVES = (ir.CallRoutine, ir.Call, ir.Goto, ir.Label, ir.Spline, ir.MoveExternal)
+
+
+def _passes(statement: ir.Statement) -> bool:
+    """Can neither the robot nor the frame be another one behind it?"""
+    match statement:
+        case ir.Assign(target=ir.Signal()) | ir.Nothing() | ir.Wait() | ir.WaitUntil() | ir.LookAhead():
+            return True
+        case ir.Assign(target=ir.System(name=name)):
+            return name not in ("tool", "base")
+    return False
 
 
 def _is_zero(value: ir.Expression) -> bool:
