@@ -23,6 +23,7 @@ from .blocks import Builder, DataPart, ProgramPart
 from .expressions import significant
 from .functions import joints_of, transformation
 from .inference import Symbol, Symbols, element_type, infer
+from .later import outputs_later
 from .quick import facts_of
 from .resolve import Resolver
 from .settings import Settings
@@ -78,7 +79,7 @@ def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     }
     finish = _Finish(symbols, lowering, kinds, modes.by_value(programs, symbols))
     modules = tuple(finish.module(file, homes.get(position, [])) for position, file in enumerate(files))
-    return ReadResult(ir.Program(modules), tuple(reports))
+    return ReadResult(ir.Program(outputs_later(modules)), tuple(reports))
 
 
 def _sorted(

@@ -25,6 +25,7 @@ KEYS = code(
 TIMER_RUNS = code(
     "vplus-timer-runs", Severity.WARNING, "timers of V+ cannot be stopped; what is read later is the time until then"
 )
+SENDER = code("vplus-sender", Severity.WARNING, "a message has no sender in V+; its name is left out")
 ACKNOWLEDGE = code(
     "vplus-acknowledge", Severity.WARNING, "a message that waits for the operator is written as TYPE and PAUSE"
 )
@@ -68,8 +69,8 @@ class Actions:
                 printer.comments_only(origin)
             case ir.Trigger():
                 self.trigger(statement)
-            case ir.Pulse():
-                self.pulse(statement)
+            case ir.Pulse() | ir.SetAfter():
+                self.later(statement)
             case _:
                 printer.line(self.simple(statement), origin)
 
@@ -354,21 +355,30 @@ class Actions:
             return "OPEN", 2
         return ("CLOSE" if states[tables.HAND_CLOSE] else "RELAX"), 2
 
-    def pulse(self, pulse: ir.Pulse) -> None:
-        """The signal changes while the program goes on: a program of its own waits and sets it back."""
-        signal = pulse.signal
+    def later(self, statement: ir.Pulse | ir.SetAfter) -> None:
+        """The signal changes while the program goes on: a program of its own waits and switches it then."""
+        signal, value = statement.signal, statement.value
         if isinstance(signal, ir.Name):
             signal = self.expressions.places.declared(signal.id) or signal
-        if not isinstance(signal, ir.Signal) or not isinstance(pulse.value, ir.BoolLiteral):
-            raise UnsayableError("a pulse of a level that is calculated")
-        if self.expressions.places.is_group(signal) or signal.kind.endswith("_in"):
-            raise UnsayableError("a pulse of anything but one digital output")
-        task = self.printer.output.helper_task(signal)
-        number = self.expressions.places.number(self.expressions.places.numbered(signal), not pulse.value.value)
-        self.printer.line(f"SIGNAL {number}", pulse.origin)
-        time = self.expressions.measured(pulse.duration, "s")
-        self.printer.line(f"EXECUTE {task} rpl.pulse({_by_value(number)}, {time})")
-        self.expressions.notes.helpers.add("rpl.pulse")
+        if not isinstance(signal, ir.Signal) or not isinstance(value, ir.BoolLiteral):
+            raise UnsayableError("an output that follows later with a level that is calculated")
+        if self.expressions.places.is_group(signal) or signal.kind.endswith("_in") or signal.kind == "analog_out":
+            raise UnsayableError("anything but one digital output that follows later")
+        pulse = isinstance(statement, ir.Pulse)
+        delay = statement.duration if isinstance(statement, ir.Pulse) else statement.delay
+        places, output = self.expressions.places, self.printer.output
+        signal = places.numbered(signal)
+        task, time = output.helper_task(signal), self.expressions.measured(delay, "s")
+        now, then = (places.number(signal, value.value == back) for back in (False, pulse))
+        if pulse:
+            self.printer.line(f"SIGNAL {now}", statement.origin)
+        else:
+            self.printer.comments_only(statement.origin)
+        if _is_number(then) and _is_number(time):
+            self.printer.line(f"EXECUTE {task} {output.later(then, time)}()")
+            return
+        self.printer.line(f"EXECUTE {task} rpl.later({_by_value(then)}, {_by_value(time)})")
+        self.expressions.notes.helpers.add("rpl.later")
 
     # ---- the operator
 
@@ -381,7 +391,7 @@ class Actions:
             raise UnsayableError(f"there is no message of kind {message.kind}")
         text = message.text
         if message.sender is not None and message.sender != ir.TextLiteral(""):
-            text = ir.Binary("&", ir.Binary("&", message.sender, ir.TextLiteral(": ")), text)
+            printer.output.facts.once(SENDER, message.origin)
         printer.line(f"TYPE {self.expressions.texts.items(text)}", message.origin)
         if message.kind == "quit":
             printer.output.facts.once(ACKNOWLEDGE, message.origin)
@@ -419,6 +429,10 @@ def listed(target: ir.Expression, value: ir.Aggregate, type: ir.ArrayType) -> li
 
     fill((), value)
     return found
+
+
+def _is_number(text: str) -> bool:
+    return text.lstrip("-").replace(".", "", 1).isdigit()
 
 
 def _by_value(number: str) -> str:

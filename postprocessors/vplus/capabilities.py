@@ -10,7 +10,7 @@ CAPABILITIES = Capabilities(
     statements=tables.words(
         """Assign CallRoutine If Switch For While Repeat Loop ExitLoop NextPass Label Goto Return Halt Wait WaitUntil
         WaitForMotion DeclareInterrupt ControlInterrupt StopMotion ClearMotion Trigger Message Dialog Do TaskControl
-        LookAhead Pulse SetForNextMove OnError TryNext Nothing Move Vendor Opaque"""
+        LookAhead Pulse SetAfter SetForNextMove OnError TryNext Nothing Move Vendor Opaque"""
     ),
     functions=frozenset(
         (

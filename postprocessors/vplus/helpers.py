@@ -52,12 +52,12 @@ HELPERS: dict[str, tuple[str, tuple[str, ...]]] = {
             "END",
         ),
     ),
-    "rpl.pulse": (
-        ".PROGRAM rpl.pulse(number, seconds)",
+    "rpl.later": (
+        ".PROGRAM rpl.later(number, seconds)",
         (
-            "; Ends a pulse on a signal.",
+            "; Switches a signal when the time is over.",
             "WAIT.EVENT , seconds",
-            "SIGNAL -number",
+            "SIGNAL number",
         ),
     ),
 }

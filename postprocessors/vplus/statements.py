@@ -40,7 +40,13 @@ class Output:
     taken: set[str]
     tasks: dict[str, int] = field(default_factory=dict)
     helpers: set[str] = field(default_factory=set)
+    delayed: dict[tuple[str, str], str] = field(default_factory=dict)
     pulses: list[ir.Signal] = field(default_factory=list)
+
+    def later(self, number: str, seconds: str) -> str:
+        """The program that switches a signal after a time."""
+        key = number, seconds
+        return self.delayed.setdefault(key, f"rpl.later.{len(self.delayed) + 1}")
 
     def helper_task(self, signal: ir.Signal) -> int:
         """The task that ends the pulses of a signal."""

@@ -13,6 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant_number
+from rpl.passes.legalise.usage import usage_of
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.target import OutputFile, WriteContext
@@ -34,6 +35,11 @@ LOST_DECLARATION = code(
     "vplus-lost-declaration", Severity.LOSS, "V+ cannot declare {name}: {reason}", "it is left as a comment"
 )
 LOST_HANDLER = code("vplus-lost-handler", Severity.LOSS, "V+ has no error handlers; the one of {name} is left out")
+_ZEROS: dict[type, ir.Expression] = {
+    ir.RealType: ir.IntLiteral(0),
+    ir.BoolType: ir.BoolLiteral(False),
+    ir.StringType: ir.TextLiteral(""),
+}
 _ORDER = (".LOCATIONS", ".REALS", ".STRINGS")
 
 
@@ -83,6 +89,7 @@ class _File:
             self.ledger, context.diagnostics, facts, Reactions(self.program), names_of(self.program), self.tasks()
         )
         self.background = {task.entry.lower(): task for task in self.program.tasks if task.kind == "background"}
+        self.assigned = set(usage_of(self.program).assigned)
         self.sections: dict[str, list[str]] = {}
 
     def file(self) -> OutputFile:
@@ -98,6 +105,10 @@ class _File:
         programs += [
             (ProgramText(HELPERS[name][0], tuple(FIRST + step for step in HELPERS[name][1])), False)
             for name in with_needed(self.output.helpers)
+        ]
+        programs += [
+            (ProgramText(f".PROGRAM {name}()", (f"{FIRST}WAIT.EVENT , {seconds}", f"{FIRST}SIGNAL {number}")), False)
+            for (number, seconds), name in self.output.delayed.items()
         ]
         sections = [Section(word, tuple(self.sections[word])) for word in _ORDER if word in self.sections]
         text = (
@@ -167,7 +178,11 @@ class _File:
             self.ledger.written(declaration)
 
     def place_values(self, variable: ir.Variable, scope: Scope) -> None:
-        lines = [stored(place, type, value, scope) for place, type, value in values(variable)]
+        given = values(variable)
+        if not given and self.output.facts.foreign and variable.name.lower() not in self.assigned:
+            zero = _ZEROS.get(variable.type.__class__)  # read only: the source begins with it
+            given = [(ir.Name(variable.name), variable.type, zero)] if zero is not None else []
+        lines = [stored(place, type, value, scope) for place, type, value in given]
         for section, line in lines:
             self.add(section, line)
 
