@@ -57,9 +57,10 @@ class Numbers:
 
 @dataclass(slots=True)
 class Frames:
-    """Tools and user frames of a whole program. `scratch`: the position register that carries values over."""
+    """Tools and user frames of a whole program. `scratch`, `second`: position registers that carry values over."""
 
     scratch: int = tables.PR.last
+    second: int = tables.PR.last - 1
     tools: Numbers = field(default_factory=lambda: Numbers("UTOOL", tables.MOST_TOOLS))
     frames: Numbers = field(default_factory=lambda: Numbers("UFRAME", tables.MOST_FRAMES))
     selected: dict[str, set[str]] = field(default_factory=lambda: {"UTOOL": set(), "UFRAME": set()})
@@ -144,8 +145,8 @@ def _number_text(index: ir.Expression, expressions: Expressions) -> str:
     return expressions.operand(index)
 
 
-def highest_free_register(program: ir.Program) -> int:
-    """A position register that no constant number names, from the top."""
+def highest_free_registers(program: ir.Program) -> tuple[int, int]:
+    """Two position registers that no constant number names, from the top."""
     from rpl.passes.rewrite import rewrite_parts
 
     used: set[int] = set()
@@ -166,4 +167,5 @@ def highest_free_register(program: ir.Program) -> int:
     for module in program.modules:
         for routine in module.routines:
             body(routine.body)
-    return next((n for n in range(tables.PR.last, 0, -1) if n not in used), tables.PR.last)
+    free = [n for n in range(tables.PR.last, 0, -1) if n not in used]
+    return (free[0], free[1]) if len(free) > 1 else (tables.PR.last, tables.PR.last - 1)

@@ -31,6 +31,12 @@ JOINT_CORNER = code(
 LEFT_OUT = code("tp-left-out", Severity.WARNING, "TP has no place for {what} at a move; it is left out")
 NO_SPEED = code("tp-no-speed", Severity.WARNING, "the move says no speed; it is written with {speed}")
 
+STOPPED = code(
+    "tp-stop-before",
+    Severity.WARNING,
+    "the place that this move starts from is known only when the robot stands; it stops before the move",
+)
+
 
 class Action(Protocol):
     """How an assignment or a call is written behind a trigger."""
@@ -50,9 +56,11 @@ class Motion:
     frame: str = ""
     tool: str = ""
     scratch: int = tables.PR.last
+    second: int = tables.PR.last - 1
     before: list[Line] = field(default_factory=list)  # lines that a move needs in front of it
     place: str = ""  # the point that the move before went to
     stands: bool = False  # the move before ended with FINE
+    rounded_last: bool = False  # the move above in the text did not
     last: Position | None = None  # where the move before ended, in the frame in force
 
     @property
@@ -87,6 +95,7 @@ class Motion:
         length = path_length(move.kind, self.last, self.reached(move, via, via_offsets), goal)
         options = offsets + self.options(move, length) + skip
         self.last, self.stands = goal, term == "FINE"
+        self.rounded_last = not self.stands
         self.place = target if not offsets and move.relative is None else ""
         settings = f"{speed} {term}{options}    "
         if move.kind != "circular":
@@ -101,13 +110,27 @@ class Motion:
         return self.target(move, move.via)
 
     def in_tool(self, move: ir.Move) -> tuple[str, str]:
-        """A way along the tool: from the point of the move before, moved by Tool_Offset."""
-        if not self.place:
-            raise CannotSayError("a move along the tool has to come behind a move to a point")
+        """A way along the tool: from the point of the move before, else from where the robot stands, moved by
+        Tool_Offset."""
+        start = self.place
+        if not start:
+            if not self.stands and self.rounded_last:
+                raise CannotSayError("a move along the tool from a corner whose place is not known")
+            if not self.stands:
+                self.report_once(STOPPED, move.origin)
+                self.before.append(self.standstill())
+            start = f"PR[{self.second}]"
+            self.before.append(Line(f"  {start}=LPOS"))
         self.before.append(
             Line(f"  PR[{self.scratch}]={self.points.place(self.points.add(step_of(move.target, turned=True)))}")
         )
-        return self.place, f" Tool_Offset,PR[{self.scratch}]"
+        return start, f" Tool_Offset,PR[{self.scratch}]"
+
+    def standstill(self) -> Line:
+        """A way of no length that ends with FINE: the lines behind it come when the robot stands."""
+        point = self.points.place(self.points.add(Position("pose", (0.0,) * 6)))
+        self.stands = True
+        return Line(f"L {point} 100mm/sec FINE INC    ")
 
     def reached(self, move: ir.Move, shown: str, offsets: str) -> Position | None:
         """The constant position that a move ends at; None when it is computed."""

@@ -104,6 +104,29 @@ def monitors_of(program: ir.Program) -> dict[int, tuple[str, int]]:
     return found
 
 
+def quiet_routines(program: ir.Program) -> frozenset[str]:
+    """Routines that neither move the robot nor select a tool or frame, nor call one that does; folded names."""
+    calls: dict[str, set[str]] = {}
+    loud: set[str] = set()
+    for module in program.modules:
+        for routine in module.routines:
+            name = routine.name.lower()
+            called = calls.setdefault(name, set())
+            for node in walk(routine):
+                match node:
+                    case ir.Move() | ir.Vendor() | ir.Opaque() | ir.Assign(target=ir.System()):
+                        loud.add(name)
+                    case ir.CallRoutine(dynamic=None, name=other) | ir.Call(name=other):
+                        called.add(other.lower())
+                    case ir.CallRoutine():
+                        loud.add(name)
+    size = -1
+    while size != len(loud):
+        size = len(loud)
+        loud |= {name for name, called in calls.items() if any(one in loud or one not in calls for one in called)}
+    return frozenset(set(calls) - loud)
+
+
 def steps_in(body: ir.Body) -> set[str]:
     """Names of the points that are the way of relative moves."""
     return {

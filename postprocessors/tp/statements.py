@@ -50,12 +50,20 @@ class Printer:
     lines: list[Line] = field(default_factory=list)
     depth: int = 0
     monitors: Mapping[int, tuple[str, int]] = field(default_factory=dict)
+    quiet: frozenset[str] = frozenset()  # programs that neither move nor select a frame, folded
     motion: Motion = field(init=False)
     assignments: Assignments = field(init=False)
     idioms: Idioms = field(init=False)
 
     def __post_init__(self) -> None:
-        self.motion = Motion(self.expressions, self.points, self.diagnostics, self.action, scratch=self.frames.scratch)
+        self.motion = Motion(
+            self.expressions,
+            self.points,
+            self.diagnostics,
+            self.action,
+            scratch=self.frames.scratch,
+            second=self.frames.second,
+        )
         self.assignments = Assignments(self.expressions, self.points, self.frames.scratch)
         self.idioms = Idioms(self)
 
@@ -145,8 +153,8 @@ class Printer:
                 self.put([Line(f"  {condition}")] if condition else [], origin)
             case ir.LookAhead():
                 self.comments_only(origin)  # signals never stop the look-ahead behind CNT
-            case ir.WaitForMotion() if self.motion.stands:
-                self.comments_only(origin)
+            case ir.WaitForMotion():
+                self.put([] if self.motion.stands else [self.motion.standstill()], origin)
             case ir.If():
                 self.choice(statement)
             case ir.Switch():
@@ -180,7 +188,14 @@ class Printer:
             case _:
                 self.line(self.simple(statement), origin)
                 if isinstance(statement, ir.CallRoutine):
-                    self.forget()
+                    self.called(statement)
+
+    def called(self, call: ir.CallRoutine) -> None:
+        """What is known of the motion behind a call."""
+        if call.dynamic is not None or call.name.lower() not in self.quiet:
+            self.forget()
+        elif self.motion.place.startswith("PR["):
+            self.motion.place = ""
 
     def simple(self, statement: ir.Statement) -> str:
         match statement:

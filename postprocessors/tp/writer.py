@@ -19,9 +19,9 @@ from .assignments import Assignments
 from .dumps import dump_files
 from .expressions import CannotSayError, Expressions
 from .flow import Labels
-from .frames import Frames, highest_free_register
+from .frames import Frames, highest_free_registers
 from .lines import Line
-from .own import monitors_of, steps_in
+from .own import monitors_of, quiet_routines, steps_in
 from .positions import Points, point_number
 from .posture import choose_postures
 from .statements import Printer
@@ -87,10 +87,11 @@ class _Writer:
         self.program, self.context, self.ledger = program, context, ledger
         self.diagnostics = context.diagnostics
         self.scopes = ProgramScope(program)
-        self.frames = Frames(highest_free_register(program))
+        self.frames = Frames(*highest_free_registers(program))
         self.names = {**_labels_of_registers(program), **context.register_names}
         self.entries = _entries(program)
         self.monitors = monitors_of(program)
+        self.quiet = quiet_routines(program)
         self.taken: set[str] = set()
         self.start: list[tuple[ir.Assign, Scope]] = []  # values of data before the program
         self.from_listings: set[str] = set()  # their points have postures of their own
@@ -134,7 +135,8 @@ class _Writer:
         points = Points()
         expressions = Expressions(scope, self.names, limited="PROG" not in dict(module.attributes))
         printer = Printer(expressions, points, self.frames, Labels.of(routine.body), self.ledger, self.diagnostics)
-        printer.monitors = self.monitors
+        printer.monitors, printer.quiet = self.monitors, self.quiet
+        printer.motion.stands = routine.name.lower() in self.entries and "PROG" not in dict(module.attributes)
         self.ledger.written(routine)
         printer.comments_only(routine.origin)
         named: dict[str, str] = {}

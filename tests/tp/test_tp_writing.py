@@ -165,9 +165,9 @@ def test_a_frame_in_a_register_is_handed_over_where_it_is_selected() -> None:
 
 def test_a_move_with_its_own_frame_selects_it_once() -> None:
     move = "MOVE LINEAR TO P1 SPEED 100 mm/s FRAME {x: 5, y: 0, z: 0, a: 0, b: 0, c: 0}"
-    found = lines(f"{move}\n{move}\nother()\n{move}")
+    found = lines(f"{move}\n{move}\nother()\n{move}\nm()\n{move}")
     go = "L P[1] 100mm/sec FINE"
-    assert found == ["UFRAME_NUM=1", go, go, "CALL OTHER", "UFRAME_NUM=1", go]
+    assert found == ["UFRAME_NUM=1", go, go, "CALL OTHER", go, "CALL M", "UFRAME_NUM=1", go]  # m moves, other does not
 
 
 def test_points_say_the_frame_and_tool_of_their_moves() -> None:
@@ -257,4 +257,14 @@ def test_an_action_counted_from_the_start_is_counted_from_the_end() -> None:
 def test_a_way_along_the_tool_goes_from_the_point_before() -> None:
     found = lines("MOVE LINEAR TO P1 SPEED 100 mm/s BLEND 5 mm\nMOVE LINEAR BY {z: -80} IN TOOL SPEED 100 mm/s")
     assert found[1:] == ["PR[100]=P[3]", "L P[1] 100mm/sec FINE Tool_Offset,PR[100]"]
-    assert listing("MOVE LINEAR BY {z: -80} IN TOOL SPEED 100 mm/s")[1] == ["tp-guarded-stop"]
+    found = lines("MOVE LINEAR BY {z: -80} IN TOOL SPEED 100 mm/s", entry="p")  # it begins with a standing robot
+    assert found[-3:] == ["PR[99]=LPOS", "PR[100]=P[3]", "L PR[99] 100mm/sec FINE Tool_Offset,PR[100]"]
+
+
+def test_a_way_along_the_tool_from_a_place_that_is_not_known() -> None:
+    """The robot may stand already, or it comes to rest first; a corner that would be lost is refused."""
+    away = "MOVE LINEAR BY {z: -80} IN TOOL SPEED 100 mm/s"
+    text, codes = listing(f"MOVE LINEAR TO P1 SPEED 100 mm/s FINE\nLABEL here\n{away}\nIF di[1] THEN GOTO here")
+    assert codes == ["tp-stop-before"]
+    assert numbered(text)[2:5] == ["L P[3] 100mm/sec FINE INC", "PR[99]=LPOS", "PR[100]=P[4]"]
+    assert listing(f"MOVE LINEAR TO P1 SPEED 100 mm/s BLEND 5 mm\nLABEL here\n{away}")[1] == ["tp-guarded-stop"]
