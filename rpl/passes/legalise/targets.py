@@ -190,7 +190,9 @@ _UNKNOWN_MOVES = (ir.CallRoutine, ir.Call, ir.Goto, ir.Label, ir.Spline, ir.Move
 def _passes(statement: ir.Statement) -> bool:
     """Can neither the robot nor the frame be another one behind it?"""
     match statement:
-        case ir.Assign(target=ir.Signal()) | ir.Nothing() | ir.Wait() | ir.WaitUntil() | ir.LookAhead():
+        case ir.Assign(target=ir.Signal()) | ir.Nothing() | ir.Wait() | ir.WaitUntil() | ir.WaitForMotion():
+            return True
+        case ir.LookAhead():
             return True
         case ir.Assign(target=ir.System(name=name)):
             return name not in ("tool", "base")
