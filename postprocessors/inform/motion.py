@@ -34,6 +34,11 @@ JOINT_CORNER = code(
     "a joint move has positioning levels, no corner distance: {distance:g} mm is written as {written}",
 )
 LEFT_OUT = code("inform-left-out", Severity.WARNING, "INFORM has no place for {what} at a move; it is left out")
+FLANGE = code(
+    "inform-flange-point",
+    Severity.WARNING,
+    "a joint position is driven to with tool 0, because the tool is kept in a variable: same joints, another tool shown",
+)
 NO_SPEED = code("inform-no-speed", Severity.WARNING, "the move says no speed; it is written without one")
 
 Number = Callable[[str, ir.Expression], None]
@@ -84,7 +89,7 @@ class Motion:
         if move.relative is not None:
             goal, shown = self.relative(move, tool)
         elif move.kind in tables.MOVES:
-            goal = self.goal(move.target, move.frame, tool)
+            goal = self.goal(move.target, move.frame, tool, move.origin)
             shown = f"{tables.MOVES[move.kind]} {goal.place}"
         else:
             raise CannotSayError(f"there is no {move.kind} move")
@@ -139,7 +144,7 @@ class Motion:
             self.positions.in_tools[number] = place
         return number
 
-    def goal(self, target: ir.Expression, frame: ir.Expression | None, tool: int) -> Goal:
+    def goal(self, target: ir.Expression, frame: ir.Expression | None, tool: int, origin: Origin) -> Goal:
         """The taught point or position variable of a target."""
         job, constants = self.positions.job, self.positions.constants
         base = Position("pose", WORLD) if frame is None else constants.known(frame)
@@ -149,6 +154,8 @@ class Motion:
         if known is not None and (base is not None or known.kind == "joints"):
             number = 0 if base is None else job.cell.frame(base.values)
             wanted = self.names.get(target.id) if isinstance(target, ir.Name) else None
+            if known.kind == "joints" and job.cell.value_of_tool(tool) is None:
+                self.report_once(FLANGE, origin)
             return Goal(job.point_of(known, tool, number, wanted), tool, number, known)
         if tool != job.tool:
             raise CannotSayError("positions in variables are driven to with one tool in a job, here it is another one")
@@ -226,7 +233,7 @@ class Motion:
         or an arc; else it is taught once more."""
         if move.via is None:
             raise CannotSayError("a circle needs its point on the way")
-        via = self.goal(move.via, move.frame, tool)
+        via = self.goal(move.via, move.frame, tool, move.origin)
         if self.line_of_last is not None and not self.lines:
             before = done[self.line_of_last]
             if before.startswith("MOVL "):
