@@ -37,7 +37,7 @@ LEFT_OUT = code("inform-left-out", Severity.WARNING, "INFORM has no place for {w
 FLANGE = code(
     "inform-flange-point",
     Severity.WARNING,
-    "a joint position is driven to with tool 0, because the tool is kept in a variable: same joints, another tool shown",
+    "a joint position is driven to with tool 0, as the tool is kept in a variable: same joints, another tool shown",
 )
 NO_SPEED = code("inform-no-speed", Severity.WARNING, "the move says no speed; it is written without one")
 
