@@ -6,12 +6,13 @@ element by element. A value that is kept in a position register is handed over w
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.passes.fold import constant
-from rpl.passes.scope import Scope
+from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import pose_of
 from rpl.source import NOWHERE
 from rpl.writing.text import number_text
@@ -63,6 +64,7 @@ class Frames:
     second: int = tables.PR.last - 1
     tools: Numbers = field(default_factory=lambda: Numbers("UTOOL", tables.MOST_TOOLS))
     frames: Numbers = field(default_factory=lambda: Numbers("UFRAME", tables.MOST_FRAMES))
+    kept: Mapping[int, tuple[float, ...]] = field(default_factory=dict)  # registers that hold one value all the time
     selected: dict[str, set[str]] = field(default_factory=lambda: {"UTOOL": set(), "UFRAME": set()})
 
     def select(self, kind: str, value: ir.Expression, expressions: Expressions) -> tuple[list[Line], str]:
@@ -97,7 +99,12 @@ class Frames:
         if word == "UFRAME" and number == "0":
             return WORLD
         numbers = self.tools if word == "UTOOL" else self.frames
-        return numbers.value_of(int(number)) if number.isdigit() else None
+        found = numbers.value_of(int(number)) if number.isdigit() else None
+        if found is None:
+            holder = next((name for name, given in numbers.registers.items() if str(given) == number), "")
+            digits = holder[3:-1].partition(":")[0]
+            found = self.kept.get(int(digits)) if digits.isdigit() else None
+        return found
 
     def setup(self) -> Iterator[Line]:
         """What gives the numbers their constant values at the start."""
@@ -143,6 +150,35 @@ def _table_element(value: ir.Expression, kind: str) -> ir.Expression | None:
 
 def _number_text(index: ir.Expression, expressions: Expressions) -> str:
     return expressions.operand(index)
+
+
+def kept_registers(program: ir.Program) -> dict[int, tuple[float, ...]]:
+    """Position registers that are set once, to a constant pose: x, y, z, a, b, c (mm, deg)."""
+    values: dict[int, list[tuple[float, ...] | None]] = {}
+    scopes = ProgramScope(program)
+    for module in program.modules:
+        for routine in module.routines:
+            scope = scopes.routine(module, routine)
+            points = {one.name: one.initial for one in routine.declarations if isinstance(one, ir.Variable)}
+            for node in walk(routine):
+                if not isinstance(node, ir.Assign):
+                    continue
+                match node.target:
+                    case ir.Index(base=ir.Name(id="PR"), indices=(ir.IntLiteral(value=number),)):
+                        values.setdefault(number, []).append(_kept(node.value, points, scope))
+                    case ir.Field(base=ir.Index(base=ir.Name(id="PR"), indices=(ir.IntLiteral(value=number),))):
+                        values.setdefault(number, []).append(None)
+                    case ir.Index(base=ir.Name(id="PR")) | ir.Field(base=ir.Index(base=ir.Name(id="PR"))):
+                        return {}
+    return {number: found[0] for number, found in values.items() if len(found) == 1 and found[0] is not None}
+
+
+def _kept(value: ir.Expression, points: Mapping[str, ir.Expression | None], scope: Scope) -> tuple[float, ...] | None:
+    given = points.get(value.id) if isinstance(value, ir.Name) else value
+    try:
+        return None if given is None else constant_pose(given, scope)
+    except CannotSayError:
+        return None
 
 
 def highest_free_registers(program: ir.Program) -> tuple[int, int]:

@@ -46,6 +46,31 @@ def choose_postures(points: Points, frames: Frames, robot: RobotModel) -> list[i
     return filled
 
 
+def assumed_postures(points: Points, frames: Frames, robot: RobotModel, first: tuple[float, ...]) -> list[int]:
+    """Flags for poses that no move goes to as they are (registers get them), nearest to the joints `first` (else the
+    arm's home), with the only tool and frame that the program has."""
+    make = registry.dialect("tp").notation
+    if make is None:
+        return []
+    notation, filled = make(), []
+    near = _array(first) if len(first) == robot.axes else robot.home
+    moved_to = {number for number, _, _ in points.order}
+    for number, position in points.found.items():
+        if position.kind != "pose" or position.flags or number in moved_to or number in points.recorded:
+            continue
+        flange = _flange(position, _usual("UFRAME", frames), _usual("UTOOL", frames), frames)
+        joints = None if flange is None else robot.nearest(flange, near)
+        if joints is not None:
+            points.found[number] = position.with_flags(notation.encode(robot, joints))
+            filled.append(number)
+    return filled
+
+
+def _usual(word: str, frames: Frames) -> str:
+    """The number that the program selects, when it selects one beside that of nothing at all."""
+    return frames.only(word) or next(iter(sorted(frames.selected[word] - {"0"})), "0")
+
+
 def _flange(position: Position, frame: str, tool: str, frames: Frames) -> FloatArray | None:
     import numpy as np
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.scope import ProgramScope, Scope
+from rpl.source import NOWHERE
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.target import OutputFile, WriteContext
 
@@ -19,16 +20,18 @@ from .assignments import Assignments
 from .dumps import dump_files
 from .expressions import CannotSayError, Expressions
 from .flow import Labels
-from .frames import Frames, highest_free_registers
+from .frames import Frames, highest_free_registers, kept_registers
 from .lines import Line
 from .own import monitors_of, quiet_routines, steps_in
 from .positions import Points, point_number
-from .posture import choose_postures
+from .posture import assumed_postures, choose_postures
 from .statements import Printer
 from .texts import comment
 
 if TYPE_CHECKING:
     from jinja2 import Environment
+
+    from rpl.emulator.model import RobotModel
 
 LOST_DECLARATION = code(
     "tp-lost-declaration", Severity.LOSS, "TP has no place for {name}: {reason}", "it is left as a remark"
@@ -36,6 +39,11 @@ LOST_DECLARATION = code(
 LOST_ROUTINE = code("tp-lost-routine", Severity.LOSS, "TP cannot say this about {name}: {reason}", "it is left out")
 TEXT_CASE = code(
     "tp-text-case", Severity.WARNING, "{name} compares texts; TP takes capital and small letters for the same"
+)
+ASSUMED = code(
+    "tp-posture-assumed",
+    Severity.INFO,
+    "{point} has no posture in the source; it gets the one that the program begins with",
 )
 SAME_NAME = code(
     "tp-same-name", Severity.ERROR, "two programs would be called {name}", "rename one; TP's programs are all global"
@@ -87,7 +95,7 @@ class _Writer:
         self.program, self.context, self.ledger = program, context, ledger
         self.diagnostics = context.diagnostics
         self.scopes = ProgramScope(program)
-        self.frames = Frames(*highest_free_registers(program))
+        self.frames = Frames(*highest_free_registers(program), kept=kept_registers(program))
         self.names = {**_labels_of_registers(program), **context.register_names}
         self.entries = _entries(program)
         self.monitors = monitors_of(program)
@@ -211,9 +219,21 @@ class _Writer:
             robot = self.context.robot
             if robot is not None and listing.name not in self.from_listings:
                 choose_postures(listing.points, self.frames, robot)
+                self.assumed(listing, listings, robot)
             for task in tasks:
                 if task.cyclic and task.entry.upper() == listing.name:
                     _repeat(listing)
+
+    def assumed(self, listing: Listing, listings: list[Listing], robot: RobotModel) -> None:
+        """Poses that registers get: their posture is the one the program begins with."""
+        first = [
+            one.points.found[number]
+            for one in sorted(listings, key=lambda one: not one.entry)
+            for number, _, _ in one.points.order
+            if number in one.points.found and one.points.found[number].kind == "joints"
+        ]
+        for number in assumed_postures(listing.points, self.frames, robot, first[0].values if first else ()):
+            self.diagnostics.report(ASSUMED, NOWHERE, point=f"{listing.name} P[{number}]")
 
     def standard_frames(self, listing: Listing, listings: list[Listing]) -> list[Line]:
         """World and flange where a program moves before it selects anything: a controller keeps what was selected
