@@ -33,6 +33,9 @@ MIXED = code(
 NO_BANK = code("no-register", Severity.LOSS, "{name}: the target has no numbered storage for this type")
 
 
+_CHOSEN = 100_000  # an array whose element is chosen at run time decides the type of its bank
+
+
 @dataclass(slots=True)
 class Wanted:
     """A variable that wants numbers: `key` and other names it may have had, elements (1: no array), its declaration."""
@@ -167,13 +170,15 @@ def main_types(wanted: Iterable[Wanted]) -> dict[str, ir.Type]:
     types: dict[tuple[str, str], ir.Type] = {}
     for one in wanted:
         kind = one.type.__class__.__name__
-        weight = 100_000 if one.chosen else 0 if one.alone else 1
+        weight = _CHOSEN if one.chosen else 0 if one.alone else 1
         counts.setdefault(one.bank.name, Counter())[kind] += weight
         types.setdefault((one.bank.name, kind), one.type)
     found: dict[str, ir.Type] = {}
     for bank, kinds in counts.items():
         if "RealType" in kinds and "IntType" in kinds:
             found[bank] = ir.RealType()
+        elif min(kinds["PoseType"], kinds["TargetType"]) >= _CHOSEN:
+            found[bank] = types[bank, "TargetType"]  # a pose is a target that leaves the posture open
         else:
             found[bank] = types[bank, kinds.most_common(1)[0][0]]
         if isinstance(found[bank], ir.StringType):
@@ -184,5 +189,7 @@ def main_types(wanted: Iterable[Wanted]) -> dict[str, ir.Type]:
 def fits(one: Wanted, main: ir.Type) -> bool:
     """Can it be an element of the bank's array?"""
     if isinstance(main, ir.NUMBER_TYPES) and isinstance(one.type, ir.NUMBER_TYPES):
+        return True
+    if one.chosen and isinstance(main, ir.TargetType) and isinstance(one.type, ir.PoseType):
         return True
     return one.type.__class__ is main.__class__

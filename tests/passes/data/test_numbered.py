@@ -186,3 +186,25 @@ def test_any_program_shows_the_same(body: list[str]) -> None:
     _, given_ = numbered(main("\n".join((*body, *end)), data, outside))
     assert given_.register_names["R", 7] == "R7"
     assert not given_.diagnostics.has_errors
+
+
+BOTH = """MODULE m
+    VAR shelf: ARRAY[2] OF TARGET = {{x: 400, y: 0, z: 30, a: 0, b: 90, c: 0}, {x: 420, y: 0, z: 30, a: 0, b: 90, c: 0}}
+    VAR tools: ARRAY[2] OF POSE = {{x: 0, y: 0, z: 10, a: 0, b: 0, c: 0}, {x: 0, y: 0, z: 20, a: 0, b: 0, c: 0}}
+    PROCEDURE main()
+        VAR i: INT
+        FOR i = 1 TO 2
+            $tool = tools[i]
+            MOVE LINEAR TO shelf[i]
+        END FOR
+    END PROCEDURE
+END MODULE
+"""
+
+
+def test_poses_and_targets_chosen_at_run_time_share_a_bank() -> None:
+    before = read(BOTH)
+    given_ = context(before, NUMBERED)
+    same(before, PASSES, given_, robot="kuka_kr6r900sixx", entry="main")
+    assert not given_.diagnostics.has_errors
+    assert given_.register_names["PR", 3] == "tools[1]"
