@@ -31,20 +31,22 @@ class Severity(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Code:
-    """One kind of report. `template` is filled with the report's arguments; `help` says what the user can do."""
+    """One kind of report. `template` is filled with the report's arguments; `help` says what the user can do. `stops`:
+    the statement stays for the writer, which puts the target's stop there and need not report it once more."""
 
     name: str
     severity: Severity
     template: str
     help: str = ""
+    stops: bool = False
 
 
 _CODES: dict[str, Code] = {}
 
 
-def code(name: str, severity: Severity, template: str, help: str = "") -> Code:
+def code(name: str, severity: Severity, template: str, help: str = "", stops: bool = False) -> Code:
     """Declare a code (kebab-case name). The same name with another meaning is refused."""
-    new = Code(name, severity, template, help)
+    new = Code(name, severity, template, help, stops)
     if _CODES.setdefault(name, new) != new:
         raise InternalError(f"diagnostic code {name!r} is declared twice with different meanings")
     return new
@@ -112,6 +114,25 @@ class Diagnostics:
     def __len__(self) -> int:
         return len(self.items)
 
+    def drop_repeated(self, first: int, written: int) -> None:
+        """Takes out losses that a writer (reports from `written` on) names at a place where a pass (from `first` on)
+        has already said why the program stops there, and losses that say the same at the same place."""
+        stopped = {
+            _place(item)
+            for item in self.items[first:written]
+            if item.code.stops and item.severity == Severity.LOSS and item.origin.source
+        }
+        kept = list(self.items[:first])
+        seen: set[tuple[object, ...]] = set()
+        for at, item in enumerate(self.items[first:], first):
+            if item.severity == Severity.LOSS and item.origin.source:
+                key = (*_place(item), item.code.name, item.message)
+                if key in seen or (at >= written and _place(item) in stopped):
+                    continue
+                seen.add(key)
+            kept.append(item)
+        self.items[:] = kept
+
     def of(self, severity: Severity) -> list[Diagnostic]:
         return [item for item in self.items if item.severity == severity]
 
@@ -122,6 +143,10 @@ class Diagnostics:
     @property
     def has_losses(self) -> bool:
         return any(item.severity == Severity.LOSS for item in self.items)
+
+
+def _place(item: Diagnostic) -> tuple[object, ...]:
+    return item.origin.file, item.origin.line, item.origin.column
 
 
 def sarif(items: Iterable[Diagnostic]) -> str:

@@ -55,8 +55,10 @@ def translate_program(
     renamed: dict[str, str] = {}
     if source != target_name:
         program, renamed = rename(program, capabilities.names)
+    legalised = len(collector)
     given = WriteContext(collector, second, options or {}, context.register_names, context.foreign)
     files = target.write(program, given)
+    collector.drop_repeated(before, legalised)
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
     named = _with_signals(program, context)
     return Translation(tuple(files), named, renamed, losses, dict(context.register_names), dict(context.register_types))

@@ -302,6 +302,42 @@ PROCEDURE rpl_text_map(REFERENCE result: STRING, REFERENCE t: STRING, REFERENCE 
     END FOR
 END PROCEDURE
 """,
+    # Target's own reading of a number; a text without one stops the program, as it does where it comes from.
+    "rpl_text_value": """
+FUNCTION rpl_text_value(REFERENCE t: STRING): REAL
+    VAR value: REAL
+    VAR good: BOOL
+    good = parse_number(t, value)
+    IF NOT good THEN
+        MESSAGE "no number in a text"
+        HALT
+    END IF
+    RETURN value
+END FUNCTION
+""",
+    "rpl_character_code": """
+FUNCTION rpl_character_code(REFERENCE t: STRING): INT
+    VAR code: INT
+    code = to_code(t[1])
+    RETURN code
+END FUNCTION
+""",
+    "rpl_from_code": """
+PROCEDURE rpl_from_code(REFERENCE result: STRING, code: INT)
+    text_clear(result)
+    result[1] = to_char(code)
+END PROCEDURE
+""",
+    "rpl_padded": """
+FUNCTION rpl_padded(t: STRING, width: INT): STRING
+    VAR done: STRING
+    done = t
+    WHILE text_length(done) < width
+        done = " " & done
+    END WHILE
+    RETURN done
+END FUNCTION
+""",
     "rpl_text_member": """
 FUNCTION rpl_text_member(REFERENCE t: STRING, place: INT, REFERENCE signs: STRING): BOOL
     VAR k: INT
@@ -354,6 +390,8 @@ class Helpers:
         if not self.names:
             return program
         text = "\n".join(_TEXTS[helper] for helper in self.names)
+        if self.context.capabilities.text_results:
+            text = text.replace("REFERENCE ", "")  # texts are values there
         text = _NAME.sub(lambda match: self.names.get(match[0], match[0]), text)
         diagnostics = Diagnostics()
         source = source_from_text("rpl_support.rpl", f"MODULE rpl_support\n{text}END MODULE\n")

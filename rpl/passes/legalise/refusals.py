@@ -17,14 +17,15 @@ from rpl.passes.legalise.usage import bodies
 CRITICAL = code(
     "critical-section-lost", Severity.LOSS, "the target cannot keep other tasks from running in a section of a program"
 )
-TASK = code("task-control-lost", Severity.LOSS, "the target's programs cannot {what} another task ({name})")
+TASK = code("task-control-lost", Severity.LOSS, "the target's programs cannot {what} another task ({name})", stops=True)
 INTERRUPT = code(
     "interrupt-lost",
     Severity.LOSS,
     "the target has no interrupts; {action} does not run when the condition comes true",
     "watch the condition in a task of its own or with the controller's monitoring function",
+    stops=True,
 )
-SEARCH = code("search-lost", Severity.LOSS, "the target's moves do not watch a condition on their way")
+SEARCH = code("search-lost", Severity.LOSS, "the target's moves do not watch a condition on their way", stops=True)
 _WHAT = {"start": "start", "stop": "end", "pause": "halt", "resume": "go on with", "join": "wait for the end of"}
 _INTERRUPTS = frozenset(("DeclareInterrupt", "ConnectInterrupt"))
 

@@ -16,7 +16,7 @@ from rpl.passes.legalise.effects import everything
 from rpl.passes.legalise.helpers import Helpers
 from rpl.passes.legalise.usage import base_name
 
-_SPECIFICATION = re.compile(r"%(?:(%)|(?:\.(\d+))?l?([diufgsc]))")  # a width would need padding
+_SPECIFICATION = re.compile(r"%(?:(%)|(\d+)?(?:\.(\d+))?l?([diufgsc]))")
 _PARAMETER = re.compile(r"%([1-9])")
 _DEFAULT_DECIMALS = 6
 # Functions with a text as result, as procedures of the helper module that write their first parameter.
@@ -25,13 +25,20 @@ _WRITERS = {
     "text_upper": "rpl_text_upper",
     "text_lower": "rpl_text_lower",
     "text_map": "rpl_text_map",
+    "from_code": "rpl_from_code",
 }
 _READERS = {
     "text_find_any": "rpl_text_find_any",
     "text_match": "rpl_text_match",
     "text_member": "rpl_text_member",
+    "text_value": "rpl_text_value",
+    "character_code": "rpl_character_code",
 }
-_NUMBERS = ("number_text", "value_text")
+_PLACES = (ir.Name, ir.Index, ir.Field)
+_NUMBERS = ("number_text", "value_text", "format")
+# Any specification of a C-like format; the kinds that a formatted write knows.
+_ANY_SPECIFICATION = re.compile(r"%([-+0 #]*\d*)(?:\.(\d+))?l?(.)")
+_KINDS = "diufegxsc%"
 
 
 class TextHoister(Hoister):
@@ -95,17 +102,25 @@ class TextHoister(Hoister):
     def pieces(self, expression: ir.Expression) -> tuple[ir.Body, list[ir.Expression]]:
         """The parts of a concatenation in order, their own operands done."""
         parts = list(_flat(expression))
-        inner = [
-            part.arguments[0] if isinstance(part, ir.Builtin) and self._formatted(part) else part for part in parts
-        ]
+        inner = [one for part in parts for one in (self.shown(part) or (part,))]
         before, values = self.several(inner, [False] * len(inner))
+        given = iter(values)
         done: list[ir.Expression] = []
-        for part, value in zip(parts, values, strict=True):
-            if isinstance(part, ir.Builtin) and self._formatted(part):
-                done.append(replace(part, arguments=(value, *part.arguments[1:])))
-            else:
-                done.append(value)
+        for part in parts:
+            shown = self.shown(part)
+            if shown is None or not isinstance(part, ir.Builtin):
+                done.append(next(given))
+                continue
+            new = tuple(next(given) for _ in shown)
+            kept = part.arguments
+            done.append(replace(part, arguments=(*kept[:1], *new) if part.function == "format" else (*new, *kept[1:])))
         return before, done
+
+    def shown(self, part: ir.Expression) -> tuple[ir.Expression, ...] | None:
+        """The values that a formatted piece shows; None for a piece that is a text by itself."""
+        if not isinstance(part, ir.Builtin) or not self._formatted(part):
+            return None
+        return part.arguments[1:] if part.function == "format" else part.arguments[:1]
 
     def _formatted(self, part: ir.Expression) -> bool:
         return isinstance(part, ir.Builtin) and part.function in _NUMBERS and self.template((part,)) is not None
@@ -171,12 +186,40 @@ class TextHoister(Hoister):
                         return None
                     template += "%d" if isinstance(type, ir.IntType) else "%g"
                     values.append(number)
-                case ir.Builtin(function="number_text"):
+                case ir.Builtin(function="format", arguments=(ir.TextLiteral(value=form), *shown)):
+                    fitting = self.fitting(form, shown)
+                    if fitting is None:
+                        return None
+                    template += fitting
+                    values.extend(shown)
+                case ir.Builtin(function="number_text" | "format"):
                     return None
                 case _:
                     template += "%c" if isinstance(self.editor.type_of(piece), ir.CharType) else "%s"
                     values.append(piece)
         return template, values
+
+    def fitting(self, form: str, values: Sequence[ir.Expression]) -> str | None:
+        """A C-like format with the kinds that the values' types ask for; None when it cannot be said."""
+        rest = list(values)
+
+        def one(found: re.Match[str]) -> str:
+            kind = found[3]
+            if kind == "%":
+                return "%%"
+            if kind not in _KINDS or not rest:
+                raise ValueError(found[0])
+            type = self.editor.type_of(rest.pop(0))
+            if kind in "diu" and isinstance(type, ir.RealType):
+                return f"%{found[1]}.0f"
+            digits = f".{found[2]}" if found[2] else ""
+            return f"%{found[1]}{digits}{kind}"
+
+        try:
+            done = _ANY_SPECIFICATION.sub(one, form)
+        except ValueError:
+            return None
+        return None if rest else done
 
     # ---- other functions of texts
 
@@ -184,7 +227,7 @@ class TextHoister(Hoister):
         """A function of texts as a helper: its texts are variables, also the one that it gives."""
         if not isinstance(expression, ir.Builtin) or expression.function in self.editor.capabilities.functions:
             return None
-        if expression.function in _READERS:
+        if expression.function in _READERS and self.readable(expression.function):
             before, values = self.variables(expression.arguments)
             return before, self.helpers.call(_READERS[expression.function], *values)
         helper = _WRITERS.get(expression.function)
@@ -195,12 +238,20 @@ class TextHoister(Hoister):
         arguments = tuple(ir.Argument(value) for value in (text, *values))
         return (*before, ir.CallRoutine(self.helpers.name(helper), arguments)), text
 
+    def readable(self, function: str) -> bool:
+        """Can the helper for it be said in the target?"""
+        can = self.editor.capabilities
+        if function == "text_value":
+            return "parse_number" in can.procedures
+        return can.texts and not can.banks and "CharType" in can.types
+
     def variables(self, values: Sequence[ir.Expression]) -> tuple[ir.Body, list[ir.Expression]]:
         """Texts that are passed by reference have to be variables."""
         before: list[ir.Statement] = []
         done: list[ir.Expression] = []
         for value in values:
-            if not isinstance(value, ir.TextLiteral):
+            held = isinstance(value, _PLACES) or not isinstance(self.editor.type_of(value), ir.StringType)
+            if held or (self.editor.capabilities.text_results and not isinstance(value, ir.TextLiteral)):
                 done.append(value)
                 continue
             kept = self.editor.temporary("text", ir.StringType())
@@ -212,6 +263,10 @@ class TextHoister(Hoister):
         """A function of texts in terms of others."""
         arguments = expression.arguments
         match expression.function, arguments:
+            case "from_code", (ir.IntLiteral(value=code) | ir.RealLiteral(value=code),) if _printable(int(code)):
+                return ir.TextLiteral(chr(int(code)))
+            case "character_code", (ir.TextLiteral(value=text),) if text:
+                return ir.IntLiteral(ord(text[0]))
             case "text_find", (text, start, wanted) if "text_match" in self.editor.capabilities.functions:
                 # the other function says length + 1 where this one says 0
                 found = ir.Builtin("text_match", (text, start, wanted))
@@ -241,11 +296,16 @@ class TextHoister(Hoister):
             return value
         return ir.Builtin("value_text", (value,))
 
+    def padded(self, piece: ir.Expression, width: int) -> ir.Expression:
+        """Blanks in front, up to the width."""
+        return self.helpers.call("rpl_padded", piece, ir.IntLiteral(width))
+
     def from_template(self, template: str, values: Sequence[ir.Expression]) -> ir.Expression | None:
         """A C-like format as a concatenation; None when it has more than plain specifications."""
         pieces: list[ir.Expression] = []
         rest = list(values)
         at = 0
+        template = re.sub(r"(?<!%)% ([\d.]*[dfg])", r" %\1", template)  # a blank where there is no minus sign
         for found in _SPECIFICATION.finditer(template):
             if "%" in template[at : found.start()]:
                 return None
@@ -254,23 +314,30 @@ class TextHoister(Hoister):
             if found[1]:
                 pieces.append(ir.TextLiteral("%"))
                 continue
-            if not rest:
+            if not rest or (found[2] or "").startswith("0"):
                 return None
             value = rest.pop(0)
-            match found[3]:
+            piece: ir.Expression
+            match found[4]:
                 case "d" | "i" | "u":
-                    pieces.append(ir.Builtin("number_text", (value, ir.IntLiteral(0))))
+                    piece = ir.Builtin("number_text", (value, ir.IntLiteral(0)))
                 case "f":
-                    decimals = int(found[2]) if found[2] else _DEFAULT_DECIMALS
-                    pieces.append(ir.Builtin("number_text", (value, ir.IntLiteral(decimals))))
+                    decimals = int(found[3]) if found[3] else _DEFAULT_DECIMALS
+                    piece = ir.Builtin("number_text", (value, ir.IntLiteral(decimals)))
                 case "g":
-                    pieces.append(ir.Builtin("value_text", (value,)))
+                    piece = ir.Builtin("value_text", (value,))
                 case _:
-                    pieces.append(value)
+                    piece = value
+            pieces.append(self.padded(piece, int(found[2])) if found[2] else piece)
         if "%" in template[at:]:
             return None
         pieces.append(ir.TextLiteral(template[at:]))
         return _joined(pieces)
+
+
+def _printable(code: int) -> bool:
+    """May the character stand in a text as it is, in any language?"""
+    return 32 <= code <= 126 and chr(code) not in "\"'\\"
 
 
 def _flat(expression: ir.Expression) -> Sequence[ir.Expression]:
