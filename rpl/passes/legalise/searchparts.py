@@ -1,7 +1,7 @@
 """Search moves in the form that the target has: some give the place they found, some only say whether they did.
 
 A target that only says it: the robot stands at the place then, unless it went on. A target that only gives the place
-gets a variable for it; whether anything was found it cannot say, which is reported.
+gets a variable for it; whether anything was found, an error handler finds out where the target has them.
 """
 
 from __future__ import annotations
@@ -28,14 +28,51 @@ def search_parts(program: ir.Program, context: Context) -> ir.Program:
     raises = _NOT_FOUND in rules_of(context.source).errors
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        missed: list[ir.Name] = []
+
         def change(statement: ir.Statement) -> ir.Body:
             if isinstance(statement, ir.Move) and statement.search is not None:
+                if _by_handler(statement.search, editor, raises):
+                    if not missed:
+                        missed.append(editor.temporary("missed", ir.BoolType()))
+                    return _handled(statement, statement.search, editor, missed[0])
                 return _fitted(statement, statement.search, editor, raises)
             return (inside(statement, lambda inner: map_body(inner, change)),)
 
-        return edit_bodies(routine, lambda body: map_body(body, change))
+        done = edit_bodies(routine, lambda body: map_body(body, change))
+        if not missed:
+            return done
+        said: ir.Body = (ir.Assign(missed[0], ir.BoolLiteral(True)), ir.TryNext())
+        return replace(done, handlers=(ir.Handler((ir.Name(_NOT_FOUND),), said), *done.handlers))
 
     return edit_routines(program, context, work)
+
+
+def _by_handler(search: ir.Search, editor: Editor, raises: bool) -> bool:
+    """Can only an error handler find out what the program asks for, whether the condition came true?"""
+    can = editor.capabilities
+    unknown = search.hit is not None and "hit" not in can.search_results
+    named = _NOT_FOUND in rules_of(editor.context.target).errors
+    return unknown and named and can.error_handlers and not raises and search.stop != "none"
+
+
+def _handled(move: ir.Move, search: ir.Search, editor: Editor, missed: ir.Name) -> ir.Body:
+    """A search that raises an error where it finds nothing. Where the condition holds at once there is no move."""
+    assert search.hit is not None  # as the caller has found
+    place = search.found or editor.temporary("found", ir.TargetType(editor.context.source))
+    way: ir.Body = (
+        ir.Assign(missed, ir.BoolLiteral(False)),
+        replace(move, search=replace(search, found=place, hit=None)),
+        ir.Assign(search.hit, ir.Unary("not", missed)),
+    )
+    if search.edge == "either":
+        return expansion(move.origin, way)
+    there = search.condition if search.edge == "rising" else ir.Unary("not", search.condition)
+    at_once: list[ir.Statement] = [ir.Assign(search.hit, ir.BoolLiteral(True))]
+    if search.found is not None:
+        at_once.append(ir.Assign(search.found, ir.Builtin("current_target", ())))
+    inner = tuple(replace(one, origin=replace(move.origin, comments=())) for one in way)
+    return expansion(move.origin, (ir.If(((there, tuple(at_once)),), inner),))
 
 
 def _fitted(move: ir.Move, search: ir.Search, editor: Editor, raises: bool) -> ir.Body:
