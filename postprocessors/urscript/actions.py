@@ -43,8 +43,21 @@ class Actions:
                 self.later(statement)
             case ir.Message():
                 self.message(statement)
+            case ir.Clock(op=op, clock=clock):
+                name, runs = self.watch(clock)
+                printer.line(f"{runs} = {op == 'start'}", origin)
+                if op == "reset":
+                    printer.more(f"{name} = 0.0")
             case _:
                 printer.line(self.simple(statement), origin)
+
+    def watch(self, clock: ir.Expression) -> tuple[str, str]:
+        """The variables of a stop watch: the seconds, and whether it runs."""
+        name = clock.id if isinstance(clock, ir.Name) else ""
+        runs = self.printer.output.watches.get(name)
+        if runs is None:
+            raise UnsayableError("a stop watch that is not a variable of the program")
+        return name, runs
 
     def simple(self, statement: ir.Statement) -> str:
         match statement:
@@ -222,10 +235,11 @@ class Actions:
             raise UnsayableError(f"there is no message of kind {message.kind}")
         text = message.text
         option = _MESSAGES[message.kind]
-        if option:
+        if option or (message.kind == "notify" and message.sender is not None):  # a log has no place for the sender
             title = self.expressions.text(message.sender) if message.sender is not None else ""
-            heading = f", title={title}" if title else ""
-            printer.line(f"popup({self.expressions.text(text)}{heading}, {option})", message.origin)
+            heading = f"title={title}" if title else ""
+            shown = (self.expressions.text(text), heading, option)
+            printer.line(f"popup({', '.join(one for one in shown if one)})", message.origin)
             return
         if message.sender is not None:
             text = ir.Binary("&", ir.Binary("&", message.sender, ir.TextLiteral(": ")), text)

@@ -11,7 +11,8 @@ _FURTHER = "abcdefghijklmnopqrstuvwxyz0123456789_"
 CAPABILITIES = Capabilities(
     statements=tables.words(
         """Assign CallRoutine If Switch For While Repeat Loop ExitLoop NextPass Return Halt Wait WaitUntil
-        WaitForMotion Pulse SetAfter StopMotion Message Dialog Do TaskControl Critical Nothing Move Vendor Opaque"""
+        WaitForMotion Pulse SetAfter StopMotion Clock Message Dialog Do TaskControl Critical Nothing Move Vendor
+        Opaque"""
     ),
     functions=frozenset(
         (
@@ -22,13 +23,15 @@ CAPABILITIES = Capabilities(
             *("offset", "tool_offset", "displaced", "displaced_in_tool", "distance", "magnitude", "pose_of"),
             *("current_target", "current_joints", "target_to_joints", "joints_to_target"),
             *("rotation_vector_x", "rotation_vector_y", "rotation_vector_z", "pose_from_rotation_vector"),
-            *("dimension", "target_to_joints_near", "is_reachable", "pose_sum", "pose_difference"),
+            *("clock_seconds", "dimension", "target_to_joints_near", "is_reachable", "pose_sum", "pose_difference"),
         )
     ),
     procedures=tables.words("increment decrement clear text_append text_copy text_clear"),
     system_variables=tables.words("tool load null_frame world actual_pose actual_joints actual_joint flag"),
     operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary, *tables.OPERATOR_FUNCTIONS)),
-    types=tables.words("IntType RealType BoolType StringType PoseType TargetType JointsType NamedType ArrayType"),
+    types=tables.words(
+        "IntType RealType BoolType StringType PoseType TargetType JointsType NamedType ArrayType ClockType"
+    ),
     names=NameRules(
         longest=tables.LONGEST_NAME,
         case_sensitive=True,

@@ -361,6 +361,7 @@ _SPECIAL: dict[str, _Special] = {
     "exp": lambda e, v: f"pow({_E}, {e.text(v[0])})",
     "log": lambda e, v: f"log({_E}, {e.text(v[0])})",
     "log10": lambda e, v: f"log(10, {e.text(v[0])})",
+    "clock_seconds": lambda e, v: e.text(v[0]),
     "round": lambda e, v: e.rounded("rpl_rounded", v),
     "trunc": lambda e, v: e.rounded("rpl_trunc", v),
     "fraction": Expressions.fraction,

@@ -47,6 +47,17 @@ class Output:
     taken: set[str]
     notes: Notes = field(default_factory=Notes)
     threads: list[tuple[str, ...]] = field(default_factory=list)
+    watches: dict[str, str] = field(default_factory=dict)  # stop watch -> the variable that says whether it runs
+    counting: list[str] = field(default_factory=list)  # threads that run from the beginning
+
+    def watch(self, name: str) -> tuple[str, str]:
+        """The data of a stop watch: the seconds, which a thread counts, and whether it runs."""
+        runs, thread = self.fresh(f"{name}_on"), self.fresh(f"{name}_count")
+        self.watches[name] = runs
+        self.counting.append(thread)
+        count = (f"    if {runs}:", f"      {name} = {name} + get_steptime()", "    end")
+        self.threads.append((f"thread {thread}():", "  while True:", "    sync()", *count, "  end", "end"))
+        return f"{name} = 0.0", f"{runs} = False"
 
     def fresh(self, stem: str) -> str:
         """A name that nothing in the program has."""

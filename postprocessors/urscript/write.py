@@ -131,6 +131,12 @@ class _Script:
         origin = declaration.origin
         try:
             match declaration:
+                case ir.Variable(name=name, type=ir.ClockType()):
+                    if word != "global":
+                        raise UnsayableError("a stop watch of a routine")
+                    seconds, runs = self.output.watch(name)
+                    printer.line(f"global {seconds}", origin)
+                    printer.more(f"global {runs}")
                 case ir.Variable():
                     printer.line(variable_line(declaration, printer.expressions, word), origin)
                 case ir.RecordDeclaration() | ir.ExternalDeclaration() | ir.Unread(text=""):
@@ -199,7 +205,8 @@ class _Script:
     def body(self) -> list[str]:
         """What the script does: start the tasks beside it, then the statements of the routine it starts with."""
         first = self.program.modules[0]
-        started = [f"{INDENT}run {task.entry}()" for task in self.tasks.values()]
+        busy = (*(task.entry for task in self.tasks.values()), *self.output.counting)
+        started = [f"{INDENT}run {name}()" for name in busy]
         start = self.start
         if start is None:
             return started

@@ -110,6 +110,7 @@ def _when(difference: Difference) -> float:
     return min(times, default=0.0)
 
 
+Tasks = dict[str, tuple[Happening, ...]]
 Pair = tuple[str, tuple[Happening, ...], tuple[Happening, ...]]
 
 
@@ -119,6 +120,8 @@ def _paired(a: Record, b: Record) -> list[Pair] | Difference:
         return [(name, ours, theirs)]
     left = {name.lower(): happenings for name, happenings in a.tasks.items()}
     right = {name.lower(): happenings for name, happenings in b.tasks.items()}
+    if a.language != b.language:
+        left, right = _with_helpers(left, right), _with_helpers(right, left)
     if set(left) != set(right):
         lone = sorted(set(left) ^ set(right))[0]
         there = "A" if lone in left else "B"
@@ -131,6 +134,18 @@ def _paired(a: Record, b: Record) -> list[Pair] | Difference:
             lone,
         )
     return [(name, left[name], right[name]) for name in left]
+
+
+def _with_helpers(tasks: Tasks, others: Tasks) -> Tasks:
+    """Tasks that only one language needs, for what the other's controller does by itself, are a part of the first task:
+    what they switch and say is, not that they wait and end."""
+    first = next(iter(tasks), "")
+    extra = [name for name in tasks if name not in others and name != first]
+    if not extra or first not in others:
+        return tasks
+    shown = [one for name in extra for one in tasks[name] if one.kind not in ("wait", "end")]
+    kept = {name: happenings for name, happenings in tasks.items() if name not in extra}
+    return kept | {first: tuple(sorted((*tasks[first], *shown), key=lambda one: (one.kind == "end", one.t)))}
 
 
 def _task_events(

@@ -104,6 +104,15 @@ def test_one_cycle_of_another_controller_s_waiting_loop_is_no_event() -> None:
     assert compare(RUN, longer, TOLERANCE).difference is not None
 
 
+def test_helper_tasks_of_one_language_belong_to_its_first_task() -> None:
+    waits = replace(WAIT, value=1.0, times=500, longest_s=0.002)
+    tasks = {"main": (NOTE, WAIT, END), "helper": (OUT, waits, END)}
+    assert compare(RUN, replace(RUN, tasks=tasks, language="rapid"), TOLERANCE).difference is None
+    assert compare(RUN, replace(RUN, tasks=tasks), TOLERANCE).difference is not None
+    late = {"main": (NOTE, WAIT, END), "helper": (replace(OUT, t=1.5), END)}
+    assert compare(RUN, replace(RUN, tasks=late, language="rapid"), TOLERANCE).difference is not None
+
+
 def test_places_on_joint_moves_are_each_controller_s_own() -> None:
     way = line((0, 0, 0), (100, 0, 0), motion="joint")
     way = replace(way, times=way.times * 2.0)

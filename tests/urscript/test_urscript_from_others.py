@@ -14,7 +14,7 @@ from rpl.proof.wiring import with_signal_names
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
-ROBOTS = {"vplus": "adept_viper_s650", "tp": "fanuc_lrmate200id", "rpl": "ur5e", "krl": "kuka_kr6_r700_sixx"}
+ROBOTS = {"vplus": "adept_viper_s650", "tp": "fanuc_lrmate200id", "rpl": "ur5e", "krl": "kuka_kr6r700sixx"}
 SUFFIX = {"vplus": "v2", "tp": "ls", "rpl": "rpl", "krl": "src"}
 
 
@@ -116,3 +116,21 @@ def test_a_move_along_the_tool_starts_where_the_last_pass_of_a_loop_went() -> No
         END
         DEPARTS 40"""
     assert "get_actual_tcp_pose" not in equal("vplus", VPLUS.format(lines=lines))
+
+
+KRL = """DEF MAIN()
+DECL REAL SEEN
+{lines}
+END
+"""
+
+
+def test_timers_are_counted_by_a_thread() -> None:
+    lines = "$TIMER[1]=0\n$TIMER_STOP[1]=FALSE\nWAIT SEC 1.5\n$TIMER_STOP[1]=TRUE\nWAIT SEC 1.0\nSEEN=$TIMER[1]\n"
+    lines += "$OUT[1]=SEEN>1490 AND SEEN<1510\n$TIMER_STOP[1]=FALSE\nWAIT SEC 0.5\n$OUT[2]=$TIMER[1]>1990"
+    script = equal("krl", KRL.format(lines=lines))
+    assert "get_steptime()" in script
+
+
+def test_a_message_keeps_its_sender() -> None:
+    assert 'popup("late", title="cell")' in equal("krl", KRL.format(lines='MsgNotify("late","cell")'))
