@@ -67,6 +67,7 @@ CAPABILITIES = Capabilities(
     arrays=False,
     calculated_places=False,
     functions_alone=True,
+    signal_groups=False,
     move_settings=frozenset(("speed", "blend")),
     speeds=frozenset(("joint", "path", "rotation", "duration")),
     move_functions=frozenset((":", "compose", "element_sum", "displaced_in_tool", "joints_to_target", "pose_of")),

@@ -76,7 +76,8 @@ class Capabilities:
     blends: blend classes that it says (BlendStop always). move_functions: functions (and `:`) that a move's target may
     be although nothing else can: a place seen from another one, with simple operands.
 
-    declared_groups: a group of signals exists only by a declaration with a name (KRL SIGNAL).
+    declared_groups: a group of signals exists only by a declaration with a name (KRL SIGNAL). signal_groups: a group
+    can be named by its first and last signal, or a pass or the writer finds a name for it.
     """
 
     statements: frozenset[str]
@@ -142,5 +143,6 @@ class Capabilities:
     speeds: frozenset[str] = frozenset()
     blends: frozenset[str] = frozenset()
     declared_groups: bool = False
+    signal_groups: bool = True
     postures: str = "flags"
     move_functions: frozenset[str] = frozenset()
