@@ -1,0 +1,67 @@
+"""Programs of other languages in KRL: what one move is driven with, and what only steers the source's controller."""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity
+from rpl.passes.typing import normalise
+from rpl.project import ReadProgram
+from rpl.translation import translate_program
+
+FAST = ((ir.System("path_speed"), ir.Quantity(ir.RealLiteral(500.0), "mm/s")),)
+
+
+def krl(*body: ir.Statement, source: str = "vplus") -> tuple[list[str], list[str], list[str]]:
+    """The lines in KRL, the names of warnings, and what was lost."""
+    declarations = (ir.Variable("p", ir.PoseType(), scope="global"),)
+    module = ir.Module("m", source, declarations, (ir.Routine("main", body=tuple(body)),))
+    diagnostics = Diagnostics()
+    program = normalise(ir.Program((module,)), diagnostics)
+    done = translate_program(ReadProgram(program, program, (), (), (source,)), "krl", None, None, diagnostics)
+    lines = [line for file in done.files for line in file.data.decode("latin-1").splitlines()]
+    named = [item.code.name for item in diagnostics.of(Severity.WARNING)]
+    return lines, named, [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+
+
+def test_a_speed_of_one_move_is_set_back_behind_it() -> None:
+    slow = ir.Assign(ir.System("path_speed"), ir.Quantity(ir.RealLiteral(100.0), "mm/s"))
+    lines, _, lost = krl(slow, ir.Move("linear", ir.Name("p"), settings=FAST, blend=ir.BlendStop()))
+    assert not lost
+    at = lines.index("LIN p")
+    assert (lines[at - 1], lines[at + 1]) == ("$VEL.CP=0.5", "$VEL.CP=0.1")
+
+
+def test_a_speed_that_is_not_known_is_kept() -> None:
+    move = ir.Move("linear", ir.Name("p"), settings=FAST, blend=ir.BlendStop())
+    lines, _, lost = krl(ir.Assign(ir.System("path_speed"), ir.Builtin("random", ())), move)
+    assert not lost
+    at = lines.index("LIN p")
+    assert lines[at - 1] == "$VEL.CP=0.5"
+    assert "old_path_speed=" in lines[at - 2] and "old_path_speed" in lines[at + 1]
+
+
+def test_a_way_of_turning_of_one_move() -> None:
+    move = ir.Move("linear", ir.Name("p"), orientation="constant", blend=ir.BlendStop())
+    lines, _, lost = krl(move)
+    assert not lost
+    at = lines.index("LIN p")
+    assert (lines[at - 1], lines[at + 1]) == ("$ORI_TYPE=#CONSTANT", "$ORI_TYPE=#VAR")
+
+
+def test_paths_slow_down_where_the_source_does() -> None:
+    lines, _, _ = krl(ir.Move("linear", ir.Name("p"), blend=ir.BlendStop()))
+    assert "$CP_VEL_TYPE=#VAR_ALL" in lines
+    lines, _, _ = krl(ir.Assign(ir.Signal("digital_out", ir.IntLiteral(1)), ir.BoolLiteral(True)))
+    assert "$CP_VEL_TYPE=#VAR_ALL" not in lines
+
+
+def test_a_posture_that_is_asked_for_is_named() -> None:
+    ask = ir.Assign(ir.System("posture_shoulder"), ir.EnumLiteral("front"))
+    _, named, lost = krl(ask)
+    assert named == ["dropped-setting"] and not lost
+
+
+def test_a_process_move_is_a_path_move() -> None:
+    move = ir.Move("linear", ir.Name("p"), motion_class="process", blend=ir.BlendStop())
+    lines, named, lost = krl(move, source="urscript")
+    assert "LIN p" in lines and "process-move" in named and not lost
