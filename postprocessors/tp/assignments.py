@@ -35,6 +35,10 @@ class Assignments:
             case ir.Field(base=ir.System(name="actual_pose"), name=name):
                 read = self.expressions.component(ir.Index(ir.Name("PR"), (ir.IntLiteral(self.scratch),)), name)
                 return [Line(f"  PR[{self.scratch}]=LPOS"), Line(f"  {place}={read}")]
+            case ir.Builtin(function="text_value", arguments=(text,)):
+                held = self.expressions.element(text)  # a text stored in a number register becomes its number
+                if held is not None and held.startswith("SR[") and place.startswith("R["):
+                    return [Line(f"  {place}={held}")]
         if place.startswith("AR["):
             raise CannotSayError("an argument is not assigned to")
         if place.startswith(("PR[", "P[")) and not isinstance(target, ir.Field):

@@ -17,7 +17,9 @@ CAPABILITIES = Capabilities(
             *("Pulse", "Message", "Clock", "TaskControl", "Vendor", "Opaque", "Nothing", "Move"),
         )
     ),
-    functions=frozenset((*tables.FUNCTIONS, *tables.TEXT_FUNCTIONS, *tables.POSITION_FUNCTIONS, "clock_seconds")),
+    functions=frozenset(
+        (*tables.FUNCTIONS, *tables.TEXT_FUNCTIONS, *tables.POSITION_FUNCTIONS, "clock_seconds", "text_value")
+    ),
     procedures=frozenset(),
     system_variables=frozenset(
         ("tool", "base", "override", "actual_pose", "actual_joints", "timer", "timer_stopped", "null_frame", "world")
