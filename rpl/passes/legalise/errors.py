@@ -195,7 +195,10 @@ class _Passing(Hoister):
             return (statement,)
         flag = self.editor.temporary("timed_out", ir.BoolType())
         late = ir.If(((flag, (ir.Raise(self.facts.timeout_code(statement)),)),))
-        return expansion(statement.origin, (replace(statement, timed_out=flag), late))
+        waits = replace(statement, timed_out=flag)
+        if isinstance(waits, ir.WaitUntil):
+            waits = replace(waits, error=None)  # what it raises is raised behind it
+        return expansion(statement.origin, (waits, late))
 
     # ---- statements
 

@@ -223,6 +223,10 @@ class _Calls(Hoister):
                 before, arguments, behind = self.passed(statement.name, last.arguments, plan, statement)
                 call = replace(last, arguments=arguments)
                 return expansion(statement.origin, (*done[:-1], *before, call, *behind))
+            case ir.CallRoutine(arguments=arguments) if arguments and self.all_numbered(len(arguments)):
+                before, passed = self.simple_arguments(arguments)
+                call = replace(statement, arguments=passed)
+                return expansion(statement.origin, (*before, *super().statement(call)))
             case ir.CallRoutine(arguments=arguments) if arguments:
                 self.refused(
                     statement,
@@ -240,6 +244,24 @@ class _Calls(Hoister):
                 if plan is not None and plan.variables:
                     self.refused(statement, task, "it starts beside the program")
         return super().statement(statement)
+
+    def all_numbered(self, count: int) -> bool:
+        """Does every routine that takes so many arguments take them by value in argument registers?"""
+        plans = [plan for plan in self.plans.values() if len(plan.numbers) + len(plan.variables) == count]
+        return bool(plans) and not any(plan.variables for plan in plans)
+
+    def simple_arguments(self, arguments: tuple[ir.Argument, ...]) -> tuple[ir.Body, tuple[ir.Argument, ...]]:
+        """Arguments that stand in a call, and what computes them in front of it."""
+        before: list[ir.Statement] = []
+        done: list[ir.Argument] = []
+        for argument in arguments:
+            value = argument.value
+            if value is not None and not _simple(value):
+                kept = self.editor.temporary("argument", self.editor.type_of(value) or ir.RealType())
+                before.append(ir.Assign(kept, value))
+                value = kept
+            done.append(replace(argument, value=value))
+        return tuple(before), tuple(done)
 
     def action(self, statement: ir.Statement, action: ir.CallRoutine) -> None:
         plan = self.plan_of(action.name)
