@@ -32,7 +32,7 @@ _POINT = re.compile(
 def is_flip(joints: FloatArray, by: str = FLIP_BY) -> bool:
     """Flip by the sign of B, or by the quadrant of R."""
     if by == "b":
-        return bool(joints[4] >= 0.0)
+        return float(joints[4] + 180.0) % 360.0 >= 180.0  # arms whose wrist turns further: the sign within half a turn
     turned = float(joints[3]) % 360.0
     return turned <= 90.0 or turned > 270.0
 

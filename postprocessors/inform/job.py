@@ -16,7 +16,7 @@ from rpl import registry
 from . import tables
 from .cell import Cell, Kept
 from .errors import CannotSayError
-from .places import Position, matrix, values_of
+from .places import WORLD, Position, matrix, values_of
 from .texts import ascii_text, fixed
 
 if TYPE_CHECKING:
@@ -44,8 +44,6 @@ class Job:
         """The taught point for a position; `wanted` is its number when that is free."""
         if position.kind == "joints":
             frame = 0
-            if self.cell.value_of_tool(tool) is None:
-                tool = 0  # the joints are the same with any tool; that of the flange has a known value
         what = Kept(self.sayable(position, tool), tool, frame)
         if what not in self.points:
             taken = set(self.points.values())
@@ -59,10 +57,16 @@ class Job:
     def constant(self, position: Position, tool: int = 0, frame: int = 0) -> str:
         """A position variable that holds a constant."""
         if position.kind == "joints" and self.cell.value_of_tool(tool) is None:
-            tool = 0
+            tool = 0  # the joints are the same with any tool; that of the flange has a known value
         number = self.cell.keep(Kept(self.sayable(position, tool), tool, frame))
         self.positions.add(number)
         return f"P{number:03d}"
+
+    def flange_of(self, position: Position) -> Position:
+        """The flange's pose and posture at joints."""
+        if self.robot is None or any(position.external):
+            return self.sayable(position, 0)
+        return pose_of_joints(position, self.robot, WORLD)
 
     def sayable(self, position: Position, tool: int) -> Position:
         """The position as a controller can keep it: joints as pulses where they can be counted, else as a pose."""

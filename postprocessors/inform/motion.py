@@ -34,11 +34,6 @@ JOINT_CORNER = code(
     "a joint move has positioning levels, no corner distance: {distance:g} mm is written as {written}",
 )
 LEFT_OUT = code("inform-left-out", Severity.WARNING, "INFORM has no place for {what} at a move; it is left out")
-FLANGE = code(
-    "inform-flange-point",
-    Severity.WARNING,
-    "a joint position is driven to with tool 0, as the tool is kept in a variable: same joints, another tool shown",
-)
 NO_SPEED = code("inform-no-speed", Severity.WARNING, "the move says no speed; it is written without one")
 
 Number = Callable[[str, ir.Expression], None]
@@ -89,7 +84,7 @@ class Motion:
         if move.relative is not None:
             goal, shown = self.relative(move, tool)
         elif move.kind in tables.MOVES:
-            goal = self.goal(move.target, move.frame, tool, move.origin)
+            goal = self.goal(move.target, move.frame, tool)
             shown = f"{tables.MOVES[move.kind]} {goal.place}"
         else:
             raise CannotSayError(f"there is no {move.kind} move")
@@ -144,7 +139,7 @@ class Motion:
             self.positions.in_tools[number] = place
         return number
 
-    def goal(self, target: ir.Expression, frame: ir.Expression | None, tool: int, origin: Origin) -> Goal:
+    def goal(self, target: ir.Expression, frame: ir.Expression | None, tool: int) -> Goal:
         """The taught point or position variable of a target."""
         job, constants = self.positions.job, self.positions.constants
         base = Position("pose", WORLD) if frame is None else constants.known(frame)
@@ -155,7 +150,8 @@ class Motion:
             number = 0 if base is None else job.cell.frame(base.values)
             wanted = self.names.get(target.id) if isinstance(target, ir.Name) else None
             if known.kind == "joints" and job.cell.value_of_tool(tool) is None:
-                self.report_once(FLANGE, origin)
+                if job.robot is None or job.robot.pulses_per_degree is None:
+                    return Goal(self.with_computed_tool(known, tool), tool, 0, None)
             return Goal(job.point_of(known, tool, number, wanted), tool, number, known)
         if tool != job.tool:
             raise CannotSayError("positions in variables are driven to with one tool in a job, here it is another one")
@@ -170,6 +166,16 @@ class Motion:
             self.lines.append(f"MULMAT {helper} {unit} {place}")
             place = helper
         return Goal(place, tool, 0, None)
+
+    def with_computed_tool(self, joints: Position, tool: int) -> str:
+        """Joints whose tool is kept in a variable: the flange's posture, and the components of flange . tool."""
+        job, registers = self.positions.job, self.positions.registers
+        kept = job.constant(job.flange_of(joints), tool)
+        goal, reached, count = registers.helper("P"), registers.helper("P"), registers.helper("D")
+        self.lines.extend([f"SET {goal} {kept}", f"MULMAT {reached} {kept} {self.positions.in_tools[tool]}"])
+        for number in range(1, len(tables.POSE_ELEMENTS) + 1):
+            self.lines.extend([f"GETE {count} {reached} ({number})", f"SETE {goal} ({number}) {count}"])
+        return goal
 
     def is_joints(self, target: ir.Expression) -> bool:
         known = self.positions.constants.known(target)
@@ -233,7 +239,7 @@ class Motion:
         or an arc; else it is taught once more."""
         if move.via is None:
             raise CannotSayError("a circle needs its point on the way")
-        via = self.goal(move.via, move.frame, tool, move.origin)
+        via = self.goal(move.via, move.frame, tool)
         if self.line_of_last is not None and not self.lines:
             before = done[self.line_of_last]
             if before.startswith("MOVL "):

@@ -19,7 +19,7 @@ from .job import Job
 from .labels import Labels
 from .motion import Motion
 from .operands import Registers, element, numbered
-from .places import Constants
+from .places import WORLD, Constants, Position
 from .positions import Positions
 from .statements import Printer
 from .texts import remarks
@@ -202,7 +202,7 @@ class _Writer:
         positions = Positions(self.registers, job, self.constants)
         assignments = Assignments(self.registers, positions)
         positions.number = assignments.number
-        done: list[str] = []
+        done = [f"SET {place} {positions.kept(Position('pose', WORLD))}" for place in _filled(self.program)]
         for assign in self.start:
             self.registers.begin()
             try:
@@ -211,6 +211,27 @@ class _Writer:
                 self.diagnostics.report(LOST_DECLARATION, assign.origin, name="this value", reason=str(error))
                 done.append("PAUSE")
         return done
+
+
+def _filled(program: ir.Program) -> list[str]:
+    """Position variables that get their values component by component. They begin as a pose without a posture, which
+    keeps the arm's present one; SETE leaves the posture that the controller's memory happens to have."""
+    places: set[str] = set()
+    declared = {
+        numbered(ir.Name(one.name))
+        for module in program.modules
+        for one in module.declarations
+        if isinstance(one, ir.Variable)
+    }
+    for module in program.modules:
+        for routine in module.routines:
+            for node in walk(routine.body):
+                if not isinstance(node, ir.Assign) or not isinstance(node.target, ir.Field):
+                    continue
+                place = numbered(node.target.base)
+                if place is not None and place[0] == "P" and place not in declared:
+                    places.add(f"P{place[1]:03d}")
+    return sorted(places)
 
 
 def _entries(program: ir.Program) -> set[str]:
