@@ -27,6 +27,12 @@ GUARDED = code(
     "URScript cannot say this: {reason}",
     "the program stops there with halt; write the line by hand",
 )
+PATH_ACTION = code(
+    "urscript-path-action",
+    Severity.LOSS,
+    "URScript switches and calls nothing at a place on a path",
+    "the program stops there with halt; split the move, or watch the place in a thread",
+)
 TEXT_CHANGED = code(
     "urscript-text",
     Severity.WARNING,
@@ -144,7 +150,11 @@ class Printer:
         self.comments_only(statement.origin)
         self.remark(statement.origin.text or getattr(statement, "text", "") or statement.__class__.__name__)
         self.more("halt")
-        self.diagnostics.report(GUARDED, statement.origin, reason=reason)
+        match statement:
+            case ir.Trigger() | ir.DefineTrigger() | ir.Move(triggers=(_, *_)):
+                self.diagnostics.report(PATH_ACTION, statement.origin)
+            case _:
+                self.diagnostics.report(GUARDED, statement.origin, reason=reason)
         self.ledger.reported(statement)
 
     def written(self, statement: ir.Statement, rest: ir.Body) -> None:
