@@ -149,9 +149,9 @@ class Motion:
         if known is not None and (base is not None or known.kind == "joints"):
             number = 0 if base is None else job.cell.frame(base.values)
             wanted = self.names.get(target.id) if isinstance(target, ir.Name) else None
-            if known.kind == "joints" and job.cell.value_of_tool(tool) is None:
-                if job.robot is None or job.robot.pulses_per_degree is None:
-                    return Goal(self.with_computed_tool(known, tool), tool, 0, None)
+            pulses = job.robot is not None and job.robot.pulses_per_degree is not None
+            if known.kind == "joints" and not pulses and job.cell.value_of_tool(tool) is None:
+                return Goal(self.with_computed_tool(known, tool), tool, 0, None)
             return Goal(job.point_of(known, tool, number, wanted), tool, number, known)
         if tool != job.tool:
             raise CannotSayError("positions in variables are driven to with one tool in a job, here it is another one")

@@ -175,6 +175,9 @@ class Printer:
                 return "RET"
             case ir.Halt(kind=kind) if kind in _HALTS:
                 return _HALTS[kind]
+            case ir.WaitForMotion():
+                # not a move: it waits for the moves before it
+                return f"TIMER T={_POLL_S:.2f}"
             case ir.Wait(time=time):
                 return f"TIMER {self.time(time, statement.origin)}"
             case ir.Pulse(signal=ir.Signal() as given, value=ir.BoolLiteral(value=True), duration=duration):

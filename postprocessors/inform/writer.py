@@ -15,6 +15,7 @@ from . import tables
 from .assignments import Assignments
 from .cell import Cell
 from .errors import CannotSayError
+from .flags import with_flags_in_bytes
 from .job import Job
 from .labels import Labels
 from .motion import Motion
@@ -40,6 +41,7 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     same = unchanged(program)
     if same is not None:
         return same
+    program = with_flags_in_bytes(program)
     ledger = EmissionLedger()
     writer = _Writer(program, context, ledger)
     jobs = [job for module in program.modules for job in writer.module(module)]
