@@ -191,11 +191,13 @@ class Assignments:
     def remainder(self, place: str, value: ir.Binary) -> None:
         """left - left div right * right."""
         bank = bank_of(place)
-        if bank not in tables.WHOLE:
-            raise CannotSayError("a remainder is for whole numbers")
         left, right = self.simple_number(value.left, bank), self.simple_number(value.right, bank)
         helper = self.registers.helper(bank)
-        self.lines.extend([f"SET {helper} {left}", f"DIV {helper} {right}", f"MUL {helper} {right}"])
+        self.lines.extend([f"SET {helper} {left}", f"DIV {helper} {right}"])
+        if bank not in tables.WHOLE:
+            cut = self.registers.helper("D")
+            self.lines.extend([f"SET {cut} {helper}", f"SET {helper} {cut}"])
+        self.lines.append(f"MUL {helper} {right}")
         if place in (left, right) and left != place:
             other = self.registers.helper(bank)
             self.lines.extend([f"SET {other} {left}", f"SUB {other} {helper}", f"SET {place} {other}"])

@@ -20,6 +20,9 @@ SPOT = ir.Index(ir.Name("P"), (ir.IntLiteral(5),))
 POSE = ir.Aggregate(tuple((name, ir.RealLiteral(float(at))) for at, name in enumerate(("x", "y", "z", "a", "b", "c"))))
 
 
+GP7 = "motoman_gp7"
+
+
 def output(number: int) -> ir.Signal:
     return ir.Signal("digital_out", ir.IntLiteral(number))
 
@@ -49,6 +52,14 @@ def written(
         (N, ir.Binary("+", M, N), ["ADD D000 D001"]),
         (N, ir.Binary("-", M, N), ["SET D099 D000", "SET D000 D001", "SUB D000 D099"]),
         (N, ir.Binary("mod", N, M), ["SET D099 D000", "DIV D099 D001", "MUL D099 D001", "SUB D000 D099"]),
+        (
+            X,
+            ir.Binary("mod", X, Y),
+            [
+                *("SET R099 R000", "DIV R099 R001", "SET D099 R099", "SET R099 D099"),
+                *("MUL R099 R001", "SUB R000 R099"),
+            ],
+        ),
         (X, ir.Binary("*", Y, ir.RealLiteral(0.5)), ["SET R000 R001", "MUL R000 0.5"]),
         (X, ir.Builtin("sin", (Y,)), ["SIN R000 R001"]),
         (X, ir.Builtin("abs", (Y,)), ["SET R000 R001", "IFTHENEXP R000<0", "MUL R000 -1", "ENDIF"]),
@@ -71,6 +82,37 @@ def written(
 def test_assignments(place: ir.Expression, value: ir.Expression, wanted: list[str]) -> None:
     _, lines, diagnostics = written(ir.Assign(place, value))
     assert lines == wanted
+    assert not diagnostics.has_losses
+
+
+def test_flags_are_bytes() -> None:
+    """One byte for each number, from the top of the bank."""
+    one, two = (ir.Signal("flag", ir.IntLiteral(number)) for number in (1, 7))
+    _, lines, diagnostics = written(
+        ir.Assign(one, ir.BoolLiteral(True)),
+        ir.Assign(two, ir.BoolLiteral(False)),
+        ir.WaitUntil(one),
+    )
+    assert lines[:2] == ["SET B099 1", "SET B098 0"]
+    assert any("B099" in line for line in lines[2:])
+    assert not diagnostics.has_losses
+
+
+def test_waiting_for_the_robot_behind_a_label() -> None:
+    _, lines, diagnostics = written(ir.Label("again"), ir.WaitForMotion())
+    assert lines[-1] == "TIMER T=0.01"
+    assert not diagnostics.has_losses
+
+
+def test_joints_with_a_tool_in_a_variable() -> None:
+    """The posture of the flange, the place of flange and tool."""
+    home = ir.Aggregate(tuple((f"j{n}", ir.RealLiteral(v)) for n, v in enumerate((0.0, 0, 0, 0, -90, 0), 1)))
+    move = ir.Move("joint", home, tool=ir.Index(ir.Name("P"), (ir.IntLiteral(9),)))
+    head, lines, diagnostics = written(ir.Assign(ir.Index(ir.Name("P"), (ir.IntLiteral(9),)), SPOT), move, robot=GP7)
+    assert any(line.startswith("///RCONF 1,") for line in head)
+    assert lines[1] == "SETTOOL TL#(1) P009"
+    assert [line.split()[0] for line in lines[2:4]] == ["SET", "MULMAT"] and lines[3].endswith("P009")
+    assert sum(line.startswith("SETE ") for line in lines) == 6 and lines[-1].startswith("MOVJ P")
     assert not diagnostics.has_losses
 
 
