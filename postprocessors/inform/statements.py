@@ -363,10 +363,24 @@ class Printer:
 
     def polling(self, wait: ir.WaitUntil) -> None:
         """A condition that WAIT does not take is looked at again and again."""
-        if wait.timeout is not None:
-            raise CannotSayError("a wait with a limit for a condition that is more than one input or byte")
         opposite = alternatives(wait.condition, wanted=False)
-        self.put([f"WHILEEXP {text(opposite)}", f"TIMER T={_POLL_S:.2f}", "ENDWHILE"])
+        pause = f"TIMER T={_POLL_S:.2f}"
+        if wait.timeout is None:
+            self.put([f"WHILEEXP {text(opposite)}", pause, "ENDWHILE"])
+            return
+        limit = constant(wait.timeout)
+        if limit is None:
+            raise CannotSayError("a wait with a computed limit for a condition that is more than one input or byte")
+        left = self.assignments.registers.helper("D")
+        limited = [[*group, (left, ">", "0")] for group in opposite]
+        if sum(map(len, limited)) > tables.MOST_TERMS:
+            raise CannotSayError(f"a condition has at most {tables.MOST_TERMS} comparisons")
+        self.put([f"SET {left} {max(0, round(limit / _POLL_S))}", f"WHILEEXP {text(limited)}"])
+        self.put([pause, f"DEC {left}", "ENDWHILE"])
+        if wait.timed_out is not None:
+            flag = variable(wait.timed_out)
+            self.put([f"IFTHENEXP {text(alternatives(wait.condition))}", f"SET {flag} 0"])
+            self.put(["ELSE", f"SET {flag} 1", "ENDIF"])
 
     def message(self, message: ir.Message) -> None:
         if message.kind == "clear":

@@ -104,6 +104,17 @@ def test_waiting_for_the_robot_behind_a_label() -> None:
     assert not diagnostics.has_losses
 
 
+def test_limited_wait_for_a_computed_condition() -> None:
+    """Looked at every 0.01 s, as often as the limit takes."""
+    wait = ir.WaitUntil(ir.Binary(">", N, M), timeout=ir.RealLiteral(2.0), timed_out=FLAG)
+    _, lines, diagnostics = written(wait)
+    assert lines == [
+        *("SET D099 200", "WHILEEXP D000<=D001 ANDEXP D099>0", "TIMER T=0.01", "DEC D099", "ENDWHILE"),
+        *("IFTHENEXP D000>D001", "SET B003 0", "ELSE", "SET B003 1", "ENDIF"),
+    ]
+    assert not diagnostics.has_losses
+
+
 def test_joints_with_a_tool_in_a_variable() -> None:
     """The posture of the flange, the place of flange and tool."""
     home = ir.Aggregate(tuple((f"j{n}", ir.RealLiteral(v)) for n, v in enumerate((0.0, 0, 0, 0, -90, 0), 1)))
