@@ -369,14 +369,19 @@ class Printer:
             self.put([f"WHILEEXP {text(opposite)}", pause, "ENDWHILE"])
             return
         limit = constant(wait.timeout)
-        if limit is None:
-            raise CannotSayError("a wait with a computed limit for a condition that is more than one input or byte")
         left = self.assignments.registers.helper("D")
         limited = [[*group, (left, ">", "0")] for group in opposite]
         if sum(map(len, limited)) > tables.MOST_TERMS:
             raise CannotSayError(f"a condition has at most {tables.MOST_TERMS} comparisons")
-        self.put([f"SET {left} {max(0, round(limit / _POLL_S))}", f"WHILEEXP {text(limited)}"])
-        self.put([pause, f"DEC {left}", "ENDWHILE"])
+        if limit is not None:
+            self.line(f"SET {left} {max(0, round(limit / _POLL_S))}")
+        else:
+            self.assignments.positions.lines = []
+            real = self.assignments.registers.helper("R")
+            self.assignments.number(real, wait.timeout)
+            counts = [f"MUL {real} {1 / _POLL_S:.1f}", f"ADD {real} 0.5", f"SET {left} {real}"]
+            self.put([*self.assignments.lines, *counts])
+        self.put([f"WHILEEXP {text(limited)}", pause, f"DEC {left}", "ENDWHILE"])
         if wait.timed_out is not None:
             flag = variable(wait.timed_out)
             self.put([f"IFTHENEXP {text(alternatives(wait.condition))}", f"SET {flag} 0"])
