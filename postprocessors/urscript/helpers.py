@@ -312,6 +312,35 @@ _TEXTS: dict[str, str] = {
           return rpl_mapped(text, "ABCDEFGHIJKLMNOPQRSTUVWXYZ", "abcdefghijklmnopqrstuvwxyz")
         end
     """,
+    "rpl_find_any": """
+        def rpl_find_any(text, first, signs):
+          # where one of the signs stands, from 1; one more than the length when none does
+          local at = first - 1
+          while at < str_len(text):
+            if str_find(signs, str_at(text, at)) >= 0:
+              return at + 1
+            end
+            at = at + 1
+          end
+          return at + 1
+        end
+    """,
+    "rpl_match": """
+        def rpl_match(text, first, wanted):
+          # where the wanted text begins, from 1; one more than the length when it does not occur
+          local at = str_find(text, wanted, first - 1)
+          if at < 0:
+            return str_len(text) + 1
+          end
+          return at + 1
+        end
+    """,
+    "rpl_member": """
+        def rpl_member(text, place, signs):
+          # is the character at a place, from 1, one of the signs?
+          return str_find(signs, str_at(text, place - 1)) >= 0
+        end
+    """,
     "rpl_mapped": """
         def rpl_mapped(text, before, behind):
           local result = ""

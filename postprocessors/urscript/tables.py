@@ -98,6 +98,9 @@ FUNCTIONS = {
     "text_upper": "rpl_upper",
     "text_lower": "rpl_lower",
     "text_map": "rpl_mapped",
+    "text_find_any": "rpl_find_any",
+    "text_match": "rpl_match",
+    "text_member": "rpl_member",
     "character_code": "rpl_code",
     "from_code": "rpl_char",
 }

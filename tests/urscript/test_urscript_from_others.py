@@ -140,3 +140,20 @@ def test_actions_on_a_path_are_refused_by_name() -> None:
     lines = "TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[1]=TRUE\nLIN {X 400,Y 0,Z 400,A 0,B 90,C 0}"
     script, losses, proof = translated("krl", KRL.format(lines=lines))
     assert losses == ["urscript-path-action"] and "halt" in script and not proof.equal
+
+
+def test_searches_in_texts() -> None:
+    lines = [
+        f"SET do[{number}] TO {one}"
+        for number, one in enumerate(
+            (
+                'TEXT_FIND_ANY("pallet-12", 1, "0123456789") = 8',
+                'TEXT_FIND_ANY("pallet", 1, "0123456789") = 7',
+                'TEXT_MATCH("pallet-12", 1, "let") = 4',
+                'TEXT_MATCH("pallet-12", 5, "let") = 10',
+                'TEXT_MEMBER("pallet", 3, "klm")',
+            ),
+            1,
+        )
+    ]
+    equal("rpl", RPL.format(lines="\n".join(lines)))
