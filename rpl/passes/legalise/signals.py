@@ -110,6 +110,8 @@ class _Named:
                         return ir.Signal(kind, name=symbol.declaration.name, origin=expression.origin)
                     return self.expression(replace(signal, origin=expression.origin))
                 return expression
+            case ir.Signal(kind="flag", index=index, last=None, name=None) if index is not None:
+                return self.expression(ir.System("flag", (index,), origin=expression.origin))
             case ir.Signal(kind=kind, index=ir.IntLiteral(value=first), last=ir.IntLiteral(value=last), name=None):
                 kind = kind.replace("digital", "group")
                 name = f"{self.prefixes.get(kind, kind)}{first}_{last}"
