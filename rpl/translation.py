@@ -40,7 +40,8 @@ def translate_program(
 
     robot: the arm the source was written for; to_robot: the arm that will run the result (default: the same). Raises
     UsageError for unknown names. `registers`: numbers that an earlier translation gave (Translation.registers).
-    `options`: the target's own, by name (Target.options). What the target cannot say is written as a guarded stop and listed in `losses`.
+    `options`: the target's own, by name (Target.options). What the target cannot say is written as a guarded stop and
+    listed in `losses`.
     """
     collector = diagnostics if diagnostics is not None else Diagnostics()
     target = registry.target(target_name)

@@ -37,15 +37,17 @@ def _declared(module: ir.Module) -> dict[str, ir.SignalDeclaration]:
 
 
 def in_words_of(cell: Cell, first: ir.Program, second: ir.Program) -> Cell:
-    """The cell for a run of the second program, when it was written for the first: signals that the first one's language
-    spells by number (V+ 1001, URScript digital_in[0]) as the second one's language spells the same signal."""
+    """The cell for a run of the second program, when it was written for the first: signals that the first one's
+    language spells by number (V+ 1001, URScript digital_in[0]) as the second one's language spells the same signal.
+    Names that the first program declares stay: the translation keeps them."""
     ours, theirs = ({module.dialect for module in one.modules} for one in (first, second))
     if ours == theirs or not ours or len(theirs) != 1 or not (cell.inputs or cell.reactions):
         return cell
     known, spell = link(first).alias, registry.dialect(*theirs).signal_name
+    declared = {name for module in first.modules for name in _declared(module)}
 
     def named(signal: str) -> str:
-        port = known(signal)
+        port = known(signal) if signal.lower() not in declared else None
         if port is None or port.name is not None or port.number is None or port.last is not None:
             return signal
         return spell(port.kind, port.number)

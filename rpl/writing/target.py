@@ -24,8 +24,8 @@ class OutputFile:
 @dataclass(frozen=True, slots=True)
 class WriteContext:
     """What a writer is given: the collector, the arm that will run the program (None when none is named), the target's
-    own options (such as `version`), the source names of data in numbered banks by (bank, number), and whether the program
-    comes from another language."""
+    own options (such as `version`), the source names of data in numbered banks by (bank, number), and whether the
+    program comes from another language."""
 
     diagnostics: Diagnostics
     robot: RobotModel | None = None

@@ -10,6 +10,7 @@ import json
 import sys
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -286,6 +287,22 @@ def _construct_table(outcomes: dict[str, dict[str, dict[str, object]]], language
     return lines
 
 
+def results(name: str, targets: list[str]) -> dict[str, Outcome]:
+    """One sample in these targets."""
+    sys.path.insert(0, str(HERE))
+    import test_conformance_samples as samples
+
+    sample = next(sample for sample in samples.SAMPLES if samples.name_of(sample) == name)
+    wanted, found = samples.expected(sample), {}
+    for target in targets:
+        try:
+            outcome, _ = outcome_of(samples.programs_of(sample), target, wanted.robot, wanted.cell, wanted.entry)
+        except RplError as error:
+            outcome = Outcome(DIFFERENT, why=f"{type(error).__name__}: {error}")
+        found[target] = outcome
+    return found
+
+
 def main(only: list[str]) -> None:
     """Run every sample in every target and write file and page. Words: only samples whose name holds one of them;
     `to:NAME`: only these targets (the rest stays as it was recorded)."""
@@ -294,23 +311,17 @@ def main(only: list[str]) -> None:
 
     outcomes = recorded() if FILE.exists() and only else {}
     targets = [word.removeprefix("to:") for word in only if word.startswith("to:")] or samples.TARGETS
-    only = [word for word in only if not word.startswith("to:")]
-    for sample in samples.SAMPLES:
-        name = samples.name_of(sample)
-        if only and not any(word in name for word in only):
-            continue
-        wanted = samples.expected(sample)
-        before = outcomes.setdefault(name, {})
-        for target in targets:
-            try:
-                outcome, _ = outcome_of(samples.programs_of(sample), target, wanted.robot, wanted.cell, wanted.entry)
-            except RplError as error:
-                outcome = Outcome(DIFFERENT, why=f"{type(error).__name__}: {error}")
-            reason = wanted.divergence(target)
-            before[target] = outcome.as_json() | ({"reason": reason} if reason else {})
-            print(f"{name} -> {target}: {outcome.status} {', '.join(outcome.refused)}", flush=True)
-            if outcome.status == DIFFERENT:
-                print("   ", outcome.why.replace("\n", "\n    "), flush=True)
+    words = [word for word in only if not word.startswith("to:")]
+    chosen = {samples.name_of(sample): sample for sample in samples.SAMPLES}
+    names = [name for name in chosen if not words or any(word in name for word in words)]
+    with ProcessPoolExecutor() as pool:
+        for name, found in zip(names, pool.map(results, names, [targets] * len(names)), strict=True):
+            for target, outcome in found.items():
+                reason = samples.expected(chosen[name]).divergence(target)
+                outcomes.setdefault(name, {})[target] = outcome.as_json() | ({"reason": reason} if reason else {})
+                print(f"{name} -> {target}: {outcome.status} {', '.join(outcome.refused)}", flush=True)
+                if outcome.status == DIFFERENT:
+                    print("   ", outcome.why.replace("\n", "\n    "), flush=True)
     FILE.write_text(json.dumps(dict(sorted(outcomes.items())), indent=1) + "\n", "utf-8")
     PAGE.write_text(page(outcomes), "utf-8")
 

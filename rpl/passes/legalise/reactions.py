@@ -1,7 +1,7 @@
 """Interrupts known by a number of their own (V+ REACT of a signal), for targets where the priority is that number.
 
-Each gets a priority of its own, in the order of the source's priorities. What stops the motion at once becomes a routine
-that brakes first; what comes once only becomes one that switches the interrupt off first.
+Each gets a priority of its own, in the order of the source's priorities. What stops the motion at once becomes a
+routine that brakes first; what comes once only becomes one that switches the interrupt off first.
 """
 
 from __future__ import annotations
