@@ -163,6 +163,8 @@ def _search(statement: ir.Move, search: ir.Search, letter: str, expressions: Exp
         raise UnsayableError("a search goes on a line or circle and carries no events")
     if not isinstance(search.condition, ir.Signal | ir.Name):
         raise UnsayableError("a search watches one signal")
+    if search.found is None:
+        raise UnsayableError("a search gives the place where it found something")
     signal = expressions.signal(search.condition)
     points = _points(statement, expressions)
     speed, tool = _speed(statement.speed, expressions), _tool(statement, expressions)
