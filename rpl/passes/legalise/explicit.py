@@ -33,8 +33,10 @@ TIMED_MOVE = code(
 FIXED_TOOL = code("fixed-tool", Severity.LOSS, "a tool that the robot does not hold is not carried over")
 EARLY_LOGIC = code(
     "early-logic",
-    Severity.INFO,
-    "this statement runs before the corner path on the source; a look-ahead permission keeps the blend on the target",
+    Severity.WARNING,
+    "behind a move that does not stop the source's controller switches near its corner; with the look-ahead permission "
+    "that keeps the corner, the target may switch up to its look-ahead earlier",
+    "check the place on the robot, or write the output as a trigger on the path",
 )
 
 # Settings of the source's controller that only steer how it interpolates or checks; a target without them drops them.
