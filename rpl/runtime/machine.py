@@ -13,7 +13,7 @@ from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
 from rpl.errors import RunError
-from rpl.runtime import tasks
+from rpl.runtime import searching, tasks
 from rpl.runtime.code import Code, Values, Write
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.interrupts import Interrupt
@@ -241,7 +241,7 @@ class Machine:
         """A signal or a watched variable has another value: look who waited for that."""
         for task in self.tasks:
             if task.robot is not None:
-                task.robot.look_for_search()
+                searching.look(task.robot)
             self.look_at(task)
 
     def _interrupt_time(self, task: Task, key: int, token: int) -> None:

@@ -11,14 +11,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rpl.runtime import pieces
+from rpl.runtime import pieces, searching
 from rpl.runtime.chain import (
     Planning,
     pose_of_array,
     request_of,
 )
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.orders import Drive, Order, SearchOrder, TriggerOrder
+from rpl.runtime.orders import Drive, Order, TriggerOrder
 from rpl.runtime.pieces import Piece
 from rpl.runtime.robotstate import RobotState
 from rpl.runtime.trace import Leg
@@ -55,6 +55,7 @@ class MotionQueue(RobotState):
         self.halted: Piece | None = None
         self.stopped = False
         self.stored: list[Stored] = []
+        self.behind: list[Drive] = []
         self.set_aside = False
         self.regained: Piece | None = None
         self.failed: tuple[MotionFault, Order] | None = None
@@ -77,22 +78,29 @@ class MotionQueue(RobotState):
         if self.stopped and task.aside and order.rules.advance.runs_ahead_of == "all":
             self.store()
             self.set_aside = True
-        assert self.planned_joints is not None  # with a model there are joints
-        notation = self.machine.linked.notation(order.rules.name)
-        plan = Planning(self.model, self.planned_joints, self.planned_external, task.modal, notation)
-        request, moving, goal, external = request_of(order, plan)
-        planned = pieces.plan(self.model, self.planned_joints, request)
-        if pieces.is_fault(planned):
-            return self._refuse(planned, order, next)
-        assert pieces.is_planned(planned)  # it is either
         self.numbers += 1
-        drive = Drive(self.numbers, order, planned, moving, goal, external)
-        drive.blending = not order.blend.stops and order.search is None
+        drive = self._planned(order, self.numbers)
+        if not isinstance(drive, Drive):
+            return self._refuse(drive, order, next)
         self.queue.append(drive)
-        self.planned_joints, self.planned_external = planned.end_joints, external
         task.busy = True
         self._ask()
         return self._go_on(drive, next)
+
+    def _planned(self, order: Order, number: int) -> Drive | MotionFault:
+        """The move as it is driven from where everything commanded before it ends."""
+        assert self.model is not None and self.planned_joints is not None  # with a model there are joints
+        notation = self.machine.linked.notation(order.rules.name)
+        plan = Planning(self.model, self.planned_joints, self.planned_external, self.task.modal, notation)
+        request, moving, goal, external = request_of(order, plan)
+        planned = pieces.plan(self.model, self.planned_joints, request)
+        if pieces.is_fault(planned):
+            return planned
+        assert pieces.is_planned(planned)  # it is either
+        self.planned_joints, self.planned_external = planned.end_joints, external
+        drive = Drive(number, order, planned, moving, goal, external)
+        drive.blending = not order.blend.stops and order.search is None
+        return drive
 
     def _refuse(self, fault: MotionFault, order: Order, next: int) -> int:
         """The controller drives what it has and then stops with the error, unless a routine of the task takes it."""
@@ -132,7 +140,7 @@ class MotionQueue(RobotState):
 
     def pending(self) -> int:
         """Moves commanded and not yet done."""
-        return len(self.queue)
+        return len(self.queue) + len(self.behind)
 
     def has_room(self) -> bool:
         """May another move be commanded?"""
@@ -142,7 +150,7 @@ class MotionQueue(RobotState):
         """Does the move let the program go on?"""
         if number < 0:
             return False
-        for drive in self.queue:
+        for drive in (*self.queue, *self.behind):
             if drive.number == number:
                 return drive.released
         return True
@@ -191,7 +199,7 @@ class MotionQueue(RobotState):
                 self._begin(self.queue[0])
             return
         piece = self.piece
-        if piece.corner is not None or piece.ahead is not None or not piece.drive.blending:
+        if piece.corner is not None or piece.ahead is not None or piece.halting or not piece.drive.blending:
             return
         following = self._after(piece.drive)
         if following is not None:
@@ -207,9 +215,9 @@ class MotionQueue(RobotState):
         """Start a move from rest."""
         assert drive.plan is not None
         drive.started_s = self.machine.now
-        self._watch_search(drive)
+        searching.watch(self, drive)
         self._drive(Piece(drive, drive.plan, self.machine.now))
-        self._end_if_found(drive)
+        searching.end_if_found(self, drive)
         piece = self.piece
         if piece is None or not drive.blending:
             return
@@ -300,9 +308,9 @@ class MotionQueue(RobotState):
             self._done(piece.drive, False)
             following.started_s = now
             self.piece = None
-            self._watch_search(following)
+            searching.watch(self, following)
             self._drive(Piece(following, rest, now))
-            self._end_if_found(following)
+            searching.end_if_found(self, following)
             self._after_corner(following)
             return
         if piece.open_end:
@@ -355,7 +363,7 @@ class MotionQueue(RobotState):
         task.busy = bool(self.queue) or self.piece is not None
         search = drive.order.search
         if search is not None and stops and not search.found and search.hit is None:
-            self._search_missed(drive)
+            searching.missed(self, drive)
             return
         if not task.busy and self.failed is not None:
             self._fault(*self.failed)
@@ -385,7 +393,7 @@ class MotionQueue(RobotState):
         blend = drive.order.blend.kind
         self.machine.event("move", data, self.task, origin, legs=legs, stops=stops, blend=blend)
 
-    # ---- triggers and searches
+    # ---- triggers
 
     def _fire_number(self, number: int, place: int) -> None:
         drives = list(self.queue)
@@ -423,58 +431,6 @@ class MotionQueue(RobotState):
                 task.interrupts.came(known)
                 self._look()
 
-    def _watch_search(self, drive: Drive) -> None:
-        search = drive.order.search
-        if search is None:
-            return
-        search.last = bool(search.condition(search.values))
-        if search.hit is not None:
-            search.hit(search.values, False)
-            if search.last == (search.edge == "rising"):  # true already: the move ends before it begins
-                search.found = True
-                search.hit(search.values, True)
-            return
-        if search.edge != "either" and search.last == (search.edge == "rising") and search.stop != "none":
-            self.queue.remove(drive)
-            self.task.busy = bool(self.queue)
-            self.planned_joints, self.planned_external = self.joints, self.external
-            at = drive.order.at
-            self.task.fail(ProgramError("search_already", "the searched signal is there before the search"), at)
-            self.machine.ready(self.task)
-
-    def _end_if_found(self, drive: Drive) -> None:
-        """What is searched was there when the move began: it ends at once."""
-        if drive.order.search is not None and drive.order.search.found:
-            self._reached(drive, drive.order.search)
-
-    def look_for_search(self) -> None:
-        """Something changed: is it what the present move searches?"""
-        piece = self.piece
-        search = piece.drive.order.search if piece is not None else None
-        if piece is None or search is None or search.found:
-            return
-        now = bool(search.condition(search.values))
-        before, search.last = search.last, now
-        if now == before or (search.edge == "rising" and not now) or (search.edge == "falling" and now):
-            return
-        search.found = True
-        if search.hit is not None:
-            search.hit(search.values, True)
-        self._reached(piece.drive, search)
-
-    def _reached(self, drive: Drive, search: SearchOrder) -> None:
-        """What was searched has come: keep the place and stop as the program asks."""
-        order = drive.order
-        if search.write is not None:
-            search.write(search.values, self.target_now(order.tool, order.frame, order.rules))
-        if search.stop != "none" and self.piece is not None:
-            self.halt(search.stop == "stop", True)
-
-    def _search_missed(self, drive: Drive) -> None:
-        task = self.task
-        task.fail(ProgramError("search_missed", "the search has found nothing"), drive.order.at)
-        self.machine.ready(task)
-
     # ---- stopping and going on
 
     def halt(self, hard: bool, ends_move: bool = False) -> None:
@@ -491,14 +447,34 @@ class MotionQueue(RobotState):
         self.joints = piece.plan.joints_at(piece.end_s - piece.start_s)
         self.piece = None
         if piece.ends_move:
-            drive = piece.drive
-            self.planned_joints = self.joints
-            self.queue.remove(drive)
-            self._show(drive, True, True)
-            self.task.busy = bool(self.queue)
+            self._dropped(piece)
         else:
             self.halted = piece
         self._look()
+
+    def _dropped(self, piece: Piece) -> None:
+        """What is left of a move is forgotten, in a corner that of both moves. Moves commanded behind it begin anew
+        from here, when the interrupt that stopped the robot has ended."""
+        self._show(piece.drive, True, True)
+        gone = [piece.drive] if piece.corner is None else [piece.drive, piece.corner.following]
+        self.behind += [drive for drive in self.queue if drive not in gone]
+        self.queue.clear()
+        self.planned_joints, self.planned_external = self.joints, self.external
+        self.task.busy = False
+        if not self.task.aside:
+            self._again()
+
+    def _again(self) -> None:
+        """Plan the moves anew that were commanded behind a dropped one."""
+        behind, self.behind = self.behind, []
+        for old in behind:
+            drive = self._planned(old.order, old.number)
+            if not isinstance(drive, Drive):
+                self._fault(drive, old.order)
+                return
+            self.queue.append(drive)
+            self.task.busy = True
+            self._ask()
 
     def start(self) -> None:
         """Go on with a stopped motion."""
@@ -525,6 +501,8 @@ class MotionQueue(RobotState):
             self.restore()
         if self.stopped:
             self.start()
+        if self.piece is None or not self.piece.halting:
+            self._again()
 
     def clear(self) -> None:
         """Forget everything commanded; the robot stays where it is."""
@@ -537,6 +515,7 @@ class MotionQueue(RobotState):
         if begun is not None:
             self._show(begun.drive, True, True)
         self.queue.clear()
+        self.behind.clear()
         self.regained = None
         if self.set_aside:
             self.set_aside = False
