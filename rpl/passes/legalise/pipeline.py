@@ -64,7 +64,7 @@ from rpl.passes.legalise.targets import whole_targets
 from rpl.passes.legalise.timers import timers_to_clocks
 from rpl.passes.legalise.triggers import triggers
 from rpl.passes.legalise.truths import truths_to_numbers
-from rpl.passes.legalise.unused import drop_unused
+from rpl.passes.legalise.unused import drop_unused, drop_untyped
 from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.typing import normalise
 
@@ -76,6 +76,7 @@ from rpl.passes.typing import normalise
 # whose conditions are opposites), and nothing needs new variables of routines. Numbers are given when nothing has a
 # name to add.
 PASSES: tuple[Pass, ...] = (
+    drop_untyped,
     fold_pulses,
     rotation_vectors,
     levels_to_distances,

@@ -1,12 +1,24 @@
-"""Drop what the source's prelude brought along, and generated records, where nothing uses them after all passes."""
+"""Drop what nothing uses: parts of the source's prelude, generated records, and routines without types.
+
+A language whose parameters have no type (URScript) takes it from the calls. Of a routine that nothing calls the type of
+a parameter may stay unknown; a target with types cannot declare it, and nothing would run it.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 from rpl import ir
+from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
 from rpl.passes.rewrite import rewrite_parts
+
+NEVER_CALLED = code(
+    "routine-never-called",
+    Severity.WARNING,
+    "{name} is called nowhere, and the type of {what} is known to no other language; it is left out",
+    "call it once with an example of its values if the translation needs it",
+)
 
 _BUILT_IN = frozenset(("tool", "workobject", "load", "speed", "zone", "pose", "vector", "rotation", "joints", "axes"))
 
@@ -40,6 +52,23 @@ def drop_unused(program: ir.Program, context: Context) -> ir.Program:
         routines = tuple(one for one in module.routines if id(one) not in gone)
         if declarations or routines or not is_linked(module, context):
             modules.append(replace(module, declarations=declarations, routines=routines))
+    return replace(program, modules=tuple(modules))
+
+
+def drop_untyped(program: ir.Program, context: Context) -> ir.Program:
+    """The program without routines that nothing calls and whose data has a type of the source controller alone."""
+    used = _names(program) | {program.entry.lower()} | {task.entry.lower() for task in program.tasks}
+    modules = []
+    for module in program.modules:
+        kept = []
+        for routine in module.routines:
+            data = (*routine.parameters, *(one for one in routine.declarations if isinstance(one, ir.Variable)))
+            unknown = next((one.name for one in data if isinstance(one.type, ir.VendorType)), None)
+            if unknown is None or routine.name.lower() in used:
+                kept.append(routine)
+            else:
+                context.diagnostics.report(NEVER_CALLED, routine.origin, name=routine.name, what=unknown)
+        modules.append(replace(module, routines=tuple(kept)))
     return replace(program, modules=tuple(modules))
 
 
@@ -91,6 +120,8 @@ def _names(node: ir.Program | ir.Declaration | ir.Routine) -> set[str]:
         for one in statements:
             match one:
                 case ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name) | ir.For(counter=name):
+                    found.add(name.lower())
+                case ir.TaskControl(task=str() as name) | ir.OnError(routine=str() as name):
                     found.add(name.lower())
             rewrite_parts(one, expression, body)
         return statements
