@@ -16,7 +16,7 @@ CAPABILITIES = Capabilities(
     functions=frozenset((*tables.FUNCTIONS, *tables.TEXT_FUNCTIONS, *tables.POSITION_FUNCTIONS, "abs", "number_text")),
     procedures=frozenset(),
     system_variables=frozenset(("actual_pose", "actual_joints", "null_frame", "world")),
-    operators=frozenset((*tables.COMPARISONS, *tables.ARITHMETIC, *tables.BITS, "mod", "and", "or", "&", ":")),
+    operators=frozenset((*tables.COMPARISONS, *tables.ARITHMETIC, "mod", "and", "or", "&", ":")),
     types=frozenset(
         (
             *("IntType", "RealType", "BoolType", "StringType", "CharType", "PoseType", "TargetType", "JointsType"),
@@ -62,6 +62,7 @@ CAPABILITIES = Capabilities(
     functions_alone=True,
     index_base=None,
     move_settings=frozenset(("tool", "frame", "speed", "blend")),
+    longest_message=tables.LONGEST_MESSAGE,
     speeds=frozenset(("joint", "path", "rotation")),
     blends=frozenset(("BlendStop", "BlendDistance", "BlendLevel")),
 )

@@ -221,14 +221,12 @@ class Printer:
         self.motion.forget()
 
     def choice(self, statement: ir.If) -> None:
-        branches = [(one, body) for one, body in statement.branches if one != ir.BoolLiteral(False)]
-        for _, body in statement.branches:
-            if not any(body is kept for _, kept in branches):
-                for inner in body:
-                    self.ledger.merged(inner)
-        always = next((at for at, (one, _) in enumerate(branches) if one == ir.BoolLiteral(True)), None)
-        if always is not None or not branches:
-            raise CannotSayError("a condition that is always the same")
+        statement = self.decided(statement)
+        branches = list(statement.branches)
+        if not branches:
+            self.comments_only(statement.origin)
+            self.inner(statement.otherwise)
+            return
         if len(branches) == 1:
             (condition, body), *_ = branches
             lines, condition = self.assignments.prepared(condition)
@@ -247,6 +245,27 @@ class Printer:
             self.line("ELSE")
             self.inner(statement.otherwise)
         self.line("ENDIF")
+
+    def decided(self, statement: ir.If) -> ir.If:
+        """Without the branches that are never taken; what stands behind one that is always taken goes, too."""
+        kept: list[tuple[ir.Expression, ir.Body]] = []
+        otherwise = statement.otherwise
+        for at, (condition, body) in enumerate(statement.branches):
+            if condition == ir.BoolLiteral(True):
+                self.dropped(*(later for _, later in statement.branches[at + 1 :]), otherwise)
+                otherwise = body
+                break
+            if condition == ir.BoolLiteral(False):
+                self.dropped(body)
+            else:
+                kept.append((condition, body))
+        return replace(statement, branches=tuple(kept), otherwise=otherwise)
+
+    def dropped(self, *bodies: ir.Body) -> None:
+        """Statements that never run are accounted for."""
+        for body in bodies:
+            for statement in body:
+                self.ledger.merged(statement)
 
     def short(self, statement: ir.If) -> bool:
         """`JUMP *L IF IN#(1)=ON`, `CALL JOB:X IF B000=1`."""

@@ -65,7 +65,8 @@ class Capabilities:
 
     Data: banks: where variables of a type (class name) are kept, when they have numbers and no names; types may share a
     bank. points: taught points that live in a routine. records, arrays (False only with banks: consecutive numbers),
-    texts: whether there are any. truth: `minus_one` when TRUE is the number -1 and there is no type of truth values.
+    texts: whether there are any. longest_message: characters of a message's line (0: any).
+    truth: `minus_one` when TRUE is the number -1 and there is no type of truth values.
     index_base: where arrays start; None: anywhere. expressions: `steps` when an assignment has one operator or function
     of constants and variables. calculated_places: moves, signals, waits take any expression. conditions: `comparisons`
     of two simple operands, joined by and/or. functions_alone: a function only as the whole right side of an assignment.
@@ -136,6 +137,7 @@ class Capabilities:
     truth: str = "bool"
     index_base: int | None = 1
     expressions: str = "any"
+    longest_message: int = 0
     calculated_places: bool = True
     conditions: str = "any"
     functions_alone: bool = False

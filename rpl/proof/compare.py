@@ -9,7 +9,7 @@ two controllers never agree on accelerations.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -168,13 +168,36 @@ def _matched(
         first = ours[at] if at < len(ours) else None
         second = theirs[there] if there < len(theirs) else None
         same = first is not None and second is not None and same_event(first, second, tolerance)
-        if not same and foreign and first is not None and _is_looking(first, tolerance):
+        lines = (1, 1) if same or not foreign else _as_lines(ours[at:], theirs[there:])
+        if first is not None and second is not None and lines != (1, 1):
+            whole = second if lines[0] > 1 else first
+            yield replace(first, value=whole.value), replace(second, value=whole.value)
+            at, there = at + lines[0], there + lines[1]
+        elif not same and foreign and first is not None and _is_looking(first, tolerance):
             at += 1
         elif not same and foreign and second is not None and _is_looking(second, tolerance):
             there += 1
         else:
             yield first, second
             at, there = at + 1, there + 1
+
+
+def _as_lines(ours: Sequence[Happening], theirs: Sequence[Happening]) -> tuple[int, int]:
+    """How many messages of each side are one message of the other, which a screen shows in several lines: they come at
+    the same time, and nothing but blanks is more or less. (1, 1): none."""
+    for one, several, turned in ((ours, theirs, False), (theirs, ours, True)):
+        if not one or one[0].kind != "message":
+            continue
+        wanted, found = "".join(str(one[0].value).split()), ""
+        for count, line in enumerate(several, 1):
+            if line.kind != "message" or line.t != several[0].t:
+                break
+            found += "".join(str(line.value).split())
+            if found == wanted:
+                return (count, 1) if turned else (1, count)
+            if not wanted.startswith(found):
+                break
+    return 1, 1
 
 
 def _is_looking(happening: Happening, tolerance: Tolerance) -> bool:

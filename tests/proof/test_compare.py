@@ -194,3 +194,13 @@ def test_measures_of_a_way() -> None:
     quarter = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
     assert turn_deg(np.eye(3), quarter) == pytest.approx(90)
     assert turn_deg(np.eye(3), quarter @ quarter) == pytest.approx(180)
+
+
+def test_a_message_in_several_lines_is_one_only_for_another_language() -> None:
+    lines = (replace(NOTE, value="part"), replace(NOTE, value="ready"))
+    other = replace(changed(OUT, *lines, WAIT, END), language="inform")
+    assert compare(RUN, other, TOLERANCE).difference is None
+    assert compare(other, RUN, TOLERANCE).difference is None
+    assert compare(RUN, changed(OUT, *lines, WAIT, END), TOLERANCE).difference is not None
+    later = replace(changed(OUT, lines[0], replace(lines[1], t=1.15), WAIT, END), language="inform")
+    assert compare(RUN, later, TOLERANCE).difference is not None

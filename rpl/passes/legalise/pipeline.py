@@ -36,6 +36,7 @@ from rpl.passes.legalise.locals import variables_of_routines
 from rpl.passes.legalise.logic import decide_logic
 from rpl.passes.legalise.lookahead import stop_blends
 from rpl.passes.legalise.loops import fit_loops
+from rpl.passes.legalise.messages import split_messages
 from rpl.passes.legalise.modal import modal_to_explicit
 from rpl.passes.legalise.movesettings import settings_at_moves
 from rpl.passes.legalise.nextmove import settings_of_next_move
@@ -116,6 +117,7 @@ PASSES: tuple[Pass, ...] = (
     decide_logic,
     rewrite_calls,
     references_as_copies,
+    split_messages,
     fit_loops,
     enums_to_constants,
     fit_speeds,

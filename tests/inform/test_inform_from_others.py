@@ -1,0 +1,105 @@
+"""Programs of other languages written as jobs: each sets an output per expectation and still meets it as jobs."""
+
+from __future__ import annotations
+
+import pytest
+
+from rpl.diagnostics import Diagnostics, Severity
+from rpl.project import read_sources
+from rpl.proof.prove import prove_programs
+from rpl.simulation import run_program
+from rpl.source import source_from_bytes, source_from_text
+from rpl.translation import translate_program
+
+SUFFIXES = {"krl": "src", "rapid": "mod", "rpl": "rpl", "urscript": "script", "vplus": "v2", "tp": "ls"}
+ROBOT = "motoman_gp7"
+
+
+def jobs_of(language: str, text: str, robot: str | None = ROBOT) -> tuple[dict[str, list[str]], Diagnostics, set[int]]:
+    """Lines of each job behind NOP, what was reported, and the outputs that are on at the end of its run; it means the
+    same as the program it was written from when nothing was lost."""
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text(f"one.{SUFFIXES[language]}", text)], language, diagnostics)
+    assert not diagnostics.has_errors, [item.as_text() for item in diagnostics]
+    translation = translate_program(read, "inform", robot, None, diagnostics)
+    again = Diagnostics()
+    jobs = [file for file in translation.files if file.path.endswith(".JBI")]
+    back = read_sources([source_from_bytes(file.path, file.data) for file in jobs], "inform", again)
+    assert not again.has_errors, [item.as_text() for item in again]
+    if not diagnostics.of(Severity.LOSS):
+        result = prove_programs(read.program, back.program, robot, robot, None)
+        assert result.equal, result.as_text()
+    run = run_program(back.program, robot)
+    state: dict[int, bool] = {}
+    for _, name, value in run.outputs:
+        state[int(str(name).partition("(")[2].rstrip(")"))] = bool(value)
+    lines = {}
+    for file in jobs:
+        text = file.data.decode("ascii")
+        lines[file.path[:-4]] = text.split("NOP\r\n")[1].split("\r\nEND")[0].split("\r\n")
+    return lines, diagnostics, {number for number, on in state.items() if on}
+
+
+def codes(diagnostics: Diagnostics, severity: Severity) -> set[str]:
+    return {item.code.name for item in diagnostics.of(severity)}
+
+
+def test_a_long_message_is_shown_in_lines() -> None:
+    text = """def show():
+  step = 7
+  textmsg("no answer of the machine in step ", step)
+  popup("this is a message that is longer than a line", title="x", error=False)
+end
+"""
+    jobs, diagnostics, _ = jobs_of("urscript", text)
+    shown = [line for line in jobs["SHOW"] if line.startswith("MSG")]
+    assert shown == [
+        'MSG "no answer of the machine in step"',
+        "MSG S000",
+        'MSG "this is a message that is longer"',
+        'MSG "than a line"',
+    ]
+    assert "message-split" in codes(diagnostics, Severity.WARNING)
+
+
+@pytest.mark.parametrize(
+    ("language", "text", "expected"),
+    [
+        pytest.param(
+            "krl",
+            """DEF one()
+DECL INT n, m
+n = 300
+m = 5000
+$OUT[1] = ((n B_AND 260) == 260)
+$OUT[2] = ((n B_OR 65536) == 65836)
+$OUT[3] = ((n B_EXOR m) == 4772)
+$OUT[4] = ((-2 B_AND 7) == 6)
+END
+""",
+            {1, 2, 3, 4},
+            id="bits",
+        ),
+        pytest.param(
+            "rapid",
+            """MODULE one
+PROC main()
+IF TRUE SetDO do1,1;
+IF FALSE SetDO do2,1;
+IF FALSE THEN
+SetDO do3,1;
+ELSE
+SetDO do4,1;
+ENDIF
+ENDPROC
+ENDMODULE
+""",
+            {1, 4},
+            id="conditions that are always the same",
+        ),
+    ],
+)
+def test_expectations_are_met(language: str, text: str, expected: set[int]) -> None:
+    _, diagnostics, on = jobs_of(language, text)
+    assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    assert on == expected
