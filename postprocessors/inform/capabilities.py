@@ -42,6 +42,7 @@ CAPABILITIES = Capabilities(
     parameters="none",
     locals=False,
     recursion=False,
+    call_depth=tables.DEEPEST_CALL,
     search_results=frozenset(("found", "hit")),
     task_operations=frozenset(("start", "join")),
     banks={

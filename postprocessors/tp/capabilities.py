@@ -55,6 +55,7 @@ CAPABILITIES = Capabilities(
     parameters="numbered",
     locals=False,
     recursion=False,
+    call_depth=tables.DEEPEST_CALL,
     banks={
         "RealType": tables.R,
         "BoolType": tables.F,

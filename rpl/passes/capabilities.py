@@ -61,7 +61,8 @@ class Capabilities:
     Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
     reference_parameters: a routine may write its parameters (else copies go in, and out by variables).
-    locals: a routine has variables of its own. recursion: a routine may be active twice.
+    locals: a routine has variables of its own. recursion: a routine may be active twice, each time with variables of
+    its own (else they are kept on a stack around calls that lead back). call_depth: how deep calls may nest; 0: not said.
 
     Data: banks: where variables of a type (class name) are kept, when they have numbers and no names; types may share a
     bank. points: taught points that live in a routine. records, arrays (False only with banks: consecutive numbers),
@@ -127,6 +128,7 @@ class Capabilities:
     locals: bool = True
     recursion: bool = True
     next_move_settings: bool = False
+    call_depth: int = 0
     search_results: frozenset[str] = frozenset(("found",))
     task_operations: frozenset[str] = frozenset(("start", "stop", "pause", "resume", "join"))
     banks: Mapping[str, Bank] = field(default_factory=dict)

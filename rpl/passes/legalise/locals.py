@@ -1,8 +1,8 @@
 """Variables of routines as variables of their module, for targets whose routines have none.
 
-What the routine declared with a value gets it where the routine begins. A routine that is active twice at a time would
-share its variables with itself: such calls are reported and become guarded stops. Recursion as such is looked at here
-as well.
+What the routine declared with a value gets it where the routine begins. A routine that calls itself keeps its variables
+on a stack around such calls (passes.legalise.recursion); where that is not possible the calls are reported and become
+guarded stops.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.effects import blocks
 from rpl.passes.legalise.jumps import inside
+from rpl.passes.legalise.recursion import kept_on_stacks
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import Origin
 
@@ -38,21 +39,29 @@ def variables_of_routines(program: ir.Program, context: Context) -> ir.Program:
     if can.locals and can.recursion and can.parameters == "names":
         return program
     facts = Activations.of(program)
-    lost: dict[int, str] = {}
+    again: set[int] = set()
     for key, routine in facts.routines.items():
         shares = (not can.locals and _variables(routine)) or (can.parameters == "none" and bool(routine.parameters))
-        if key in facts.recursive and not can.recursion:
-            lost[key] = "the target's routines cannot be active twice"
-        elif key in facts.recursive and shares:
-            lost[key] = "its variables would be the same in every activation"
+        if key in facts.recursive and (shares or not can.recursion):
+            again.add(key)
         elif key in facts.beside and shares:
             context.diagnostics.report(SHARED, routine.origin, name=routine.name)
+    if again:
+        program = _again(program, context, facts, again)
+    return program if can.locals else _moved(program, context)
+
+
+def _again(program: ir.Program, context: Context, facts: Activations, again: set[int]) -> ir.Program:
+    """The program whose routines `again` may be active twice, or with stops where they would be."""
+    lost = dict.fromkeys(again, "the target's routines cannot be active twice")
+    if context.capabilities.parameters != "names":
+        program, lost = kept_on_stacks(program, context, facts)
     for key, reason in lost.items():
         routine = facts.routines[key]
         context.diagnostics.report(RECURSION, routine.origin, name=routine.name, reason=reason)
     if lost:
         program = edit_routines(program, context, lambda editor, routine: _guarded(editor, routine, facts, lost))
-    return program if can.locals else _moved(program, context)
+    return program
 
 
 def _variables(routine: ir.Routine) -> bool:

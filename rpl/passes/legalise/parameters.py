@@ -10,9 +10,11 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.legalise.activations import Activations
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion
+from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.effects import children, everything, is_constant, statements_in
+from rpl.passes.legalise.jumps import goes_on, inside
 from rpl.passes.legalise.support import with_support
 from rpl.passes.legalise.usage import base_name, bodies
 from rpl.passes.rewrite import rewrite_parts
@@ -34,10 +36,12 @@ NOT_PASSED = code(
 
 @dataclass(slots=True)
 class _Plan:
-    """How a routine gets its parameters, by folded name: a number, or a variable (with its declaration)."""
+    """How a routine gets its parameters, by folded name: a number, or a variable (with its declaration). `again`: it
+    may be active twice at a time, so the variables only pass the values, and it works with copies."""
 
     numbers: dict[str, int] = field(default_factory=dict)
     variables: dict[str, ir.Variable] = field(default_factory=dict)
+    again: bool = False
 
 
 def fit_arguments(program: ir.Program, context: Context) -> ir.Program:
@@ -53,6 +57,9 @@ def fit_arguments(program: ir.Program, context: Context) -> ir.Program:
     }
     if not plans:
         return program
+    if not context.capabilities.recursion or not context.capabilities.locals:
+        for key in Activations.of(program).recursive & plans.keys():
+            plans[key].again = True
     mentions = _Mentions(program)
     done = edit_routines(
         program, context, lambda editor, routine: _Calls(editor, plans, mentions).routine(routine, plans)
@@ -180,6 +187,17 @@ class _Calls(Hoister):
             kept.append(copy)
             start.append(ir.Assign(ir.Name(copy.name), register))
             values[key] = ir.Name(copy.name)
+        end: list[ir.Statement] = []
+        for parameter in routine.parameters if plan.again else ():
+            passing = plan.variables.get(parameter.name.lower())
+            if passing is None:
+                continue
+            copy = ir.Variable(self.editor.context.fresh(parameter.name), passing.type, scope="routine")
+            kept.append(copy)
+            values[parameter.name.lower()] = ir.Name(copy.name)
+            start.append(ir.Assign(ir.Name(copy.name), ir.Name(passing.name)))
+            if parameter.mode == "reference":
+                end.append(ir.Assign(ir.Name(passing.name), ir.Name(copy.name)))
         own = tuple(
             one
             for one in done.declarations
@@ -187,6 +205,8 @@ class _Calls(Hoister):
         )
         parameters = tuple(replace(p, mode="value") for p in routine.parameters if p.name.lower() in plan.numbers)
         done = edit_bodies(replace(done, declarations=(*kept, *own)), lambda body: _renamed(body, values))
+        if end:
+            done = replace(done, body=(*_given_back(done.body, end), *(end if goes_on(done.body) else ())))
         return replace(done, parameters=parameters, body=(*start, *done.body))
 
     # ---- calls
@@ -324,6 +344,17 @@ class _Calls(Hoister):
         shared = variable is not None and symbol is not None and symbol.routine is None
         if shared and variable in self.mentions.names.get(name.lower(), ()):
             self.editor.context.diagnostics.report(COPIED, at.origin, name=name, what=variable)
+
+
+def _given_back(body: ir.Body, end: list[ir.Statement]) -> ir.Body:
+    """The body with these statements in front of each return."""
+
+    def change(statement: ir.Statement) -> ir.Body:
+        if isinstance(statement, ir.Return):
+            return expansion(statement.origin, (*end, statement))
+        return (inside(statement, lambda inner: map_body(inner, change)),)
+
+    return map_body(body, change)
 
 
 def _simple(value: ir.Expression) -> bool:
