@@ -49,5 +49,7 @@ CAPABILITIES = Capabilities(
     for_real=True,
     wait_timeout=True,
     dynamic_calls=True,
+    no_tool="tool0",
+    no_frame="wobj0",
     switch_types=frozenset(("IntType", "RealType", "StringType", "BoolType")),
 )

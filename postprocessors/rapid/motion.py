@@ -125,7 +125,9 @@ def _tool(statement: ir.Move, expressions: Expressions) -> str:
 
 
 def _persistent(value: ir.Expression, expressions: Expressions, what: str) -> str:
-    if isinstance(value, ir.Name | ir.Index | ir.Field):
+    """The name of the data. A pose is none: its record has more components."""
+    is_pose = isinstance(type_of(value, expressions.scope), ir.PoseType | ir.TargetType)
+    if isinstance(value, ir.Name | ir.Index | ir.Field) and not is_pose:
         return expressions.text(value)
     raise UnsayableError(f"the {what} of a move has to be persistent data")
 

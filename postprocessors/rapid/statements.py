@@ -8,7 +8,6 @@ from typing import Protocol, cast
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.passes.typing import type_of
 from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
 
@@ -22,12 +21,6 @@ NOT_SAID = code(
     Severity.LOSS,
     "RAPID cannot say this: {reason}",
     "the original stands there as a comment, with a Stop behind it",
-)
-POSE_AS_DATA = code(
-    "pose-as-data",
-    Severity.WARNING,
-    "the {what} of this move is a pose; the controller wants persistent {data} there",
-    "declare {data} with this pose and name it in the move",
 )
 INDENT = "  "
 _SHOWN_LINES = 12
@@ -190,7 +183,6 @@ class Statements:
                 return made.connect(self.text(handle), routine)
             case ir.Move():
                 text = self.motion(motion.move(statement, self.expressions))
-                self.poses_as_data(statement)
                 for trigger in statement.triggers:
                     if isinstance(trigger, ir.Trigger):
                         self.ledger.merged(trigger)
@@ -200,13 +192,6 @@ class Statements:
             case ir.DefineTrigger():
                 return made.word(motion.define_trigger(statement, self.expressions))
         return self.instructions.text(statement)
-
-    def poses_as_data(self, move: ir.Move) -> None:
-        """A pose can stand for a tool or work object in other languages; RAPID has types of their own for these."""
-        for place, what, data in ((move.tool, "tool", "tooldata"), (move.frame, "work object", "wobjdata")):
-            named = isinstance(place, ir.Name | ir.Index | ir.Field)
-            if named and place is not None and isinstance(type_of(place, self.expressions.scope), ir.PoseType):
-                self.diagnostics.report(POSE_AS_DATA, move.origin, what=what, data=data)
 
     def motion(self, parts: motion.MoveText) -> str:
         return _macros().move(parts.name, parts.before, list(parts.points), parts.settings)

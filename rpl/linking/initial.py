@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from rpl.linking.program import LinkedProgram
     from rpl.runtime.machine import Machine
 
+# Records that stand for a pose in some languages -> the component that has the pose.
+_HOLDS_A_POSE = {"tool": "frame", "workobject": "user_frame"}
 _STEP = re.compile(r"\[(\d+)\]|\.(\w+)")
 
 
@@ -106,6 +108,9 @@ def _placed(old: Value, steps: list[str | int], given: Value, where: str) -> Val
             old.items[place] = _placed(old.items[place], rest, given, where)
             return old
         if isinstance(old, Record):
+            held = _HOLDS_A_POSE.get(old.type_name)
+            if step not in old.parts and held is not None:  # the pose of a tool or frame given where its data stands
+                step, rest = held, [step, *rest]
             if step not in old.parts:
                 raise UsageError(f"{where}: there is no component {step}")
             old.parts[step] = _placed(old.parts[step], rest, given, where)

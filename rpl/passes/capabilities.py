@@ -76,7 +76,8 @@ class Capabilities:
     tool, base, and modal_motion set); empty: all or none of them, in data of the types of RAPID or KRL. Only then:
     speeds: fields of Speed that the target says (for joint moves `joint`, `axis`; for the others `path`, ...);
     blends: blend classes that it says (BlendStop always). move_functions: functions (and `:`) that a move's target may
-    be although nothing else can: a place seen from another one, with simple operands.
+    be although nothing else can: a place seen from another one, with simple operands. no_tool, no_frame: the target's
+    own tool and work object data without any offset; then moves name such data, and no plain poses.
 
     declared_groups: a group of signals exists only by a declaration with a name (KRL SIGNAL). signal_groups: a group
     can be named by its first and last signal, or a pass or the writer finds a name for it.
@@ -150,3 +151,5 @@ class Capabilities:
     signal_groups: bool = True
     postures: str = "flags"
     move_functions: frozenset[str] = frozenset()
+    no_tool: str = ""
+    no_frame: str = ""

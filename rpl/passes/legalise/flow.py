@@ -61,6 +61,7 @@ class ModalFlow:
         self.exits: dict[int, State] = {}
         self.ends: list[State] = []
         self.routine: ir.Routine | None = None
+        self.made: set[str] = set()
         every = list(scopes.routines())
         self.scope_of = {id(routine): scopes.routine(module, routine) for module, routine in every}
         self.changed = self.changes(every)
@@ -107,6 +108,7 @@ class ModalFlow:
 
             for body in bodies(routine):
                 each_statement(body, look)
+        self.made = set().union(*own.values())
         growing = True
         while growing:
             growing = False
@@ -154,13 +156,18 @@ class ModalFlow:
                     if state == old:
                         break
             case ir.Label():
-                state.clear()
+                self.forget(state)
             case ir.Return():
                 self.ends.append(dict(state))
             case ir.Spline(body=inner):
                 self.body(inner, state, scope)
             case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
-                state.clear()
+                self.forget(state)
+
+    def forget(self, state: State) -> None:
+        """Anything may have run before this place; settings that nothing in the program makes are as at the start."""
+        for name in [name for name in state if not name.startswith("$") or name in self.made]:
+            del state[name]
 
     def ended(self, body: ir.Body, state: State, scope: Scope) -> State:
         inside = dict(state)

@@ -11,8 +11,10 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
+from rpl.ir.walk import walk
 from rpl.passes.legalise.circles import has_arcs
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.tooldata import HOME, PLACES, tool_of, work_object_of
 from rpl.passes.legalise.usage import Usage, each_expression, usage_of
 from rpl.passes.rewrite import rewrite_parts
 
@@ -77,7 +79,7 @@ def modal_to_explicit(program: ir.Program, context: Context) -> ir.Program:
     if context.capabilities.modal_motion:
         return program
     usage = usage_of(program)
-    worker = _Explicit(context, usage, has_arcs(program))
+    worker = _Explicit(program, context, usage)
     modules = tuple(
         replace(
             module,
@@ -96,7 +98,7 @@ def modal_to_explicit(program: ir.Program, context: Context) -> ir.Program:
     declarations = worker.declarations()
     if declarations:
         task = next((module.task for module in program.modules), "")
-        name = context.fresh("rpl_motion")
+        name = context.fresh(HOME)
         home = ir.Module(name, program.modules[0].dialect, declarations, task=task)
         program = replace(program, modules=(*program.modules, home))
     return program
@@ -106,11 +108,12 @@ Environment = dict[str, ir.Expression]
 
 
 class _Explicit:
-    def __init__(self, context: Context, usage: Usage, arcs: bool) -> None:
+    def __init__(self, program: ir.Program, context: Context, usage: Usage) -> None:
         self.context = context
-        self.arcs = arcs
+        self.arcs = has_arcs(program)
         self.usage = usage
         self.state = _State()
+        self.never = {"tool", "base"} - _settings_made(program)
         self.defaults = rules_of(context.source).system_defaults
 
     # ---- generated data
@@ -157,10 +160,10 @@ class _Explicit:
 
     def declarations(self) -> tuple[ir.Declaration, ...]:
         initial = {
-            "tool": _TOOL,
-            "with_tool": _TOOL,
-            "frame": _FRAME,
-            "with_frame": _FRAME,
+            "tool": tool_of(),
+            "with_tool": tool_of(),
+            "frame": work_object_of(),
+            "with_frame": work_object_of(),
             "speed": _speed(_real(self.default("path_speed", 250.0)), _real(self.default("swivel_speed", 200.0))),
             "joint_speed": _speed(
                 _real(self.default("joint_speed", 100.0) * MM_S_PER_PERCENT), _real(self.default("swivel_speed", 200.0))
@@ -269,12 +272,29 @@ class _Explicit:
         return list(made)
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
+        if isinstance(expression, ir.System) and expression.name == "actual_pose":
+            return self.seen(ir.Builtin("current_target", (), origin=expression.origin))
+        if isinstance(expression, ir.Builtin) and expression.function in PLACES:
+            return self.seen(rewrite_parts(expression, self.expression))
         if isinstance(expression, ir.System) and expression.name in _MODAL:
             kind, component = _MODAL[expression.name]
             read = ir.Field(self.name(kind), component, origin=expression.origin)
             factor = _FACTOR.get(expression.name, 1.0)
             return read if factor == 1.0 else ir.Binary("/", read, _real(factor), origin=expression.origin)
         return rewrite_parts(expression, self.expression)
+
+    def modal_data(self, name: str) -> ir.Expression | None:
+        """The generated tool (`tool`) or work object (`base`); None when nothing ever sets one."""
+        return None if name in self.never else self.name(_MODAL[name][0])
+
+    def seen(self, expression: ir.Builtin) -> ir.Builtin:
+        """Where the robot is, with the tool and frame that are set, and not with those of the last move."""
+        capabilities, at = self.context.capabilities, PLACES[expression.function][0]
+        if len(expression.arguments) != at or not capabilities.no_tool:
+            return expression
+        tool = self.modal_data("tool") or ir.Name(capabilities.no_tool)
+        frame = self.modal_data("base") or ir.Name(capabilities.no_frame)
+        return replace(expression, arguments=(*expression.arguments, tool, frame))
 
     # ---- moves
 
@@ -286,7 +306,8 @@ class _Explicit:
                 own[place.name] = self.expression(value)
                 if place.name not in _MODAL:
                     self.report_once(DROPPED, move, place.name, name=place.name.replace("_", " "))
-        tool, frame = self.name("tool"), self.name("frame")
+        tool = move.tool or self.modal_data("tool")
+        frame = move.frame or self.modal_data("base")
         later = replace(move.origin, comments=())
         if "tool" in own:
             tool = self.name("with_tool")
@@ -297,8 +318,8 @@ class _Explicit:
         done = rewrite_parts(move, self.expression)
         done = replace(
             done,
-            tool=move.tool or tool,
-            frame=move.frame or frame,
+            tool=tool,
+            frame=frame,
             speed=self.own_speed(done, known, own),
             blend=self.blend(done, known, own),
             settings=(),
@@ -362,6 +383,16 @@ class _Explicit:
         size = zone.value if isinstance(zone, ir.RealLiteral | ir.IntLiteral) else "a computed size"
         self.report_once(JOINT_BLEND, move, str(size), size=f"{size} mm")
         return ir.BlendZone(_zone(zone))
+
+
+def _settings_made(program: ir.Program) -> set[str]:
+    """System variables that something in the program sets."""
+    return {
+        node.target.name
+        for module in program.modules
+        for node in walk(module)
+        if isinstance(node, ir.Assign) and isinstance(node.target, ir.System)
+    }
 
 
 def _set_inside(statement: ir.Statement, usage: Usage) -> set[str]:
@@ -447,32 +478,6 @@ _ZONE_PROPORTIONS: tuple[tuple[str, float], ...] = (
     ("rotation", 0.15),
     ("linear_external", 1.5),
     ("rotary_external", 0.15),
-)
-_ZERO = _real(0.0)
-_NO_TURN = ir.Aggregate((("q1", _real(1.0)), ("q2", _ZERO), ("q3", _ZERO), ("q4", _ZERO)), type_name="rotation")
-_ORIGIN_VECTOR = ir.Aggregate((("x", _ZERO), ("y", _ZERO), ("z", _ZERO)), type_name="vector")
-_IDENTITY = ir.Aggregate((("trans", _ORIGIN_VECTOR), ("rot", _NO_TURN)), type_name="pose")
-_LIGHT = ir.Aggregate(
-    (
-        ("mass", _real(0.001)),
-        ("cog", ir.Aggregate((("x", _ZERO), ("y", _ZERO), ("z", _real(0.001))), type_name="vector")),
-        ("axes", _NO_TURN),
-        ("ix", _ZERO),
-        ("iy", _ZERO),
-        ("iz", _ZERO),
-    ),
-    type_name="load",
-)
-_TOOL = ir.Aggregate((("held", ir.BoolLiteral(True)), ("frame", _IDENTITY), ("load", _LIGHT)), type_name="tool")
-_FRAME = ir.Aggregate(
-    (
-        ("held", ir.BoolLiteral(False)),
-        ("fixed", ir.BoolLiteral(True)),
-        ("unit", ir.TextLiteral("")),
-        ("user_frame", _IDENTITY),
-        ("object_frame", _IDENTITY),
-    ),
-    type_name="workobject",
 )
 
 

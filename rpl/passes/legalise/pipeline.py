@@ -63,6 +63,7 @@ from rpl.passes.legalise.structure import labels_to_structure
 from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
 from rpl.passes.legalise.timers import timers_to_clocks
+from rpl.passes.legalise.tooldata import tool_data
 from rpl.passes.legalise.triggers import triggers
 from rpl.passes.legalise.truths import truths_to_numbers
 from rpl.passes.legalise.unused import drop_unused, drop_untyped
@@ -124,6 +125,7 @@ PASSES: tuple[Pass, ...] = (
     corners,
     settings_of_one_move,
     modal_to_explicit,
+    tool_data,
     explicit_to_modal,
     settings_at_moves,
     aggregates,
