@@ -196,16 +196,40 @@ def _model(robot: str | RobotModel | None) -> RobotModel | None:
 
 
 def _tasks(program: ir.Program, linked: LinkedProgram, entry: str | None) -> Iterator[tuple[ir.Task, ir.Routine]]:
-    """The tasks to start: those of the program, or one from the entry."""
-    if program.tasks and entry is None:
-        for task in program.tasks:
-            found = _in_modules(program, linked, task)
-            if found is None:
-                raise UsageError(f"task {task.name}: there is no routine {task.entry}")
-            yield task, found
+    """The tasks to start: those of the program; where none of them moves, or an entry is asked for, the main task
+    from there and the background tasks beside it (a controller's background runs whatever program is chosen)."""
+    found = [(task, _routine_of(program, linked, task)) for task in program.tasks]
+    if entry is None and any(task.kind == MOTION_TASK for task, _ in found):
+        yield from found
         return
-    routine = find_entry(program, linked, entry)
-    yield ir.Task(MAIN, routine.name), routine
+    beside = [(task, routine) for task, routine in found if task.kind != MOTION_TASK]
+    try:
+        routine = find_entry(program, linked, entry)
+    except UsageError:
+        if entry is not None or not beside or _startable(program, _background(program)):
+            raise
+    else:
+        yield ir.Task(MAIN, routine.name), routine
+        beside = [each for each in beside if each[1] is not routine]
+    yield from beside
+
+
+def _routine_of(program: ir.Program, linked: LinkedProgram, task: ir.Task) -> ir.Routine:
+    found = _in_modules(program, linked, task)
+    if found is None:
+        raise UsageError(f"task {task.name}: there is no routine {task.entry}")
+    return found
+
+
+def _background(program: ir.Program) -> tuple[tuple[str, str], ...]:
+    """Modules and names of the routines that background tasks run: nobody starts them as the program."""
+    return tuple(
+        (module.name, task.entry.lower())
+        for task in program.tasks
+        if task.kind != MOTION_TASK
+        for module in program.modules
+        if not task.modules or module.name in task.modules
+    )
 
 
 def _in_modules(program: ir.Program, linked: LinkedProgram, task: ir.Task) -> ir.Routine | None:
@@ -231,7 +255,7 @@ def find_entry(program: ir.Program, linked: LinkedProgram, entry: str | None) ->
     main = linked.find_routine(MAIN) or _any_case(program, MAIN)
     if main is not None and _starts(main[1]):
         return main[1]
-    startable = [(m, r) for m, r in _startable(program) if not _is_empty(r)]
+    startable = [(m, r) for m, r in _startable(program, _background(program)) if not _is_empty(r)]
     uncalled = [(m, r) for m, r in startable if r.name.lower() not in _called(program, r)]
     named = [(m, r) for m, r in startable if _like_its_file(m, r)]
     for group in (named, [each for each in named if each in uncalled], uncalled):
@@ -245,7 +269,7 @@ def entry_name(program: ir.Program, entry: str | None = None) -> str | None:
     """The name of the routine that a run starts with; None when several tasks start or it cannot be told."""
     from rpl.linking import link
 
-    if program.tasks and entry is None:
+    if entry is None and any(task.kind == MOTION_TASK for task in program.tasks):
         return None
     try:
         return find_entry(program, link(program), entry).name
@@ -263,8 +287,9 @@ def _starts(routine: ir.Routine) -> bool:
     return routine.kind == "procedure" and all(parameter.optional for parameter in routine.parameters)
 
 
-def _startable(program: ir.Program) -> list[tuple[ir.Module, ir.Routine]]:
-    return [(module, r) for module in program.modules for r in module.routines if _starts(r)]
+def _startable(program: ir.Program, without: tuple[tuple[str, str], ...] = ()) -> list[tuple[ir.Module, ir.Routine]]:
+    routines = [(module, r) for module in program.modules for r in module.routines if _starts(r)]
+    return [(module, r) for module, r in routines if (module.name, r.name.lower()) not in without]
 
 
 def _is_empty(routine: ir.Routine) -> bool:

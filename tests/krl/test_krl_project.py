@@ -11,6 +11,7 @@ from krl_helpers import read, sources, without_comments
 
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics, Severity
+from rpl.simulation import run_program
 
 CELL_SRC = """&ACCESS RVP
 &REL 3
@@ -84,6 +85,19 @@ def test_files_of_one_name_are_one_module(project: ir.Program) -> None:
 def test_the_submit_program_is_a_background_task(project: ir.Program) -> None:
     (task,) = project.tasks
     assert (task.entry, task.kind, task.modules) == ("SPS", "background", ("SPS",))
+
+
+@pytest.mark.parametrize("entry", [None, "JOB"])
+def test_the_submit_program_runs_beside_the_chosen_one(entry: str | None) -> None:
+    """The submit interpreter is started with the controller, whatever program is selected (KSS operating manuals)."""
+    files = {
+        "job.src": "DEF JOB()\nWAIT SEC 1.0\n$OUT[1]=(BEAT>5)\nEND\n",
+        "job.dat": "DEFDAT JOB PUBLIC\nDECL GLOBAL INT BEAT=0\nENDDAT\n",
+        "sps.sub": "DEF SPS()\nLOOP\nBEAT=BEAT+1\nWAIT SEC 0.1\nENDLOOP\nEND\n",
+    }
+    program, _ = read(files)
+    result = run_program(program, entry=entry)
+    assert (result.status, result.outputs) == ("finished", [(1.0, "$OUT[1]", True)])
 
 
 def test_parameters_take_the_types_declared_behind_the_header(project: ir.Program) -> None:
