@@ -97,7 +97,7 @@ def test_the_submit_program_runs_beside_the_chosen_one(entry: str | None) -> Non
     }
     program, _ = read(files)
     result = run_program(program, entry=entry)
-    assert (result.status, result.outputs) == ("finished", [(1.0, "$OUT[1]", True)])
+    assert (result.status, result.outputs) == ("finished", ((1.0, "$OUT[1]", True),))
 
 
 def test_parameters_take_the_types_declared_behind_the_header(project: ir.Program) -> None:
