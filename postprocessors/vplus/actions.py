@@ -68,7 +68,8 @@ class Actions:
             case ir.WaitForMotion() if printer.stands() and printer.output.facts.foreign:
                 printer.comments_only(origin)
             case ir.Trigger():
-                self.trigger(statement)
+                printer.events.add(statement)
+                printer.comments_only(statement.origin)
             case ir.Pulse() | ir.SetAfter():
                 self.later(statement)
             case _:
@@ -317,22 +318,6 @@ class Actions:
         if statement.timeout is not None or statement.error is not None:
             raise UnsayableError("a wait whose time limit raises an error")
         return f"WAIT {self.printer.condition(statement.condition, True)}"
-
-    def trigger(self, trigger: ir.Trigger) -> None:
-        """A step behind a move acts when the move has begun; that is all V+ has."""
-        action = trigger.action
-        late = trigger.delay is not None and self.expressions.known(trigger.delay) != 0
-        far = trigger.distance is not None and self.expressions.known(trigger.distance) != 0
-        if trigger.reference != "start" or late or far:
-            raise UnsayableError("an action on the path, away from its start")
-        signal = action.target if isinstance(action, ir.Assign) else None
-        if not isinstance(action, ir.Assign) or not isinstance(signal, ir.Signal):
-            raise UnsayableError("a call on the path")
-        places = self.expressions.places
-        if not isinstance(action.value, ir.BoolLiteral) or places.is_group(signal) or signal.kind == "analog_out":
-            raise UnsayableError("an action on the path other than a switched output")
-        self.printer.behind_move.append(f"SIGNAL {places.number(signal, not action.value.value)}")
-        self.printer.comments_only(trigger.origin)
 
     def hand(self, body: ir.Body) -> tuple[str, int] | None:
         """OPEN, CLOSE, RELAX: both solenoids of the hand switch when the next move begins."""

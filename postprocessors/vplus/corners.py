@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from rpl import ir
-from rpl.ir.walk import expressions
+from rpl.ir.walk import expressions, walk
 
 MOVES, ACTS, ENDS = "moves", "acts", "ends"
 _QUIET = (ir.Nothing, ir.Label, ir.LookAhead, ir.SetForNextMove, ir.Trigger, ir.ExitLoop, ir.NextPass, ir.Do)
@@ -24,6 +24,7 @@ class Corners:
 
     program: ir.Program
     stopped: set[int] = field(default_factory=set)
+    deferred: set[int] = field(default_factory=set)  # identities of steps that stand behind the next move instead
     routines: dict[str, ir.Routine] = field(default_factory=dict)
     callers: dict[str, list[Callable[[], str]]] = field(default_factory=dict)
     open: set[str] = field(default_factory=set)
@@ -54,7 +55,11 @@ class Corners:
 
             match statement:
                 case ir.Move(blend=blend) if blend is not None and not isinstance(blend, ir.BlendStop):
-                    moves.append((statement, follows))
+                    between = deferred(behind) if has_size(blend) else None
+                    if between is None:
+                        moves.append((statement, follows))
+                    else:
+                        self.deferred |= set(map(id, between))
                 case ir.Label(name=name):
                     self.labels[self.current, name.lower()] = follows
                 case ir.Goto():
@@ -151,6 +156,66 @@ class Corners:
         found = self.first(routine.body, lambda: ENDS)
         self.open.discard(name.lower())
         return found
+
+
+def deferred(body: ir.Body) -> list[ir.Statement] | None:
+    """The steps between a move and the next one in the same body that can stand behind that; None: there is no next
+    move, or something between them has to come first."""
+    found: list[ir.Statement] = []
+    for statement in body:
+        if isinstance(statement, ir.Move):
+            return found
+        if acts_in_corner(statement):
+            found.append(statement)
+        elif not _is_quiet(statement):
+            return None
+    return None
+
+
+def acts_in_corner(statement: ir.Statement) -> bool:
+    """Is it a step that acts, and does the same when it stands behind the next move's step?"""
+    match statement:
+        case ir.Assign(target=ir.Signal(index=index), value=value):
+            return _written(index) and _written(value)
+        case ir.Pulse(signal=signal, value=value, duration=time) | ir.SetAfter(signal=signal, value=value, delay=time):
+            return _written(signal) and _written(value) and _written(time)
+        case ir.Message(text=text, kind=kind):
+            return kind not in ("quit", "clear") and isinstance(text, ir.TextLiteral)
+    return False
+
+
+def _written(value: ir.Expression | None) -> bool:
+    """Does it stand there as a number, depending on no variable?"""
+    return not any(
+        isinstance(one, ir.Name | ir.Call | ir.Builtin | ir.System | ir.VendorValue) for one in walk((value,))
+    )
+
+
+def _is_quiet(statement: ir.Statement) -> bool:
+    """Does it neither act nor depend on where the robot is?"""
+    if isinstance(statement, ir.Assign):
+        return not isinstance(statement.target, ir.Signal | ir.System) and not looks(statement)
+    return isinstance(statement, ir.Nothing | ir.LookAhead | ir.SetForNextMove | ir.Trigger)
+
+
+def size_of(blend: ir.Blend) -> ir.Expression | None:
+    """What says how large a corner is."""
+    match blend:
+        case ir.BlendDistance(distance=size) | ir.BlendPercent(percent=size) | ir.BlendSpeed(percent=size):
+            return size
+        case ir.BlendZone(distance=size):
+            return size
+    return None
+
+
+def has_size(blend: ir.Blend) -> bool:
+    """Is it a corner for certain, and no stop in disguise?"""
+    match size_of(blend):
+        case ir.IntLiteral(value=number) | ir.RealLiteral(value=number):
+            return number > 0
+        case ir.Quantity(value=ir.IntLiteral(value=number) | ir.RealLiteral(value=number)):
+            return number > 0
+    return False
 
 
 def looks(node: object) -> bool:

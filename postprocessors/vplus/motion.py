@@ -16,7 +16,7 @@ from rpl.passes.fold import constant
 from rpl.source import Origin
 
 from . import settings, spelling, tables
-from .corners import Corners
+from .corners import Corners, size_of
 from .expressions import Expressions, UnsayableError
 
 if TYPE_CHECKING:
@@ -263,7 +263,7 @@ class Motion:
 
     def is_stop(self, blend: ir.Blend) -> bool:
         """Is it an exact stop, or a corner of no size?"""
-        size = _size(blend)
+        size = size_of(blend)
         return isinstance(blend, ir.BlendStop) or (size is not None and self.zero(size))
 
     def behind(self, move: ir.Move) -> list[str]:
@@ -278,15 +278,6 @@ class Motion:
         if not _as_here(move.blend):
             self.facts.once(CORNER, move.origin)
         return []
-
-
-def _size(blend: ir.Blend) -> ir.Expression | None:
-    match blend:
-        case ir.BlendDistance(distance=size) | ir.BlendPercent(percent=size) | ir.BlendSpeed(percent=size):
-            return size
-        case ir.BlendZone(distance=size):
-            return size
-    return None
 
 
 def _as_here(blend: ir.Blend) -> bool:

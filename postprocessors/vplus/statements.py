@@ -14,8 +14,10 @@ from rpl.writing.text import wrapped
 
 from . import settings, spelling, tables
 from .actions import Actions
+from .corners import deferred
 from .expressions import Expressions, Notes, UnsayableError
 from .motion import Motion, MotionFacts
+from .pathevents import PathEvents
 from .reactions import Reactions
 
 GUARDED = code(
@@ -71,7 +73,8 @@ class Printer:
         self.expressions = Expressions(scope, self.notes)
         self.motion = Motion(self.expressions, output.facts)
         self.actions = Actions(self)
-        self.behind_move: list[str] = []  # what triggers do when the next move has begun
+        self.events = PathEvents(self)
+        self.rest: ir.Body = ()  # what follows in the body that is printed
 
     # ---- lines and comments
 
@@ -124,12 +127,24 @@ class Printer:
         self.depth += inner
         at = 0
         while at < len(body):
+            self.rest = body[at + 1 :]
             at += self.joined(body[at:]) or self.one(body[at])
         self.depth -= inner
 
     def one(self, statement: ir.Statement) -> int:
-        self.statement(statement)
+        if id(statement) in self.output.facts.corners.deferred:
+            self.statement(statement, self.events.deferred)
+        else:
+            self.statement(statement)
         return 1
+
+    def captured(self, statement: ir.Statement) -> list[str]:
+        """The lines of a simple statement, to stand elsewhere."""
+        kept = len(self.lines)
+        self.actions.write(statement)
+        found = [line.strip() for line in self.lines[kept:]]
+        del self.lines[kept:]
+        return found
 
     def joined(self, body: ir.Body) -> int:
         """Statements that are one step of V+. Counts them."""
@@ -165,11 +180,14 @@ class Printer:
                 return self.actions.components(body)
         return None
 
-    def statement(self, statement: ir.Statement) -> None:
-        """One statement, or its guarded stop."""
+    def statement(self, statement: ir.Statement, elsewhere: list[str] | None = None) -> None:
+        """One statement, or its guarded stop. `elsewhere`: its lines stand later."""
         kept, depth, known = len(self.lines), self.depth, len(self.notes.changed_texts)
         try:
-            self.written(statement)
+            if elsewhere is None:
+                self.written(statement)
+            else:
+                elsewhere += self.captured(statement)
         except UnsayableError as error:
             del self.lines[kept:]
             self.notes.before.clear()
@@ -220,13 +238,19 @@ class Printer:
             self.motion.forget()
 
     def move(self, move: ir.Move) -> None:
-        before, step, behind = self.motion.move(move)
+        rest = self.rest
+        try:
+            before, step, behind = self.motion.move(move)
+            around = self.events.of(move, bool(behind), deferred(rest) is not None)
+        except UnsayableError as error:
+            self.guard(move, str(error))
+            self.more(*self.events.pending())
+            return
         inner, self.notes.before = self.notes.before, []
         self.comments_only_before(move.origin)
-        self.more(*inner, *before)
+        self.more(*inner, *before, *around.before)
         self.line(step, _behind_only(move.origin))
-        waiting, self.behind_move = self.behind_move, []
-        self.more(*waiting, *behind)
+        self.more(*around.behind, *behind, *around.last)
 
     def comments_only_before(self, origin: Origin) -> None:
         for comment in origin.comments:
