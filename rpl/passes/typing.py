@@ -51,7 +51,7 @@ UNKNOWN_NAME = code("unknown-name", Severity.WARNING, "{name} is not declared in
 UNKNOWN_ROUTINE = code("unknown-routine", Severity.WARNING, "routine {name} is not in what was read")
 MISMATCH = code("type-mismatch", Severity.ERROR, "{found} where {wanted} is needed")
 UNKNOWN_COMPONENT = code("unknown-component", Severity.ERROR, "{type} has no component {name}")
-TOO_MANY = code("too-many-arguments", Severity.ERROR, "{name} takes {count} arguments, {given} are given")
+TOO_MANY = code("too-many-arguments", Severity.ERROR, "{name} takes {takes}; {given} are given")
 
 # What most expressions of a point list are: their own normal form, of a type that their class tells.
 _LITERALS: dict[type, ir.Type] = {
@@ -82,6 +82,13 @@ class _Signature:
     by_name: dict[str, ir.Parameter]
     positional: tuple[ir.Parameter, ...]
     open_ended: bool  # or unknown: any number of arguments may be right
+
+    @property
+    def takes(self) -> str:
+        """How many arguments it takes, in words: some only by their names."""
+        by_name = [p.name for p in self.parameters if p not in self.positional]
+        count = len(self.positional)
+        return f"{count} argument{'s' * (count != 1)}" + (f", and by name {', '.join(by_name)}" if by_name else "")
 
 
 def type_of(expression: ir.Expression, scope: Scope) -> ir.Type | None:
@@ -489,7 +496,7 @@ class Typer:
                 done.append(argument)
                 continue
             if parameter is None and not signature.open_ended:
-                self.report(TOO_MANY, origin, name=name, count=len(signature.parameters), given=len(given))
+                self.report(TOO_MANY, origin, name=name, takes=signature.takes, given=len(given))
             wanted = None if parameter is None else self.scope.resolve(parameter.type)
             if parameter is None or parameter.mode == "reference":
                 done.append(changed(argument, value=self.infer(argument.value, wanted)[0]))
