@@ -34,6 +34,7 @@ CAPABILITIES = Capabilities(
     rotation="zyx",
     conversions=frozenset(("real", "trunc", "round_half_away", "bit", "truth", "floor", "code", "char")),
     wait_timeout=True,
+    counted_clocks=tables.WATCH_STEP_S,
     named_aggregates=True,
     partial_aggregates=False,
     constant_aggregates=True,
@@ -62,8 +63,8 @@ CAPABILITIES = Capabilities(
     conditions="comparisons",
     functions_alone=True,
     index_base=None,
-    move_settings=frozenset(("tool", "frame", "speed", "blend")),
     longest_message=tables.LONGEST_MESSAGE,
+    move_settings=frozenset(("tool", "frame", "speed", "blend")),
     speeds=frozenset(("joint", "path", "rotation")),
     blends=frozenset(("BlendStop", "BlendDistance", "BlendLevel")),
 )

@@ -316,7 +316,8 @@ class Motion:
                     return [self.tag("CR", distance, move.origin)]
                 if known is None:
                     raise CannotSayError("a joint move with a computed corner distance")
-                level_of = max(n for n, size in enumerate(tables.LEVELS) if size <= known)
+                # a corner stays one: where it would be a stop, what follows would come later
+                level_of = max(1, *(n for n, size in enumerate(tables.LEVELS) if size <= known))
                 written = f"PL={level_of}"
                 if tables.LEVELS[level_of] != known:
                     self.report_once(JOINT_CORNER, move.origin, written, distance=known, written=written)

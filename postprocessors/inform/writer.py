@@ -243,6 +243,6 @@ def _entries(program: ir.Program) -> set[str]:
     motion = {task.entry.lower() for task in program.tasks if task.kind == "motion"}
     if motion:
         return motion
-    from rpl.passes.legalise.datalists import never_called
+    from rpl.passes.legalise.datalists import never_called, started_tasks
 
-    return set(never_called(program))
+    return never_called(program) - started_tasks(program)

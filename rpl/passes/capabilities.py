@@ -44,7 +44,9 @@ class Capabilities:
     signals have names (RAPID), and a number 5 of a kind is called prefix + 5. named_aggregates: members are named (else
     listed in order); partial_aggregates: some may be left out; constant_aggregates: members must be constants.
     for_real: the counter of a FOR may be a real number. wait_timeout: WaitUntil takes a timeout. timers: how many
-    system timers there are (`timer[1]` ...). dynamic_calls: a procedure may be called by a name computed at run time.
+    system timers there are (`timer[1]` ...). counted_clocks: there are no stop watches, but a task can count them in
+    steps of so many seconds (0: none can, or there are some).
+    dynamic_calls: a procedure may be called by a name computed at run time.
     switch_types: type classes a Switch may select by (NamedType: enumerations); empty: any type.
     switch_constant_cases: case values must be literals. text_results: functions may return texts.
     format_state: type of the state that format_into writes; None when it has none. carries_rules: the target's text
@@ -105,6 +107,7 @@ class Capabilities:
     for_real: bool = False
     wait_timeout: bool = False
     timers: int = 0
+    counted_clocks: float = 0.0
     dynamic_calls: bool = False
     switch_types: frozenset[str] = frozenset()
     switch_constant_cases: bool = False

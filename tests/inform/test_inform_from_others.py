@@ -36,7 +36,7 @@ def jobs_of(language: str, text: str, robot: str | None = ROBOT) -> tuple[dict[s
     lines = {}
     for file in jobs:
         text = file.data.decode("ascii")
-        lines[file.path[:-4]] = text.split("NOP\r\n")[1].split("\r\nEND")[0].split("\r\n")
+        lines[file.path[:-4]] = text.split("NOP\r\n")[1].removesuffix("\r\nEND\r\n").split("\r\n")
     return lines, diagnostics, {number for number, on in state.items() if on}
 
 
@@ -97,9 +97,78 @@ ENDMODULE
             {1, 4},
             id="conditions that are always the same",
         ),
+        pytest.param(
+            "krl",
+            """DEF one()
+DECL INT t
+$TIMER[3] = 0
+$TIMER_STOP[3] = FALSE
+WAIT SEC 0.5
+$OUT[1] = ($TIMER[3] > 450)
+$TIMER_STOP[3] = TRUE
+WAIT SEC 0.5
+t = $TIMER[3]
+$OUT[2] = (t < 600)
+$TIMER[3] = -200
+$TIMER_STOP[3] = FALSE
+WAIT FOR $TIMER_FLAG[3]
+$OUT[3] = TRUE
+WAIT FOR $IN[5] OR ($TIMER[3] > 1000)
+$OUT[4] = TRUE
+END
+""",
+            {1, 2, 3, 4},
+            id="timers",
+        ),
+        pytest.param(
+            "rapid",
+            """MODULE one
+VAR clock clAll;
+PROC main()
+ClkReset clAll;
+ClkStart clAll;
+WaitTime 0.3;
+ClkStop clAll;
+WaitTime 0.3;
+IF ClkRead(clAll) > 0.25 AND ClkRead(clAll) < 0.35 SetDO do1,1;
+IF ClkRead(clAll) > 10 RETURN;
+SetDO do2,1;
+ENDPROC
+ENDMODULE
+""",
+            {1, 2},
+            id="stop watches",
+        ),
     ],
 )
 def test_expectations_are_met(language: str, text: str, expected: set[int]) -> None:
     _, diagnostics, on = jobs_of(language, text)
     assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
     assert on == expected
+
+
+def test_a_task_counts_stop_watches_as_long_as_the_program_runs() -> None:
+    text = "DEF one()\n$TIMER[1] = 0\n$TIMER_STOP[1] = FALSE\nWAIT SEC 0.5\n$OUT[1] = ($TIMER[1] > 450)\nEND\n"
+    jobs, diagnostics, _ = jobs_of("krl", text)
+    (run,) = [line.split()[1] for line in jobs["RPL_WATCH"] if line.startswith("WHILEEXP")]
+    runs = run.removesuffix("=1")
+    start = jobs["ONE"].index("PSTART JOB:RPL_WATCH SUB1")
+    assert jobs["ONE"][start - 1] == f"SET {runs} 1" and jobs["ONE"][-1] == f"SET {runs} 0"
+    _, wait, *count, end = jobs["RPL_WATCH"]
+    assert (wait, count[1].split()[0], end) == ("TIMER T=0.01", "INC", "ENDWHILE")
+    assert "stop-watch-counted" in codes(diagnostics, Severity.WARNING)
+
+
+def test_a_small_corner_of_a_joint_move_is_no_stop() -> None:
+    text = """MODULE one
+PROC main()
+MoveAbsJ [[0,0,0,0,-60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,fine,tool0;
+MoveAbsJ [[20,0,0,0,-60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z10,tool0;
+MoveAbsJ [[40,0,0,0,-60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z50,tool0;
+MoveAbsJ [[0,0,0,0,-60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,fine,tool0;
+ENDPROC
+ENDMODULE
+"""
+    jobs, diagnostics, _ = jobs_of("rapid", text)
+    assert [line.split()[-1] for line in jobs["MAIN"]] == ["PL=0", "PL=1", "PL=3", "PL=0"]
+    assert "inform-joint-corner" in codes(diagnostics, Severity.WARNING)

@@ -86,3 +86,18 @@ def never_called(program: ir.Program) -> set[str]:
             for body in bodies(routine):
                 each_statement(body, look)
     return {name for name in found if name not in called}
+
+
+def started_tasks(program: ir.Program) -> set[str]:
+    """Routines that the program itself starts as tasks beside it, folded."""
+    found: set[str] = set()
+
+    def look(statement: ir.Statement) -> None:
+        if isinstance(statement, ir.TaskControl) and statement.op == "start":
+            found.add(statement.task.lower())
+
+    for module in program.modules:
+        for routine in module.routines:
+            for body in bodies(routine):
+                each_statement(body, look)
+    return found

@@ -67,7 +67,9 @@ def changing(program: ir.Program) -> frozenset[str] | None:
 
     def look(statement: ir.Statement) -> None:
         nonlocal found
-        if isinstance(statement, ir.DeclareInterrupt | ir.ConnectInterrupt | ir.Trigger | ir.DefineTrigger):
+        if isinstance(
+            statement, ir.DeclareInterrupt | ir.ConnectInterrupt | ir.Trigger | ir.DefineTrigger | ir.TaskControl
+        ):
             found = True
         if isinstance(statement, ir.Move) and statement.triggers:
             found = True

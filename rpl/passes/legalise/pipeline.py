@@ -68,6 +68,7 @@ from rpl.passes.legalise.triggers import triggers
 from rpl.passes.legalise.truths import truths_to_numbers
 from rpl.passes.legalise.unused import drop_unused, drop_untyped
 from rpl.passes.legalise.waits import fit_waits
+from rpl.passes.legalise.watches import counted_watches
 from rpl.passes.typing import normalise
 
 # First what asks for the source language's own rules (its prelude, its look-ahead), then signals and control (each may
@@ -102,6 +103,7 @@ PASSES: tuple[Pass, ...] = (
     whole_targets,
     set_data_at_start,
     timers_to_clocks,
+    counted_watches,
     name_signals,
     number_signals,
     name_groups,

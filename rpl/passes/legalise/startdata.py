@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.datalists import never_called
+from rpl.passes.legalise.datalists import never_called, started_tasks
 
 # So many assignments may stand in the routine that starts; more go into a routine of their own.
 _INLINE = 8
@@ -53,7 +53,8 @@ def entries_of(program: ir.Program) -> set[str]:
     names = {routine.name.lower() for module in program.modules for routine in module.routines}
     if declared & names:
         return declared & names
-    uncalled = never_called(program) - {task.entry.lower() for task in program.tasks}
+    beside = {task.entry.lower() for task in program.tasks} | started_tasks(program)
+    uncalled = never_called(program) - beside
     if "main" in uncalled:
         return {"main"}
     return uncalled or set(list(names)[:1])

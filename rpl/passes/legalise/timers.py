@@ -15,9 +15,10 @@ _TIMERS = ("timer", "timer_stopped", "timer_positive")
 
 
 def timers_to_clocks(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets without numbered timers that have stop watches. Computed timer numbers stay for the writer."""
+    """Only for targets without numbered timers that have stop watches, or a task that counts them. Computed timer
+    numbers stay for the writer."""
     capabilities = context.capabilities
-    if capabilities.timers or "Clock" not in capabilities.statements:
+    if capabilities.timers or not ("Clock" in capabilities.statements or capabilities.counted_clocks):
         return program
     worker = _Clocks(context)
     modules = tuple(
