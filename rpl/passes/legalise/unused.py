@@ -62,7 +62,8 @@ def drop_untyped(program: ir.Program, context: Context) -> ir.Program:
     for module in program.modules:
         kept = []
         for routine in module.routines:
-            data = (*routine.parameters, *(one for one in routine.declarations if isinstance(one, ir.Variable)))
+            data: list[ir.Parameter | ir.Variable] = list(routine.parameters)
+            data += [one for one in routine.declarations if isinstance(one, ir.Variable)]
             unknown = next((one.name for one in data if isinstance(one.type, ir.VendorType)), None)
             if unknown is None or routine.name.lower() in used:
                 kept.append(routine)

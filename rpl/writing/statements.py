@@ -1,0 +1,93 @@
+"""Statements as lines: what the printers of all line-based targets share.
+
+A printer says how its target writes a statement (`written`). Here stands what is the same for all: a statement that the
+target cannot say takes back the lines it has begun and becomes a guarded stop - the original as remarks, then the
+controller's own stop, a report, and a mark in the ledger.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import ClassVar, Generic, TypeVar
+
+from rpl import ir
+from rpl.diagnostics import Code, Diagnostics
+from rpl.errors import RplError
+from rpl.source import Comment, Origin
+from rpl.writing.ledger import EmissionLedger
+
+LineT = TypeVar("LineT")
+
+
+class CannotSayError(RplError):
+    """The target has no words for this; the statement is written as a guarded stop."""
+
+
+class StatementPrinter(ABC, Generic[LineT]):
+    """Prints bodies as lines. `guarded`: the report of a guarded stop (its argument is `reason`)."""
+
+    guarded: ClassVar[Code]
+    dialect: ClassVar[str]
+
+    def __init__(self, ledger: EmissionLedger, diagnostics: Diagnostics) -> None:
+        self.ledger, self.diagnostics = ledger, diagnostics
+        self.lines: list[LineT] = []
+        self.depth = 0
+
+    @abstractmethod
+    def written(self, statement: ir.Statement) -> None:
+        """Put the statement's lines. Raises CannotSayError."""
+
+    @abstractmethod
+    def remark(self, text: str) -> None:
+        """Put a remark, of several lines if it has line ends."""
+
+    @abstractmethod
+    def stop(self) -> None:
+        """Put the controller's own stop."""
+
+    def comments_only(self, origin: Origin) -> None:
+        """Put the remarks of a statement that has no line of its own."""
+        for comment in origin.comments:
+            self.comment(comment)
+
+    def comment(self, comment: Comment) -> None:
+        self.remark(comment.text)
+
+    def statement(self, statement: ir.Statement) -> None:
+        """One statement, or its guarded stop."""
+        kept, depth = len(self.lines), self.depth
+        try:
+            self.written(statement)
+        except CannotSayError as error:
+            del self.lines[kept:]
+            self.depth = depth
+            self.guard(statement, str(error))
+        else:
+            self.ledger.written(statement)
+
+    def guard(self, statement: ir.Statement, reason: str) -> None:
+        """The original as remarks, then the stop; what was known of the robot's state is forgotten."""
+        self.comments_only(statement.origin)
+        self.remark(original(statement))
+        self.stop()
+        self.diagnostics.report(self.guarded, statement.origin, reason=reason)
+        self.ledger.reported(statement)
+        self.forget()
+
+    def forget(self) -> None:
+        """Behind a stop nothing is known of what was in force."""
+
+    def own_text(self, statement: ir.Opaque | ir.Vendor) -> str:
+        """The text of a statement that only its own controller has. Raises CannotSayError for another's."""
+        if isinstance(statement, ir.Opaque):
+            raise CannotSayError(f"it was not read ({statement.text.strip()[:40]})")
+        if statement.dialect != self.dialect:
+            raise CannotSayError(f"it belongs to {statement.dialect}")
+        return statement.text
+
+
+def original(statement: ir.Statement) -> str:
+    """How the source says the statement, else its kind."""
+    text = statement.origin.text or getattr(statement, "text", "") or type(statement).__name__
+    return "\n".join(part.strip() for part in text.splitlines())
