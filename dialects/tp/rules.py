@@ -26,6 +26,8 @@ RULES = Rules(
     undefined=True,
     whole_targets=True,  # a position that was not taught is a fault when it is used
     call_depth=100,
+    message_numbers=r"R\d+",  # MESSAGE shows constant text only: how a message names the register of a value
+    message_texts=r"(?:SR|F|PR)\d+",
     system_defaults={
         "override": 100.0,
         "path_speed": 250.0,

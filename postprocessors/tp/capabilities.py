@@ -68,6 +68,8 @@ CAPABILITIES = Capabilities(
     points=tables.POINTS,
     records=False,
     arrays=False,
+    longest_message=tables.LONGEST_MESSAGE,
+    computed_messages=False,
     calculated_places=False,
     functions_alone=True,
     signal_groups=False,
@@ -75,6 +77,7 @@ CAPABILITIES = Capabilities(
     speeds=frozenset(("joint", "path", "rotation", "duration")),
     move_functions=frozenset((":", "compose", "element_sum", "displaced_in_tool", "joints_to_target", "pose_of")),
     blends=frozenset(("BlendStop", "BlendPercent", "BlendDistance")),
+    numbered_groups=True,
 )
 
 

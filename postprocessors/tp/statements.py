@@ -458,14 +458,28 @@ class Printer:
         if message.kind == "clear":
             self.comments_only(message.origin)
             return
-        if not isinstance(message.text, ir.TextLiteral):
-            raise CannotSayError("a message is a constant text")
-        text = ascii_text(message.text.value).replace("[", "(").replace("]", ")")
+        text = ascii_text(self.shown(message.text)).replace("[", "(").replace("]", ")")
         most = tables.LONGEST_MESSAGE if self.expressions.limited else max(len(text), 1)
         if len(text) > most:
             self.diagnostics.report(SPLIT_MESSAGE, message.origin, most=most)
         parts = [text[at : at + most] for at in range(0, len(text), most)] or [""]
         self.put([Line(f"  MESSAGE[{part}]") for part in parts], message.origin)
+
+    def shown(self, text: ir.Expression) -> str:
+        """The text; a register in it by its name without brackets, which would end the instruction."""
+        match text:
+            case ir.TextLiteral(value=constant_text):
+                return constant_text
+            case ir.Binary(op="&", left=left, right=right):
+                first, second = self.shown(left), self.shown(right)
+                apart = first[-1:].isalnum() and second[:1].isalnum()
+                return f"{first} {second}" if apart else first + second
+            case ir.Builtin(function="value_text", arguments=(place,)):
+                return self.shown(place)
+        bank, _, inner = self.expressions.place(text).partition("[")
+        if bank not in tables.SHOWN:
+            raise CannotSayError("a message shows constant text, and this value has no register that it can name")
+        return bank + inner.partition(":")[0].rstrip("]")
 
 
 def _leaves(body: ir.Body) -> bool:

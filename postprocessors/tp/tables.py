@@ -100,6 +100,7 @@ LONGEST_LINE: Final = 254  # M: characters of one instruction
 LONGEST_REMARK: Final = 32
 LONGEST_COMMENT: Final = 16  # of a register, a label, a position and a program
 LONGEST_MESSAGE: Final = 24
+SHOWN: Final = ("R", "SR", "F", "PR")  # registers that a message may name in place of a value
 LONGEST_TEXT: Final = 254
 MOST_ARGUMENTS: Final = 10
 MOST_TRIGGERS: Final = 5  # M: actions on the path of one move

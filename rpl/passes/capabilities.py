@@ -64,11 +64,12 @@ class Capabilities:
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
     reference_parameters: a routine may write its parameters (else copies go in, and out by variables).
     locals: a routine has variables of its own. recursion: a routine may be active twice, each time with variables of
-    its own (else they are kept on a stack around calls that lead back). call_depth: how deep calls may nest; 0: not said.
+    its own (else they are kept on a stack around calls that lead back). call_depth: how deep calls nest (0: not said).
 
     Data: banks: where variables of a type (class name) are kept, when they have numbers and no names; types may share a
     bank. points: taught points that live in a routine. records, arrays (False only with banks: consecutive numbers),
     texts: whether there are any. longest_message: characters of a message's line (0: any).
+    computed_messages: a message may show computed text (else it names the registers of its values).
     truth: `minus_one` when TRUE is the number -1 and there is no type of truth values.
     index_base: where arrays start; None: anywhere. expressions: `steps` when an assignment has one operator or function
     of constants and variables. calculated_places: moves, signals, waits take any expression. conditions: `comparisons`
@@ -143,8 +144,9 @@ class Capabilities:
     truth: str = "bool"
     index_base: int | None = 1
     expressions: str = "any"
-    longest_message: int = 0
     calculated_places: bool = True
+    longest_message: int = 0
+    computed_messages: bool = True
     conditions: str = "any"
     functions_alone: bool = False
     move_settings: frozenset[str] = frozenset()

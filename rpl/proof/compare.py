@@ -16,6 +16,7 @@ import numpy as np
 from rpl.proof.difference import Difference, Side
 from rpl.proof.paths import gap
 from rpl.proof.record import Happening, Record, Stretch, Value
+from rpl.proof.messages import as_lines, same_message
 
 LEVELS = ("none", "events", "geometry", "time")
 
@@ -168,7 +169,8 @@ def _matched(
         first = ours[at] if at < len(ours) else None
         second = theirs[there] if there < len(theirs) else None
         same = first is not None and second is not None and same_event(first, second, tolerance)
-        lines = (1, 1) if same or not foreign else _as_lines(ours[at:], theirs[there:])
+        split = foreign and (not same or (first is not None and first.kind == "message"))
+        lines = as_lines(ours[at:], theirs[there:]) if split else (1, 1)
         if first is not None and second is not None and lines != (1, 1):
             whole = second if lines[0] > 1 else first
             yield replace(first, value=whole.value), replace(second, value=whole.value)
@@ -180,24 +182,6 @@ def _matched(
         else:
             yield first, second
             at, there = at + 1, there + 1
-
-
-def _as_lines(ours: Sequence[Happening], theirs: Sequence[Happening]) -> tuple[int, int]:
-    """How many messages of each side are one message of the other, which a screen shows in several lines: they come at
-    the same time, and nothing but blanks is more or less. (1, 1): none."""
-    for one, several, turned in ((ours, theirs, False), (theirs, ours, True)):
-        if not one or one[0].kind != "message":
-            continue
-        wanted, found = "".join(str(one[0].value).split()), ""
-        for count, line in enumerate(several, 1):
-            if line.kind != "message" or line.t != several[0].t:
-                break
-            found += "".join(str(line.value).split())
-            if found == wanted:
-                return (count, 1) if turned else (1, count)
-            if not wanted.startswith(found):
-                break
-    return 1, 1
 
 
 def _is_looking(happening: Happening, tolerance: Tolerance) -> bool:
@@ -217,7 +201,9 @@ def same_event(a: Happening, b: Happening, tolerance: Tolerance) -> bool:
             return bool(a.names & b.names) and same_value(a.value, b.value, tolerance.number)
         case "wait":
             return same_value(a.value, b.value, tolerance.wait_s) or _same_polling(a, b, tolerance)
-        case "message" | "dialog":
+        case "message":
+            return same_message(a, b)
+        case "dialog":
             return " ".join(str(a.value).split()) == " ".join(str(b.value).split())
         case _:
             return a.value == b.value

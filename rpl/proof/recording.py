@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rpl import ir
+from rpl.passes.scope import rules_of
 from rpl.proof.paths import length_mm, turn_deg
-from rpl.proof.record import Happening, Place, Record, Stretch, Value, place_of, signal_names
+from rpl.proof.record import Happening, Named, Place, Record, Stretch, Value, place_of, signal_names
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
@@ -30,14 +31,22 @@ _STANDING_MM = 1e-3
 def record_of(result: RunResult, program: ir.Program, robot: RobotModel | None = None) -> Record:
     """The record of a run of that program."""
     ways = {task: _Way(events) for task, events in _by_task(result.trace).items()}
+    language = next((module.dialect for module in program.modules), "")
+    named = _named(language)
     tasks = {}
     stuck = place_of(result.fault.origin) if result.fault else Place()
     for task, way in ways.items():
         counted = [_happening(event, way, stuck) for event in way.events]
-        tasks[task] = tuple(_without_polling([happening for happening in counted if happening is not None]))
+        kept = [one if one.kind != "message" else replace(one, named=named) for one in counted if one is not None]
+        tasks[task] = tuple(_without_polling(kept))
     motion = {task: way.stretches() for task, way in ways.items() if way.moves}
-    language = next((module.dialect for module in program.modules), "")
     return Record(result.status, result.time_s, tasks, motion, robot.name if robot else "", language)
+
+
+def _named(language: str) -> Named:
+    """What names a value in a message of the language."""
+    rules = rules_of(language) if language else None
+    return Named() if rules is None else Named(rules.message_numbers, rules.message_texts)
 
 
 def _by_task(trace: Sequence[Event]) -> dict[str, list[Event]]:

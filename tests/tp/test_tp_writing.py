@@ -195,7 +195,7 @@ UNSAYABLE = [
     "R[0] = 1.0",
     "PR[3] = PR[4] : PR[5]",
     "SET do[1] TO R[1] > 2.0 XOR di[1]",
-    'MESSAGE "part " & SR[1]',
+    'MESSAGE "part " & number_text(1.5, 2)',
     'SR[1] = "it\'s"',
     "FOR R1 = 1 TO 10 STEP 2\nother()\nEND FOR",
     "WHILE di[1]\nother()\nEND WHILE",

@@ -87,6 +87,9 @@ def _words(pieces: list[ir.Expression], most: int) -> list[ir.Expression]:
 
 def _length(piece: ir.Expression, editor: Editor, most: int) -> int:
     """How long the piece can be at most."""
+    if not editor.capabilities.computed_messages and not isinstance(piece, ir.TextLiteral):
+        banks = [editor.capabilities.banks.get(name) for name in ("RealType", "BoolType", "StringType")]
+        return max((len(f"{bank.name}{bank.last}") for bank in banks if bank is not None), default=most)
     match piece:
         case ir.TextLiteral(value=text):
             return len(text)

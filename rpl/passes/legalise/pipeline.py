@@ -56,6 +56,7 @@ from rpl.passes.legalise.rotationvectors import rotation_vectors
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
 from rpl.passes.legalise.signals import name_signals, number_signals
+from rpl.passes.legalise.shown import values_beside_messages
 from rpl.passes.legalise.speeds import fit_speeds
 from rpl.passes.legalise.spelling import one_spelling
 from rpl.passes.legalise.steps import steps
@@ -120,6 +121,7 @@ PASSES: tuple[Pass, ...] = (
     decide_logic,
     rewrite_calls,
     references_as_copies,
+    values_beside_messages,
     split_messages,
     fit_loops,
     enums_to_constants,

@@ -280,6 +280,8 @@ class _Steps(Hoister):
                 return self.counted(statement)
             case ir.WaitUntil():
                 return self.waiting(statement)
+            case ir.Message() if not self.can.computed_messages:
+                return (statement,)  # its values are variables that the text names
         if isinstance(statement, _STRUCTURES):
             return super().statement(statement)
         if self.can.calculated_places and not self.by_steps:

@@ -1,0 +1,92 @@
+"""When two messages say the same: by their text, apart from blanks, and by the registers that one names for the values
+that the other shows.
+
+A language whose messages show constant text only says in its rules what names a register there; such a name stands for
+any value of its kind. Where a screen shows a message in several lines, the lines together are one message.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rpl.proof.record import Happening, Named
+
+_NUMBER, _TEXT = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", r".*"
+
+
+def same_message(a: Happening, b: Happening) -> bool:
+    """Do two messages say the same?"""
+    return _same([a], [b])
+
+
+def as_lines(ours: Sequence[Happening], theirs: Sequence[Happening]) -> tuple[int, int]:
+    """How many messages of each side are one message of the other, which a screen shows in several lines: they come at
+    the same time, and nothing but blanks is more or less. (1, 1): none."""
+    found = (1, 1)
+    for one, several, turned in ((ours, theirs, False), (theirs, ours, True)):
+        if not one or one[0].kind != "message":
+            continue
+        for count in range(1, _together(several) + 1):
+            if not _same(one[:1], several[:count]):
+                continue
+            found = (count, 1) if turned else (1, count)
+            if _goes_on(one[1:], several[count:]):
+                return found
+    return found
+
+
+def _together(several: Sequence[Happening]) -> int:
+    """How many messages come at the same time."""
+    for count, line in enumerate(several):
+        if line.kind != "message" or line.t != several[0].t:
+            return count
+    return len(several)
+
+
+def _goes_on(ours: Sequence[Happening], theirs: Sequence[Happening]) -> bool:
+    """May what follows be the same? A name of a value leaves open where a message ends."""
+    messages = (_together(ours[:1]), _together(theirs[:1]))
+    if messages != (1, 1):
+        return messages == (0, 0)
+    return any(_same(ours[:1], theirs[:count]) for count in range(1, _together(theirs) + 1))
+
+
+@dataclass(frozen=True, slots=True)
+class _Said:
+    """A text without blanks, and the expression that says what else would say the same."""
+
+    text: str
+    pattern: str
+
+    @classmethod
+    def of(cls, lines: Sequence[Happening]) -> _Said:
+        named = next((one.named for one in lines), Named())
+        texts = [str(one.value) for one in lines]
+        return cls("".join(map(_bare, texts)), "".join(_pattern(text, named) for text in texts))
+
+
+def _same(ours: Sequence[Happening], theirs: Sequence[Happening]) -> bool:
+    a, b = _Said.of(ours), _Said.of(theirs)
+    if a.text == b.text:
+        return True
+    if ours[0].named == theirs[0].named:
+        return False
+    return bool(re.fullmatch(a.pattern, b.text) or re.fullmatch(b.pattern, a.text))
+
+
+def _pattern(text: str, named: Named) -> str:
+    """The text with what it names left open."""
+    if not named.numbers and not named.texts:
+        return re.escape(_bare(text))
+    names = re.compile(rf"\b(?:(?P<number>{named.numbers or '(?!)'})|(?P<text>{named.texts or '(?!)'}))\b")
+    done, at = "", 0
+    for found in names.finditer(text):
+        done += re.escape(_bare(text[at : found.start()])) + (_NUMBER if found["number"] else _TEXT)
+        at = found.end()
+    return done + re.escape(_bare(text[at:]))
+
+
+def _bare(text: str) -> str:
+    return "".join(text.split())
