@@ -51,6 +51,7 @@ RULES = Rules(
     undefined=True,
     array_base=0,
     call_depth=100,
+    wait_poll_s=STEP_TIME_S,
     system_defaults={
         "path_speed": 250.0,
         "path_acceleration": 1200.0,

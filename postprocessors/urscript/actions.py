@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.ir.walk import expressions as all_expressions
+from rpl.passes.legalise.jumps import opposite
 from rpl.passes.typewords import component_names, word_type
 
 from . import tables
@@ -70,6 +71,8 @@ class Actions:
                 return f"return {self.expressions.given(value, routine.returns if routine else None)}"
             case ir.Halt(kind="stop" | "exit"):
                 return "halt"
+            case ir.Wait(time=ir.Quantity(ir.RealLiteral(value=seconds), "s")) if seconds == tables.STEP_S:
+                return "sync()"
             case ir.Wait(time=time):
                 return f"sleep({self.expressions.measured(time, 's')})"
             case ir.StopMotion(hard=hard):
@@ -182,7 +185,7 @@ class Actions:
     def wait_until(self, wait: ir.WaitUntil) -> None:
         """A loop that looks again in each step of the controller."""
         printer = self.printer
-        waiting = self.expressions.text(_negated(wait.condition))
+        waiting = self.expressions.text(opposite(wait.condition))
         if wait.timeout is None:
             printer.line(f"while {waiting}:", wait.origin)
             printer.more("  sync()", "end")

@@ -12,7 +12,7 @@ CAPABILITIES = Capabilities(
     statements=tables.words(
         """Assign CallRoutine If Switch For While Repeat Loop ExitLoop NextPass Return Halt Wait WaitUntil
         WaitForMotion Pulse SetAfter StopMotion Clock Message Dialog Do TaskControl Critical Nothing Move Vendor
-        Opaque"""
+        Opaque Trigger"""
     ),
     functions=frozenset(
         (
@@ -52,5 +52,7 @@ CAPABILITIES = Capabilities(
     speeds=frozenset(("joint", "axis", "path", "duration", "path_acceleration", "axis_acceleration")),
     blends=frozenset(("BlendDistance",)),
     postures="joints",
+    watching_tasks=True,
+    poll_s=0.002,
     reference_parameters=False,
 )

@@ -37,6 +37,8 @@ def _routine(routine: ir.Routine, scope: Scope) -> ir.Routine:
 
     def change(node: object) -> object:
         match node:
+            case ir.Assign(value=value) | ir.Binary(op="<" | "<=" | ">" | ">=", left=value) if _on_the_way(value):
+                return node
             case ir.Assign(target=ir.Name() | ir.Index() as target, value=value):
                 return replace(node, value=cleaned(value)) if _is_number(target, scope) else node
             case ir.Assign(target=ir.Field(base=base) as target, value=value):
@@ -53,6 +55,15 @@ def _routine(routine: ir.Routine, scope: Scope) -> ir.Routine:
         return node
 
     return rewrite(routine, change)
+
+
+def _on_the_way(value: ir.Expression) -> bool:
+    """How far a robot that moves is from somewhere: no number that anything could have been meant to be."""
+    return (
+        isinstance(value, ir.Builtin)
+        and value.function == "distance"
+        and value.arguments[0] == ir.System("actual_pose")
+    )
 
 
 def reads(value: ir.Expression, scope: Scope) -> bool:

@@ -115,6 +115,7 @@ PLACES = {"x": 0, "y": 1, "z": 2}
 DIGITAL = ((1, 8, "standard"), (9, 16, "configurable"), (17, 18, "tool"), (19, 146, "boolean"))
 ANALOG = ((1, 2, "standard"), (3, 4, "tool"), (5, 52, "float"))
 REGISTERS = ("boolean", "float")  # general purpose registers, read and written by functions of another form
+STEP_S = 0.002  # one cycle of an e-Series controller, which sync() waits for (CB3: 0.008)
 FLAGS = 32  # set_flag(0) .. set_flag(31): internal digital signals, counted from 1 here as the others
 
 # M: what movej, movel and movep do without v and a (script manual's defaults), deg/s and mm/s.

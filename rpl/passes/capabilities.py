@@ -82,6 +82,9 @@ class Capabilities:
     be although nothing else can: a place seen from another one, with simple operands. no_tool, no_frame: the target's
     own tool and work object data without any offset; then moves name such data, and no plain poses.
 
+    watching_tasks: path events, searches and interrupts stand in `statements` although moves and the controller have
+    none: the passes make tasks of them that watch beside the move (pathevents, watching).
+
     declared_groups: a group of signals exists only by a declaration with a name (KRL SIGNAL). signal_groups: a group
     can be named by its first and last signal, or a pass or the writer finds a name for it.
     """
@@ -152,6 +155,7 @@ class Capabilities:
     move_settings: frozenset[str] = frozenset()
     speeds: frozenset[str] = frozenset()
     blends: frozenset[str] = frozenset()
+    watching_tasks: bool = False
     declared_groups: bool = False
     signal_groups: bool = True
     postures: str = "flags"

@@ -30,7 +30,7 @@ _STANDING_MM = 1e-3
 
 def record_of(result: RunResult, program: ir.Program, robot: RobotModel | None = None) -> Record:
     """The record of a run of that program."""
-    ways = {task: _Way(events) for task, events in _by_task(result.trace).items()}
+    ways = _ways(_by_task(result.trace), program)
     language = next((module.dialect for module in program.modules), "")
     named = _named(language)
     tasks = {}
@@ -39,7 +39,7 @@ def record_of(result: RunResult, program: ir.Program, robot: RobotModel | None =
         counted = [_happening(event, way, stuck) for event in way.events]
         kept = [one if one.kind != "message" else replace(one, named=named) for one in counted if one is not None]
         tasks[task] = tuple(_without_polling(kept))
-    motion = {task: way.stretches() for task, way in ways.items() if way.moves}
+    motion = {way.mover: way.stretches() for way in ways.values() if way.moves}
     return Record(result.status, result.time_s, tasks, motion, robot.name if robot else "", language)
 
 
@@ -47,6 +47,21 @@ def _named(language: str) -> Named:
     """What names a value in a message of the language."""
     rules = rules_of(language) if language else None
     return Named() if rules is None else Named(rules.message_numbers, rules.message_texts)
+
+
+def _ways(tasks: dict[str, list[Event]], program: ir.Program) -> dict[str, _Way]:
+    """What happened in each task, and the way of its robot. Of a program with one robot it is the robot's, whichever
+    task moves it (a language without searches moves in one task and looks in another)."""
+    if sum(task.kind == "motion" for task in program.tasks) > 1:
+        return {task: _Way(task, events, _moves(events)) for task, events in tasks.items()}
+    every = sorted((move for events in tasks.values() for move in _moves(events)), key=lambda one: one.legs[0].start_s)
+    movers = [task for task, events in tasks.items() if _moves(events)]
+    mover = movers[0] if len(movers) == 1 else next(iter(tasks), "")
+    return {task: _Way(mover, events, every) for task, events in tasks.items()}
+
+
+def _moves(events: list[Event]) -> list[Event]:
+    return [event for event in events if event.kind == "move" and event.legs]
 
 
 def _by_task(trace: Sequence[Event]) -> dict[str, list[Event]]:
@@ -116,11 +131,10 @@ def _plain(value: object) -> Value:
 
 
 class _Way:
-    """The moves of one task, and how far its tool had come at any moment."""
+    """The events of one task; the moves of its robot, and how far its tool had come at any moment."""
 
-    def __init__(self, events: list[Event]) -> None:
-        self.events = events
-        self.moves = [event for event in events if event.kind == "move" and event.legs]
+    def __init__(self, mover: str, events: list[Event], moves: list[Event]) -> None:
+        self.mover, self.events, self.moves = mover, events, moves
         self.legs = sorted((leg for event in self.moves for leg in event.legs), key=lambda leg: leg.start_s)
         self.starts = [leg.start_s for leg in self.legs]
         self.before = [0.0]

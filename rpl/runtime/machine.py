@@ -22,7 +22,7 @@ from rpl.runtime.signals import Key, bit_kind, group_bits, is_bit_group, key_of,
 from rpl.runtime.task import ENDED, READY, WAITING, Task
 from rpl.runtime.trace import Event, Fault, RunResult
 from rpl.runtime.values import SignalRef, StopWatch, Value, whole
-from rpl.runtime.waits import Wait, poll_step
+from rpl.runtime.waits import CYCLE_S, Wait, poll_step
 from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
@@ -115,8 +115,7 @@ class Machine:
         if wait.deadline is not None:
             self.schedule(wait.deadline, TIMERS, "wake", task.index, wait.token)
         if wait.polls:
-            step = poll_step(self.now - wait.since, wait.poll_s)
-            self.schedule(self.now + step, TIMERS, "poll", task.index, wait.token)
+            self._poll_later(task, wait)
 
     def schedule_interrupt(self, task: Task, interrupt: Interrupt, seconds: float) -> None:
         data = (interrupt.key, interrupt.token)
@@ -193,8 +192,14 @@ class Machine:
             task.awake(False)
             self.ready(task)
         elif task.wait is wait:
-            step = poll_step(self.now - wait.since, wait.poll_s)
-            self.schedule(self.now + step, TIMERS, "poll", task.index, token)
+            self._poll_later(task, wait)
+
+    def _poll_later(self, task: Task, wait: Wait) -> None:
+        """Look again; while a robot moves, whose place may be waited for, in each cycle of short ones."""
+        step = poll_step(self.now - wait.since, wait.poll_s)
+        if wait.poll_s < CYCLE_S and any(other.busy for other in self.tasks):
+            step = wait.poll_s
+        self.schedule(self.now + step, TIMERS, "poll", task.index, wait.token)
 
     def _is_over(self, task: Task, wait: Wait) -> bool:
         """Is the wait over? A condition that cannot be evaluated lets its statement fail in its own place."""

@@ -249,7 +249,7 @@ class Task:
         deadline = None if timeout is None else now + max(timeout, 0.0)
         wait = Wait("condition", at, next, self.machine.token(), now, deadline, condition, values, polls)
         wait.timed_out, wait.error, wait.subject = timed_out, error, subject
-        wait.poll_s = max(CYCLE_S, self.frame.code.rules.wait_poll_s)
+        wait.poll_s = self.frame.code.rules.wait_poll_s or CYCLE_S
         self.machine.event("wait", {"condition": subject}, self, self.frame.code.origin(at))
         return self.block(wait)
 

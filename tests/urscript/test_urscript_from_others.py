@@ -136,12 +136,6 @@ def test_a_message_keeps_its_sender() -> None:
     assert 'popup("late", title="cell")' in equal("krl", KRL.format(lines='MsgNotify("late","cell")'))
 
 
-def test_actions_on_a_path_are_refused_by_name() -> None:
-    lines = "TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[1]=TRUE\nLIN {X 400,Y 0,Z 400,A 0,B 90,C 0}"
-    script, losses, proof = translated("krl", KRL.format(lines=lines))
-    assert losses == ["urscript-path-action"] and "halt" in script and not proof.equal
-
-
 def test_searches_in_texts() -> None:
     lines = [
         f"SET do[{number}] TO {one}"

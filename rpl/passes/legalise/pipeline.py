@@ -45,6 +45,7 @@ from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.onemove import settings_of_one_move
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.parameters import fit_arguments
+from rpl.passes.legalise.pathevents import path_events
 from rpl.passes.legalise.polling import poll_waits
 from rpl.passes.legalise.prelude import link_prelude
 from rpl.passes.legalise.pulses import fold_pulses
@@ -136,6 +137,7 @@ PASSES: tuple[Pass, ...] = (
     geometry,
     flat_records,
     compositions,
+    path_events,
     arithmetic,
     functions_to_procedures,
     fit_arguments,
