@@ -68,13 +68,6 @@ def place_of(origin: Origin) -> Place:
 
 
 @dataclass(frozen=True, slots=True)
-class Happening:
-    """Something that can be seen from outside. kind: output, message, dialog, wait, fault, end.
-
-    value: the output's value, the message's text, the seconds of a timed wait (None: on a condition), the fault's code,
-    the status at the end. `along` is how far the tool had travelled on its whole path, mm; `moving` whether it moved.
-    Timed waits in a row are one wait for their sum: so many `times`, the longest of them `longest_s`.
-@dataclass(frozen=True, slots=True)
 class Named:
     """What names a register in a message that shows constant text only: regular expressions for registers of numbers
     and of anything else. Empty: messages show their values."""
@@ -83,6 +76,14 @@ class Named:
     texts: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class Happening:
+    """Something that can be seen from outside. kind: output, message, dialog, wait, fault, end.
+
+    value: the output's value, the message's text, the seconds of a timed wait (None: on a condition), the fault's code,
+    the status at the end. `along` is how far the tool had travelled on its whole path, mm; `moving` whether it moved.
+    Timed waits in a row are one wait for their sum: so many `times`, the longest of them `longest_s`.
+    `named`: what names a value in the text of a message.
     """
 
     kind: str
@@ -94,12 +95,12 @@ class Named:
     moving: bool = False
     times: int = 1
     longest_s: float = 0.0
+    named: Named = Named()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stretch:
     """One move as it was driven: tool poses (k, 4, 4) in the robot's base frame, mm, at times (k,), and the joints (n,)
-    `named`: what names a value in the text of a message.
     at its end. motion: joint, linear, circular, spline. `stops`: the robot came to rest at its end. `goal`: the
     programmed end, x y z in mm and the quaternion w x y z (7,), which a blended move passes at a distance. `cut`: an
     interrupt or a search ended it on its way. `own_measure`: its corner is as large as the controller's speed or
@@ -111,7 +112,6 @@ class Stretch:
     joints: FloatArray
     stops: bool = True
     place: Place = field(default_factory=Place)
-    named: Named = Named()
     goal: FloatArray | None = None
     cut: bool = False
     own_measure: bool = False
