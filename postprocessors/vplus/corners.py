@@ -17,6 +17,15 @@ _QUIET = (ir.Nothing, ir.Label, ir.LookAhead, ir.SetForNextMove, ir.Trigger, ir.
 _LOOKS = frozenset(("current_target", "current_joints", "current_position"))
 
 
+@dataclass(frozen=True, slots=True)
+class Followed:
+    """A move over a corner, the step behind it, and what comes first on all ways from there."""
+
+    move: ir.Move
+    next: ir.Statement | None
+    rest: Callable[[], str]
+
+
 @dataclass(slots=True)
 class Corners:
     """Which moves are followed by an action before the next move. `stopped`: identities of such moves that had a
@@ -25,6 +34,9 @@ class Corners:
     program: ir.Program
     stopped: set[int] = field(default_factory=set)
     deferred: set[int] = field(default_factory=set)  # identities of steps that stand behind the next move instead
+    broken: set[int] = field(default_factory=set)  # identities of steps with a BREAK in front
+    loose: set[int] = field(default_factory=set)  # identities of moves that are stopped by one of these
+    actors: dict[int, ir.Statement | None] = field(default_factory=dict)  # of the move that is looked at
     routines: dict[str, ir.Routine] = field(default_factory=dict)
     callers: dict[str, list[Callable[[], str]]] = field(default_factory=dict)
     open: set[str] = field(default_factory=set)
@@ -38,14 +50,33 @@ class Corners:
         for module in program.modules:
             for routine in module.routines:
                 found.routines.setdefault(routine.name.lower(), routine)
-        moves: list[tuple[ir.Move, Callable[[], str]]] = []
+        moves: list[Followed] = []
         for key, routine in found.routines.items():
             found.current = key
             found.collect(routine.body, lambda key=key: found.after(key), moves)  # type: ignore[misc]
-        found.stopped = {id(move) for move, rest in moves if rest() == ACTS}
+        for one in moves:
+            found.decide(one)
         return found
 
-    def collect(self, body: ir.Body, rest: Callable[[], str], moves: list[tuple[ir.Move, Callable[[], str]]]) -> None:
+    def decide(self, move: Followed) -> None:
+        """Stop at the corner where what acts stands right behind it; where only some ways lead to something that acts,
+        in front of that."""
+        self.actors.clear()
+        if move.rest() != ACTS:
+            return
+        actors = [actor for actor in self.actors.values() if actor is not None]
+        if len(actors) < len(self.actors) or (len(actors) == 1 and actors[0] is move.next):
+            self.stopped.add(id(move.move))
+        else:
+            self.loose.add(id(move.move))
+            self.broken |= set(self.actors)
+
+    def acts(self, statement: ir.Statement | None) -> str:
+        """Something that acts was met; None: no step can stand in front of it."""
+        self.actors[id(statement)] = statement
+        return ACTS
+
+    def collect(self, body: ir.Body, rest: Callable[[], str], moves: list[Followed]) -> None:
         """Every move that goes over a corner, and every call, with what follows it."""
         for at, statement in enumerate(body):
             behind = body[at + 1 :]
@@ -57,7 +88,7 @@ class Corners:
                 case ir.Move(blend=blend) if blend is not None and not isinstance(blend, ir.BlendStop):
                     between = deferred(behind) if has_size(blend) else None
                     if between is None:
-                        moves.append((statement, follows))
+                        moves.append(Followed(statement, _next(behind), follows))
                     else:
                         self.deferred |= set(map(id, between))
                 case ir.Label(name=name):
@@ -79,11 +110,12 @@ class Corners:
             condition = loop.condition if isinstance(loop, ir.While) else None
             condition = loop.until if isinstance(loop, ir.Repeat) else condition
             if condition is not None and looks(condition):
-                return ACTS
+                return self.acts(None)
             first = self.first(loop.body, lambda: MOVES)
-            if first == ACTS or isinstance(loop, ir.Loop):
+            if isinstance(loop, ir.Loop):
                 return first
-            return follows()
+            other = follows()
+            return first if first == ACTS else other
 
         return again
 
@@ -104,9 +136,9 @@ class Corners:
                     return MOVES
                 case ir.Assign(target=target):
                     if isinstance(target, ir.Signal | ir.System) or looks(statement):
-                        return ACTS
+                        return self.acts(statement)
                 case ir.CallRoutine(name=name):
-                    found = self.called(name)
+                    found = self.called(name, statement)
                     if found != ENDS:
                         return found
                 case ir.If() | ir.Switch():
@@ -121,15 +153,17 @@ class Corners:
                 case ir.Goto():
                     return self.jumped(statement)
                 case _ if not isinstance(statement, _QUIET):
-                    return ACTS
+                    return self.acts(statement)
         return rest()
 
     def jumped(self, jump: ir.Goto) -> str:
         """What follows a jump's label."""
         key = self.homes.get(id(jump), ""), jump.label.lower()
         mark = f"{key[0]}:{key[1]}"
-        if key not in self.labels or mark in self.open:
-            return MOVES if mark in self.open else ACTS
+        if mark in self.open:
+            return MOVES
+        if key not in self.labels:
+            return self.acts(None)
         self.open.add(mark)
         found = self.labels[key]()
         self.open.discard(mark)
@@ -142,20 +176,25 @@ class Corners:
         else:
             asked = [statement.selector]
         if any(map(looks, asked)):
-            return ACTS
+            return self.acts(statement)
         found = [self.first(body, rest) for body in (*_bodies(statement), ())]
         return ACTS if ACTS in found else found[0]
 
-    def called(self, name: str) -> str:
+    def called(self, name: str, call: ir.Statement) -> str:
         routine = self.routines.get(name.lower())
         if routine is None:
-            return ACTS
+            return self.acts(call)
         if name.lower() in self.open:
             return MOVES
         self.open.add(name.lower())
         found = self.first(routine.body, lambda: ENDS)
         self.open.discard(name.lower())
         return found
+
+
+def _next(body: ir.Body) -> ir.Statement | None:
+    """The step that comes first, apart from those that do nothing outside of the program."""
+    return next((one for one in body if not isinstance(one, _QUIET) and not _is_quiet(one)), None)
 
 
 def deferred(body: ir.Body) -> list[ir.Statement] | None:

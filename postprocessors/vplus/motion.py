@@ -32,6 +32,11 @@ STOPPED = code(
     Severity.WARNING,
     "the robot stops at this corner: V+ would execute the next step when the move begins",
 )
+LOOSE = code(
+    "vplus-corner-may-stop",
+    Severity.WARNING,
+    "the robot stops at this corner where no move follows at once: V+ would execute the next step when the move begins",
+)
 LEFT_OUT = code("vplus-left-out", Severity.WARNING, "V+ has no place for {what} at a move; it is left out")
 ARC = code("vplus-arc", Severity.WARNING, "only eV+ controllers have MOVEC")
 NO_ARM = code(
@@ -273,11 +278,17 @@ class Motion:
         if move.blend is None or self.is_stop(move.blend):
             return ["BREAK"]
         if id(move) in self.facts.corners.stopped:
-            self.facts.diagnostics.report(STOPPED, move.origin)
-            return ["BREAK"]
+            return self.stopped(move)
+        if id(move) in self.facts.corners.loose:
+            self.facts.once(LOOSE, move.origin)
         if not _as_here(move.blend):
             self.facts.once(CORNER, move.origin)
         return []
+
+    def stopped(self, move: ir.Move) -> list[str]:
+        """A corner becomes a stop."""
+        self.facts.diagnostics.report(STOPPED, move.origin)
+        return ["BREAK"]
 
 
 def _as_here(blend: ir.Blend) -> bool:

@@ -128,6 +128,8 @@ class Printer:
         at = 0
         while at < len(body):
             self.rest = body[at + 1 :]
+            if id(body[at]) in self.output.facts.corners.broken and not self.stands():
+                self.line("BREAK")
             at += self.joined(body[at:]) or self.one(body[at])
         self.depth -= inner
 
@@ -246,6 +248,8 @@ class Printer:
             self.guard(move, str(error))
             self.more(*self.events.pending())
             return
+        if around.last and not behind:
+            behind = self.motion.stopped(move)
         inner, self.notes.before = self.notes.before, []
         self.comments_only_before(move.origin)
         self.more(*inner, *before, *around.before)

@@ -11,14 +11,15 @@ from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
 KUKA = "kuka_kr6r900sixx"
-FROM, HALF, TO = ("{X %d,Y %d,Z 300,A 0,B 180,C 0}" % place for place in ((400, -100), (400, 0), (480, 0)))
+FROM, HALF, TO = (f"{{X {x},Y {y},Z 300,A 0,B 180,C 0}}" for x, y in ((400, -100), (400, 0), (480, 0)))
 HOME = "PTP {A1 0,A2 -90,A3 90,A4 0,A5 60,A6 0}"
 
 
 def translated(body: str) -> tuple[list[str], set[str], bool]:
     """KRL statements in V+: the steps between the first and the last move home, the warnings, and whether both mean the
     same."""
-    text = f"DEF prog( )\nBAS(#INITMOV,0)\n$VEL.CP=0.05\n{HOME}\nLIN {FROM}\n{body}\n{HOME}\nEND\nDEF sub( )\n$OUT[2]=TRUE\nEND\n"
+    steps = f"BAS(#INITMOV,0)\n$VEL.CP=0.05\n{HOME}\nLIN {FROM}\n{body}\n{HOME}"
+    text = f"DEF prog( )\nDECL INT n\n{steps}\nEND\nDEF sub( )\n$OUT[2]=TRUE\nEND\n"
     diagnostics = Diagnostics()
     read = read_sources([source_from_text("prog.src", text)], "krl", diagnostics)
     files = translate_program(read, "vplus", KUKA, None, diagnostics).files
@@ -27,8 +28,8 @@ def translated(body: str) -> tuple[list[str], set[str], bool]:
     lines = [line.strip() for line in files[0].data.decode("ascii").split("\r\n")]
     lines = lines[: lines.index(".END")]
     start = next(at for at, line in enumerate(lines) if "400, -100" in line) + 2
-    steps = [line for line in lines[start:-2] if not line.startswith(("SPEED", "RIGHTY", "LEFTY", "ABOVE", "NOFLIP"))]
-    return steps, {item.code.name for item in diagnostics}, result.equal
+    found = [line for line in lines[start:-2] if not line.startswith(("SPEED", "RIGHTY", "LEFTY", "ABOVE", "NOFLIP"))]
+    return found, {item.code.name for item in diagnostics}, result.equal
 
 
 MOVES = "MOVES TRANS(400, 0, 300, 0, 180)"
@@ -131,3 +132,11 @@ def test_an_output_between_two_moves_with_a_corner_keeps_the_corner() -> None:
     second = lines.index("MOVES p2", first + 1)
     assert lines[second + 1] == "BREAK"  # nobody knows how long the program waits
     assert "vplus-corner-stopped" in {item.code.name for item in diagnostics}
+
+
+def test_a_corner_before_the_end_of_a_loop_stops_only_where_the_loop_ends() -> None:
+    body = f"FOR n=1 TO 3\nLIN {HALF} C_DIS\nLIN {TO} C_DIS\nENDFOR\n$OUT[1]=TRUE\nHALT"
+    found, codes, _ = translated(f"$APO.CDIS=5\n{body}")
+    assert found.count("BREAK") == 1
+    assert found[found.index("END") + 1 : found.index("END") + 3] == ["BREAK", "SIGNAL 1"]
+    assert "vplus-corner-may-stop" in codes
