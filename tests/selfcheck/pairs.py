@@ -1,0 +1,190 @@
+"""The self-checking projects of this folder in every language: which expectations still hold after translation.
+
+    python tests/selfcheck/pairs.py [words of project names] [to:target ...]
+
+Each expectation of a project is a digital output that is on at the end. A guarded stop in what was written would hide
+all that follows it, so the run here goes on behind the stops: one refused construct costs its own expectation only.
+Without words the whole table is made and written to `pairs.json` beside this file, which the tests compare.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from rpl import ir, registry
+from rpl.cell import Cell, read_cell
+from rpl.diagnostics import Diagnostic, Diagnostics, Severity
+from rpl.errors import RplError
+from rpl.ir.walk import rewrite
+from rpl.project import ReadProgram, read_program, read_sources
+from rpl.proof.record import Record
+from rpl.proof.recording import record_of
+from rpl.proof.wiring import in_words_of, with_signal_names
+from rpl.runtime.trace import RunResult
+from rpl.simulation import entry_name, run_program
+from rpl.source import source_from_bytes
+from rpl.translation import translate_program
+
+HERE = Path(__file__).parent
+FILE = HERE / "pairs.json"
+KUKA, ABB, FANUC = "kuka_kr6r900sixx", "abb_irb1200_5_90", "fanuc_lrmate200id"
+UR, VIPER, YASKAWA = "ur5e", "adept_viper_s650", "motoman_gp7"
+
+
+@dataclass(frozen=True)
+class Project:
+    """A folder of this folder: the arm it was written for, how many expectations it has, and its first routine."""
+
+    robot: str
+    count: int
+    entry: str | None = None
+
+
+PROJECTS = {
+    "krl_logic": Project(KUKA, 20, "LOGIC"),
+    "krl_cell": Project(KUKA, 21, "CELL"),
+    "rapid_logic": Project(ABB, 22),
+    "rapid_cell": Project(ABB, 21),
+    "tp_logic": Project(FANUC, 17, "LOGIC"),
+    "tp_cell": Project(FANUC, 17, "STATION"),
+    "urscript_logic": Project(UR, 16),
+    "urscript_cell": Project(UR, 16),
+    "vplus_logic": Project(VIPER, 18, "logic"),
+    "vplus_cell": Project(VIPER, 20, "cell"),
+    "inform_logic": Project(YASKAWA, 15, "LOGIC"),
+    "inform_cell": Project(YASKAWA, 14, "STATION"),
+    "rpl_logic": Project(KUKA, 20),
+    "rpl_cell": Project(KUKA, 19),
+}
+TARGETS = list(registry.target_names())
+
+
+@dataclass(frozen=True)
+class Pair:
+    """What came of a project in a target. `missed`: expectations that do not hold, the run going on behind guarded
+    stops. `losses`: code and reason of each. `end`: how the run ended; `error` when nothing could be run."""
+
+    missed: tuple[int, ...]
+    losses: tuple[str, ...] = ()
+    end: str = "finished"
+
+    def as_json(self) -> dict[str, object]:
+        return {"missed": list(self.missed), "losses": list(self.losses), "end": self.end}
+
+
+def read_project(name: str) -> ReadProgram:
+    """The project of the folder, with every file of it that is a program."""
+    diagnostics = Diagnostics()
+    files = [path for path in sorted((HERE / name).iterdir()) if path.suffix != ".toml"]
+    read = read_program(files, diagnostics=diagnostics)
+    errors = [item.as_text() for item in diagnostics.of(Severity.ERROR)]
+    if errors:
+        raise RplError(f"{name}: {errors[0]}")
+    return read
+
+
+def cell_of(name: str) -> Cell | None:
+    path = HERE / name / "cell.toml"
+    return read_cell(str(path)) if path.exists() else None
+
+
+def switched_on(record: Record) -> set[int]:
+    """Numbers of the digital outputs that are on at the end."""
+    state: dict[int, bool] = {}
+    happenings = [each for happenings in record.tasks.values() for each in happenings if each.kind == "output"]
+    for happening in sorted(happenings, key=lambda each: each.t):
+        for key in happening.names:
+            if found := re.fullmatch(r"digital_out:(\d+)", key):
+                state[int(found[1])] = bool(happening.value)
+    return {number for number, on in state.items() if on}
+
+
+def behind_stops(program: ir.Program) -> ir.Program:
+    """The program without the stops of its own, which a self-checking project has none of."""
+    return rewrite(program, lambda node: ir.Nothing() if isinstance(node, ir.Halt) else node)
+
+
+def own_run(name: str) -> tuple[str, set[int]]:
+    """How the project ends on its own arm, and the expectations that are met."""
+    project, read = PROJECTS[name], read_project(name)
+    result = run_program(read.program, project.robot, cell_of(name), project.entry)
+    return _end(result), switched_on(record_of(result, read.program))
+
+
+def pair_of(name: str, target: str) -> Pair:
+    """Translate, read back, run in the same surroundings."""
+    project, read = PROJECTS[name], read_project(name)
+    everything = tuple(range(1, project.count + 1))
+    diagnostics = Diagnostics()
+    try:
+        translation = translate_program(read, target, project.robot, None, diagnostics)
+        again = Diagnostics()
+        back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, again)
+        if again.has_errors:
+            return Pair(everything, end=f"error: {again.of(Severity.ERROR)[0].as_text()}")
+        named = behind_stops(with_signal_names(back.program, translation.program))
+        cell = cell_of(name)
+        theirs = in_words_of(cell, read.program, named) if cell is not None else None
+        entry = entry_name(read.program, project.entry)
+        result = run_program(named, project.robot, theirs, translation.renamed.get(entry, entry) if entry else None)
+    except RplError as error:
+        return Pair(everything, end=f"error: {type(error).__name__}: {error}")
+    on = switched_on(record_of(result, named))
+    losses = sorted({_told(item) for item in diagnostics.of(Severity.LOSS)})
+    return Pair(tuple(number for number in everything if number not in on), tuple(losses), _end(result))
+
+
+def _end(result: RunResult) -> str:
+    return result.status if result.fault is None else f"{result.status}: {result.fault.code}: {result.fault.message}"
+
+
+def _told(item: Diagnostic) -> str:
+    return f"{item.origin.line}: {item.code.name}: {item.message}"
+
+
+def recorded() -> dict[str, dict[str, dict[str, object]]]:
+    """project -> target -> what came of it, as it was found last."""
+    found: dict[str, dict[str, dict[str, object]]] = json.loads(FILE.read_text("utf-8"))
+    return found
+
+
+def _pair(names: tuple[str, str]) -> Pair:
+    return pair_of(*names)
+
+
+def _shown(name: str, target: str, pair: Pair) -> Iterator[str]:
+    count = PROJECTS[name].count
+    silent = "  SILENT" if pair.missed and not pair.losses else ""
+    missed = f"; missed {' '.join(map(str, pair.missed))}" if pair.missed else ""
+    yield f"{name} -> {target}: {count - len(pair.missed)} of {count}{missed}; {pair.end[:200]}{silent}"
+    yield from (f"    {loss[:220]}" for loss in pair.losses)
+
+
+def main(words: list[str]) -> None:
+    targets = [word.removeprefix("to:") for word in words if word.startswith("to:")] or TARGETS
+    wanted = [word for word in words if not word.startswith("to:")]
+    names = [name for name in PROJECTS if not wanted or any(word in name for word in wanted)]
+    pairs = [(name, target) for name in names for target in targets]
+    table: dict[str, dict[str, Pair]] = {}
+    with ProcessPoolExecutor(2) as pool:
+        for (name, target), pair in zip(pairs, pool.map(_pair, pairs), strict=True):
+            table.setdefault(name, {})[target] = pair
+            print(*_shown(name, target, pair), sep="\n", flush=True)
+    width = max(map(len, targets)) + 2
+    print("\n" + " " * 16 + "".join(f"{target:>{width}}" for target in targets))
+    for name, found in table.items():
+        met = [f"{PROJECTS[name].count - len(found[t].missed)}/{PROJECTS[name].count}" for t in targets]
+        print(f"{name:<16}" + "".join(f"{text:>{width}}" for text in met))
+    if not words:
+        rows = {name: {target: pair.as_json() for target, pair in found.items()} for name, found in table.items()}
+        FILE.write_text(json.dumps(rows, indent=1, sort_keys=True) + "\n", "utf-8")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
