@@ -72,6 +72,7 @@ def _with_signals(program: ir.Program, context: Context) -> ir.Program:
         for (kind, number), name in sorted(context.register_names.items())
         if kind in ir.SIGNAL_KINDS
     ]
+    signals += [ir.SignalDeclaration(name, one, scope="global") for name, one in sorted(context.signal_groups.items())]
     if not signals or not program.modules:
         return program
     first = program.modules[0]

@@ -205,7 +205,7 @@ def signal(given: ir.Signal) -> str:
 
 def _group(given: ir.Signal) -> str:
     first, last = constant(given.index), constant(given.last)
-    letter = "I" if given.kind == "group_in" else "O"
+    letter = "I" if given.kind.endswith("_in") else "O"
     if first is not None and last is not None:
         for word, bits in (("G", 8), ("GH", 4)):
             if last - first == bits - 1 and (first - 1) % bits == 0:

@@ -39,6 +39,7 @@ CAPABILITIES = Capabilities(
     named_aggregates=True,
     partial_aggregates=True,
     carries_rules=True,
+    numbered_groups=True,
 )
 
 

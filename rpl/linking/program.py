@@ -16,7 +16,7 @@ from rpl.linking.types import Types
 from rpl.passes.scope import Fold, ProgramScope, Scope, rules_of
 from rpl.passes.typing import normalise
 from rpl.runtime.code import Code, Read, Values
-from rpl.runtime.signals import Key, group_bits, is_bit_group, key_of
+from rpl.runtime.signals import Key, bit_kind, group_bits, is_bit_group, key_of
 from rpl.runtime.values import SignalRef
 
 if TYPE_CHECKING:
@@ -212,8 +212,9 @@ class LinkedProgram:
     def alias_names(self, port: SignalRef) -> tuple[str, ...]:
         """All declared names of a signal."""
         if is_bit_group(port):
-            wanted = (port.number, port.last)
-            return tuple(n for n, p in self._aliases.items() if is_bit_group(p) and (p.number, p.last) == wanted)
+            wanted = (bit_kind(port.kind), port.number, port.last)
+            groups = ((name, p) for name, p in self._aliases.items() if is_bit_group(p))
+            return tuple(name for name, p in groups if (bit_kind(p.kind), p.number, p.last) == wanted)
         return tuple(self._names_of.get(key_of(port), ()))
 
     def signal_name(self, dialect: str, kind: str, number: int) -> str:

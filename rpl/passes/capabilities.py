@@ -86,7 +86,9 @@ class Capabilities:
     none: the passes make tasks of them that watch beside the move (pathevents, watching).
 
     declared_groups: a group of signals exists only by a declaration with a name (KRL SIGNAL). signal_groups: a group
-    can be named by its first and last signal, or a pass or the writer finds a name for it.
+    can be named by its first and last signal, or a pass or the writer finds a name for it. Where signals have names
+    (signal_prefixes), a group has one of its own; groups of which a part is used otherwise are written bit by bit.
+    numbered_groups: groups have numbers of their own beside those of their bits (GO[2]).
     """
 
     statements: frozenset[str]
@@ -162,3 +164,4 @@ class Capabilities:
     move_functions: frozenset[str] = frozenset()
     no_tool: str = ""
     no_frame: str = ""
+    numbered_groups: bool = False

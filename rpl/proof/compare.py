@@ -2,6 +2,7 @@
 
 Events: per task the same outputs, messages, dialogs, blocking waits and end, in the same order with the same values.
 Geometry: the tool goes the same way, stops in the same joints (on the same arm), and outputs switch at the same place.
+A group of outputs is its bits where one of the two switches them singly (bits.py).
 Time: every happening comes at the same moment; asked only of programs in the same language on the same arm, because
 two controllers never agree on accelerations.
 """
@@ -13,6 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rpl.proof.bits import in_bits
 from rpl.proof.difference import Difference, Side
 from rpl.proof.paths import gap
 from rpl.proof.record import Happening, Record, Stretch, Value
@@ -63,6 +65,7 @@ class Verdict:
 def compare(a: Record, b: Record, tolerance: Tolerance) -> Verdict:
     """Compare two runs level by level; stop at the first level that differs."""
     verdict = Verdict()
+    a, b = in_bits(a, b)
     verdict.difference = _events(a, b, tolerance)
     if verdict.difference is not None:
         _measure_anyway(a, b, tolerance, verdict)

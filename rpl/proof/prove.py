@@ -10,11 +10,12 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from rpl import ir
+from rpl.proof.bits import with_wired_groups
 from rpl.proof.compare import Tolerance, Verdict, compare
 from rpl.proof.difference import Difference
 from rpl.proof.record import Record
 from rpl.proof.recording import record_of
-from rpl.proof.wiring import in_words_of
+from rpl.proof.wiring import in_words_of, wired_groups
 
 if TYPE_CHECKING:
     from rpl.cell import Cell
@@ -76,6 +77,10 @@ def prove_programs(
     record_a = _run(program_a, first, cell, entry, max_time_s)
     theirs = in_words_of(cell, program_a, program_b) if cell is not None else None
     record_b = _run(program_b, second, theirs, to_entry if to_entry is not None else entry, max_time_s)
+    record_a, record_b = (
+        with_wired_groups(record_a, wired_groups(program_b)),
+        with_wired_groups(record_b, wired_groups(program_a)),
+    )
     tolerance = Tolerance() if path_mm is None else replace(Tolerance(), path_mm=path_mm)
     verdict = compare(record_a, record_b, tolerance)
     refuted = verdict.difference is not None

@@ -28,12 +28,19 @@ def signal_names(
     (`do3`) counts as that number only when no number is known: a name declared for another number keeps its own.
     """
     keys = {name.lower().removeprefix("$") for name in names if name}
-    if index is not None and kind:
-        keys.add(f"{kind}:{index}" if last is None or last == index else f"{kind}:{index}-{last}")
-        return frozenset(keys)
+    if index is not None and kind and (last is None or last == index):
+        return frozenset(keys | {f"{kind}:{index}"})
+    if index is not None and kind:  # a group of bits; its name may be the number that it has as a group elsewhere
+        numbered = {f"{found[0]}:{found[1]}" for name in keys if (found := usual_key(name)) and "group" in found[0]}
+        return frozenset(keys | numbered | {f"{bits_of(kind)}:{index}-{last}"})
     usual = [found for name in keys if (found := usual_key(name)) is not None]
     groups = {group for name in keys if (group := _group_key(name)) is not None}
     return frozenset(keys | groups | {f"{word}:{number}" for word, number in usual})
+
+
+def bits_of(kind: str) -> str:
+    """The kind of a group of signals of the kind."""
+    return kind.replace("digital_", "group_")
 
 
 def _group_key(name: str) -> str | None:

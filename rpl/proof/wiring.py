@@ -11,6 +11,7 @@ from dataclasses import replace
 from rpl import ir, registry
 from rpl.cell import Cell
 from rpl.linking import link
+from rpl.runtime.signals import usual_key
 
 _WIRING = "signal_names"
 
@@ -36,6 +37,23 @@ def _declared(module: ir.Module) -> dict[str, ir.SignalDeclaration]:
     return {one.name.lower(): one for one in module.declarations if isinstance(one, ir.SignalDeclaration)}
 
 
+Wired = dict[tuple[str, int], tuple[str, int, int]]
+
+
+def wired_groups(program: ir.Program) -> Wired:
+    """Groups that have a number of their own in another language (GO[2]) -> the name, first and last bit that the
+    program declares for it."""
+    found: Wired = {}
+    for module in program.modules:
+        for name, one in _declared(module).items():
+            key = usual_key(name)
+            match one.signal:
+                case ir.Signal(index=ir.IntLiteral(value=first), last=ir.IntLiteral(value=last)) if key is not None:
+                    if key[0].startswith("group"):
+                        found[key] = (name, first, last)
+    return found
+
+
 def in_words_of(cell: Cell, first: ir.Program, second: ir.Program) -> Cell:
     """The cell for a run of the second program, when it was written for the first: signals that the first one's
     language spells by number (V+ 1001, URScript digital_in[0]) as the second one's language spells the same signal.
@@ -45,11 +63,14 @@ def in_words_of(cell: Cell, first: ir.Program, second: ir.Program) -> Cell:
         return cell
     known, spell = link(first).alias, registry.dialect(*theirs).signal_name
     declared = {name for module in first.modules for name in _declared(module)}
+    groups = wired_groups(second)
 
     def named(signal: str) -> str:
         port = known(signal) if signal.lower() not in declared else None
         if port is None or port.name is not None or port.number is None or port.last is not None:
             return signal
+        if (port.kind, port.number) in groups:
+            return groups[port.kind, port.number][0]
         return spell(port.kind, port.number)
 
     return replace(

@@ -1,7 +1,8 @@
 """Groups of signals bit by bit, for targets that have single signals only (or groups that the controller declares).
 
-Written: each bit gets its share of the number. Read: the bits are added up in front of the statement. Groups with
-computed numbers stay for the writer.
+Written: each bit gets its share of the number. Read: the bits are added up in front of the statement, or where they are
+read when the target takes signals as numbers. Groups with computed numbers stay for the writer. Where signals have
+names, a named group and the names of its bits are different signals: groups that overlap what else is used become bits.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion
 
@@ -26,6 +28,56 @@ def groups_to_bits(program: ir.Program, context: Context) -> ir.Program:
     return edit_routines(program, context, work)
 
 
+def shared_groups_to_bits(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets whose signals have names: groups of which another statement uses a part."""
+    if not context.capabilities.signal_prefixes:
+        return program
+    apart = _overlapping(program)
+    if not apart:
+        return program
+
+    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        return edit_bodies(routine, _Shared(editor, apart).body)
+
+    return edit_routines(program, context, work)
+
+
+Group = tuple[str, int, int]  # kind of its bits, first and last number
+
+
+def _group(signal: ir.Signal) -> Group | None:
+    """A group with constant numbers; a single signal is a group of one."""
+    match signal:
+        case ir.Signal(kind=kind, index=ir.IntLiteral(value=first), last=last, name=None):
+            if last is None and kind.startswith("digital"):
+                return kind, first, first
+            if isinstance(last, ir.IntLiteral):
+                return kind.replace("group", "digital"), first, last.value
+    return None
+
+
+def _overlapping(program: ir.Program) -> frozenset[Group]:
+    """Groups that have a signal in common with other signals of the program."""
+    used: set[Group] = set()
+    anywhere: set[str] = set()
+    for node in walk(*program.modules):
+        if isinstance(node, ir.Signal):
+            group = _group(node)
+            if group is not None:
+                used.add(group)
+            elif node.name is None and node.last is None:
+                anywhere.add(node.kind)
+    return frozenset(
+        one
+        for one in used
+        if one[1] < one[2]
+        and (
+            one[0] in anywhere
+            or any(other != one and other[0] == one[0] and other[1] <= one[2] and one[1] <= other[2] for other in used)
+        )
+    )
+
+
 def _bits(signal: ir.Expression) -> list[ir.Signal]:
     """The signals of a group with constant numbers, lowest bit first; empty for everything else."""
     match signal:
@@ -40,9 +92,13 @@ class _Bits(Hoister):
     def __init__(self, editor: Editor) -> None:
         super().__init__(editor, self.ruled)
 
+    def bits(self, expression: ir.Expression) -> list[ir.Signal]:
+        """The signals of a group that is taken apart."""
+        return _bits(expression)
+
     def ruled(self, expression: ir.Expression) -> Lowered | None:
         """The group's number, added up beforehand."""
-        bits = _bits(expression)
+        bits = self.bits(expression)
         if not bits:
             return None
         number = self.editor.temporary("bits", ir.IntType())
@@ -54,7 +110,7 @@ class _Bits(Hoister):
 
     def statement(self, statement: ir.Statement) -> ir.Body:
         match statement:
-            case ir.Assign(target=target, value=value) if bits := _bits(target):
+            case ir.Assign(target=target, value=value) if bits := self.bits(target):
                 return self.written(statement, bits, value)
         return super().statement(statement)
 
@@ -76,3 +132,32 @@ class _Bits(Hoister):
             return ir.BoolLiteral(bool(number.value >> place & 1))
         cut = ir.Binary("div", number, ir.IntLiteral(2**place)) if place else number
         return ir.Binary("=", ir.Binary("mod", cut, ir.IntLiteral(2)), ir.IntLiteral(1))
+
+
+class _Shared(_Bits):
+    """Groups that overlap others only, and names that are declared for such."""
+
+    def __init__(self, editor: Editor, apart: frozenset[Group]) -> None:
+        super().__init__(editor)
+        self.apart = apart
+
+    def bits(self, expression: ir.Expression) -> list[ir.Signal]:
+        signal = expression
+        if isinstance(expression, ir.Name):
+            symbol = self.editor.scope.value(expression.id)
+            if symbol is not None and isinstance(symbol.declaration, ir.SignalDeclaration):
+                signal = replace(symbol.declaration.signal, origin=expression.origin)
+        return _bits(signal) if isinstance(signal, ir.Signal) and _group(signal) in self.apart else []
+
+    def ruled(self, expression: ir.Expression) -> Lowered | None:
+        """The sum of the bits by their weights."""
+        parts: list[ir.Expression] = []
+        for place, bit in enumerate(self.bits(expression)):
+            value: ir.Expression = ir.Convert("bit", bit)
+            parts.append(ir.Binary("*", ir.IntLiteral(2**place), value) if place else value)
+        if not parts:
+            return None
+        total = parts[0]
+        for part in parts[1:]:
+            total = ir.Binary("+", total, part, origin=expression.origin)
+        return (), total

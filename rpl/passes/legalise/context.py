@@ -49,7 +49,8 @@ class Context:
     """`source` and `target` are dialect names. `robot` is the arm the source was written for, `to_robot` the arm that
     will run the result; either may be None (then what needs it is reported). `taken` are all names in use, folded.
     `register_names`: (bank, number) -> source name for data that has got a number, filled by the passes (types beside);
-    `registers`: the numbers that an earlier translation gave, to be honoured."""
+    `registers`: the numbers that an earlier translation gave, to be honoured. `signal_groups`: groups of signals that
+    had a name and are written by their numbers."""
 
     source: str
     target: str
@@ -61,6 +62,7 @@ class Context:
     register_names: dict[tuple[str, int], str] = field(default_factory=dict)
     register_types: dict[tuple[str, int], str] = field(default_factory=dict)
     registers: Mapping[tuple[str, int], str] = field(default_factory=dict)
+    signal_groups: dict[str, ir.Signal] = field(default_factory=dict)
 
     @property
     def foreign(self) -> bool:

@@ -314,7 +314,10 @@ class _Numbered(Rewriter):
         number = None if signal.index is None else constant(signal.index, self.scope)
         if not isinstance(number, int) or "SignalDeclaration" in self.context.capabilities.types:
             return None
-        self.context.register_names[signal.kind, number] = declaration.name
+        if signal.last is not None:
+            self.context.signal_groups[declaration.name] = signal
+        else:
+            self.context.register_names[signal.kind, number] = declaration.name
         return signal
 
     def inline(self, value: ir.Aggregate) -> ir.Expression | None:

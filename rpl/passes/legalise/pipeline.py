@@ -9,7 +9,7 @@ from rpl.passes.legalise.aggregates import aggregates
 from rpl.passes.legalise.aliases import without_aliases
 from rpl.passes.legalise.arithmetic import arithmetic
 from rpl.passes.legalise.arrays import array_bases, array_sizes
-from rpl.passes.legalise.bitgroups import groups_to_bits
+from rpl.passes.legalise.bitgroups import groups_to_bits, shared_groups_to_bits
 from rpl.passes.legalise.calls import rewrite_calls
 from rpl.passes.legalise.circles import circle_rules
 from rpl.passes.legalise.composition import compositions
@@ -108,6 +108,7 @@ PASSES: tuple[Pass, ...] = (
     counted_watches,
     name_signals,
     number_signals,
+    shared_groups_to_bits,
     name_groups,
     groups_to_bits,
     numbers,

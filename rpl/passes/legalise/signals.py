@@ -2,7 +2,8 @@
 
 A number 5 of digital outputs becomes the name prefix + 5; a declared alias becomes the name itself. Backwards, a name
 that is prefix + number gets that number, and any other name the first free number and a declaration. Numbers known only
-at run time go through generated routines over the numbers in reach.
+at run time go through generated routines over the numbers in reach. A group that has a number of its own (its bits are
+wired at the controller) gets free bits and a declaration too, where the target knows groups by their bits only.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from dataclasses import replace
 
 from rpl import ir, registry
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
@@ -28,6 +30,8 @@ NUMBERED = code(
 # Numbers a computed index is expected to reach where the program shows no larger one.
 _REACH = 32
 _FLAGS = 64
+# Bits of a group whose width only its controller's configuration says.
+WIDTH = 8
 
 
 def name_signals(program: ir.Program, context: Context) -> ir.Program:
@@ -181,23 +185,33 @@ def number_signals(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose signals have numbers."""
     if context.capabilities.signal_prefixes:
         return program
+    prefixes = _prefixes()
+    alone = not context.capabilities.numbered_groups
+
+    def known(signal: ir.Signal) -> str | None:
+        """The name of a named signal, or that of a group with a number of its own."""
+        match signal:
+            case ir.Signal(name=str() as name):
+                return name
+            case ir.Signal(kind=kind, index=ir.IntLiteral(value=number), last=None) if kind.startswith("group"):
+                return f"{min(prefixes.get(kind, {kind}))}{number}" if alone else None
+        return None
+
     names: dict[tuple[str, str], str] = {}
-
-    def collect(expression: ir.Expression) -> ir.Expression:
-        if isinstance(expression, ir.Signal) and expression.name is not None:
-            names.setdefault((expression.kind, expression.name.lower()), expression.name)
-        return rewrite_parts(expression, collect)
-
-    def collect_body(body: ir.Body) -> ir.Body:
-        return tuple(rewrite_parts(statement, collect, collect_body) for statement in body)
-
-    for module in program.modules:
-        for routine in module.routines:
-            for body in (routine.body, routine.undo, *(handler.body for handler in routine.handlers)):
-                collect_body(body)
+    used: dict[str, set[int]] = {}
+    for node in walk(*(routine for module in program.modules for routine in module.routines)):
+        if isinstance(node, ir.Signal):
+            name = known(node)
+            if name is not None:
+                names.setdefault((node.kind, name.lower()), name)
+    for node in walk(*program.modules):
+        if isinstance(node, ir.Signal) and isinstance(node.index, ir.IntLiteral) and known(node) is None:
+            last = node.last.value if isinstance(node.last, ir.IntLiteral) else node.index.value
+            bits = node.kind.replace("group", "digital")
+            used.setdefault(bits, set()).update(range(node.index.value, last + 1))
     if not names:
         return program
-    numbers = _numbers(names, _prefixes())
+    numbers = _numbers(names, prefixes, used)
     declared: list[ir.Declaration] = []
     aliases: dict[tuple[str, str], str] = {}
     for (kind, key), name in names.items():
@@ -210,8 +224,9 @@ def number_signals(program: ir.Program, context: Context) -> ir.Program:
             context.diagnostics.report(NUMBERED, name=name, number=number)
 
     def replaced(expression: ir.Expression) -> ir.Expression:
-        if isinstance(expression, ir.Signal) and expression.name is not None:
-            key = (expression.kind, expression.name.lower())
+        name = known(expression) if isinstance(expression, ir.Signal) else None
+        if isinstance(expression, ir.Signal) and name is not None:
+            key = (expression.kind, name.lower())
             if key in aliases:
                 return ir.Name(aliases[key], origin=expression.origin)
             return replace(_signal(expression.kind, numbers[key][0]), origin=expression.origin)
@@ -241,7 +256,7 @@ def number_signals(program: ir.Program, context: Context) -> ir.Program:
 def _signal(kind: str, number: int) -> ir.Signal:
     """A group of bits gets eight numbers in a row; its width is not known to the program."""
     if kind.startswith("group"):
-        last = ir.IntLiteral(number + 7)
+        last = ir.IntLiteral(number + WIDTH - 1)
         return ir.Signal(kind.replace("group", "digital"), index=ir.IntLiteral(number), last=last)
     return ir.Signal(kind, index=ir.IntLiteral(number))
 
@@ -256,9 +271,9 @@ def _prefixes() -> dict[str, set[str]]:
 
 
 def _numbers(
-    names: dict[tuple[str, str], str], prefixes: dict[str, set[str]]
+    names: dict[tuple[str, str], str], prefixes: dict[str, set[str]], numbered: dict[str, set[int]]
 ) -> dict[tuple[str, str], tuple[int, bool]]:
-    """Number of each named signal, and whether it was chosen (not said by its name)."""
+    """Number of each named signal, and whether it was chosen (not said by its name). Groups keep off the `numbered`."""
     result: dict[tuple[str, str], tuple[int, bool]] = {}
     used: dict[str, set[int]] = {}
     for kind, key in names:
@@ -274,11 +289,12 @@ def _numbers(
             continue
         bits = kind.replace("group", "digital")
         taken = used.setdefault(bits, set())
-        width = 8 if kind.startswith("group") else 1
-        number = 1
+        number, width = 1, 1
+        if kind.startswith("group"):  # whole bytes of the numbers, which every controller can take at once
+            width, taken = WIDTH, taken | numbered.get(bits, set())
         while any(number + bit in taken for bit in range(width)):
-            number += 1
-        taken.update(range(number, number + width))
+            number += width
+        used[bits].update(range(number, number + width))
         result[kind, key] = (number, True)
     return result
 

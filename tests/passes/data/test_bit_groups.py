@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rpl.passes.legalise.bitgroups import groups_to_bits
+import pytest
+
+from rpl import ir
+from rpl.cell import parse_cell
+from rpl.ir.walk import walk
+from rpl.passes.legalise.bitgroups import groups_to_bits, shared_groups_to_bits
+from rpl.passes.legalise.signals import number_signals
+from rpl.proof.prove import prove_programs
 
 from .executed import EVERYTHING, context, passed, read, run
 
@@ -32,3 +39,84 @@ def test_the_same_numbers() -> None:
     assert len(wanted) == 4
     assert run(after).messages == wanted
     assert not any("to" in name for _, name, _ in run(after).outputs)
+
+
+NAMED = replace(EVERYTHING, signal_prefixes={"digital_out": "do", "digital_in": "di", "group_out": "go"})
+OVERLAP = """PROCEDURE main()
+VAR n: INT
+SET do[33 TO 36] TO 10
+IF do[34] THEN SET do[1] TO ON
+SET do[34] TO OFF
+n = do[33 TO 36]
+SET do[33 TO 36] TO n / 2
+SET do[41 TO 44] TO 3
+IF do[33 TO 36] = 4 THEN SET do[2] TO ON
+SET do[50 TO 53] TO 6
+SET do[52 TO 55] TO 6
+WAIT UNTIL do[52 TO 55] = 6
+END PROCEDURE
+"""
+
+
+def test_named_groups_that_share_signals_with_others_become_bits() -> None:
+    program = read(OVERLAP)
+    after = passed(program, (shared_groups_to_bits,), context(program, NAMED))
+    groups = {str(one) for one in _groups(after)}
+    assert groups == {"41-44"}
+    wanted = [(name, value) for _, name, value in run(program).outputs]
+    assert [(name, value) for _, name, value in run(after).outputs] == wanted
+    assert ("do[2]", True) in wanted and ("do[1]", True) in wanted
+
+
+def test_a_number_known_at_run_time_only_may_be_any_of_the_bits() -> None:
+    program = read("PROCEDURE main(k: INT)\nSET do[k] TO ON\nSET do[3 TO 4] TO 1\nSET ao[k] TO 1\nEND PROCEDURE\n")
+    assert not _groups(passed(program, (shared_groups_to_bits,), context(program, NAMED)))
+
+
+def test_groups_stay_where_signals_have_numbers() -> None:
+    program = read(OVERLAP)
+    assert shared_groups_to_bits(program, context(program, EVERYTHING)) is program
+
+
+def _groups(program: ir.Program) -> set[str]:
+    found = set()
+    for node in walk(*program.modules):
+        if isinstance(node, ir.Signal) and isinstance(node.last, ir.IntLiteral):
+            assert isinstance(node.index, ir.IntLiteral)
+            found.add(f"{node.index.value}-{node.last.value}")
+    return found
+
+
+NUMBERED_GROUPS = """PROCEDURE main()
+SET go[2] TO 5
+SET do[3] TO ON
+IF go[2] = 5 THEN SET do[9] TO ON
+WAIT UNTIL gi[1] = 7
+SET go[1] TO gi[1]
+END PROCEDURE
+"""
+
+
+@pytest.mark.parametrize("numbered", [True, False])
+def test_groups_with_numbers_of_their_own_get_free_bits(numbered: bool) -> None:
+    program = read(NUMBERED_GROUPS)
+    given = context(program, replace(EVERYTHING, numbered_groups=numbered))
+    after = passed(program, (number_signals,), given)
+    found = {
+        one.name: f"{one.signal.kind} {one.signal.index.value}-{one.signal.last.value}"  # type: ignore[union-attr]
+        for module in after.modules
+        for one in module.declarations
+        if isinstance(one, ir.SignalDeclaration)
+    }
+    # Bytes in which the program switches nothing singly.
+    chosen = {"go2": "digital_out 17-24", "go1": "digital_out 25-32", "gi1": "digital_in 1-8"}
+    assert found == ({} if numbered else chosen)
+
+
+def test_the_proof_knows_where_these_groups_are_wired() -> None:
+    program = read(NUMBERED_GROUPS)
+    after = passed(program, (number_signals,), context(program, replace(EVERYTHING, numbered_groups=False)))
+    other = replace(after, modules=tuple(replace(one, dialect="krl") for one in after.modules))
+    cell = parse_cell('[[input]]\nsignal = "gi[1]"\nvalue = 7\ntime = 1.0\n')
+    verdict = prove_programs(program, other, cell=cell)
+    assert verdict.equal, verdict.as_text()
