@@ -108,6 +108,8 @@ class Assignments:
                 self.input(place, value)
             case ir.Binary():
                 self.operation(place, value)
+            case ir.Unary(op="+", operand=inner):
+                self.number(place, inner)
             case ir.Unary(op="-", operand=inner):
                 self.operation(place, ir.Binary("*", inner, ir.IntLiteral(-1)))
             case ir.Builtin():

@@ -139,6 +139,54 @@ ENDMODULE
             {1, 2},
             id="stop watches",
         ),
+        pytest.param(
+            "rpl",
+            """MODULE one
+PROCEDURE main()
+VAR t: STRING
+VAR x: REAL
+VAR n: INT
+VAR good: BOOL
+t = "Pallet-12"
+SET do[1] TO text_find(t, 1, "let") = 4 AND text_find(t, 5, "let") = 0 AND text_find(t, 1, "12") = 8
+SET do[2] TO text_upper(t) = "PALLET-12" AND text_lower(t) = "pallet-12"
+SET do[3] TO text_find_any(t, 1, "0123456789") = 8 AND text_find_any(t, 1, "xyz") = 10
+SET do[4] TO text_match(t, 1, "all") = 2 AND text_match(t, 1, "ALL") = 10 AND text_member(t, 3, "klm")
+SET do[5] TO text_map("abc", "cb", "xy") = "ayx" AND text_equal(t, "PALLET-12", TRUE)
+SET do[6] TO number_text(12.345, 1) = "12.3" AND number_text(-0.996, 2) = "-1.00" AND number_text(-0.001, 2) = "0.00"
+SET do[7] TO number_text(5.0625, 3) = "5.063" AND number_text(1.05, 2) = "1.05" AND number_text(-7, 0) = "-7"
+good = parse_number("  -12.5e1 ", x)
+SET do[8] TO good AND x = -125
+good = parse_number("12a", x)
+SET do[9] TO NOT good AND x = -125
+good = parse_number("1 2", x)
+SET do[10] TO NOT good
+good = parse_number("42", n)
+SET do[11] TO good AND n = 42
+good = parse_number(".", x)
+SET do[12] TO NOT good
+END PROCEDURE
+END MODULE
+""",
+            set(range(1, 13)),
+            id="texts",
+        ),
+        pytest.param(
+            "krl",
+            """DEF one()
+DECL CHAR t[8]
+t[] = "ABCDEF"
+$OUT[1] = (t[4] == "D")
+t[4] = "x"
+$OUT[2] = (StrComp(t[], "ABCxEF", #CASE_SENS))
+t[1] = "y"
+t[6] = "z"
+$OUT[3] = (StrComp(t[], "yBCxEz", #CASE_SENS))
+END
+""",
+            {1, 2, 3},
+            id="characters of a text",
+        ),
     ],
 )
 def test_expectations_are_met(language: str, text: str, expected: set[int]) -> None:

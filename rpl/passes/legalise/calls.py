@@ -16,6 +16,7 @@ from rpl.passes.legalise.editing import Editor, Lowered, edit_bodies, edit_routi
 from rpl.passes.legalise.effects import Effects, is_constant
 from rpl.passes.legalise.helpers import Helpers
 from rpl.passes.legalise.results import results_as_parameters
+from rpl.passes.legalise.textparts import PUT
 from rpl.passes.legalise.texts import TextHoister
 from rpl.passes.scope import ProgramScope
 
@@ -74,6 +75,11 @@ class _Calls(TextHoister):
 
     def statement(self, statement: ir.Statement) -> ir.Body:
         match statement:
+            case ir.Assign(target=ir.Index(base=base, indices=(place,)), value=sign) if self.cuts and isinstance(
+                self.editor.type_of(base), ir.StringType
+            ):
+                put = self.helpers.call(PUT, base, place, sign)
+                return super().statement(ir.Assign(base, put, origin=statement.origin))
             case ir.CallRoutine(name=name, arguments=arguments, dynamic=None):
                 routine = self.editor.scope.routine(name)
                 if routine is not None and routine.kind == "function" and routine.returns is not None:
@@ -103,6 +109,10 @@ class _Calls(TextHoister):
                 value = ir.Binary("&", target, text)
             case "format_into", arguments:
                 return self.formatted(statement, arguments)
+            case ("parse_number" | "parse_value") as name, arguments:
+                read = self.parsed(name, arguments)
+                unused = self.editor.temporary("unused", ir.BoolType())
+                return None if read is None else (ir.Assign(unused, read, origin=statement.origin),)
             case _:
                 return None
         return (ir.Assign(target, value, origin=statement.origin),)
@@ -150,6 +160,9 @@ class _Calls(TextHoister):
     def procedure_as_function(self, expression: ir.Builtin) -> Lowered | None:
         """`ok = StrAdd(a[], b[])` where procedures give no value: done, and then it has worked."""
         name = expression.function
+        read = self.parsed(name, expression.arguments)
+        if read is not None:
+            return (), read
         has = name in self.capabilities.procedures
         if name in self.capabilities.functions or (has and self.builds):
             return None
@@ -382,16 +395,21 @@ def _equal(calls: _Calls, given: Arguments) -> ir.Expression | None:
         return None
     left, right = given[0], given[1]
     if ignore.value:
-        left, right = (_upper(side) for side in (left, right))
+        left, right = (_upper(calls, side) for side in (left, right))
     return ir.Binary("=", left, right)
 
 
-def _upper(text: ir.Expression) -> ir.Expression:
-    return (
-        replace(text, value=text.value.upper())
-        if isinstance(text, ir.TextLiteral)
-        else ir.Builtin("text_upper", (text,))
-    )
+def _upper(calls: _Calls, text: ir.Expression) -> ir.Expression:
+    if isinstance(text, ir.TextLiteral):
+        return replace(text, value=text.value.upper())
+    upper = ir.Builtin("text_upper", (text,))
+    return calls.by_helpers(upper) or upper if calls.cuts else upper
+
+
+def _fraction(calls: _Calls, given: Arguments) -> ir.Expression | None:
+    if not calls.repeatable(given[0]):
+        return None
+    return ir.Binary("-", given[0], ir.Convert("real", calls.truncated(given[0])))
 
 
 _FUNCTIONS: dict[str, Callable[[_Calls, Arguments], ir.Expression | None]] = {
@@ -407,4 +425,5 @@ _FUNCTIONS: dict[str, Callable[[_Calls, Arguments], ir.Expression | None]] = {
     "length": _size,
     "dimension": _size,
     "text_equal": _equal,
+    "fraction": _fraction,
 }

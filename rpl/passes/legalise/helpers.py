@@ -12,6 +12,7 @@ from dataclasses import replace
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.errors import InternalError
+from rpl.passes.legalise import textparts
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.support import with_support
 from rpl.passes.rewrite import rewrite_parts
@@ -19,6 +20,7 @@ from rpl.passes.typing import normalise
 from rpl.source import NOWHERE, source_from_text
 
 _NAME = re.compile(r"\brpl_\w+")
+_TEXT_REFERENCE = re.compile(r"REFERENCE (?=\w+: STRING)")
 
 _TEXTS: dict[str, str] = {
     "rpl_trunc": """
@@ -373,12 +375,13 @@ class Helpers:
     def __init__(self, context: Context) -> None:
         self.context = context
         self.names: dict[str, str] = {}
+        self.texts = _TEXTS | textparts.TEXTS if textparts.by_parts(context.capabilities) else _TEXTS
 
     def name(self, helper: str) -> str:
         """The name under which the program can call this helper."""
         if helper not in self.names:
             self.names[helper] = self.context.fresh(helper)
-            for needed in sorted(set(_NAME.findall(_TEXTS[helper])) - {helper}):
+            for needed in sorted(set(_NAME.findall(self.texts[helper])) - {helper}):
                 self.name(needed)
         return self.names[helper]
 
@@ -389,9 +392,9 @@ class Helpers:
         """The program with the helpers asked for."""
         if not self.names:
             return program
-        text = "\n".join(_TEXTS[helper] for helper in self.names)
+        text = "\n".join(self.texts[helper] for helper in self.names)
         if self.context.capabilities.text_results:
-            text = text.replace("REFERENCE ", "")  # texts are values there
+            text = _TEXT_REFERENCE.sub("", text)  # texts are values there
         text = _NAME.sub(lambda match: self.names.get(match[0], match[0]), text)
         diagnostics = Diagnostics()
         source = source_from_text("rpl_support.rpl", f"MODULE rpl_support\n{text}END MODULE\n")

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.legalise import textparts
 from rpl.passes.legalise.editing import Editor, Hoister, Lowered, Rule, expansion
 from rpl.passes.legalise.effects import everything
 from rpl.passes.legalise.helpers import Helpers
@@ -49,11 +50,12 @@ class TextHoister(Hoister):
         self.helpers = helpers
         self._shared: dict[str, ir.Name] = {}
         self.builds = "&" not in editor.capabilities.operators
+        self.cuts = textparts.by_parts(editor.capabilities)
 
     # ---- concatenation
 
     def lower(self, expression: ir.Expression, lvalue: bool = False) -> Lowered:
-        if self.builds and isinstance(expression, ir.Builtin) and expression.function == "value_text":
+        if (self.builds or self.cuts) and isinstance(expression, ir.Builtin) and expression.function == "value_text":
             (value,) = expression.arguments
             if isinstance(self.editor.type_of(value), ir.BoolType):
                 return self.truth(value)
@@ -225,6 +227,10 @@ class TextHoister(Hoister):
 
     def text_statements(self, expression: ir.Expression) -> Lowered | None:
         """A function of texts as a helper: its texts are variables, also the one that it gives."""
+        if self.cuts:
+            done = self.by_helpers(expression)
+            if done is not None:
+                return (), done
         if not isinstance(expression, ir.Builtin) or expression.function in self.editor.capabilities.functions:
             return None
         if expression.function in _READERS and self.readable(expression.function):
@@ -237,6 +243,49 @@ class TextHoister(Hoister):
         text = self.editor.temporary("text", ir.StringType())
         arguments = tuple(ir.Argument(value) for value in (text, *values))
         return (*before, ir.CallRoutine(self.helpers.name(helper), arguments)), text
+
+    def by_helpers(self, expression: ir.Expression) -> ir.Expression | None:
+        """What is said of texts where they can only be cut and joined."""
+        match expression:
+            case ir.Index(base=base, indices=(index,)) if isinstance(self.editor.type_of(base), ir.StringType):
+                return ir.Builtin("text_part", (base, index, ir.IntLiteral(1)))
+            case ir.Builtin(function="number_text", arguments=(value, ir.IntLiteral(value=0))):
+                if "IntType" in self.editor.capabilities.types or not self.is_fraction(value):
+                    return None
+                rounded = ir.Convert("round_half_away", value)
+                return replace(expression, arguments=(rounded, ir.IntLiteral(0)))
+            case ir.Builtin(function="number_text"):
+                return self.helpers.call(textparts.NUMBER_TEXT, *expression.arguments)
+            case ir.Builtin(function=function) if function in textparts.FUNCTIONS:
+                if not self.has(expression):
+                    return self.helpers.call(textparts.FUNCTIONS[function], *expression.arguments)
+        return None
+
+    def is_fraction(self, value: ir.Expression) -> bool:
+        """May it be another number than a whole one?"""
+        rounded = isinstance(value, ir.Convert) and value.how == "round_half_away"
+        return not rounded and not isinstance(self.editor.type_of(value), ir.IntType)
+
+    def has(self, call: ir.Builtin) -> bool:
+        """Has the target this function, with these arguments?"""
+        can = self.editor.capabilities
+        if call.function == "text_find" and not can.text_find_from:
+            return call.function in can.functions and call.arguments[1:2] == (ir.IntLiteral(1),)
+        return call.function in can.functions
+
+    def parsed(self, name: str, arguments: Sequence[ir.Expression | None]) -> ir.Expression | None:
+        """A number read from a text by a helper, where texts can only be cut."""
+        if not self.cuts or name not in ("parse_number", "parse_value") or len(arguments) != 2:
+            return None
+        text, target = arguments
+        if text is None or target is None:
+            return None
+        match self.editor.type_of(target):
+            case ir.IntType():
+                return self.helpers.call(textparts.PARSE_WHOLE, text, target)
+            case ir.RealType():
+                return self.helpers.call(textparts.PARSE_REAL, text, target)
+        return None
 
     def readable(self, function: str) -> bool:
         """Can the helper for it be said in the target?"""
@@ -324,6 +373,7 @@ class TextHoister(Hoister):
                 case "f":
                     decimals = int(found[3]) if found[3] else _DEFAULT_DECIMALS
                     piece = ir.Builtin("number_text", (value, ir.IntLiteral(decimals)))
+                    piece = (self.by_helpers(piece) if self.cuts else None) or piece
                 case "g":
                     piece = ir.Builtin("value_text", (value,))
                 case _:
