@@ -175,6 +175,11 @@ class Assignments:
         if value.op in tables.BITS and bank_of(place) != "B":
             raise CannotSayError("operations on bits are for bytes")
         bank = bank_of(place)
+        if value.op == "div" and bank not in tables.WHOLE:  # DIV of real numbers keeps the fraction
+            whole = self.registers.helper("D")
+            self.number(whole, value)
+            self.lines.append(f"SET {place} {whole}")
+            return
         left, right = self.simple_number(value.left, bank), self.simple_number(value.right, bank)
         if right == place and left != place:
             if value.op in ("+", "*", "band", "bor", "bxor"):

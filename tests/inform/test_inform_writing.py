@@ -49,6 +49,7 @@ def written(
         (N, ir.Binary("+", N, ir.IntLiteral(1)), ["INC D000"]),
         (N, ir.Binary("-", N, ir.IntLiteral(1)), ["DEC D000"]),
         (N, ir.Binary("div", M, ir.IntLiteral(2)), ["SET D000 D001", "DIV D000 2"]),
+        (X, ir.Binary("div", N, M), ["SET D099 D000", "DIV D099 D001", "SET R000 D099"]),
         (N, ir.Binary("+", M, N), ["ADD D000 D001"]),
         (N, ir.Binary("-", M, N), ["SET D099 D000", "SET D000 D001", "SUB D000 D099"]),
         (N, ir.Binary("mod", N, M), ["SET D099 D000", "DIV D099 D001", "MUL D099 D001", "SUB D000 D099"]),
