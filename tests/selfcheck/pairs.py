@@ -34,6 +34,7 @@ from rpl.translation import translate_program
 HERE = Path(__file__).parent
 FILE = HERE / "pairs.json"
 KUKA, ABB, FANUC = "kuka_kr6r900sixx", "abb_irb1200_5_90", "fanuc_lrmate200id"
+LIMIT_S = 120.0  # simulated; the longest project ends after 49 s
 UR, VIPER, YASKAWA = "ur5e", "adept_viper_s650", "motoman_gp7"
 
 
@@ -113,7 +114,7 @@ def behind_stops(program: ir.Program) -> ir.Program:
 def own_run(name: str) -> tuple[str, set[int]]:
     """How the project ends on its own arm, and the expectations that are met."""
     project, read = PROJECTS[name], read_project(name)
-    result = run_program(read.program, project.robot, cell_of(name), project.entry)
+    result = run_program(read.program, project.robot, cell_of(name), project.entry, LIMIT_S)
     return _end(result), switched_on(record_of(result, read.program))
 
 
@@ -132,7 +133,9 @@ def pair_of(name: str, target: str) -> Pair:
         cell = cell_of(name)
         theirs = in_words_of(cell, read.program, named) if cell is not None else None
         entry = entry_name(read.program, project.entry)
-        result = run_program(named, project.robot, theirs, translation.renamed.get(entry, entry) if entry else None)
+        result = run_program(
+            named, project.robot, theirs, translation.renamed.get(entry, entry) if entry else None, LIMIT_S
+        )
     except RplError as error:
         return Pair(everything, end=f"error: {type(error).__name__}: {error}")
     on = switched_on(record_of(result, named))
