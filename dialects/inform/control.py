@@ -159,11 +159,17 @@ class Control(Motion):
             raise StatementError("the counter of FOR must be a variable", 0)
         down = isinstance(step, ir.IntLiteral) and step.value < 0
         raised = ir.Assign(counter, ir.Binary("+", counter, step or ir.IntLiteral(1), origin=origin), origin=origin)
+        first: list[ir.Statement] = [ir.Assign(counter, start, origin=origin)]
+        if not isinstance(stop, ir.IntLiteral):  # the last value is looked up once
+            self.ends += 1
+            last = ir.Name(f"FOR_END{self.ends}", origin=origin)
+            self.used.scalar(last.id, ir.IntType(), origin)
+            first.append(ir.Assign(last, stop, origin=origin))
+            stop = last
         condition = ir.Binary(">=" if down else "<=", counter, stop, origin=origin)
         body = (*self.body(nest.sections[0][1]), raised)
         loop = ir.While(condition, body, origin=origin)
-        first = ir.Assign(counter, start, origin=origin)
-        return ir.If(((ir.BoolLiteral(True), (first, loop)),), origin=origin)
+        return ir.If(((ir.BoolLiteral(True), (*first, loop)),), origin=origin)
 
     def switch_block(self, nest: Nest, origin: Origin) -> ir.Statement:
         selector = self.value(nest.head.items[0]) if nest.head.items else None
@@ -202,6 +208,7 @@ class Control(Motion):
         raise StatementError("JUMP needs a label or a job", len(command.word))
 
     restarts: bool = False
+    ends: int = 0  # last values of loops that are kept
 
     def jump_by(self, value: ir.Expression) -> ir.Statement:
         """To the label whose name is the value; without such a label the controller stops with an alarm."""

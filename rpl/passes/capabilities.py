@@ -69,7 +69,8 @@ class Capabilities:
     Data: banks: where variables of a type (class name) are kept, when they have numbers and no names; types may share a
     bank. points: taught points that live in a routine. records, arrays (False only with banks: consecutive numbers),
     texts: whether there are any. longest_message: characters of a message's line (0: any).
-    computed_messages: a message may show computed text (else it names the registers of its values).
+    computed_messages: a message may show computed text (else it names the registers of its values). text_case:
+    comparisons of texts tell capital letters from small ones. text_find_from: text_find begins at any position.
     truth: `minus_one` when TRUE is the number -1 and there is no type of truth values.
     index_base: where arrays start; None: anywhere. expressions: `steps` when an assignment has one operator or function
     of constants and variables. calculated_places: moves, signals, waits take any expression. conditions: `comparisons`
@@ -152,6 +153,8 @@ class Capabilities:
     calculated_places: bool = True
     longest_message: int = 0
     computed_messages: bool = True
+    text_find_from: bool = True
+    text_case: bool = True
     conditions: str = "any"
     functions_alone: bool = False
     move_settings: frozenset[str] = frozenset()

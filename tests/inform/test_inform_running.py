@@ -131,3 +131,11 @@ def test_pulses_and_a_pose_in_one_variable() -> None:
 def test_whole_numbers_lose_decimals(given: str, kept: int) -> None:
     """M: SET of a real number to a whole one drops its decimals."""
     assert outputs(run(job(f"SET R000 {given}\nSET I000 R000\nDOUT OT#(1) ON IF I000={kept}"))) == [("OT#(1)", True)]
+
+
+@pytest.mark.parametrize("also", ["", "\nSET B000 1\nSET D[B000] D001"])
+def test_the_last_value_of_a_loop_is_looked_up_once(also: str) -> None:
+    """M. The same where the bank is an array because some number of a variable is computed."""
+    text = f"SET D003 0\nSET D002 4\nFOR D000=1 TO D002\nSET D002 2\nADD D003 D000\nNEXT D000{also}"
+    checked = "\nDOUT OT#(1) ON IF D003=10\nDOUT OT#(2) ON IF D000=5"
+    assert outputs(run(job(text + checked))) == [("OT#(1)", True), ("OT#(2)", True)]
