@@ -48,6 +48,7 @@ _OPERAND = re.compile(
 )
 _CALL = re.compile(r"(?:CALL|RUN)\s+([A-Za-z_\u0080-\uffff][-\w]*)\s*(?:\((.*)\))?", re.IGNORECASE)
 _ARGUMENT = re.compile(r"(?<![\w$.])AR\s*\[\s*(\d+)", re.IGNORECASE)
+_HANDED_ON = re.compile(r"AR\[(\d+)(?::[^\]]*)?\]", re.IGNORECASE)
 _TEXT_ARGUMENT = re.compile(r"AR\s*\[\s*(\d+)\s*\]\s*(?:=|<>)\s*'|'\s*(?:=|<>)\s*AR\s*\[\s*(\d+)", re.IGNORECASE)
 _FRAME_NUMBER = re.compile(r"^(UFRAME|UTOOL)_NUM\b|(?<![\w$.])(UFRAME|UTOOL)\s*\[|\$MN(UFRAME|UTOOL)NUM", re.IGNORECASE)
 
@@ -67,6 +68,7 @@ class Facts:
     fixed: dict[str, int] = field(default_factory=dict)  # frames that are selected for good: no program selects one
     links: set[tuple[int, int]] = field(default_factory=set)
     arguments: dict[str, dict[int, str]] = field(default_factory=dict)
+    handed_on: set[tuple[str, int, str, int]] = field(default_factory=set)  # arguments that become another program's
     labels: dict[tuple[str, int], str] = field(default_factory=dict)
     frames: set[str] = field(default_factory=set)  # UFRAME, UTOOL when the project uses them
     numbers_set: set[str] = field(default_factory=set)  # which of their numbers a program sets
@@ -122,7 +124,7 @@ def survey(facts: Facts, program: str, pieces: Iterable[Piece], points: dict[int
         for one, other in _TEXT_ARGUMENT.findall(text):
             mine[int(one or other)] = "t"
         _positions(facts, text, points, origin)
-        _calls(facts, text)
+        _calls(facts, program, text)
         _frames(facts, text)
         _labels(facts, source.text[piece.start : piece.end])
         if "WAITTMOUT" in text.upper() or "TIMEOUT" in text.upper():
@@ -155,7 +157,7 @@ def _positions(facts: Facts, text: str, points: dict[int, str], origin: Origin) 
             facts.whole_bank.setdefault(kind, origin)
 
 
-def _calls(facts: Facts, text: str) -> None:
+def _calls(facts: Facts, program: str, text: str) -> None:
     for name, given in _CALL.findall(text):
         kinds = facts.arguments.setdefault(name.upper(), {})
         for number, argument in enumerate(split_arguments(given), 1):
@@ -164,6 +166,9 @@ def _calls(facts: Facts, text: str) -> None:
                 kinds[number] = "t"
             elif argument:
                 kinds.setdefault(number, "n")
+            own = _HANDED_ON.fullmatch(argument.strip())
+            if own is not None:
+                facts.handed_on.add((program.upper(), int(own[1]), name.upper(), number))
 
 
 def split_arguments(text: str) -> list[str]:
@@ -224,6 +229,7 @@ def conclude(facts: Facts, dump: Dump, diagnostics: Diagnostics) -> None:
                         known[taken] = known[given]
         if len(facts.joints) + len(facts.cartesian) == before:
             break
+    _spread_texts(facts)
     for number in sorted(facts.joints.keys() & facts.cartesian.keys()):
         elsewhere = facts.cartesian[number]
         place = f"{elsewhere.file}:{elsewhere.line}"
@@ -234,6 +240,18 @@ def conclude(facts: Facts, dump: Dump, diagnostics: Diagnostics) -> None:
         if bank not in facts.numbers_set and (bank, active) in dump.frames:
             facts.fixed[bank] = active
     facts.labels = {**dump.labels, **facts.labels}
+
+
+def _spread_texts(facts: Facts) -> None:
+    """An argument that is handed on is a text in both programs or in none."""
+    changed = True
+    while changed:
+        changed = False
+        for caller, own, callee, given in facts.handed_on:
+            kinds = facts.arguments.setdefault(caller, {}), facts.arguments.setdefault(callee, {})
+            if (kinds[0].get(own) == "t") != (kinds[1].get(given) == "t"):
+                kinds[0][own] = kinds[1][given] = "t"
+                changed = True
 
 
 # ---- declarations

@@ -37,7 +37,7 @@ class Assignments:
                 return [Line(f"  PR[{self.scratch}]=LPOS"), Line(f"  {place}={read}")]
             case ir.Builtin(function="text_value", arguments=(text,)):
                 held = self.expressions.element(text)  # a text stored in a number register becomes its number
-                if held is not None and held.startswith("SR[") and place.startswith("R["):
+                if held is not None and held.startswith(("SR[", "AR[")) and place.startswith("R["):
                     return [Line(f"  {place}={held}")]
         if place.startswith("AR["):
             raise CannotSayError("an argument is not assigned to")

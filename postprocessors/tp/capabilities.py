@@ -18,7 +18,16 @@ CAPABILITIES = Capabilities(
         )
     ),
     functions=frozenset(
-        (*tables.FUNCTIONS, *tables.TEXT_FUNCTIONS, *tables.POSITION_FUNCTIONS, "clock_seconds", "text_value")
+        (
+            *tables.FUNCTIONS,
+            *tables.TEXT_FUNCTIONS,
+            *tables.POSITION_FUNCTIONS,
+            "clock_seconds",
+            "text_value",
+            "text_find",
+            "value_text",
+            "number_text",
+        )
     ),
     procedures=frozenset(),
     system_variables=frozenset(
@@ -41,7 +50,6 @@ CAPABILITIES = Capabilities(
     dynamic_calls=True,
     switch_types=frozenset(("RealType", "IntType")),
     switch_constant_cases=True,
-    text_results=False,
     named_aggregates=True,
     partial_aggregates=True,
     constant_aggregates=True,
@@ -70,6 +78,8 @@ CAPABILITIES = Capabilities(
     arrays=False,
     longest_message=tables.LONGEST_MESSAGE,
     computed_messages=False,
+    text_find_from=False,
+    text_case=False,
     calculated_places=False,
     functions_alone=True,
     signal_groups=False,

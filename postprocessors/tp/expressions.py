@@ -208,12 +208,14 @@ class Expressions:
         match name, values:
             case "text_length", (text,):
                 return f"STRLEN {self.operand(text)}"
-            case "text_find", (
-                ir.Builtin(function="text_upper", arguments=(text,)),
-                start,
-                ir.Builtin(function="text_upper", arguments=(wanted_text,)),
-            ) if constant(start) == 1:
-                return f"FINDSTR {self.operand(text)},{self.operand(wanted_text)}"
+            case "text_find", (text, start, wanted_text) if constant(start) == 1:
+                whole, part = _any_case(text), _any_case(wanted_text)
+                if whole is text or part is wanted_text:
+                    self.texts_compared = True
+                return f"FINDSTR {self.operand(whole)},{self.operand(part)}"
+            case ("value_text", (shown,)) | ("number_text", (shown, ir.IntLiteral(value=0))):
+                known = constant(shown)
+                return self.operand(shown) if known is None else self.text(f"{known:g}")
             case "text_part", (text, start, count):
                 return f"SUBSTR {self.operand(text)},{self.operand(start)},{self.operand(count)}"
         raise CannotSayError(f"TP has no function {name}")
@@ -344,6 +346,14 @@ def constant(expression: ir.Expression) -> float | int | None:
             inner = constant(inner_value)
             return None if inner is None else _clean(inner * ir.UNITS[unit])
     return None
+
+
+def _any_case(text: ir.Expression) -> ir.Expression:
+    """The text whose case does not count; the same where it does."""
+    match text:
+        case ir.Builtin(function="text_upper" | "text_lower", arguments=(inner,)):
+            return inner
+    return text
 
 
 def measured(expression: ir.Expression, unit: str) -> float | int | None:

@@ -71,3 +71,61 @@ def test_routines_that_call_themselves() -> None:
     assert "recursion-limited" in codes
     assert "R[R[" not in files["FACT.LS"]  # its argument is kept by the controller
     assert "]=R[R[" in files["FIB.LS"] and "SR[R[" in files["SPELL.LS"]
+
+
+TEXTS = """MODULE m
+  PROC main()
+    VAR string line:="part-7 blue";
+    VAR num at;
+    VAR bool ok;
+    VAR num v;
+    VAR string n;
+    at:=StrMatch(line,1,"7");
+    IF at=6 Set do1;
+    IF StrMatch(line,7,"7")=12 Set do2;
+    IF StrFind(line,1,"0123456789")=6 Set do3;
+    IF StrMemb(line,6,STR_DIGIT) Set do4;
+    IF StrMap(line,STR_LOWER,STR_UPPER)="PART-7 BLUE" Set do5;
+    IF NumToStr(3.14159,2)="3.14" Set do6;
+    IF NumToStr(-0.05,1)="-0.1" Set do7;
+    IF NumToStr(7,0)+"x"="7x" Set do8;
+    IF StrPart(line,1,4)="part" Set do9;
+    IF StrLen(line)=11 Set do10;
+    ok:=StrToVal("12.5",v);
+    IF ok AND v=12.5 Set do11;
+    n:=ValToStr(ok)+ValToStr(4);
+    IF n="TRUE4" Set do12;
+    IF NumToStr(2.5,3)="2.500" Set do13;
+    IF NumToStr(1200,1)="1200.0" Set do14;
+    ok:=StrToVal("many",v);
+    IF NOT ok Set do15;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_functions_of_texts() -> None:
+    files, codes = same_in_tp("rapid", TEXTS)
+    main = files["MAIN.LS"]
+    assert "=SUBSTR SR[1:line],1,4" in main and "=STRLEN SR[1:line]" in main
+    assert "CALL RPL_TEXT_FIND_ANY(SR[1:line],1,'0123456789')" in main
+    assert set(codes) == {"tp-text-case"}
+
+
+HANDED_ON = """MODULE m
+  PROC main()
+    first "part";
+  ENDPROC
+  PROC first(string name)
+    second name,3;
+  ENDPROC
+  PROC second(string name,num much)
+    IF name="part" AND much=3 Set do1;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_texts_as_arguments_that_are_handed_on() -> None:
+    files, _ = same_in_tp("rapid", HANDED_ON)
+    assert "CALL SECOND(AR[1],3)" in files["FIRST.LS"]

@@ -179,7 +179,7 @@ class _Calls(Hoister):
             key = parameter.name.lower()
             if key not in plan.numbers:
                 continue
-            register = ir.Index(ir.Name(ARGUMENTS), (ir.IntLiteral(plan.numbers[key]),))
+            register = self.register(parameter, plan.numbers[key])
             if key not in written:
                 values[key] = register
                 continue
@@ -203,11 +203,32 @@ class _Calls(Hoister):
             for one in done.declarations
             if not (isinstance(one, ir.Variable) and one.name.lower() in {*plan.numbers, *plan.variables})
         )
-        parameters = tuple(replace(p, mode="value") for p in routine.parameters if p.name.lower() in plan.numbers)
+        parameters = tuple(
+            replace(self.argument(p, plan.numbers[p.name.lower()]), mode="value", type=self.passed_type(p.type))
+            for p in routine.parameters
+            if p.name.lower() in plan.numbers
+        )
         done = edit_bodies(replace(done, declarations=(*kept, *own)), lambda body: _renamed(body, values))
         if end:
             done = replace(done, body=(*_given_back(done.body, end), *(end if goes_on(done.body) else ())))
         return replace(done, parameters=parameters, body=(*start, *done.body))
+
+    def is_text(self, parameter: ir.Parameter) -> bool:
+        return isinstance(self.editor.scope.resolve(parameter.type), ir.StringType | ir.CharType)
+
+    def register(self, parameter: ir.Parameter, number: int) -> ir.Expression:
+        """An argument register; one that holds a text is a parameter with the register's name, and so has its type."""
+        if self.is_text(parameter):
+            return ir.Name(f"{ARGUMENTS}{number}")
+        return ir.Index(ir.Name(ARGUMENTS), (ir.IntLiteral(number),))
+
+    def argument(self, parameter: ir.Parameter, number: int) -> ir.Parameter:
+        return replace(parameter, name=f"{ARGUMENTS}{number}") if self.is_text(parameter) else parameter
+
+    def passed_type(self, type: ir.Type) -> ir.Type:
+        """The type of an argument register: a target without whole numbers passes them as they are."""
+        whole = isinstance(self.editor.scope.resolve(type), ir.IntType)
+        return ir.RealType() if whole and "IntType" not in self.editor.capabilities.types else type
 
     # ---- calls
 

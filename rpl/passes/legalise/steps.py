@@ -121,10 +121,13 @@ class _Steps(Hoister):
             return self.can.constant_aggregates and not self.can.calculated_places and is_computed(value)
         if isinstance(value, ir.Quantity):
             return False
-        return self.by_steps or isinstance(value, ir.Call | ir.Builtin | ir.Convert)
+        joined = self.can.functions_alone and isinstance(value, ir.Binary) and value.op == "&"
+        return self.by_steps or joined or isinstance(value, ir.Call | ir.Builtin | ir.Convert)
 
     def whole(self, expression: ir.Expression, lvalue: bool = False) -> Lowered:
         """The expression itself with parts that the target takes in it."""
+        if isinstance(expression, ir.Binary) and expression.op == "&" and not self.by_steps:
+            return self.texts(expression)
         function = isinstance(expression, ir.Call | ir.Builtin | ir.Convert)
         strict = function or isinstance(expression, ir.Index | ir.Signal | ir.System) or self.by_steps
         if not strict:
@@ -133,6 +136,19 @@ class _Steps(Hoister):
         done = super()._operands(expression, lvalue)
         self.simple_parts = outer
         return done
+
+    def texts(self, expression: ir.Binary) -> Lowered:
+        """Texts joined from left to right: a chain as it is, of operands."""
+        pieces: list[ir.Expression] = [expression]
+        while isinstance(pieces[0], ir.Binary) and pieces[0].op == "&":
+            pieces[:1] = [pieces[0].left, pieces[0].right]
+        before, values = self.several(pieces, [False] * len(pieces))
+        if all(new is old for new, old in zip(values, pieces, strict=True)):
+            return before, expression
+        done = values[0]
+        for one in values[1:]:
+            done = ir.Binary("&", done, one, origin=expression.origin)
+        return before, done
 
     simple_parts = False
 

@@ -48,7 +48,10 @@ def named_again(program: ir.Program, context: Context) -> ir.Program:
         def body(statements: ir.Body) -> ir.Body:
             return tuple(rewrite_parts(statement, expression, body) for statement in statements)
 
-        parameters = tuple(replace(parameter, name=f"argument_{parameter.name}") for parameter in one.parameters)
+        parameters = tuple(
+            one if one.name.startswith(ARGUMENTS) else replace(one, name=f"argument_{one.name}")
+            for one in one.parameters
+        )
         return replace(one, parameters=parameters, body=body(one.body))
 
     modules = tuple(replace(m, routines=tuple(map(routine, m.routines))) for m in program.modules)
