@@ -248,8 +248,12 @@ class Assignments:
 
     def read_component(self, place: str, base: ir.Expression, name: str) -> None:
         """GETE counts in 0.001 mm or 0.0001 degrees."""
-        number, counts = component(name)
         known = self.positions.constants.known(base)
+        axis = axis_of(name)
+        if axis and known is not None and known.kind == "joints":
+            self.number(place, ir.RealLiteral(known.values[axis - 1]))
+            return
+        number, counts = (axis, self.positions.job.pulses(axis)) if axis else component(name)
         if known is not None and known.kind == "pose":
             value = known.values[("x", "y", "z", "a", "b", "c").index(name)]
             self.number(place, ir.RealLiteral(value))
@@ -258,13 +262,14 @@ class Assignments:
         helper = self.registers.helper("D")
         self.lines.append(f"GETE {helper} {source} ({number})")
         if bank_of(place) == "R":
-            self.lines.extend([f"SET {place} {helper}", f"DIV {place} {counts:.1f}"])
+            self.lines.extend([f"SET {place} {helper}", f"DIV {place} {float(counts)!r}"])
             return
         real = self.registers.helper("R")
-        self.lines.extend([f"SET {real} {helper}", f"DIV {real} {counts:.1f}", f"SET {place} {real}"])
+        self.lines.extend([f"SET {real} {helper}", f"DIV {real} {float(counts)!r}", f"SET {place} {real}"])
 
     def component(self, base: ir.Expression, name: str, value: ir.Expression) -> None:
-        number, counts = component(name)
+        axis = axis_of(name)
+        number, counts = (axis, self.positions.job.pulses(axis)) if axis else component(name)
         place = element(base)
         if place is None or bank_of(place) != "P":
             raise CannotSayError("only a position variable has components")
@@ -274,7 +279,7 @@ class Assignments:
             self.lines.append(f"SETE {place} ({number}) {round(known * counts)}")
             return
         match value:
-            case ir.Field(base=ir.Index() | ir.Name() as other, name=same) if component(same)[1] == counts:
+            case ir.Field(base=ir.Index() | ir.Name() as other, name=same) if not axis and component(same)[1] == counts:
                 source = element(other)
                 if source is not None and numbered(other) not in self.positions.constants.values:
                     whole = self.registers.helper("D")
@@ -283,7 +288,7 @@ class Assignments:
                     return
         real, whole = self.registers.helper("R"), self.registers.helper("D")
         self.number(real, value)
-        self.lines.extend([f"MUL {real} {counts:.1f}", f"SET {whole} {real}", f"SETE {place} ({number}) {whole}"])
+        self.lines.extend([f"MUL {real} {float(counts)!r}", f"SET {whole} {real}", f"SETE {place} ({number}) {whole}"])
 
 
 def component(name: str) -> tuple[int, int]:
@@ -293,3 +298,9 @@ def component(name: str) -> tuple[int, int]:
         raise CannotSayError(f"a position variable has no component {name} that can be counted here")
     number = tables.POSE_ELEMENTS.index(lower) + 1
     return number, round(1 / (tables.MM_PER_COUNT if number <= 3 else tables.DEG_PER_COUNT))
+
+
+def axis_of(name: str) -> int:
+    """The number of a joint; 0 for other components."""
+    lower = name.lower()
+    return tables.JOINT_ELEMENTS.index(lower) + 1 if lower in tables.JOINT_ELEMENTS else 0

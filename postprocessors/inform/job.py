@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rpl import registry
+from rpl.diagnostics import Severity, code
 
 from . import tables
 from .cell import Cell, Kept
@@ -22,6 +23,12 @@ from .texts import ascii_text, fixed
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
 
+JOINT_ANGLE = code(
+    "inform-joint-angle",
+    Severity.LOSS,
+    "a controller counts the joints of a position in pulses: {reason}",
+    "give pulses_per_degree in a robot file of your own; the program stops there with PAUSE",
+)
 _DATE = "2000/01/01 00:00"  # the same text for the same program
 
 
@@ -81,6 +88,16 @@ class Job:
         if self.robot.pulses_per_degree is not None:
             return position
         return pose_of_joints(position, self.robot, self.cell.value_of_tool(tool))
+
+    def pulses(self, axis: int) -> float:
+        """Pulses per degree of an axis (1-based)."""
+        counts = self.robot.pulses_per_degree if self.robot is not None else None
+        if counts is None:
+            name = "the arm" if self.robot is None else self.robot.name
+            raise CannotSayError(f"the pulses per degree of {name} are not known", JOINT_ANGLE)
+        if axis > len(counts):
+            raise CannotSayError(f"there is no axis {axis}", JOINT_ANGLE)
+        return float(counts[axis - 1])
 
     def text(self) -> str:
         head = ["/JOB", f"//NAME {self.name}", "//POS", *self.header(), "//INST", f"///DATE {_DATE}"]

@@ -15,7 +15,7 @@ from . import tables
 from .conditions import single
 from .errors import CannotSayError
 from .operands import bank_of, constant, element
-from .places import WORLD, Position, product, way_of
+from .places import WORLD, Position, flat, product, way_of
 from .positions import Positions
 
 RANGE = code(
@@ -153,6 +153,8 @@ class Motion:
             if known.kind == "joints" and not pulses and job.cell.value_of_tool(tool) is None:
                 return Goal(self.with_computed_tool(known, tool), tool, 0, None)
             return Goal(job.point_of(known, tool, number, wanted), tool, number, known)
+        if self.is_joints(target):
+            return Goal(self.positions.as_variable(target), tool, 0, None)
         if tool != job.tool:
             raise CannotSayError("positions in variables are driven to with one tool in a job, here it is another one")
         if (base is None or base.values != WORLD) and not self.is_joints(target):
@@ -178,8 +180,7 @@ class Motion:
         return goal
 
     def is_joints(self, target: ir.Expression) -> bool:
-        known = self.positions.constants.known(target)
-        return known is not None and known.kind == "joints"
+        return self.positions.constants.is_joints(target)
 
     def relative(self, move: ir.Move, tool: int) -> tuple[Goal, str]:
         """IMOV with the way in a position variable, or the place itself where it is known."""
@@ -189,7 +190,8 @@ class Motion:
         if move.kind == "joint":
             reached = None if way is None or frame is None else self.reached(move, way, tool, frame)
             if reached is None:
-                raise CannotSayError("a relative joint move from a place that is not known here")
+                place = self.counted_way(move)
+                return Goal(place, tool, 0, None), f"MOVJ {place}"
             return reached, f"MOVJ {reached.place}"
         if move.kind != "linear" or move.relative == "joints":
             raise CannotSayError("a relative move in joints or on a circle")
@@ -202,6 +204,36 @@ class Motion:
         word = "TF" if move.relative == "tool" else f"UF#({number})" if number else "BF"
         goal = None if way is None else self.reached(move, way, tool, frame)
         return goal or Goal("", tool, 0, None), f"IMOV {place} {word}"
+
+    def counted_way(self, move: ir.Move) -> str:
+        """Where a relative move of the joints comes to: the robot's pulses, and those of the way added."""
+        way = flat(move.target)
+        if move.relative != "joints" and not set(way) & set(tables.JOINT_ELEMENTS):
+            raise CannotSayError("a relative joint move from a place that is not known here")
+        registers = self.positions.registers
+        place, count, real, whole = (registers.helper(bank) for bank in ("P", "D", "R", "D"))
+        if not way:
+            if not self.is_joints(move.target):
+                raise CannotSayError("a relative joint move by a computed way")
+            self.positions.job.pulses(1)  # known, or the way cannot be joints here
+            kept = self.positions.as_variable(move.target)
+            self.lines.extend([f"GETS {place} $PX000", f"ADD {place} {kept}"])
+            return place
+        self.lines.append(f"GETS {place} $PX000")
+        for number, name in enumerate(tables.JOINT_ELEMENTS, 1):
+            part = way.get(name)
+            if part is None or constant(part) == 0:
+                continue
+            per_degree = self.positions.job.pulses(number)
+            known = constant(part)
+            self.lines.append(f"GETE {count} {place} ({number})")
+            if known is not None:
+                self.lines.append(f"ADD {count} {round(known * per_degree)}")
+            else:
+                self.number(real, part)
+                self.lines.extend([f"MUL {real} {per_degree!r}", f"SET {whole} {real}", f"ADD {count} {whole}"])
+            self.lines.append(f"SETE {place} ({number}) {count}")
+        return place
 
     def turned_way(self, move: ir.Move, way: Position | None, tool: int) -> str:
         """A way in the axes of a computed frame as one in those of the base: frame . way - frame."""

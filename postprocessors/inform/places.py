@@ -130,6 +130,7 @@ class Constants:
 
     values: dict[tuple[str, int], Position] = field(default_factory=dict)
     points: dict[str, Position] = field(default_factory=dict)  # the taught points of the routine at hand
+    joints: frozenset[int] = frozenset()  # numbers of position variables that hold joints
 
     @classmethod
     def of(cls, program: ir.Program, entries: Collection[str] = ()) -> Constants:
@@ -176,13 +177,28 @@ class Constants:
                         known = given or position_of(statement.value)
                         if known is not None:
                             first[place] = known
+        joints = _joint_variables(program)
         if chosen:
-            return cls()
+            return cls(joints=joints)
         once = {place: value for place, value in first.items() if assigned[place] == 1}
-        return cls(once | {place: value for place, value in before.items() if not assigned[place]})
+        values = once | {place: value for place, value in before.items() if not assigned[place]}
+        return cls(values, joints=joints)
 
     def routine(self, routine: ir.Routine) -> Constants:
-        return Constants(self.values, _points(routine))
+        return Constants(self.values, _points(routine), self.joints)
+
+    def is_joints(self, expression: ir.Expression) -> bool:
+        """Does the expression give joints: a constant, a variable that holds them, or where the robot is?"""
+        known = self.known(expression)
+        if known is not None:
+            return known.kind == "joints"
+        match expression:
+            case ir.System(name="actual_joints") | ir.Builtin(function="current_joints" | "target_to_joints"):
+                return True
+        place = numbered(expression)
+        if place is None and isinstance(expression, ir.Index) and isinstance(expression.base, ir.Name):
+            return expression.base.id == "P" and _WHOLE_BANK in self.joints
+        return place is not None and place[0] == "P" and place[1] in self.joints
 
     def known(self, expression: ir.Expression) -> Position | None:
         """The position that an expression always is."""
@@ -205,6 +221,27 @@ class Constants:
                 return Position("pose", product(one.values, other.values))
         place = numbered(expression)
         return None if place is None else self.values.get(place)
+
+
+_WHOLE_BANK = -1  # stands for the variables that are chosen by a computed number
+
+
+def _joint_variables(program: ir.Program) -> frozenset[int]:
+    """Numbers of the position variables that are declared as joints; where the bank itself is, all others as well."""
+    found: dict[int, bool] = {}
+    for module in program.modules:
+        for declaration in module.declarations:
+            if not isinstance(declaration, ir.Variable):
+                continue
+            if declaration.name == tables.P.name and isinstance(declaration.type, ir.ArrayType):
+                if isinstance(declaration.type.element, ir.JointsType):
+                    every = dict.fromkeys((_WHOLE_BANK, *range(tables.P.first, tables.P.last + 1)), True)
+                    found = every | found
+                continue
+            place = numbered(ir.Name(declaration.name))
+            if place is not None and place[0] == "P":
+                found[place[1]] = isinstance(declaration.type, ir.JointsType)
+    return frozenset(number for number, joints in found.items() if joints)
 
 
 def _is_setting(statement: ir.Statement) -> bool:

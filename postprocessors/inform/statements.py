@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.diagnostics import Code, Diagnostics, Severity, code
 from rpl.source import NOWHERE, Origin
 from rpl.writing.ledger import EmissionLedger
 
@@ -116,17 +116,17 @@ class Printer:
             self.written(statement)
         except CannotSayError as error:
             del self.lines[kept:]
-            self.guard(statement, str(error))
+            self.guard(statement, str(error), error.code or GUARDED)
         else:
             self.ledger.written(statement)
 
-    def guard(self, statement: ir.Statement, reason: str) -> None:
+    def guard(self, statement: ir.Statement, reason: str, code: Code) -> None:
         self.comments_only(statement.origin)
         original = statement.origin.text or getattr(statement, "text", "") or statement.__class__.__name__
         for part in original.splitlines():
             self.remark(part.strip())
         self.lines.append("PAUSE")
-        self.diagnostics.report(GUARDED, statement.origin, reason=reason)
+        self.diagnostics.report(code, statement.origin, reason=reason)
         self.ledger.reported(statement)
         self.motion.forget()
 

@@ -204,7 +204,11 @@ class _Writer:
         positions = Positions(self.registers, job, self.constants)
         assignments = Assignments(self.registers, positions)
         positions.number = assignments.number
-        done = [f"SET {place} {positions.kept(Position('pose', WORLD))}" for place in _filled(self.program)]
+        done = []
+        for number in _filled(self.program):
+            begin = Position("joints" if number in self.constants.joints else "pose", WORLD)
+            if begin.kind == "pose" or (job.robot is not None and job.robot.pulses_per_degree is not None):
+                done.append(f"SET P{number:03d} {positions.kept(begin)}")
         for assign in self.start:
             self.registers.begin()
             try:
@@ -215,10 +219,10 @@ class _Writer:
         return done
 
 
-def _filled(program: ir.Program) -> list[str]:
+def _filled(program: ir.Program) -> list[int]:
     """Position variables that get their values component by component. They begin as a pose without a posture, which
     keeps the arm's present one; SETE leaves the posture that the controller's memory happens to have."""
-    places: set[str] = set()
+    places: set[int] = set()
     declared = {
         numbered(ir.Name(one.name))
         for module in program.modules
@@ -232,7 +236,7 @@ def _filled(program: ir.Program) -> list[str]:
                     continue
                 place = numbered(node.target.base)
                 if place is not None and place[0] == "P" and place not in declared:
-                    places.add(f"P{place[1]:03d}")
+                    places.add(place[1])
     return sorted(places)
 
 

@@ -220,3 +220,32 @@ ENDMODULE
     jobs, diagnostics, _ = jobs_of("rapid", text)
     assert [line.split()[-1] for line in jobs["MAIN"]] == ["PL=0", "PL=1", "PL=3", "PL=0"]
     assert "inform-joint-corner" in codes(diagnostics, Severity.WARNING)
+
+
+JOINTS = """DEF one()
+DECL E6AXIS AX
+DECL REAL W
+W = 5.5
+PTP {A1 10, A2 0, A3 0, A4 0, A5 -60, A6 0}
+AX = $AXIS_ACT
+$OUT[1] = (ABS(AX.A1 - 10) < 0.01) AND (ABS(AX.A5 + 60) < 0.01)
+PTP_REL {A1 W, A2 2}
+AX = $AXIS_ACT
+$OUT[2] = (ABS(AX.A1 - 15.5) < 0.01) AND (ABS(AX.A2 - 2) < 0.01)
+AX.A1 = 20.25
+PTP AX
+$OUT[3] = (ABS($AXIS_ACT.A1 - 20.25) < 0.01)
+END
+"""
+
+
+def test_angles_of_joints_are_counted_in_pulses() -> None:
+    jobs, diagnostics, on = jobs_of("krl", JOINTS, "motoman_ma2010")
+    assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    assert on == {1, 2, 3}
+    assert any(line.startswith("GETE") for line in jobs["ONE"])
+
+
+def test_without_pulses_per_degree_the_angles_are_refused_by_name() -> None:
+    _, diagnostics, _ = jobs_of("krl", JOINTS)
+    assert codes(diagnostics, Severity.LOSS) == {"inform-joint-angle"}

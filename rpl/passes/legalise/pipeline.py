@@ -57,6 +57,7 @@ from rpl.passes.legalise.rotationvectors import rotation_vectors
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
 from rpl.passes.legalise.signals import name_signals, number_signals
+from rpl.passes.legalise.sharing import share_temporaries
 from rpl.passes.legalise.shown import values_beside_messages
 from rpl.passes.legalise.speeds import fit_speeds
 from rpl.passes.legalise.spelling import one_spelling
@@ -152,6 +153,7 @@ PASSES: tuple[Pass, ...] = (
     drop_unused,
     one_spelling,
     truths_to_numbers,
+    share_temporaries,
     number_data,
 )
 

@@ -1,0 +1,56 @@
+"""RAPID programs that switch an output when an expectation of the manuals holds: what runs, beyond what is read."""
+
+from __future__ import annotations
+
+import pytest
+
+from rpl.diagnostics import Diagnostics
+from rpl.project import read_sources
+from rpl.simulation import run_program
+from rpl.source import source_from_text
+
+ABB = "abb_irb1200_5_90"
+HEAD = """MODULE checks
+  VAR intnum seen;
+  VAR triggdata gun;
+  VAR num n:=0;
+  VAR byte mask:=170;
+  CONST robtarget p1:=[[450,0,350],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  TRAP tCount
+    n:=n+1;
+  ENDTRAP
+  PROC main()
+"""
+TAIL = """
+  ENDPROC
+ENDMODULE
+"""
+# name, body, robot. Each sets do1 when it holds.
+CASES = [
+    # TriggInt orders the interrupt by itself, there is no ISignalDI (RAPID reference: TriggInt).
+    (
+        "a trap at a place of the path",
+        """MoveJ p1,v500,fine,tool0; CONNECT seen WITH tCount; TriggInt gun,30,seen;
+        TriggL Offs(p1,0,0,-100),v200,gun,fine,tool0; WaitTime 0.1; IF n=1 SetDO do1,1;""",
+        ABB,
+    ),
+    (
+        "no trap while it sleeps",
+        """MoveJ p1,v500,fine,tool0; CONNECT seen WITH tCount; TriggInt gun,30,seen; ISleep seen;
+        TriggL Offs(p1,0,0,-100),v200,gun,fine,tool0; WaitTime 0.1; IF n=0 SetDO do1,1;""",
+        ABB,
+    ),
+    # Bits of a byte are counted from 1, the least one (RAPID reference: BitCheck, BitSet, BitClear, BitLSh, BitRSh, BitNeg).
+    ("bits are asked", "IF BitCheck(mask,2) AND NOT BitCheck(mask,1) AND BitCheck(mask,8) SetDO do1,1;", None),
+    ("bits are set and cleared", "BitSet mask,1; BitClear mask,8; IF mask=43 SetDO do1,1;", None),
+    ("bits leave a byte", "IF BitLSh(mask,1)=84 AND BitRSh(mask,1)=85 AND BitNeg(mask)=85 SetDO do1,1;", None),
+]
+
+
+@pytest.mark.parametrize(("name", "body", "robot"), CASES, ids=[case[0] for case in CASES])
+def test_it_holds(name: str, body: str, robot: str | None) -> None:
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("checks.mod", HEAD + body + TAIL)], "rapid", diagnostics)
+    assert not [item.as_text() for item in diagnostics]
+    result = run_program(read.program, robot)
+    assert (result.status, [each[1:] for each in result.outputs]) == ("finished", [("do1", True)])
