@@ -16,12 +16,14 @@ from rpl.passes.scope import ProgramScope, Scope
 @dataclass(slots=True)
 class Activations:
     """`calls`: routine -> routines it calls, by identity. `recursive`: those that come back to themselves. `beside`:
-    those that run for an interrupt, a trigger or a second task as well as for the program."""
+    those that run for an interrupt, a trigger or a second task as well as for the program. `threads`: what each thread of
+    the program may run, the program itself first."""
 
     routines: dict[int, ir.Routine] = field(default_factory=dict)
     calls: dict[int, set[int]] = field(default_factory=dict)
     recursive: set[int] = field(default_factory=set)
     beside: set[int] = field(default_factory=set)
+    threads: list[set[int]] = field(default_factory=list)
 
     @classmethod
     def of(cls, program: ir.Program) -> Activations:
@@ -65,8 +67,10 @@ class Activations:
         }
         main = self.reached({key for key in self.calls if key not in anywhere})
         seen: set[int] = set(main)
+        self.threads.append(main)
         for starts in apart:
             reached = self.reached(starts)
+            self.threads.append(reached)
             self.beside |= reached & seen
             seen |= reached
 

@@ -394,7 +394,7 @@ def _equal(calls: _Calls, given: Arguments) -> ir.Expression | None:
     if not isinstance(ignore, ir.BoolLiteral) or not calls.capabilities.text_results:
         return None
     left, right = given[0], given[1]
-    if ignore.value:
+    if ignore.value and calls.capabilities.text_case:
         left, right = (_upper(calls, side) for side in (left, right))
     return ir.Binary("=", left, right)
 

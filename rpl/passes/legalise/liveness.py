@@ -1,5 +1,5 @@
-"""Which variables of a routine are still wanted behind each of its calls: what a call that runs the routine again must
-not destroy.
+"""Which variables of a routine are still wanted behind each of its calls (what a call that runs the routine again must
+not destroy), and which it reads before it has set them (what it keeps from one run to the next).
 
 Backwards over the structured body, again until the values at labels and loops stand still. Conservative: what cannot be
 followed (handlers, errors) wants everything.
@@ -19,6 +19,11 @@ def wanted_behind_calls(routine: ir.Routine, names: Names) -> dict[int, Names]:
     return _Liveness(routine, names).behind
 
 
+def wanted_at_start(routine: ir.Routine, names: Names) -> Names:
+    """Those of `names` (folded) that the routine may read before it assigns them."""
+    return _Liveness(routine, names).start
+
+
 class _Liveness:
     def __init__(self, routine: ir.Routine, names: Names) -> None:
         self.names = names
@@ -31,7 +36,7 @@ class _Liveness:
         changed = True
         while changed:
             before = dict(self.labels)
-            self.body(routine.body, _NONE)
+            self.start = self.body(routine.body, _NONE)
             for handler in routine.handlers:
                 self.body(handler.body, names)
             changed = before != self.labels

@@ -136,7 +136,7 @@ def _without_variables(
         return routine, []
     done = replace(routine, declarations=tuple(kept), body=(*start, *routine.body))
     made = [_renamed_declaration(one, names) for one in made]
-    return edit_bodies(done, lambda body: _renamed(body, names)), made
+    return edit_bodies(done, lambda body: renamed(body, names)), made
 
 
 def _place(origin: Origin) -> Origin:
@@ -153,7 +153,7 @@ def _name(expression: ir.Expression, names: dict[str, str]) -> ir.Expression:
     return rewrite_parts(expression, lambda one: _name(one, names))
 
 
-def _renamed(body: ir.Body, names: dict[str, str]) -> ir.Body:
+def renamed(body: ir.Body, names: dict[str, str]) -> ir.Body:
     if not names:
         return body
 
