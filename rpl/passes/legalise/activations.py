@@ -16,8 +16,8 @@ from rpl.passes.scope import ProgramScope, Scope
 @dataclass(slots=True)
 class Activations:
     """`calls`: routine -> routines it calls, by identity. `recursive`: those that come back to themselves. `beside`:
-    those that run for an interrupt, a trigger or a second task as well as for the program. `threads`: what each thread of
-    the program may run, the program itself first."""
+    those that run for an interrupt, a trigger or a second task as well as for the program. `threads`: what each thread
+    of the program may run, the program itself first."""
 
     routines: dict[int, ir.Routine] = field(default_factory=dict)
     calls: dict[int, set[int]] = field(default_factory=dict)

@@ -1,8 +1,8 @@
 """Temporaries of routines that are never active at the same time share their numbers, where a bank would run out.
 
 A temporary is a variable that the passes made, that one routine alone uses, and that it sets before it reads it. Two
-routines may share when neither leads to the other by calls and both run in the same thread of the program alone. Nothing
-is shared while the numbers suffice, so that each keeps the name of what it holds.
+routines may share when neither leads to the other by calls and both run in the same thread of the program alone.
+Nothing is shared while the numbers suffice, so that each keeps the name of what it holds.
 """
 
 from __future__ import annotations
