@@ -136,6 +136,8 @@ class Actions:
                 return f"SET {text(base)} = {self.expressions.places.locations.with_component(base, name, value)}"
             case ir.Index(base=base) if isinstance(self.expressions.type(base), ir.StringType):
                 raise UnsayableError("one character of a text cannot be changed")
+        if isinstance(value, ir.Builtin) and value.function == "joints_to_target" and len(value.arguments) == 1:
+            value = value.arguments[0]  # SET makes a transformation of a precision point
         word = "SET " if isinstance(self.expressions.type(target), _SET) else ""
         place = text(target)
         room = tables.LONGEST_LINE - len(word) - len(place) - 3

@@ -36,7 +36,7 @@ CAPABILITIES = Capabilities(
         )
     ),
     procedures=tables.words("increment decrement clear text_append text_copy text_clear"),
-    system_variables=frozenset((*tables.SYSTEM, *tables.SETTINGS, "timer", "flag")),
+    system_variables=frozenset((*tables.SYSTEM, *tables.SETTINGS, "timer", "flag", "moving")),
     operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary, *tables.WRITTEN_OPERATORS)),
     types=tables.words("RealType BoolType StringType PoseType TargetType JointsType ArrayType"),
     names=NameRules(
@@ -58,6 +58,8 @@ CAPABILITIES = Capabilities(
     function_routines=False,
     recursion=True,
     next_move_settings=True,
+    stopping_reactions=True,
+    places_in_base=True,
     task_operations=frozenset(("start", "stop")),
     records=False,
     relative_moves=True,

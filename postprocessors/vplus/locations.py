@@ -164,8 +164,10 @@ class Locations:
             if known is not None:
                 return known
         match name, values:
-            case (("pose_of" | "joints_to_target"), (place,)):
+            case "pose_of", (place,):
                 return self.expressions.printer.printed(place)
+            case "joints_to_target", (place,):  # a precision point has no place in a compound
+                return self.expressions.kept(text(place), "p", "SET ")
             case (("compose" | "displaced_in_tool"), (one, other)):
                 return Printed(f"{atom(one)}:{self.inner(other)}", tables.COMPOUND)
             case "displaced", (place, by):

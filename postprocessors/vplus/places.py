@@ -149,13 +149,15 @@ class Places:
 
     # ---- system variables
 
-    def system(self, name: str, indices: tuple[ir.Expression, ...]) -> str:
+    def system(self, name: str, indices: tuple[ir.Expression, ...]) -> str | Printed:
         if name == "timer" and len(indices) == 1:
             return f"TIMER({self.expressions.text(indices[0])})"
         if name == "flag" and len(indices) == 1:
             return self.signal(ir.Signal("flag", indices[0]))
         if name in tables.SYSTEM and not indices:
             return tables.SYSTEM[name]
+        if name == "moving" and not indices:
+            return Printed(f"DISTANCE(HERE, DEST) > {tables.STANDS_MM:g}", tables.RELATION)
         raise self.refuse(f"there is no system variable for {name.replace('_', ' ')}")
 
 

@@ -75,6 +75,7 @@ class Printer:
         self.actions = Actions(self)
         self.events = PathEvents(self)
         self.rest: ir.Body = ()  # what follows in the body that is printed
+        self.owed = False  # must the robot stand before it moves again, although the program goes on?
 
     # ---- lines and comments
 
@@ -86,6 +87,7 @@ class Printer:
                 behind = f" ;{_one_line(comment.text)}"
             else:
                 self.comment(comment)
+        self.owed = self.owed and text != "BREAK"
         before, self.notes.before = self.notes.before, []
         for one in (*before, text):
             whole = self.fitted(one)
@@ -130,7 +132,11 @@ class Printer:
             self.rest = body[at + 1 :]
             if id(body[at]) in self.output.facts.corners.broken and not self.stands():
                 self.line("BREAK")
+            if self.owed and _needs_standing(body[at]):
+                self.line("BREAK")
             at += self.joined(body[at:]) or self.one(body[at])
+        if self.owed:
+            self.line("BREAK")
         self.depth -= inner
 
     def one(self, statement: ir.Statement) -> int:
@@ -254,6 +260,10 @@ class Printer:
         self.comments_only_before(move.origin)
         self.more(*inner, *before, *around.before)
         self.line(step, _behind_only(move.origin))
+        if move.concurrent and not around.last and self.output.facts.foreign:
+            self.more(*around.behind)
+            self.owed = bool(behind)
+            return
         self.more(*around.behind, *behind, *around.last)
 
     def comments_only_before(self, origin: Origin) -> None:
@@ -345,6 +355,13 @@ class Printer:
         self.line(f"FOR {counter} = {text(loop.start)} TO {text(loop.stop)}{step}", loop.origin)
         self.body(loop.body)
         self.line("END")
+
+
+def _needs_standing(statement: ir.Statement) -> bool:
+    """Does it move the robot, or go where nobody knows?"""
+    if isinstance(statement, ir.Label | ir.Goto | ir.Return | ir.ExitLoop | ir.NextPass | ir.TaskControl):
+        return True
+    return any(isinstance(node, ir.Move | ir.CallRoutine) for node in walk((statement,)))
 
 
 def _one_line(text: str) -> str:

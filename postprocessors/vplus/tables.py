@@ -126,6 +126,7 @@ HAND_OPEN, HAND_CLOSE = 3001, 3002  # M: the hand's solenoids
 # M: what 100 percent of SPEED is for straight lines and for turning (the reader's figures).
 FULL_PATH_SPEED_MM_S = 1000.0
 FULL_ROTATION_SPEED_DEG_S = 180.0
+STANDS_MM = 0.1  # M: nearer than this to where its motion ends, the arm counts as standing
 COARSE_FACTOR = 10.0  # M: COARSE 100 is so many times as wide as FINE 100
 PRIORITY_TOP = 128  # neutral priorities go down from it
 AXES = ("j1", "j2", "j3", "j4", "j5", "j6")

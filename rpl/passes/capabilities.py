@@ -58,7 +58,8 @@ class Capabilities:
     last value a pass ran with. for_steps: `any`, or `one` (only up or down by 1). poll_s: time between two looks in a
     loop that waits for a condition, for targets without WaitUntil. next_move_settings: SetForNextMove can be said;
     otherwise it is attached to the next move. search_results: what a search move gives, `found` (the place) and `hit`
-    (whether). task_operations: ops of TaskControl, where that is in `statements`.
+    (whether). task_operations: ops of TaskControl, where that is in `statements`. stopping_reactions: an interrupt can
+    brake the robot and drop its move (DeclareInterrupt `stops`), and the program goes on behind that.
 
     Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
@@ -80,7 +81,8 @@ class Capabilities:
     tool, base, and modal_motion set); empty: all or none of them, in data of the types of RAPID or KRL. Only then:
     speeds: fields of Speed that the target says (for joint moves `joint`, `axis`; for the others `path`, ...);
     blends: blend classes that it says (BlendStop always). move_functions: functions (and `:`) that a move's target may
-    be although nothing else can: a place seen from another one, with simple operands. no_tool, no_frame: the target's
+    be although nothing else can: a place seen from another one, with simple operands. places_in_base: functions of
+    places know only the tool in use and the robot's base. no_tool, no_frame: the target's
     own tool and work object data without any offset; then moves name such data, and no plain poses.
 
     watching_tasks: path events, searches and interrupts stand in `statements` although moves and the controller have
@@ -141,6 +143,7 @@ class Capabilities:
     next_move_settings: bool = False
     call_depth: int = 0
     search_results: frozenset[str] = frozenset(("found",))
+    stopping_reactions: bool = False
     task_operations: frozenset[str] = frozenset(("start", "stop", "pause", "resume", "join"))
     banks: Mapping[str, Bank] = field(default_factory=dict)
     points: Bank | None = None
@@ -165,6 +168,7 @@ class Capabilities:
     signal_groups: bool = True
     postures: str = "flags"
     move_functions: frozenset[str] = frozenset()
+    places_in_base: bool = False
     no_tool: str = ""
     no_frame: str = ""
     numbered_groups: bool = False

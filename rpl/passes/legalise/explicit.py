@@ -66,7 +66,7 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
             if looks_ahead and routine.name.lower() in entries and routine.body:
                 routine = _looking_ahead(routine, rules_of(context.target).advance.moves)
                 routine = _slowing(routine, context) if on_paths else routine
-            worker = _Modal(context, scopes.routine(module, routine), assigned, reported)
+            worker = Modal(context, scopes.routine(module, routine), assigned, reported)
             handlers = tuple(replace(handler, body=worker.body(handler.body, {})) for handler in routine.handlers)
             routines.append(replace(routine, body=worker.body(routine.body, {}), handlers=handlers))
         modules.append(replace(module, routines=tuple(routines)))
@@ -93,7 +93,7 @@ JOINT_SPEED_BLEND = 0.2
 Environment = dict[str, ir.Expression]
 
 
-class _Modal:
+class Modal:
     def __init__(self, context: Context, scope: Scope, assigned: set[str], reported: set[Code]) -> None:
         self.context, self.scope, self.assigned, self.reported = context, scope, assigned, reported
 

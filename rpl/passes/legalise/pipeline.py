@@ -50,12 +50,14 @@ from rpl.passes.legalise.polling import poll_waits
 from rpl.passes.legalise.prelude import link_prelude
 from rpl.passes.legalise.pulses import fold_pulses
 from rpl.passes.legalise.reactions import reactions
+from rpl.passes.legalise.reactionsearches import reaction_searches
 from rpl.passes.legalise.references import references_as_copies
 from rpl.passes.legalise.refusals import refuse
 from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.rotationvectors import rotation_vectors
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
+from rpl.passes.legalise.seenplaces import seen_places
 from rpl.passes.legalise.signals import name_signals, number_signals
 from rpl.passes.legalise.sharing import share_temporaries
 from rpl.passes.legalise.shown import values_beside_messages
@@ -88,6 +90,7 @@ PASSES: tuple[Pass, ...] = (
     levels_to_distances,
     elementwise,
     searches,
+    reaction_searches,
     search_parts,
     link_prelude,
     labels_to_structure,
@@ -135,6 +138,7 @@ PASSES: tuple[Pass, ...] = (
     tool_data,
     explicit_to_modal,
     settings_at_moves,
+    seen_places,
     aggregates,
     geometry,
     flat_records,

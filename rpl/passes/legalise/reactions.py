@@ -28,10 +28,12 @@ _FIRST_PRIORITY = 10  # as passes.interrupts numbers them
 
 def reactions(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with interrupts, and programs that give theirs an identity."""
-    if not {"DeclareInterrupt", "ConnectInterrupt"} & context.capabilities.statements:
+    can = context.capabilities
+    if can.watching_tasks or not {"DeclareInterrupt", "ConnectInterrupt"} & can.statements:
         return program
     declared = [one for one in walk(*program.modules) if isinstance(one, ir.DeclareInterrupt)]
-    if not any(one.identity is not None or one.once or one.stops for one in declared):
+    drops = not context.capabilities.stopping_reactions
+    if not any(one.identity is not None or one.once or (one.stops and drops) for one in declared):
         return program
     if any(_number(one.priority) is None or _number(_identity(one)) is None for one in declared):
         return program  # the writer names what it cannot say
@@ -83,7 +85,8 @@ class _Reactions:
             case ir.DeclareInterrupt():
                 own = ir.IntLiteral(self.numbers[_number(_identity(statement)) or 0])
                 action = self.action(statement, own)
-                return (replace(statement, priority=own, identity=None, once=False, stops=False, action=action),)
+                stops = statement.stops and self.context.capabilities.stopping_reactions
+                return (replace(statement, priority=own, identity=None, once=False, stops=stops, action=action),)
             case ir.ControlInterrupt(op=op, handle=handle) if op != "mask" and _number(handle) in self.numbers:
                 own = ir.IntLiteral(self.numbers[_number(handle) or 0])
                 return (replace(statement, handle=own, op="off" if op == "delete" else op),)
@@ -92,13 +95,14 @@ class _Reactions:
     def action(self, declared: ir.DeclareInterrupt, own: ir.Expression) -> ir.CallRoutine | ir.Assign:
         """The action, or a routine around it."""
         first: ir.Body = (ir.ControlInterrupt("off", own),) if declared.once else ()
-        if declared.stops:
+        stops = declared.stops and not self.context.capabilities.stopping_reactions
+        if stops:
             first = (*first, ir.StopMotion(hard=True))
         if not first:
             return declared.action
-        leave: ir.Body = (ir.ResumeLevel(),) if declared.stops else ()
+        leave: ir.Body = (ir.ResumeLevel(),) if stops else ()
         name = self.context.fresh("rpl_reaction")
-        if declared.stops:
+        if stops:
             called = declared.action.name if isinstance(declared.action, ir.CallRoutine) else "an assignment"
             self.context.diagnostics.report(DROPS, declared.origin, name=called)
         self.routines.append(ir.Routine(name, body=(*first, declared.action, *leave), scope="global"))

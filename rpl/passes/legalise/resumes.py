@@ -17,8 +17,8 @@ from rpl.source import Origin
 
 def resumes(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that cannot resume at the level of a declaration but can clear the path."""
-    statements = context.capabilities.statements
-    if "ResumeLevel" in statements or not {"ClearMotion", "StartMotion"} <= statements:
+    statements, drops = context.capabilities.statements, context.capabilities.stopping_reactions
+    if "ResumeLevel" in statements or not ({"ClearMotion", "StartMotion"} <= statements or drops):
         return program
     facts = _Facts()
     for module in program.modules:
@@ -27,7 +27,7 @@ def resumes(program: ir.Program, context: Context) -> ir.Program:
     resuming = facts.closure({name for name, one in facts.has_resume.items() if one})
     if not resuming:
         return program
-    worker = _Resumes(context.fresh("rpl_resumed"), facts, resuming)
+    worker = _Resumes(context.fresh("rpl_resumed"), facts, resuming, drops)
     modules = [
         replace(module, routines=tuple(worker.routine(routine) for routine in module.routines))
         for module in program.modules
@@ -96,8 +96,8 @@ class _Facts:
 
 
 class _Resumes:
-    def __init__(self, flag: str, facts: _Facts, resuming: set[str]) -> None:
-        self.flag = flag
+    def __init__(self, flag: str, facts: _Facts, resuming: set[str], drops: bool) -> None:
+        self.flag, self.drops = flag, drops
         self.handlers = resuming
         self.declaring = {name for name, declared in facts.declares.items() if declared & resuming}
         self.watched: set[str] = set()
@@ -108,7 +108,8 @@ class _Resumes:
     def routine(self, routine: ir.Routine) -> ir.Routine:
         key = routine.name.lower()
         if key in self.handlers:
-            return replace(routine, body=self.handler(routine.body))
+            body = _dropped_at_once(routine.body) if self.drops else routine.body
+            return replace(routine, body=self.handler(body))
         if key in self.declaring:
             return replace(routine, body=self.level(routine.body))
         if key in self.watched and routine.kind == "procedure":
@@ -120,11 +121,11 @@ class _Resumes:
         for statement in body:
             if isinstance(statement, ir.ResumeLevel):
                 later = replace(statement.origin, comments=())
-                done += [
-                    ir.Assign(ir.Name(self.flag), ir.BoolLiteral(True), origin=statement.origin),
-                    ir.ClearMotion(origin=later),
-                    ir.Return(origin=later),
-                ]
+                done.append(ir.Assign(ir.Name(self.flag), ir.BoolLiteral(True), origin=statement.origin))
+                if not (self.drops and _clears(body)):
+                    done += [ir.StopMotion(origin=later)] if self.drops else []
+                    done.append(ir.ClearMotion(origin=later))
+                done.append(ir.Return(origin=later))
             else:
                 done.append(rewrite_parts(statement, lambda expression: expression, self.handler))
         return tuple(done)
@@ -151,6 +152,22 @@ class _Resumes:
                 leave = ir.Return(origin=_later(statement))
                 done.append(ir.If(((ir.Name(self.flag), (leave,)),), origin=_later(statement)))
         return tuple(done)
+
+
+def _clears(body: ir.Body) -> bool:
+    return any(isinstance(statement, ir.ClearMotion) for statement in body)
+
+
+def _dropped_at_once(body: ir.Body) -> ir.Body:
+    """For targets whose brake drops the motion: a routine that brakes and certainly resumes drops it there already."""
+    if not body or not isinstance(body[-1], ir.ResumeLevel) or any(isinstance(one, ir.StartMotion) for one in body):
+        return body
+    done: list[ir.Statement] = []
+    for statement in body:
+        done.append(statement)
+        if isinstance(statement, ir.StopMotion):
+            done += [ir.ClearMotion(origin=_later(statement)), ir.WaitForMotion(origin=_later(statement))]
+    return tuple(done)
 
 
 def _later(statement: ir.Statement) -> Origin:
