@@ -17,7 +17,7 @@ Make = Callable[["Arguments", "Expressions"], ir.Expression | None]
 """make(arguments, expressions): the expression, or None when an option has no neutral form. May raise
 StatementError."""
 
-_ZERO = ir.IntLiteral(0)
+_ZERO, _ONE, _BYTE = ir.IntLiteral(0), ir.IntLiteral(1), ir.IntLiteral(255)
 
 
 def _plain(function: str, least: int, most: int | None = None) -> Make:
@@ -48,6 +48,44 @@ def _binary(op: str) -> Make:
         return ir.Binary(op, left, right)
 
     return make
+
+
+def bit_mask(number: ir.Expression) -> ir.Expression:
+    """The number whose only bit is the n-th, counted from 1 (the least)."""
+    if isinstance(number, ir.IntLiteral):
+        return ir.IntLiteral(1 << max(number.value - 1, 0))
+    return ir.Builtin("bit_shift_left", (_ONE, ir.Binary("-", number, _ONE)))
+
+
+def _bit_check(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    """BitCheck data, position (1 ... 8; of a dnum 1 ... 52)"""
+    value, number = arguments.need(2)
+    return ir.Binary("<>", ir.Binary("band", value, bit_mask(number)), _ZERO)
+
+
+def _bit_shift_left(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    """BitLSh of a byte: what leaves it on the left is lost."""
+    return ir.Binary("band", ir.Builtin("bit_shift_left", tuple(arguments.need(2))), _BYTE)
+
+
+def _bit_negated(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    return ir.Binary("bxor", arguments.need(1)[0], _BYTE)
+
+
+def _byte_of_text(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    r"""StrToByte text [\Char]: the code of a character, or a decimal number."""
+    (text,) = arguments.need(1)
+    if set(arguments.options) == {"char"}:
+        return ir.Builtin("character_code", (text,))
+    return None if arguments.options else ir.Builtin("text_value", (text,))
+
+
+def _text_of_byte(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    r"""ByteToStr byte [\Char]: the character of a code, or the number in decimal."""
+    (value,) = arguments.need(1)
+    if set(arguments.options) == {"char"}:
+        return ir.Builtin("from_code", (value,))
+    return None if arguments.options else ir.Builtin("number_text", (value, _ZERO))
 
 
 def _same(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
@@ -155,6 +193,11 @@ FUNCTIONS: dict[str, Make] = {
     "bitordnum": _binary("bor"),
     "bitxordnum": _binary("bxor"),
     "bitrsh": _plain("bit_shift_right", 2),
+    "bitlsh": _bit_shift_left,
+    "bitneg": _bit_negated,
+    "bitcheck": _bit_check,
+    "bitcheckdnum": _bit_check,
+    "bitrshdnum": _plain("bit_shift_right", 2),
     "dim": _plain("dimension", 2),
     # geometry
     "offs": _plain("offset", 4),
@@ -188,6 +231,8 @@ FUNCTIONS: dict[str, Make] = {
     "dnumtostr": _plain("number_text", 2),
     "valtostr": _plain("value_text", 1),
     "strtoval": _plain("parse_value", 2),
+    "strtobyte": _byte_of_text,
+    "bytetostr": _text_of_byte,
     "ctime": _plain("time_text", 0),
     "cdate": _plain("date_text", 0),
     # signals, clocks, the rest

@@ -10,6 +10,7 @@ from rpl import ir
 from rpl.source import Origin
 
 from .expressions import Arguments, Expressions, as_bool, truth_of
+from .functions import bit_mask
 from .motion import MOTION, Made, Make
 
 _TIMEOUT = "ERR_WAIT_MAXTIME"
@@ -276,6 +277,18 @@ def _do(procedure: str, count: int) -> Make:
     return make
 
 
+def _bit(on: bool) -> Make:
+    """BitSet and BitClear data, position (counted from 1)."""
+
+    def make(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
+        data, number = arguments.need(2)
+        mask = bit_mask(number)
+        value = ir.Binary("bor", data, mask) if on else ir.Binary("band", data, ir.Unary("bnot", mask))
+        return ir.Assign(data, value, origin=origin)
+
+    return make
+
+
 def _clock(op: str) -> Make:
     def make(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
         return ir.Clock(op, arguments.need(1)[0], origin=origin)
@@ -339,6 +352,8 @@ INSTRUCTIONS: dict[str, Make] = {
     "decr": _do("decrement", 1),
     "add": _do("increment", 2),
     "clear": _do("clear", 1),
+    "bitset": _bit(True),
+    "bitclear": _bit(False),
     "clkreset": _clock("reset"),
     "clkstart": _clock("start"),
     "clkstop": _clock("stop"),

@@ -292,8 +292,12 @@ class MotionStatements:
         def make(here: int, next: int) -> Instruction:
             def define(f: Values) -> int:
                 order = made(f)
-                if interrupt is not None:
+                if interrupt is not None:  # it is ordered here: nothing else arms it (RAPID TriggInt)
                     order.interrupt = whole(interrupt(f))
+                    known = f[0].interrupts.known.get(order.interrupt)
+                    if known is None:
+                        raise ProgramError("unknown_interrupt", "the interrupt is not connected")
+                    known.on = True
                 write(f, order)
                 return next
 

@@ -515,7 +515,7 @@ class Typer:
 
     def known_routine(self, name: str, origin: Origin) -> ir.Routine | None:
         routine = self.scope.routine(name)
-        if routine is None:
+        if routine is None and name:  # the call of no name stands for an interrupt's own routine
             self.report_once(UNKNOWN_ROUTINE, name, origin)
         return routine
 

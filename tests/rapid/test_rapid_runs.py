@@ -40,9 +40,11 @@ CASES = [
         TriggL Offs(p1,0,0,-100),v200,gun,fine,tool0; WaitTime 0.1; IF n=0 SetDO do1,1;""",
         ABB,
     ),
-    # Bits of a byte are counted from 1, the least one (RAPID reference: BitCheck, BitSet, BitClear, BitLSh, BitRSh, BitNeg).
+    # Bits of a byte are counted from 1, the least one (RAPID reference, BitCheck and its kin).
     ("bits are asked", "IF BitCheck(mask,2) AND NOT BitCheck(mask,1) AND BitCheck(mask,8) SetDO do1,1;", None),
     ("bits are set and cleared", "BitSet mask,1; BitClear mask,8; IF mask=43 SetDO do1,1;", None),
+    # StrToByte and ByteToStr with \\Char are the code of a character and back (RAPID reference).
+    ("characters", 'IF StrToByte("A"\\Char)=65 AND ByteToStr(66\\Char)="B" AND StrToByte("12")=12 SetDO do1,1;', None),
     ("bits leave a byte", "IF BitLSh(mask,1)=84 AND BitRSh(mask,1)=85 AND BitNeg(mask)=85 SetDO do1,1;", None),
 ]
 

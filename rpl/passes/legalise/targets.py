@@ -122,18 +122,43 @@ class _Whole:
 
     def last_target(self, done: list[ir.Statement], move: ir.Move) -> ir.Expression | None:
         """The target of the move before, when nothing in between can have moved the robot or changed the frame."""
-        for statement in reversed(done):
+        for at in range(len(done) - 1, -1, -1):
+            statement = done[at]
             match statement:
                 case ir.Move(target=target, relative=None, search=None):
                     same = statement.tool == move.tool and statement.frame == move.frame and not statement.settings
                     if isinstance(target, ir.Builtin) and target.function == "target_to_joints_near":
                         target = target.arguments[0]  # the same place, in a posture of its own
-                    if not same or isinstance(type_of(target, self.scope), ir.JointsType | None):
+                    if not same or isinstance(self.type_of(target), ir.JointsType | None):
                         return None
-                    return target if isinstance(target, ir.Aggregate | ir.Builtin) or _is_place(target) else None
+                    if not (isinstance(target, ir.Aggregate | ir.Builtin) or _is_place(target)):
+                        return None
+                    return target if _is_steady(target) else self.kept(done, at, statement)
             if not _passes(statement):
                 return None
         return None
+
+    def type_of(self, target: ir.Expression) -> ir.Type | None:
+        """The type of a target, which may rest on a variable that was made here."""
+        while isinstance(target, ir.Builtin) and target.function in ("offset", "tool_offset"):
+            target = target.arguments[0]
+        made = (one.type for one in self.declared if isinstance(one, ir.Variable) and target == ir.Name(one.name))
+        return next(made, None) or type_of(target, self.scope)
+
+    def kept(self, done: list[ir.Statement], at: int, move: ir.Move) -> ir.Expression | None:
+        """The target of a move that would be another one when it is computed again: a variable keeps it."""
+        type = self.type_of(move.target)
+        if not isinstance(type, ir.PoseType | ir.TargetType):
+            return None
+        place = ir.Name(self.context.fresh("rpl_place"))
+        self.declared.append(ir.Variable(place.id, type, scope="routine"))
+        later = replace(move.origin, comments=())
+        done[at:] = [
+            ir.Assign(place, move.target, origin=move.origin),
+            replace(move, target=place, origin=later),
+            *done[at + 1 :],
+        ]
+        return place
 
     def noted(self, done: list[ir.Statement], move: ir.Move) -> ir.Expression | None:
         """Where the last move of the block before ends: a variable that its moves set, where they can be blended."""
@@ -201,6 +226,22 @@ def _passes(statement: ir.Statement) -> bool:
 
 def _is_zero(value: ir.Expression) -> bool:
     return isinstance(value, ir.IntLiteral | ir.RealLiteral) and value.value == 0
+
+
+_MOVING = frozenset(("current_target", "current_joints", "current_position", "random"))
+
+
+def _is_steady(target: ir.Expression) -> bool:
+    """Is it the same when it is computed again behind the move?"""
+    for node in walk((target,)):
+        match node:
+            case ir.Call() | ir.Signal() | ir.VendorValue():
+                return False
+            case ir.System(name=name) if name not in ("tool", "base"):
+                return False
+            case ir.Builtin(function=function) if function in _MOVING:
+                return False
+    return True
 
 
 def _is_place(target: ir.Expression) -> bool:
