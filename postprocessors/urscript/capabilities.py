@@ -12,7 +12,7 @@ CAPABILITIES = Capabilities(
     statements=tables.words(
         """Assign CallRoutine If Switch For While Repeat Loop ExitLoop NextPass Return Halt Wait WaitUntil
         WaitForMotion Pulse SetAfter StopMotion Clock Message Dialog Do TaskControl Critical Nothing Move Vendor
-        Opaque Trigger"""
+        Opaque Trigger Search DeclareInterrupt ControlInterrupt ResumeLevel"""
     ),
     functions=frozenset(
         (
@@ -54,5 +54,6 @@ CAPABILITIES = Capabilities(
     postures="joints",
     watching_tasks=True,
     poll_s=0.002,
+    search_results=frozenset(("found", "hit")),
     reference_parameters=False,
 )

@@ -143,13 +143,14 @@ def _paired(a: Record, b: Record) -> list[Pair] | Difference:
 def _with_helpers(tasks: Tasks, others: Tasks) -> Tasks:
     """Tasks that only one language needs, for what the other's controller does by itself, are a part of the first task:
     what they switch and say is, not that they wait and end."""
-    first = next(iter(tasks), "")
-    extra = [name for name in tasks if name not in others and name != first]
-    if not extra or first not in others:
+    first = next((name for name in tasks if name in others), "")
+    extra = [name for name in tasks if name not in others]
+    if not extra or not first:
         return tasks
     shown = [one for name in extra for one in tasks[name] if one.kind not in ("wait", "end")]
     kept = {name: happenings for name, happenings in tasks.items() if name not in extra}
-    return kept | {first: tuple(sorted((*tasks[first], *shown), key=lambda one: (one.kind == "end", one.t)))}
+    every = sorted((*tasks[first], *shown), key=lambda one: (one.kind == "end", one.t, one.number))
+    return kept | {first: tuple(every)}
 
 
 def _task_events(
@@ -327,8 +328,8 @@ def _motion(
     verdict: Verdict,
 ) -> Difference | None:
     same_arm, same_language = same
-    first = [stretch for stretch in ours if not _stands(stretch)]
-    second = [stretch for stretch in theirs if not _stands(stretch)]
+    first = _rejoined([stretch for stretch in ours if not _stands(stretch)])
+    second = _rejoined([stretch for stretch in theirs if not _stands(stretch)])
     groups = _aligned(first, second)
     loose = set() if same_language else _at_measured_corners(groups) | _at_cuts(groups)
     found: Difference | None = None
@@ -339,6 +340,28 @@ def _motion(
             difference = _group(task, a, b, same_arm, tolerance, verdict)
         found = found or difference
     return found
+
+
+def _rejoined(stretches: list[Stretch]) -> list[Stretch]:
+    """A move that was stopped on its way and begun again from there to the same point is one move."""
+    done: list[Stretch] = []
+    for stretch in stretches:
+        last = done[-1] if done else None
+        if last is not None and last.cut and _goes_on(last, stretch):
+            poses, times = np.concatenate((last.poses, stretch.poses)), np.concatenate((last.times, stretch.times))
+            done[-1] = replace(stretch, poses=poses, times=times)
+        else:
+            done.append(stretch)
+    return done
+
+
+def _goes_on(cut: Stretch, stretch: Stretch) -> bool:
+    """Does a straight move go on from where another one was cut, in its direction?"""
+    if not cut.motion == stretch.motion == "linear" or np.abs(cut.poses[-1] - stretch.poses[0]).max() > 1e-3:
+        return False
+    before, behind = (one.poses[-1, :3, 3] - one.poses[0, :3, 3] for one in (cut, stretch))
+    lengths = float(np.linalg.norm(before) * np.linalg.norm(behind))
+    return lengths > 0.0 and float(before @ behind) > (1.0 - 1e-8) * lengths
 
 
 def _at_measured_corners(groups: Sequence[Group]) -> set[int]:

@@ -90,7 +90,8 @@ class Happening:
     value: the output's value, the message's text, the seconds of a timed wait (None: on a condition), the fault's code,
     the status at the end. `along` is how far the tool had travelled on its whole path, mm; `moving` whether it moved.
     Timed waits in a row are one wait for their sum: so many `times`, the longest of them `longest_s`.
-    `named`: what names a value in the text of a message.
+    `named`: what names a value in the text of a message. `number`: its place among all events of the run, which tells
+    what comes first where several tasks do something at one moment.
     """
 
     kind: str
@@ -103,6 +104,7 @@ class Happening:
     times: int = 1
     longest_s: float = 0.0
     named: Named = Named()
+    number: int = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False)

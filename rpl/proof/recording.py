@@ -35,9 +35,14 @@ def record_of(result: RunResult, program: ir.Program, robot: RobotModel | None =
     named = _named(language)
     tasks = {}
     stuck = place_of(result.fault.origin) if result.fault else Place()
+    places = {id(event): number for number, event in enumerate(result.trace)}
     for task, way in ways.items():
-        counted = [_happening(event, way, stuck) for event in way.events]
-        kept = [one if one.kind != "message" else replace(one, named=named) for one in counted if one is not None]
+        counted = [(_happening(event, way, stuck), places[id(event)]) for event in way.events]
+        kept = [
+            replace(one, number=number, named=named if one.kind == "message" else one.named)
+            for one, number in counted
+            if one is not None
+        ]
         tasks[task] = tuple(_without_polling(kept))
     motion = {way.mover: way.stretches() for way in ways.values() if way.moves}
     return Record(result.status, result.time_s, tasks, motion, robot.name if robot else "", language)
@@ -55,8 +60,7 @@ def _ways(tasks: dict[str, list[Event]], program: ir.Program) -> dict[str, _Way]
     if sum(task.kind == "motion" for task in program.tasks) > 1:
         return {task: _Way(task, events, _moves(events)) for task, events in tasks.items()}
     every = sorted((move for events in tasks.values() for move in _moves(events)), key=lambda one: one.legs[0].start_s)
-    movers = [task for task, events in tasks.items() if _moves(events)]
-    mover = movers[0] if len(movers) == 1 else next(iter(tasks), "")
+    mover = next((task for task, events in tasks.items() if _moves(events)), "")
     return {task: _Way(mover, events, every) for task, events in tasks.items()}
 
 

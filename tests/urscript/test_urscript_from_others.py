@@ -14,8 +14,14 @@ from rpl.proof.wiring import with_signal_names
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
-ROBOTS = {"vplus": "adept_viper_s650", "tp": "fanuc_lrmate200id", "rpl": "ur5e", "krl": "kuka_kr6r700sixx"}
-SUFFIX = {"vplus": "v2", "tp": "ls", "rpl": "rpl", "krl": "src"}
+ROBOTS = {
+    "vplus": "adept_viper_s650",
+    "tp": "fanuc_lrmate200id",
+    "rpl": "ur5e",
+    "krl": "kuka_kr6r700sixx",
+    "rapid": "abb_irb120_3_58",
+}
+SUFFIX = {"vplus": "v2", "tp": "ls", "rpl": "rpl", "krl": "src", "rapid": "mod"}
 
 
 def translated(language: str, text: str, cell: Cell | None = None) -> tuple[str, list[str], ProofResult]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 from test_urscript_from_others import equal, translated
 
+from rpl.cell import Cell, Input
+
 KRL = """DEF MAIN()
 DECL INT N
 N=0
@@ -63,3 +65,123 @@ def test_an_action_that_moves_is_refused_by_name() -> None:
     lines = f"TRIGGER WHEN PATH=-30 DELAY=0 DO AWAY() PRIO=-1\n{LIN}"
     _, losses, proof = translated("krl", KRL.format(lines=lines) + AWAY)
     assert "path-event-lost" in losses and not proof.equal
+
+
+def cell(*inputs: tuple[float, str, bool]) -> Cell:
+    return Cell(inputs=tuple(Input(time, signal, value) for time, signal, value in inputs))
+
+
+INTERRUPTED = """DEF MAIN()
+DECL INT N
+N=0
+$VEL.CP=0.02
+$ACC.CP=1.2
+$ADVANCE=3
+$APO.CDIS=10
+PTP {{A1 0,A2 -90,A3 90,A4 0,A5 60,A6 0}}
+{declared}
+INTERRUPT ON 10
+{lines}
+INTERRUPT OFF 10
+LIN {{X 400,Y 0,Z 400,A 0,B 90,C 0}}
+$OUT[9]=TRUE
+END
+
+DEF WAY()
+LIN {{X 400,Y 0,Z 400,A 0,B 90,C 0}}
+LIN {{X 400,Y 200,Z 400,A 0,B 90,C 0}}
+$OUT[8]=TRUE
+END
+
+DEF CORNERS()
+LIN {{X 400,Y 0,Z 400,A 0,B 90,C 0}}
+LIN {{X 400,Y 100,Z 400,A 0,B 90,C 0}} C_DIS
+LIN {{X 500,Y 100,Z 400,A 0,B 90,C 0}}
+$OUT[8]=TRUE
+END
+
+DEF WAITING()
+WAIT SEC 8
+WAIT FOR $IN[2]
+$OUT[8]=TRUE
+END
+"""
+
+
+def same_events(language: str, text: str, inputs: Cell) -> str:
+    """The script of a program that does the same in the same order; where the robot is when a signal comes depends on
+    how fast each controller accelerates."""
+    script, losses, proof = translated(language, text, inputs)
+    assert not losses, script
+    assert proof.level == "geometry" or (proof.difference is not None and proof.difference.kind == "place"), (
+        f"{proof.as_text()}\n{script}"
+    )
+    return script
+
+
+HANDLERS = {
+    "LIT": "$OUT[1]=NOT $OUT[1]",
+    "HELD": "$OUT[1]=TRUE\nWAIT FOR NOT $IN[1]\n$OUT[1]=FALSE",
+    "BRAKED": "BRAKE\n$OUT[1]=TRUE\nWAIT SEC 0.5\n$OUT[1]=FALSE",
+    "LEFT": "BRAKE\n$OUT[1]=TRUE\nRESUME",
+}
+
+
+def handled(handler: str, lines: str) -> str:
+    """A program whose interrupt 10 is on around these lines."""
+    declared = f"INTERRUPT DECL 10 WHEN $IN[1] DO {handler}()"
+    return INTERRUPTED.format(declared=declared, lines=lines) + f"\nDEF {handler}()\n{HANDLERS[handler]}\nEND\n"
+
+
+PULSE = cell((12.0, "$IN[1]", True), (13.0, "$IN[1]", False), (30.0, "$IN[2]", True))
+TWICE = cell((12.0, "$IN[1]", True), (13.0, "$IN[1]", False), (14.0, "$IN[1]", True))
+
+
+@pytest.mark.parametrize("handler", ["LIT", "HELD", "BRAKED", "LEFT"])
+@pytest.mark.parametrize("routine", ["WAY", "CORNERS", "WAITING"])
+def test_interrupts_act_while_the_program_waits(handler: str, routine: str) -> None:
+    same_events("krl", handled(handler, f"{routine}()"), PULSE)
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "WAY()",
+        "INTERRUPT OFF 10\nWAY()\nINTERRUPT ON 10",
+        "INTERRUPT DISABLE 10\nWAY()\nINTERRUPT ENABLE 10",
+    ],
+)
+def test_an_interrupt_comes_at_each_edge_while_it_is_on(lines: str) -> None:
+    script = same_events("krl", handled("LIT", lines), TWICE)
+    assert "enter_critical" in script
+
+
+RAPID = """MODULE M
+VAR robtarget pFound;
+CONST robtarget pFar:=[[300,200,300],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+CONST robtarget pNear:=[[300,0,300],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+PROC main()
+  MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;
+  MoveL pNear,v50,fine,tool0;
+  {search}
+  Set do2;
+  IF pFound.trans.y > 20 AND pFound.trans.y < 190 Set do3;
+ERROR
+  IF ERRNO=ERR_WHLSEARCH THEN
+    Set do4;
+    TRYNEXT;
+  ELSEIF ERRNO=ERR_SIGSUPSEARCH THEN
+    Set do5;
+    TRYNEXT;
+  ENDIF
+ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize("stop", ["\\Stop,", "\\PStop,", "\\SStop,", " "])
+@pytest.mark.parametrize(
+    "inputs", [((25.0, "di1", True),), (), ((0.1, "di1", True),)], ids=["found", "nothing", "already"]
+)
+def test_searches_keep_the_place(stop: str, inputs: tuple[tuple[float, str, bool], ...]) -> None:
+    equal("rapid", RAPID.format(search=f"SearchL{stop}di1,pFound,pFar,v10,tool0;"), cell(*inputs))

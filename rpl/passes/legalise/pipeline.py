@@ -74,6 +74,7 @@ from rpl.passes.legalise.truths import truths_to_numbers
 from rpl.passes.legalise.unused import drop_unused, drop_untyped
 from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.legalise.watches import counted_watches
+from rpl.passes.legalise.watching import watching
 from rpl.passes.typing import normalise
 
 # First what asks for the source language's own rules (its prelude, its look-ahead), then signals and control (each may
@@ -144,6 +145,7 @@ PASSES: tuple[Pass, ...] = (
     flat_records,
     compositions,
     path_events,
+    watching,
     arithmetic,
     functions_to_procedures,
     fit_arguments,

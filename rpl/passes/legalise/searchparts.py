@@ -19,6 +19,7 @@ NO_PLACE = code(
 )
 NO_HIT = code("search-hit-lost", Severity.LOSS, "the target does not say whether the condition came true")
 _NOT_FOUND = "ERR_WHLSEARCH"
+_ALREADY = "ERR_SIGSUPSEARCH"
 
 
 def search_parts(program: ir.Program, context: Context) -> ir.Program:
@@ -36,6 +37,8 @@ def search_parts(program: ir.Program, context: Context) -> ir.Program:
                     if not missed:
                         missed.append(editor.temporary("missed", ir.BoolType()))
                     return _handled(statement, statement.search, editor, missed[0])
+                if editor.capabilities.watching_tasks:
+                    return _told(statement, statement.search, editor, raises)
                 return _fitted(statement, statement.search, editor, raises)
             return (inside(statement, lambda inner: map_body(inner, change)),)
 
@@ -73,6 +76,19 @@ def _handled(move: ir.Move, search: ir.Search, editor: Editor, missed: ir.Name) 
         at_once.append(ir.Assign(search.found, ir.Builtin("current_target", ())))
     inner = tuple(replace(one, origin=replace(move.origin, comments=())) for one in way)
     return expansion(move.origin, (ir.If(((there, tuple(at_once)),), inner),))
+
+
+def _told(move: ir.Move, search: ir.Search, editor: Editor, raises: bool) -> ir.Body:
+    """A search that says whether it found, and the errors of the source language as the program's own."""
+    if search.hit is not None or not raises:
+        return (move,)
+    hit = editor.temporary("hit", ir.BoolType())
+    before: ir.Body = ()
+    if search.edge != "either" and search.stop != "none" and _ALREADY in rules_of(editor.context.source).errors:
+        there = search.condition if search.edge == "rising" else ir.Unary("not", search.condition)
+        before = (ir.If(((there, (ir.Raise(ir.Name(_ALREADY)),)),)),)
+    failed = ir.If(((ir.Unary("not", hit), (ir.Raise(ir.Name(_NOT_FOUND)),)),))
+    return expansion(move.origin, (*before, replace(move, search=replace(search, hit=hit)), failed))
 
 
 def _fitted(move: ir.Move, search: ir.Search, editor: Editor, raises: bool) -> ir.Body:

@@ -1,0 +1,84 @@
+"""Which statements may run while an interrupt is armed that the program has to serve itself.
+
+One bit is carried through branches, loops and calls of the whole program until nothing changes; what is not known
+counts as armed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from rpl import ir
+from rpl.passes.legalise.effects import children, everything
+
+
+class Keys(Protocol):
+    """What is asked of the interrupts."""
+
+    def arms(self, statement: ir.ControlInterrupt) -> bool | None: ...
+
+
+def armed_statements(program: ir.Program, keys: Keys) -> frozenset[int]:
+    """Identities of the statements that may run then."""
+    reach = _Reach(keys)
+    routines = {routine.name.lower(): routine for module in program.modules for routine in module.routines}
+    while True:
+        before = (dict(reach.entries), dict(reach.exits), len(reach.marked))
+        for name, routine in routines.items():
+            reach.leaving = False
+            end = reach.body(routine.body, reach.entries.get(name, False))
+            reach.exits[name] = reach.exits.get(name, False) or end or reach.leaving
+        if before == (reach.entries, reach.exits, len(reach.marked)):
+            return frozenset(reach.marked)
+
+
+@dataclass(slots=True)
+class _Reach:
+    keys: Keys
+    entries: dict[str, bool] = field(default_factory=dict)
+    exits: dict[str, bool] = field(default_factory=dict)
+    marked: set[int] = field(default_factory=set)
+    leaving: bool = False
+
+    def body(self, body: ir.Body, armed: bool) -> bool:
+        for statement in body:
+            armed = self.statement(statement, armed)
+        return armed
+
+    def called(self, name: str, armed: bool) -> bool:
+        key = name.lower()
+        if armed:
+            self.entries[key] = True
+        return self.exits.get(key, armed)
+
+    def statement(self, statement: ir.Statement, armed: bool) -> bool:
+        for expression in children(statement):
+            for one in everything(expression):
+                if isinstance(one, ir.Call):
+                    armed = self.called(one.name, armed)
+        if armed:
+            self.marked.add(id(statement))
+        match statement:
+            case ir.ControlInterrupt():
+                told = self.keys.arms(statement)
+                return armed if told is None else told
+            case ir.CallRoutine(name=name):
+                return self.called(name, armed)
+            case ir.If(branches=branches, otherwise=otherwise):
+                ends = [self.body(inner, armed) for _, inner in branches]
+                return any([*ends, self.body(otherwise, armed)])
+            case ir.Switch(cases=cases, default=default):
+                ends = [self.body(case.body, armed) for case in cases]
+                return any([*ends, self.body(default or (), armed)])
+            case ir.For(body=body) | ir.While(body=body) | ir.Repeat(body=body) | ir.Loop(body=body):
+                end = self.body(body, armed)
+                if end and not armed:
+                    self.body(body, True)
+                return end or armed
+            case ir.Return():
+                self.leaving = self.leaving or armed
+        return armed
+
+
+__all__ = ["armed_statements"]

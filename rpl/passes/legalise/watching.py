@@ -1,0 +1,297 @@
+"""Searches and interrupts for targets that have tasks, but neither of them.
+
+An interrupt whose action takes no time and leaves the robot alone is a task of its own that waits for the condition and
+acts in a critical section. Any other one the program serves itself: while it may come, a task drives the moves, and the
+program looks at the condition in each cycle of its waiting (`served`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
+from rpl.passes.legalise.beside import Beside, closure, local_names, tidy
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.jumps import inside
+from rpl.passes.legalise.movers import Movers
+from rpl.passes.legalise.reach import armed_statements
+from rpl.passes.legalise.searchtasks import SearchTasks
+from rpl.passes.legalise.served import MOTION, Served, Watch
+from rpl.passes.legalise.support import with_support
+from rpl.passes.legalise.usage import called_names, exposed
+from rpl.passes.scope import ProgramScope
+
+BESIDE = code(
+    "interrupt-watched",
+    Severity.WARNING,
+    "a task looks for the condition of {action} in each cycle of the controller and acts there; the program may still"
+    " do what it does in that cycle",
+)
+SERVED = code(
+    "interrupt-served",
+    Severity.WARNING,
+    "the program looks for the condition of {action} in each cycle while the robot moves and while it waits, not while"
+    " it calculates",
+)
+LOST = code(
+    "interrupt-not-watched",
+    Severity.LOSS,
+    "{action} cannot be done by a program that watches the condition: {reason}",
+    stops=True,
+)
+_ALONE = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.Raise, ir.Halt, ir.ResumeLevel)
+
+
+def watching(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets that are asked for this."""
+    if not context.capabilities.watching_tasks:
+        return program
+    nodes = list(walk(*program.modules))
+    searches = any(isinstance(node, ir.Search) for node in nodes)
+    interrupts = any(isinstance(node, ir.DeclareInterrupt) for node in nodes)
+    if not searches and not interrupts:
+        return program
+    beside = Beside(program, context)
+    movers = Movers(beside, ProgramScope(program))
+    watches = _Watches(program, beside)
+    watches.collect()
+    served = Served(program, context, beside, movers, watches.served())
+    marked = armed_statements(program, served) if served.watches else frozenset()
+    served.marked = marked
+
+    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        done = routine
+        if served.watches:
+            done = served.routine(editor, routine, done)
+        elif searches:
+            done = edit_bodies(routine, SearchTasks(editor, routine, beside, movers).body)
+        return edit_bodies(done, watches.body) if interrupts else done
+
+    done = edit_routines(program, context, work)
+    served.finish()
+    movers.finish()
+    done = watches.levels(beside.placed(done))
+    done = replace(done, tasks=(*done.tasks, *watches.tasks))
+    done = exposed(done, called_names((*served.made, *watches.made)))
+    made = (*served.made, *watches.made)
+    return with_support(done, context, (*movers.data(), *served.data(), *watches.data), made, done.modules[0].task)
+
+
+def _name(action: ir.Assign | ir.CallRoutine) -> str:
+    return action.name if isinstance(action, ir.CallRoutine) else "an assignment"
+
+
+def number_of(value: ir.Expression | None) -> int | None:
+    match value:
+        case ir.IntLiteral(value=number):
+            return number
+        case ir.RealLiteral(value=real) if real.is_integer():
+            return int(real)
+    return None
+
+
+def key_of(one: ir.DeclareInterrupt) -> int | None:
+    """The number that control statements name the interrupt by."""
+    return number_of(one.identity if one.identity is not None else one.priority)
+
+
+@dataclass(slots=True)
+class _Watches:
+    """All interrupts of the program, and those that are tasks."""
+
+    program: ir.Program
+    beside: Beside
+    watches: dict[int, Watch] = field(default_factory=dict)
+    lost: set[int] = field(default_factory=set)
+    declaring: dict[str, set[int]] = field(default_factory=dict)
+    data: list[ir.Variable] = field(default_factory=list)
+    made: list[ir.Routine] = field(default_factory=list)
+    tasks: list[ir.Task] = field(default_factory=list)
+    mask: str = ""
+
+    def served(self) -> dict[int, Watch]:
+        return {key: one for key, one in self.watches.items() if one.served}
+
+    def flag(self, stem: str) -> str:
+        name = self.beside.context.fresh(stem)
+        self.data.append(ir.Variable(name, ir.BoolType(), ir.BoolLiteral(False), scope="global"))
+        return name
+
+    # ---- what there is
+
+    def collect(self) -> None:
+        ops = {node.op for node in walk(*self.program.modules) if isinstance(node, ir.ControlInterrupt)}
+        for module in self.program.modules:
+            for routine in module.routines:
+                for node in walk(*routine.body):
+                    if isinstance(node, ir.DeclareInterrupt):
+                        self.add(node, routine, module, ops)
+
+    def add(self, one: ir.DeclareInterrupt, routine: ir.Routine, module: ir.Module, ops: set[str]) -> None:
+        key = key_of(one)
+        reason = self.refused(one, key, routine)
+        if reason or key is None:
+            self.beside.context.diagnostics.report(LOST, one.origin, action=_name(one.action), reason=reason)
+            self.lost.add(key if key is not None else -1)
+            return
+        if not one.everywhere:
+            self.declaring.setdefault(routine.name.lower(), set()).add(key)
+        known = self.watches.get(key)
+        if known is not None:
+            return
+        if isinstance(one.action, ir.CallRoutine):
+            home = next((m for m in self.program.modules for r in m.routines if r.name == one.action.name), module)
+            module = home if home is not module else module
+        timed = self.takes_time(one)
+        armed = self.flag(f"rpl_interrupt_{key}_on")
+        watch = Watch(key, number_of(one.priority) or 0, one, armed, routine, served=timed)
+        self.watches[key] = watch
+        report = self.beside.context.diagnostics.report
+        report(SERVED if timed else BESIDE, one.origin, action=_name(one.action))
+        watch.enabled = self.flag(f"rpl_interrupt_{key}_waits") if ops & {"enable", "disable"} else ""
+        if "mask" in ops and not self.mask:
+            self.mask = self.beside.context.fresh("rpl_mask")
+            first = ir.IntLiteral(_NO_MASK)
+            self.data.append(ir.Variable(self.mask, ir.IntType(), first, scope="global"))
+        watch.mask = self.mask
+        if timed:
+            watch.was = self.flag(f"rpl_interrupt_{key}_was")
+        else:
+            self.task(watch)
+
+    def refused(self, one: ir.DeclareInterrupt, key: int | None, routine: ir.Routine) -> str:
+        """Why it cannot be watched; empty when it can."""
+        if key is None:
+            return "its number is computed"
+        own = local_names(routine)
+        for node in walk(one.condition, one.action):
+            if isinstance(node, ir.Name) and node.id.lower() in own:
+                return f"{node.id} is a variable of the routine that declares it"
+        known = self.watches.get(key)
+        if known is not None and (known.declared.condition, known.declared.action) != (one.condition, one.action):
+            return "the same number is declared for several conditions or actions"
+        drives = closure(self.program, (ir.Move, ir.Spline, ir.MoveExternal))
+        brakes = closure(self.program, (ir.StopMotion,))
+        stores = closure(self.program, (ir.StoreMotion,))
+        name = one.action.name.lower() if isinstance(one.action, ir.CallRoutine) else ""
+        if name in stores:
+            return "it puts the motion aside"
+        if name in drives and name not in brakes and not one.stops:
+            return "it moves the robot without braking first"
+        return ""
+
+    def takes_time(self, one: ir.DeclareInterrupt) -> bool:
+        if one.stops:
+            return True
+        if not isinstance(one.action, ir.CallRoutine):
+            return False
+        return one.action.name.lower() in closure(self.program, (*MOTION, *_ALONE))
+
+    # ---- tasks
+
+    def task(self, watch: Watch) -> None:
+        """Waits for the condition to come and acts, again and again."""
+        name = self.beside.context.fresh(f"rpl_interrupt_{watch.key}")
+        armed = ir.Name(watch.armed)
+        off, cond = ir.Unary("not", armed), watch.declared.condition
+        acts: list[ir.Statement] = [
+            ir.Critical(True),
+            tidied(watch.declared.action),
+            ir.Critical(False),
+        ]
+        if watch.declared.once:
+            acts.insert(0, ir.Assign(armed, ir.BoolLiteral(False)))
+        body: list[ir.Statement] = [
+            ir.WaitUntil(ir.Binary("cand", armed, ir.Unary("not", cond))),
+            ir.WaitUntil(ir.Binary("cor", cond, off)),
+        ]
+        held = watch.may_come()
+        if held is not None:
+            body.append(ir.WaitUntil(ir.Binary("cor", held, off)))
+        body.append(ir.If(((armed, tuple(acts)),)))
+        self.made.append(ir.Routine(name, body=tuple(body), scope="global"))
+        self.tasks.append(ir.Task(name, name, kind="background", cyclic=True))
+
+    # ---- statements
+
+    def body(self, body: ir.Body) -> ir.Body:
+        return map_body(body, self.statement)
+
+    def statement(self, statement: ir.Statement) -> ir.Body:
+        match statement:
+            case ir.DeclareInterrupt():
+                watch = self.watches.get(key_of(statement) or 0)
+                if watch is None or key_of(statement) in self.lost:
+                    return (statement,)
+                return (_set(watch.armed, False, statement),)
+            case ir.ControlInterrupt(op=op, handle=handle):
+                return self.control(statement, op, handle)
+        return (inside(statement, self.body),)
+
+    def control(self, statement: ir.ControlInterrupt, op: str, handle: ir.Expression | None) -> ir.Body:
+        if op == "mask":
+            if not self.mask:
+                return ()
+            value = handle if handle is not None else ir.IntLiteral(_NO_MASK)
+            return (ir.Assign(ir.Name(self.mask), value, origin=statement.origin),)
+        key = number_of(handle)
+        chosen = [*self.watches.values()] if handle is None else [self.watches[key]] if key in self.watches else []
+        if not chosen:
+            return (statement,) if handle is not None else ()
+        done: list[ir.Statement] = []
+        for watch in chosen:
+            if op == "on" and watch.served:
+                done.append(ir.Assign(ir.Name(watch.was), watch.declared.condition, origin=tidy(statement.origin)))
+            if op in ("on", "off", "delete"):
+                done.append(_set(watch.armed, op == "on", statement))
+            elif op in ("enable", "disable") and watch.enabled:
+                done.append(_set(watch.enabled, op == "disable", statement))
+        if op == "enable" and any(watch.enabled for watch in chosen):  # what has waited for that comes first
+            done.append(ir.Wait(ir.Quantity(ir.RealLiteral(self.beside.context.capabilities.poll_s), "s")))
+        return expansion(statement.origin, done)
+
+    # ---- levels
+
+    def levels(self, program: ir.Program) -> ir.Program:
+        """A declaration ends with its routine: the interrupt is off when that returns to a caller."""
+        called = called_names(r for m in program.modules for r in m.routines)
+        modules = tuple(
+            replace(
+                module,
+                routines=tuple(
+                    self.level(r) if r.name.lower() in self.declaring and r.name.lower() in called else r
+                    for r in module.routines
+                ),
+            )
+            for module in program.modules
+        )
+        return replace(program, modules=modules)
+
+    def level(self, routine: ir.Routine) -> ir.Routine:
+        keys = sorted(self.declaring[routine.name.lower()] & set(self.watches))
+        off: ir.Body = tuple(ir.Assign(ir.Name(self.watches[key].armed), ir.BoolLiteral(False)) for key in keys)
+
+        def change(statement: ir.Statement) -> ir.Body:
+            if isinstance(statement, ir.Return):
+                return (*off, statement)
+            return (inside(statement, lambda inner: map_body(inner, change)),)
+
+        body = map_body(routine.body, change)
+        return replace(routine, body=(*body, *off))
+
+
+_NO_MASK = 1000
+
+
+def tidied(action: ir.Assign | ir.CallRoutine) -> ir.Assign | ir.CallRoutine:
+    return replace(action, origin=tidy(action.origin))
+
+
+def _set(name: str, value: bool, statement: ir.Statement) -> ir.Statement:
+    return ir.Assign(ir.Name(name), ir.BoolLiteral(value), origin=statement.origin)
+
+
+__all__ = ["watching"]
