@@ -84,10 +84,12 @@ CAPABILITIES = Capabilities(
     functions_alone=True,
     signal_groups=False,
     move_settings=frozenset(("speed", "blend")),
+    move_triggers=True,
     speeds=frozenset(("joint", "path", "rotation", "duration")),
     move_functions=frozenset((":", "compose", "element_sum", "displaced_in_tool", "joints_to_target", "pose_of")),
     blends=frozenset(("BlendStop", "BlendPercent", "BlendDistance")),
     numbered_groups=True,
+    static_locals=True,
 )
 
 

@@ -406,9 +406,9 @@ def _pulses(triggers: tuple[ir.Expression | ir.Trigger, ...]) -> list[tuple[ir.E
             case (
                 ir.Trigger(
                     action=ir.Assign(target=ir.Signal() as target, value=ir.BoolLiteral(value=False)), delay=later
-                ),
+                ) as off,
                 ir.Trigger(action=ir.Assign(target=before, value=ir.BoolLiteral(value=True)), delay=first) as on,
-            ) if target == before and later is not None:
+            ) if target == before and later is not None and _same_place(on, off):
                 width = later.right if isinstance(later, ir.Binary) else later if first is None else None
                 seconds = measured(width, "s") if width is not None else None
                 if seconds is not None:
@@ -416,3 +416,9 @@ def _pulses(triggers: tuple[ir.Expression | ir.Trigger, ...]) -> list[tuple[ir.E
                     continue
         done.append((trigger, None))
     return done
+
+
+def _same_place(one: ir.Trigger, other: ir.Trigger) -> bool:
+    """Do two actions count from one place of the path, apart from their times?"""
+    places = [measured(each.distance, "mm") if each.distance is not None else 0 for each in (one, other)]
+    return one.reference == other.reference and None not in places and places[0] == places[1]

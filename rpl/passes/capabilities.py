@@ -85,6 +85,7 @@ class Capabilities:
     places know only the tool in use and the robot's base. no_tool, no_frame: the target's
     own tool and work object data without any offset; then moves name such data, and no plain poses.
 
+    move_triggers: a move says the actions on its path itself (Move.triggers), and only so.
     watching_tasks: path events, searches and interrupts stand in `statements` although moves and the controller have
     none: the passes make tasks of them that watch beside the move (pathevents, watching).
 
@@ -163,6 +164,7 @@ class Capabilities:
     move_settings: frozenset[str] = frozenset()
     speeds: frozenset[str] = frozenset()
     blends: frozenset[str] = frozenset()
+    move_triggers: bool = False
     watching_tasks: bool = False
     declared_groups: bool = False
     signal_groups: bool = True

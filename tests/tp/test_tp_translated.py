@@ -129,3 +129,47 @@ ENDMODULE
 def test_texts_as_arguments_that_are_handed_on() -> None:
     files, _ = same_in_tp("rapid", HANDED_ON)
     assert "CALL SECOND(AR[1],3)" in files["FIRST.LS"]
+
+
+KRL_PATH = """DEF p()
+BAS(#INITMOV,0)
+$VEL.CP=0.2
+PTP {X 500,Y 0,Z 420,A 0,B 90,C 0,S 6,T 18}
+LIN {X 500,Y 0,Z 380,A 0,B 90,C 0}
+TRIGGER WHEN PATH=10.0 ONSTART DELAY=0 DO $OUT[1]=TRUE
+TRIGGER WHEN PATH=-15.0 DELAY=0 DO $OUT[1]=FALSE
+LIN {X 500,Y 100,Z 380,A 0,B 90,C 0}
+TRIGGER WHEN DISTANCE=0 DELAY=20 DO $OUT[2]=TRUE
+TRIGGER WHEN PATH=-20 DELAY=0 DO mark() PRIO=5
+LIN {X 500,Y 0,Z 380,A 0,B 90,C 0}
+END
+DEF mark()
+$OUT[3]=TRUE
+END
+"""
+
+
+def test_actions_on_the_path_stand_at_the_move() -> None:
+    files, _ = same_in_tp("krl", KRL_PATH)
+    text = files["P.LS"]
+    assert "DB 90mm,DO[1]=ON DB 15mm,DO[1]=OFF TA 0.02sec,DO[2]=ON" in text
+    assert "DB 20mm,CALL MARK" in text
+
+
+RAPID_PATH = """MODULE m
+  VAR triggdata tdOpen;
+  VAR triggdata tdShut;
+  PROC main()
+    TriggIO tdOpen,10\\Start\\DOp:=doGun,1;
+    TriggEquip tdShut,5,0\\DOp:=doGun,0;
+    MoveJ [[400,0,400],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v200,fine,tool0;
+    TriggL [[400,100,400],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,tdOpen\\T2:=tdShut,fine,tool0;
+    TriggL [[400,0,400],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,tdOpen,fine,tool0;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_stored_actions_on_the_path() -> None:
+    files, _ = same_in_tp("rapid", RAPID_PATH)
+    assert "DB 90mm,DO[1:doGun]=ON DB 5mm,DO[1:doGun]=OFF" in files["MAIN.LS"]

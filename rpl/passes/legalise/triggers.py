@@ -1,18 +1,24 @@
-"""Path events as statements before a move (KRL) to stored events that the move names (RAPID), and back."""
+"""Path events as statements before a move (KRL) to stored events that the move names (RAPID), and back; or both to
+events that a move says itself (FANUC).
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.usage import base_name, bodies, called_names, each_statement, exposed
 from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import ProgramScope, Scope
 
 
 def triggers(program: ir.Program, context: Context) -> ir.Program:
     """Rewrites towards whichever form the target has."""
     statements = context.capabilities.statements
+    if context.capabilities.move_triggers:
+        return _at_moves(_Before(program).program(program))
     if "Trigger" not in statements and "DefineTrigger" in statements:
         return _Stored(context).program(program)
     if "DefineTrigger" not in statements and "Trigger" in statements:
@@ -87,6 +93,60 @@ class _Stored:
             ir.ConnectInterrupt(ir.Name(handle), trap, origin=later),
             ir.DefineTrigger(ir.Name(name), replace(trigger, origin=later), ir.Name(handle), origin=later),
         ]
+
+
+class _AtMoves:
+    """Trigger statements become part of the move behind them. What comes a time behind the start of a move comes that
+    time behind the end of the one before, where the two follow each other."""
+
+    def __init__(self, scope: Scope) -> None:
+        self.scope = scope
+
+    def body(self, body: ir.Body) -> ir.Body:
+        done: list[ir.Statement] = []
+        waiting: list[ir.Trigger] = []
+        last: int | None = None  # the place in `done` of the move before, while nothing stands between that takes time
+        for statement in body:
+            match statement:
+                case ir.Trigger():
+                    waiting.append(statement)
+                    continue
+                case ir.Move():
+                    own = [replace(one, origin=replace(one.origin, comments=())) for one in waiting]
+                    comments = [ir.Nothing(origin=one.origin) for one in waiting if one.origin.comments]
+                    done.extend(comments)
+                    if last is not None:
+                        before = done[last]
+                        assert isinstance(before, ir.Move)  # noted below
+                        moved = [replace(one, reference="end") for one in own if self.behind_the_start(one)]
+                        done[last] = replace(before, triggers=(*before.triggers, *moved)) if moved else before
+                        own = [one for one in own if not self.behind_the_start(one)]
+                    last, waiting = len(done), []
+                    done.append(replace(statement, triggers=(*own, *statement.triggers)) if own else statement)
+                    continue
+                case ir.Assign() | ir.Nothing() | ir.LookAhead():
+                    done.append(statement)
+                    continue
+            done.extend(waiting)  # no move follows here: left for the writer to report
+            last, waiting = None, []
+            done.append(rewrite_parts(statement, lambda expression: expression, self.body))
+        return (*done, *waiting)
+
+    def behind_the_start(self, trigger: ir.Trigger) -> bool:
+        """Does it come a time behind the start itself?"""
+        if trigger.reference != "start" or trigger.delay is None:
+            return False
+        distance = 0.0 if trigger.distance is None else constant_number(trigger.distance, self.scope)
+        return distance == 0 and (constant_number(trigger.delay, self.scope) or 0) > 0
+
+
+def _at_moves(program: ir.Program) -> ir.Program:
+    scopes = ProgramScope(program)
+    modules = []
+    for module in program.modules:
+        routines = [replace(r, body=_AtMoves(scopes.routine(module, r)).body(r.body)) for r in module.routines]
+        modules.append(replace(module, routines=tuple(routines)))
+    return replace(program, modules=tuple(modules))
 
 
 def _at_the_move(triggers: tuple[ir.Expression | ir.Trigger, ...]) -> bool:
