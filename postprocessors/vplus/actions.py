@@ -257,6 +257,8 @@ class Actions:
         """Variables are passed by reference; where the callee changes its copy, brackets pass the value."""
         if isinstance(self.expressions.type(value), ir.ArrayType):
             return self.expressions.places.whole_array(value)
+        if isinstance(value, ir.Unary) and value.op == "+":  # how the reader marks brackets around a variable
+            return f"({self.expressions.text(value.operand)})"
         text = self.expressions.text(value)
         variable = isinstance(value, ir.Name | ir.Index) and "(" not in text
         if not variable or parameter is None or parameter.mode != "value" or routine is None:

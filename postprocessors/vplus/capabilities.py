@@ -58,6 +58,7 @@ CAPABILITIES = Capabilities(
     function_routines=False,
     recursion=True,
     next_move_settings=True,
+    text_parts=True,
     stopping_reactions=True,
     places_in_base=True,
     task_operations=frozenset(("start", "stop")),

@@ -15,6 +15,7 @@ from rpl.writing.text import wrapped
 from . import settings, spelling, tables
 from .actions import Actions
 from .corners import deferred
+from .decoding import decoded
 from .expressions import Expressions, Notes, UnsayableError
 from .motion import Motion, MotionFacts
 from .pathevents import PathEvents
@@ -186,6 +187,8 @@ class Printer:
                 return self.actions.hand(body)
             case ir.Assign(target=ir.Field()):
                 return self.actions.components(body)
+            case ir.Assign():
+                return decoded(body, self.expressions)
         return None
 
     def statement(self, statement: ir.Statement, elsewhere: list[str] | None = None) -> None:

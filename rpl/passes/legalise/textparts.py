@@ -25,9 +25,10 @@ PARSE_REAL, PARSE_WHOLE = "rpl_parse_number", "rpl_parse_whole"
 
 
 def by_parts(capabilities: Capabilities) -> bool:
-    """Does the target have texts as values with these few operations, and numbered storage for them?"""
+    """Does the target have texts as values with these few operations, in numbered storage or by its own word?"""
     has = {"text_part", "text_length"} <= capabilities.functions and "&" in capabilities.operators
-    return has and capabilities.texts and bool(capabilities.banks) and capabilities.text_results
+    stored = bool(capabilities.banks) or capabilities.text_parts
+    return has and capabilities.texts and stored and capabilities.text_results
 
 
 _LOWER, _UPPER = "abcdefghijklmnopqrstuvwxyz", "ABCDEFGHIJKLMNOPQRSTUVWXYZ"

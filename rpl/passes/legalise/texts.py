@@ -254,7 +254,7 @@ class TextHoister(Hoister):
                     return None
                 rounded = ir.Convert("round_half_away", value)
                 return replace(expression, arguments=(rounded, ir.IntLiteral(0)))
-            case ir.Builtin(function="number_text"):
+            case ir.Builtin(function="number_text") if self.editor.capabilities.banks:
                 return self.helpers.call(textparts.NUMBER_TEXT, *expression.arguments)
             case ir.Builtin(function=function) if function in textparts.FUNCTIONS:
                 if not self.has(expression):
