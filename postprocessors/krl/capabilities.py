@@ -47,6 +47,7 @@ CAPABILITIES = Capabilities(
     partial_aggregates=True,
     constant_aggregates=True,
     relative_moves=True,
+    arcs_by_angle=True,
     partial_targets=True,
     data_lists=True,
     declared_groups=True,

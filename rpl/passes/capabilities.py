@@ -84,7 +84,8 @@ class Capabilities:
     blends: blend classes that it says (BlendStop always). move_functions: functions (and `:`) that a move's target may
     be although nothing else can: a place seen from another one, with simple operands. places_in_base: functions of
     places know only the tool in use and the robot's base. no_tool, no_frame: the target's
-    own tool and work object data without any offset; then moves name such data, and no plain poses.
+    own tool and work object data without any offset; then moves name such data, and no plain poses. arcs_by_angle: an
+    arc may go on for an angle (else it ends at a computed point).
 
     move_triggers: a move says the actions on its path itself (Move.triggers), and only so.
     watching_tasks: path events, searches and interrupts stand in `statements` although moves and the controller have
@@ -156,6 +157,7 @@ class Capabilities:
     index_base: int | None = 1
     expressions: str = "any"
     calculated_places: bool = True
+    arcs_by_angle: bool = False
     longest_message: int = 0
     computed_messages: bool = True
     text_find_from: bool = True

@@ -67,6 +67,7 @@ from rpl.passes.legalise.steps import steps
 from rpl.passes.legalise.structure import labels_to_structure
 from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
+from rpl.passes.legalise.threepoints import three_point_arcs
 from rpl.passes.legalise.timers import timers_to_clocks
 from rpl.passes.legalise.tooldata import tool_data
 from rpl.passes.legalise.triggers import triggers
@@ -98,6 +99,7 @@ PASSES: tuple[Pass, ...] = (
     settings_of_next_move,
     error_routines,
     array_bases,
+    three_point_arcs,
     circle_rules,
     configurations,
     without_aliases,

@@ -1,0 +1,310 @@
+"""Arcs for targets that know only start, via and end.
+
+An arc whose length is an angle (KRL's CA) ends at a computed point. The points that fix the circle must be known:
+constants, or data that nothing assigns. An angle of a full turn or more is written in parts, which meet in a small
+corner because three points fix less than one turn. And where the target's tool turns otherwise on the way (seen from
+the base or from the tangent) and has no setting for it, an arc on which that makes a difference is reported.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.passes import rigid
+from rpl.passes.fold import Unchanged, constant, constant_number
+from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.datalists import never_called
+from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.jumps import inside
+from rpl.passes.legalise.usage import each_statement
+from rpl.passes.legalise.walk import unchanged_in
+from rpl.passes.typewords import type_word
+from rpl.passes.values import Target, real
+
+IN_PARTS = code(
+    "arc-in-parts",
+    Severity.WARNING,
+    "an arc of {angle:g} degrees is written as {count} arcs, which meet in corners of {corner:g} mm",
+)
+NOT_KNOWN = code(
+    "arc-angle-lost",
+    Severity.LOSS,
+    "the target's arcs have no angle, and where this one ends cannot be computed: {reason}",
+    "write the arc with the point where it ends",
+    stops=True,
+)
+TURNS_OTHERWISE = code(
+    "arc-orientation",
+    Severity.WARNING,
+    "on the way along this arc the tool is turned otherwise by the target ({how})",
+    "write the arc in shorter parts",
+)
+CORNER_MM = 1.0
+_NOTICED_DEG = 0.01
+_FLAT = 1e-9
+_PLACES = 9  # of mm and degrees: a millionth of what any controller keeps
+_COUNTS = (1, 2, 3, 4, 6, 8, 12)
+_MODAL = ("tool", "base")
+
+Rotations = Callable[[float], rigid.Rotation]  # fraction of an arc -> the tool's rotation there
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """Centre (mm), unit axis, and the arm from the centre to the start."""
+
+    centre: rigid.Vector
+    axis: rigid.Vector
+    arm: rigid.Vector
+
+    def at(self, degrees: float) -> rigid.Vector:
+        """The point that far from the start, about the axis."""
+        turn = math.radians(degrees)
+        across = self.axis.cross(self.arm)
+        return self.centre.plus(self.arm, math.cos(turn)).plus(across, math.sin(turn))
+
+    def angle(self, point: rigid.Vector) -> float:
+        """How far (deg, 0..360) a point of the circle is from the start, about the axis."""
+        other = point.plus(self.centre, -1.0)
+        return math.degrees(math.atan2(self.axis.dot(self.arm.cross(other)), self.arm.dot(other))) % 360.0
+
+    def turned(self, degrees: float) -> rigid.Rotation:
+        """The turn about the axis."""
+        half = math.radians(degrees) / 2.0
+        along = self.axis.times(math.sin(half))
+        return rigid.Rotation((math.cos(half), along.x, along.y, along.z))
+
+    def rotations(self, angle: float, begin: rigid.Rotation, end: rigid.Rotation, turns: bool) -> Rotations:
+        """The tool's rotation at each fraction of an arc: from `begin` to `end` by the shortest turn, as seen from the
+        base, or from the tangent when it `turns` with the path."""
+        goal = self.turned(-angle).then(end) if turns else end
+
+        def at(fraction: float) -> rigid.Rotation:
+            seen = _between(begin, goal, fraction)
+            return self.turned(angle * fraction).then(seen) if turns else seen
+
+        return at
+
+
+def circle_through(start: rigid.Vector, via: rigid.Vector, end: rigid.Vector) -> Circle | None:
+    """The circle from start over via to end; None when they lie on a line."""
+    one, two = via.plus(start, -1.0), end.plus(start, -1.0)
+    normal = one.cross(two)
+    if normal.length <= _FLAT * max(one.length * two.length, 1e-9):
+        return None
+    weight = 1.0 / (2.0 * normal.dot(normal))
+    lift = normal.cross(one).times(two.dot(two)).plus(two.cross(normal).times(one.dot(one)))
+    centre = start.plus(lift, weight)
+    return Circle(centre, normal.times(1.0 / normal.length), start.plus(centre, -1.0))
+
+
+def three_point_arcs(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets whose arcs have no angle, or one way for the tool to turn."""
+    own = "circle_orientation" in context.capabilities.system_variables
+    if context.capabilities.arcs_by_angle and own:
+        return program
+    known = unchanged_in(program)
+    default = _default(context.source)
+    varies = bool(_rules_set(program) - {default})
+    entries = never_called(program)
+
+    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        rule = default if not varies or routine.name.lower() in entries else ""
+        return edit_bodies(routine, _Arcs(context, editor, known, varies, rule).body)
+
+    return edit_routines(program, context, work)
+
+
+def _default(dialect: str) -> str:
+    return str(rules_of(dialect).system_defaults.get("circle_orientation") or "base")
+
+
+def _rules_set(program: ir.Program) -> set[str]:
+    """How the tool turns on arcs by what the program sets: `base`, `path`; empty text: something computed."""
+    found = set()
+
+    def look(one: ir.Statement) -> None:
+        match one:
+            case ir.Assign(target=ir.System(name="circle_orientation"), value=value):
+                found.add(_word(value))
+
+    for module in program.modules:
+        for routine in module.routines:
+            each_statement(routine.body, look)
+    return found
+
+
+def _word(value: ir.Expression) -> str:
+    return value.member.lower() if isinstance(value, ir.EnumLiteral) else ""
+
+
+@dataclass(slots=True)
+class _Arcs:
+    context: Context
+    editor: Editor
+    known: Unchanged
+    varies: bool  # the program sets how the tool turns
+    rule: str  # how it turns here; empty: not known
+    last: ir.Move | None = None  # the move before, under the same tool and frame
+
+    def body(self, body: ir.Body) -> ir.Body:
+        done: list[ir.Statement] = []
+        self.last = None
+        for statement in body:
+            match statement:
+                case ir.Move(kind="circular", swept=swept) if swept is not None and self.without_angle:
+                    done.extend(self.arc(statement, swept))
+                    self.last = None
+                    continue
+                case ir.Move(kind="circular"):
+                    done.extend(self.look(statement))
+                    self.last = statement
+                    continue
+                case ir.Move():
+                    self.last = statement
+                case ir.Assign(target=ir.System(name="circle_orientation"), value=value):
+                    self.rule = _word(value)
+                case ir.Assign(target=ir.System(name=name)) if name in _MODAL:
+                    self.last = None
+                case ir.Assign() | ir.Nothing() | ir.LookAhead() | ir.Trigger() | ir.WaitForMotion() | ir.Wait():
+                    pass
+                case _:
+                    known = self.rule
+                    statement = inside(statement, self.inner(statement))
+                    self.last, self.rule = None, "" if self.varies else known
+            done.append(statement)
+        return tuple(done)
+
+    def inner(self, block: ir.Statement) -> Callable[[ir.Body], ir.Body]:
+        """Bodies of a block: those of a choice begin with what is in force before it."""
+        begun = self.rule if isinstance(block, ir.If | ir.Switch) or not self.varies else ""
+
+        def work(body: ir.Body) -> ir.Body:
+            self.rule = begun
+            return self.body(body)
+
+        return work
+
+    @property
+    def without_angle(self) -> bool:
+        return not self.context.capabilities.arcs_by_angle
+
+    def look(self, move: ir.Move) -> ir.Body:
+        """The arc; in parts where that turns the target's tool as the source's, which would be turned otherwise."""
+        ours = move.circle_orientation or self.rule
+        if "circle_orientation" in self.context.capabilities.system_variables or ours == _default(self.context.target):
+            return (move,)
+        start = None if self.last is None or not _alike(self.last, move) else self.pose(self.last.target)
+        via = None if move.via is None else self.pose(move.via)
+        end = self.pose(move.target)
+        if start is None or via is None or end is None:
+            self.context.diagnostics.report(TURNS_OTHERWISE, move.origin, how="how far is not known here")
+            return (move,)
+        circle = circle_through(start.position, via.position, end.position)
+        if circle is None:
+            return (move,)
+        angle = circle.angle(end.position)
+        rotations = circle.rotations(angle, start.rotation, end.rotation, ours == "path")
+        splits = bool(ours) and not move.triggers and move.search is None
+        for count in _COUNTS if splits else (1,):
+            apart = _apart(circle, angle / count, start.rotation, rotations(1.0 / count))
+            if apart <= _NOTICED_DEG:
+                break
+        else:
+            self.context.diagnostics.report(TURNS_OTHERWISE, move.origin, how=f"by {apart:.3g} degrees between")
+        return self.parts(move, circle, angle, count, rotations)
+
+    def arc(self, move: ir.Move, swept: ir.Expression) -> ir.Body:
+        """The arc, or the arcs, without an angle."""
+        angle = constant_number(swept, self.editor.scope, self.known)
+        start = None if self.last is None or not _alike(self.last, move) else self.pose(self.last.target)
+        via = None if move.via is None else self.pose(move.via)
+        end = self.pose(move.target)
+        if angle is None:
+            return self.lost(move, "its angle changes in a run")
+        if move.relative or start is None or via is None or end is None:
+            return self.lost(move, "its start, its point on the way or its end is not known here")
+        circle = circle_through(start.position, via.position, end.position)
+        if circle is None or angle == 0.0:
+            return self.lost(move, "its points fix no circle")
+        count = 1 if abs(angle) < 360.0 else math.ceil((abs(angle) + 1.0) / 270.0)
+        if count == 1:
+            return self.look(_to(move, circle, angle, end.rotation, self.context.source))
+        rule = move.circle_orientation or self.rule
+        if not rule:
+            return self.lost(move, "it goes around, and how the tool turns on the way changes in a run")
+        if move.triggers or move.search is not None:
+            return self.lost(move, "it goes around, and actions or a search belong to it")
+        rotations = circle.rotations(angle, start.rotation, end.rotation, rule == "path")
+        return self.parts(move, circle, angle, count, rotations)
+
+    def parts(self, move: ir.Move, circle: Circle, angle: float, count: int, rotations: Rotations) -> ir.Body:
+        """Arcs of the same length."""
+        if count == 1:
+            return (move,)
+        self.context.diagnostics.report(IN_PARTS, move.origin, angle=angle, count=count, corner=CORNER_MM)
+        done: list[ir.Statement] = []
+        for number in range(count):
+            first, last = angle * number / count, angle * (number + 1) / count
+            part = _to(move, circle, last, rotations((number + 1) / count), self.context.source, first)
+            if number:
+                part = replace(part, origin=replace(part.origin, comments=()))
+            if number < count - 1:
+                part = replace(part, blend=ir.BlendDistance(ir.RealLiteral(CORNER_MM)))
+            done.append(part)
+        return tuple(done)
+
+    def pose(self, expression: ir.Expression) -> rigid.Pose | None:
+        value = constant(expression, self.editor.scope, self.known)
+        value = value.pose if isinstance(value, Target) else value
+        return value if isinstance(value, rigid.Pose) else None
+
+    def lost(self, move: ir.Move, reason: str) -> ir.Body:
+        self.context.diagnostics.report(NOT_KNOWN, move.origin, reason=reason)
+        return (move,)
+
+
+def _alike(last: ir.Move, move: ir.Move) -> bool:
+    """Do both name the same tool and frame, and does the last one end at a place that is written?"""
+    return last.relative is None and last.search is None and (last.tool, last.frame) == (move.tool, move.frame)
+
+
+def _to(
+    move: ir.Move, circle: Circle, end: float, rotation: rigid.Rotation, notation: str, begin: float = 0.0
+) -> ir.Move:
+    """The arc from one place (deg from the start) to another."""
+    middle, last = (_written(circle.at(at), rotation, notation) for at in ((begin + end) / 2.0, end))
+    return replace(move, via=middle, target=last, swept=None)
+
+
+def _written(place: rigid.Vector, rotation: rigid.Rotation, notation: str) -> ir.Aggregate:
+    """A target without flags."""
+    values = (place.x, place.y, place.z, *rotation.zyx)
+    entries = tuple((name, real(round(value, _PLACES))) for name, value in zip("xyzabc", values, strict=True))
+    return ir.Aggregate(entries, type_name=type_word(ir.TargetType(notation)))
+
+
+def _apart(circle: Circle, angle: float, begin: rigid.Rotation, end: rigid.Rotation) -> float:
+    """The angle in degrees, in the middle of an arc, between a tool that turns as seen from the base and one that turns
+    as seen from the tangent."""
+    base, path = (circle.rotations(angle, begin, end, turns)(0.5) for turns in (False, True))
+    return 2.0 * math.degrees(math.acos(min(1.0, abs(base.inverse.then(path).quaternion[0]))))
+
+
+def _between(one: rigid.Rotation, other: rigid.Rotation, fraction: float) -> rigid.Rotation:
+    """Part of the shortest turn from one rotation to the other."""
+    w, x, y, z = one.inverse.then(other).quaternion
+    if w < 0.0:
+        w, x, y, z = -w, -x, -y, -z
+    sine = math.sqrt(x * x + y * y + z * z)
+    half = fraction * math.atan2(sine, w)
+    scale = math.sin(half) / sine if sine > 1e-12 else 0.0
+    part = rigid.Rotation((math.cos(half), x * scale, y * scale, z * scale))
+    return one.then(part)
+
+
+__all__ = ["Circle", "circle_through", "three_point_arcs"]

@@ -1,0 +1,85 @@
+"""Arcs by an angle, and arcs on which controllers turn the tool by different rules, in targets with three points.
+
+A KRL program runs on one arm; its translation runs on the same arm and must go the same way.
+"""
+
+import math
+
+import pytest
+
+from rpl.diagnostics import Diagnostics
+from rpl.passes import rigid
+from rpl.passes.legalise.threepoints import circle_through
+from rpl.project import read_sources
+from rpl.proof.prove import ProofResult, prove_programs
+from rpl.proof.wiring import with_signal_names
+from rpl.source import source_from_bytes, source_from_text
+from rpl.translation import translate_program
+
+ARM = "kuka_kr6r900sixx"
+FRAME = """DEF a()
+$BASE = {{X 450.0,Y 0.0,Z 300.0,A 0.0,B 0.0,C 0.0}}
+$TOOL = {{X 0.0,Y 0.0,Z 80.0,A 0.0,B 0.0,C 0.0}}
+$VEL.CP = 0.2
+PTP {{A1 0,A2 -90,A3 90,A4 0,A5 90,A6 -120}}
+LIN {{X 0,Y -80,Z 0,A {a},B 0,C 180}}
+{arc}
+$OUT[1]=TRUE
+END
+"""
+VIA = "CIRC {X 40,Y -40,Z 0,A 0,B 0,C 180}"
+
+
+def translated(arc: str, target: str, a: float = 0.0) -> tuple[ProofResult, list[str]]:
+    read = read_sources([source_from_text("a.src", FRAME.format(arc=arc, a=a))], "krl", Diagnostics())
+    diagnostics = Diagnostics()
+    written = translate_program(read, target, ARM, None, diagnostics)
+    back = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, Diagnostics())
+    named = with_signal_names(back.program, written.program)
+    entry = written.renamed.get("a", "a")
+    result = prove_programs(read.program, named, ARM, ARM, None, entry="a", to_entry=entry)
+    return result, [item.code.name for item in diagnostics if item.severity.word in ("warning", "loss", "error")]
+
+
+@pytest.mark.parametrize("target", ["rapid", "tp", "urscript", "inform"])
+@pytest.mark.parametrize("angle", [90, 150, -60])
+def test_an_arc_by_its_angle_ends_at_a_computed_point(target: str, angle: int) -> None:
+    result, told = translated(f"{VIA},{{X 0,Y 0,Z 0,A 0,B 0,C 180}}, CA {angle}", target)
+    assert result.equal, result.as_text()
+    assert "arc-in-parts" not in told
+    assert "arc-orientation" not in told
+
+
+@pytest.mark.parametrize("target", ["rapid", "tp"])
+@pytest.mark.parametrize("angle", [360, -360, 540])
+def test_more_than_one_turn_is_written_in_parts(target: str, angle: int) -> None:
+    result, told = translated(f"{VIA},{{X 0,Y 0,Z 0,A 0,B 0,C 180}}, CA {angle}", target)
+    assert result.equal, result.as_text()
+    assert "arc-in-parts" in told
+
+
+def test_parts_turn_the_tool_where_the_target_follows_another_rule() -> None:
+    """Seen from the tangent, the tool keeps its rotation over 270 degrees by turning the shorter way."""
+    result, told = translated(f"{VIA},{{X 0,Y 0,Z 0,A 0,B 0,C 180}}, CA 270", "urscript")
+    assert "arc-in-parts" in told
+    assert result.equal, result.as_text()
+
+
+def test_an_angle_that_changes_is_refused_by_name() -> None:
+    arc = f"$VEL.CP = $VEL.CP\n{VIA},{{X 0,Y 0,Z 0,A 0,B 0,C 180}}, CA $OV_PRO"
+    assert "arc-angle-lost" in translated(arc, "rapid")[1]
+
+
+def test_what_is_not_the_same_is_told_with_its_size() -> None:
+    arc = "$CIRC_TYPE=#BASE\n" + VIA + ",{X 0,Y 0,Z 0,A 0,B 10,C 180}"
+    assert {"arc-in-parts", "arc-orientation"} & set(translated(arc, "tp")[1])
+
+
+def test_the_circle_through_three_points() -> None:
+    circle = circle_through(rigid.Vector(0.0, -80.0, 0.0), rigid.Vector(40.0, -40.0, 0.0), rigid.Vector(0.0, 0.0, 0.0))
+    assert circle is not None
+    assert math.dist((circle.centre.x, circle.centre.y, circle.centre.z), (0.0, -40.0, 0.0)) < 1e-9
+    assert circle.at(90.0).x == pytest.approx(40.0)
+    assert circle.angle(rigid.Vector(0.0, 0.0, 0.0)) == pytest.approx(180.0)
+    line = [rigid.Vector(x, 0.0, 0.0) for x in (0.0, 1.0, 2.0)]
+    assert circle_through(*line) is None
