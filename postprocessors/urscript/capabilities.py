@@ -53,6 +53,7 @@ CAPABILITIES = Capabilities(
     blends=frozenset(("BlendDistance",)),
     postures="joints",
     watching_tasks=True,
+    text_parts=True,
     poll_s=0.002,
     search_results=frozenset(("found", "hit")),
     reference_parameters=False,
