@@ -56,6 +56,7 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     scopes = ProgramScope(program)
     assigned = usage_of(program).assigned
     reported: set[Code] = set()
+    usual = _usual_places(program)
     entries = never_called(program)
     looks_ahead = "advance" in context.capabilities.system_variables
     on_paths = any(isinstance(node, ir.Move) and node.kind != "joint" for node in walk(*program.modules))
@@ -66,11 +67,24 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
             if looks_ahead and routine.name.lower() in entries and routine.body:
                 routine = _looking_ahead(routine, rules_of(context.target).advance.moves)
                 routine = _slowing(routine, context) if on_paths else routine
-            worker = Modal(context, scopes.routine(module, routine), assigned, reported)
+            worker = Modal(context, scopes.routine(module, routine), assigned, reported, usual)
             handlers = tuple(replace(handler, body=worker.body(handler.body, {})) for handler in routine.handlers)
             routines.append(replace(routine, body=worker.body(routine.body, {}), handlers=handlers))
         modules.append(replace(module, routines=tuple(routines)))
     return replace(program, modules=tuple(modules))
+
+
+def _usual_places(program: ir.Program) -> frozenset[str]:
+    """Tool and base, where some moves name theirs, others none, and no statement sets it: that is then the flange and
+    the world (INFORM moves behind SFTOF)."""
+    nodes = [*walk(*program.modules)]
+    moves = [node for node in nodes if isinstance(node, ir.Move)]
+    given = {"tool": [one.tool for one in moves], "base": [one.frame for one in moves]}
+    mixed = {name for name, values in given.items() if None in values and any(value is not None for value in values)}
+    return frozenset(
+        mixed
+        - {node.target.name for node in nodes if isinstance(node, ir.Assign) and isinstance(node.target, ir.System)}
+    )
 
 
 def _looking_ahead(routine: ir.Routine, moves: int) -> ir.Routine:
@@ -94,8 +108,16 @@ Environment = dict[str, ir.Expression]
 
 
 class Modal:
-    def __init__(self, context: Context, scope: Scope, assigned: set[str], reported: set[Code]) -> None:
+    def __init__(
+        self,
+        context: Context,
+        scope: Scope,
+        assigned: set[str],
+        reported: set[Code],
+        usual: frozenset[str] = frozenset(),
+    ) -> None:
         self.context, self.scope, self.assigned, self.reported = context, scope, assigned, reported
+        self.usual = usual
 
     def report_once(self, what: Code, statement: ir.Statement, **arguments: object) -> None:
         if what not in self.reported:
@@ -171,6 +193,8 @@ class Modal:
             wanted["tool"] = self.frame_of_tool(move.tool, move)
         if move.frame is not None:
             wanted["base"] = self.frame_of_work_object(move.frame)
+        for name in sorted(self.usual - wanted.keys()):  # another move may have set it
+            wanted[name] = ir.System("null_frame")
         if move.speed is not None:
             self.speed(move, move.speed, wanted)
         blend = self.blend(move, wanted)
