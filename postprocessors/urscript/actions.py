@@ -218,7 +218,9 @@ class Actions:
         else:
             printer.comments_only(statement.origin)
             back, delay = statement.value, statement.delay
-        if _reads(back, statement.signal):
+        if isinstance(statement, ir.Pulse) and statement.value == ir.Unary("not", statement.signal):
+            back = statement.value  # the other way round, and back again
+        elif _reads(back, statement.signal):
             raise UnsayableError("an output that changes later to the opposite of what it is")
         name = printer.output.fresh("output_later")
         set_back = self.assignment(ir.Assign(statement.signal, back))

@@ -54,6 +54,7 @@ CAPABILITIES = Capabilities(
     postures="joints",
     watching_tasks=True,
     text_parts=True,
+    places_in_base=True,
     poll_s=0.002,
     search_results=frozenset(("found", "hit")),
     reference_parameters=False,

@@ -236,6 +236,8 @@ class _Priorities:
                 ]
             case ir.OrderInterrupt(handle=handle, event="timer", time=time) if time is not None:
                 name = base_name(handle)
+                if name is not None and name in self.priority_of and self.context.capabilities.watching_tasks:
+                    return self.watched(statement, name)
                 if name is None or name not in self.priority_of or not self.context.capabilities.timers:
                     return [statement]
                 return self.every(statement, name, time)
@@ -269,6 +271,16 @@ class _Priorities:
                 priority, self.timer(name, "timer_positive"), ir.CallRoutine(routine), True, origin=later
             ),
             ir.ControlInterrupt("on", priority, origin=later),
+        ]
+
+    def watched(self, statement: ir.OrderInterrupt, name: str) -> list[ir.Statement]:
+        """A timer for a target whose interrupts are tasks: these know how to wait for a time by themselves."""
+        priority, later = ir.IntLiteral(self.priority_of[name]), replace(statement.origin, comments=())
+        call = ir.CallRoutine(self.routine_of[name])
+        never = ir.BoolLiteral(False)
+        return [
+            ir.DeclareInterrupt(priority, never, call, True, once=statement.once, origin=statement.origin),
+            replace(statement, handle=priority, origin=later),
         ]
 
     def timer(self, name: str, what: str) -> ir.System:

@@ -111,6 +111,7 @@ class _Watches:
     made: list[ir.Routine] = field(default_factory=list)
     tasks: list[ir.Task] = field(default_factory=list)
     mask: str = ""
+    periods: dict[int, list[ir.Expression]] = field(default_factory=dict)  # of interrupts that come by time
 
     def served(self) -> dict[int, Watch]:
         return {key: one for key, one in self.watches.items() if one.served}
@@ -124,6 +125,9 @@ class _Watches:
 
     def collect(self) -> None:
         ops = {node.op for node in walk(*self.program.modules) if isinstance(node, ir.ControlInterrupt)}
+        for node in walk(*self.program.modules):
+            if isinstance(node, ir.OrderInterrupt) and node.time is not None and number_of(node.handle) is not None:
+                self.periods.setdefault(number_of(node.handle) or 0, []).append(node.time)
         for module in self.program.modules:
             for routine in module.routines:
                 for node in walk(*routine.body):
@@ -177,6 +181,11 @@ class _Watches:
         brakes = closure(self.program, (ir.StopMotion,))
         stores = closure(self.program, (ir.StoreMotion,))
         name = one.action.name.lower() if isinstance(one.action, ir.CallRoutine) else ""
+        times = self.periods.get(key, [])
+        if times and (self.takes_time(one) or any(time != times[0] for time in times)):
+            return "it comes by time, and takes time itself or comes at different ones"
+        if any(isinstance(node, ir.Name) and node.id.lower() in own for node in walk(*times)):
+            return "its time is a variable of the routine that orders it"
         if name in stores:
             return "it puts the motion aside"
         if name in drives and name not in brakes and not one.stops:
@@ -208,6 +217,8 @@ class _Watches:
             ir.WaitUntil(ir.Binary("cand", armed, ir.Unary("not", cond))),
             ir.WaitUntil(ir.Binary("cor", cond, off)),
         ]
+        if watch.key in self.periods:
+            body = [ir.WaitUntil(armed), ir.Wait(self.periods[watch.key][0])]
         held = watch.may_come()
         if held is not None:
             body.append(ir.WaitUntil(ir.Binary("cor", held, off)))
@@ -229,6 +240,9 @@ class _Watches:
                 return (_set(watch.armed, False, statement),)
             case ir.ControlInterrupt(op=op, handle=handle):
                 return self.control(statement, op, handle)
+            case ir.OrderInterrupt(event="timer", handle=handle):
+                timed = self.watches.get(number_of(handle) or 0)
+                return (statement,) if timed is None else (_set(timed.armed, True, statement),)
         return (inside(statement, self.body),)
 
     def control(self, statement: ir.ControlInterrupt, op: str, handle: ir.Expression | None) -> ir.Body:
