@@ -248,14 +248,15 @@ def find_entry(program: ir.Program, linked: LinkedProgram, entry: str | None) ->
     that nobody calls. Raises UsageError with the candidates."""
     wanted = entry or program.entry
     if wanted:
-        found = linked.find_routine(wanted) or _any_case(program, wanted)
+        found = _foreground(program, linked, wanted) or linked.find_routine(wanted) or _any_case(program, wanted)
         if found is None:
             raise UsageError(f"there is no routine {wanted}: {_listed(_startable(program))}")
         return found[1]
-    main = linked.find_routine(MAIN) or _any_case(program, MAIN)
-    if main is not None and _starts(main[1]):
+    main = _foreground(program, linked, MAIN) or _any_case(program, MAIN)
+    behind = _background(program)
+    if main is not None and _starts(main[1]) and (main[0].name, main[1].name.lower()) not in behind:
         return main[1]
-    startable = [(m, r) for m, r in _startable(program, _background(program)) if not _is_empty(r)]
+    startable = [(m, r) for m, r in _startable(program, behind) if not _is_empty(r)]
     uncalled = [(m, r) for m, r in startable if r.name.lower() not in _called(program, r)]
     named = [(m, r) for m, r in startable if _like_its_file(m, r)]
     for group in (named, [each for each in named if each in uncalled], uncalled):
@@ -275,6 +276,17 @@ def entry_name(program: ir.Program, entry: str | None = None) -> str | None:
         return find_entry(program, link(program), entry).name
     except UsageError:
         return None
+
+
+def _foreground(program: ir.Program, linked: LinkedProgram, wanted: str) -> tuple[ir.Module, ir.Routine] | None:
+    """The routine of that name which no background task runs (each task of a controller may have a `main`)."""
+    behind = _background(program)
+    for module in program.modules:
+        fold = linked.scopes.module(module).fold
+        for routine in module.routines:
+            if fold(routine.name) == fold(wanted) and (module.name, routine.name.lower()) not in behind:
+                return module, routine
+    return None
 
 
 def _any_case(program: ir.Program, wanted: str) -> tuple[ir.Module, ir.Routine] | None:

@@ -129,14 +129,16 @@ def _without_module(
 
 
 def _tasks(modules: list[ir.Module]) -> tuple[ir.Task, ...]:
-    """One task per TASKn folder of a backup. A task without motion runs beside the others."""
+    """One task per TASKn folder of a backup. A task without motion runs beside the others, or beside the modules that
+    lie in no such folder (those of the task that is being programmed)."""
+    alone = all(module.task for module in modules)
     names: dict[str, list[ir.Module]] = {}
     for module in modules:
         if module.task:
             names.setdefault(module.task, []).append(module)
     tasks = []
     for name, members in sorted(names.items()):
-        moves = len(names) == 1 or any(_has_motion(routine.body) for module in members for routine in module.routines)
+        moves = (alone and len(names) == 1) or any(_has_motion(routine.body) for module in members for routine in module.routines)
         kind = "motion" if moves else "background"
         listed = tuple(module.name for module in members)
         tasks.append(ir.Task(name, "main", kind, cyclic=not moves, modules=listed))

@@ -67,4 +67,5 @@ CAPABILITIES = Capabilities(
     move_settings=frozenset(("tool", "frame", "speed", "blend")),
     speeds=frozenset(("joint", "path", "rotation")),
     blends=frozenset(("BlendStop", "BlendDistance", "BlendLevel")),
+    static_locals=True,
 )

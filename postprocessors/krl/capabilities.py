@@ -51,4 +51,5 @@ CAPABILITIES = Capabilities(
     partial_targets=True,
     data_lists=True,
     declared_groups=True,
+    background_tasks="shared",
 )

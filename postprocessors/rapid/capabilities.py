@@ -49,6 +49,7 @@ CAPABILITIES = Capabilities(
     for_real=True,
     wait_timeout=True,
     dynamic_calls=True,
+    background_tasks="separate",
     no_tool="tool0",
     no_frame="wobj0",
     switch_types=frozenset(("IntType", "RealType", "StringType", "BoolType")),

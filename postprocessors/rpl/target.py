@@ -40,6 +40,7 @@ CAPABILITIES = Capabilities(
     partial_aggregates=True,
     carries_rules=True,
     numbered_groups=True,
+    static_locals=True,
 )
 
 

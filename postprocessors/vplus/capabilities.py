@@ -71,4 +71,5 @@ CAPABILITIES = Capabilities(
     speeds=frozenset(("joint", "path", "duration")),
     blends=tables.words("BlendDistance BlendPercent BlendSpeed BlendZone"),
     postures="joints",
+    static_locals=True,
 )

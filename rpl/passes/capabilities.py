@@ -58,14 +58,16 @@ class Capabilities:
     last value a pass ran with. for_steps: `any`, or `one` (only up or down by 1). poll_s: time between two looks in a
     loop that waits for a condition, for targets without WaitUntil. next_move_settings: SetForNextMove can be said;
     otherwise it is attached to the next move. search_results: what a search move gives, `found` (the place) and `hit`
-    (whether). task_operations: ops of TaskControl, where that is in `statements`. stopping_reactions: an interrupt can
+    (whether). task_operations: ops of TaskControl, where that is in `statements`; without it, background_tasks: the
+    controller runs background programs that see the data of the others (`shared`), or modules of their own that share
+    persistent data by name (`separate`). stopping_reactions: an interrupt can
     brake the robot and drop its move (DeclareInterrupt `stops`), and the program goes on behind that.
 
     Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
     reference_parameters: a routine may write its parameters (else copies go in, and out by variables).
-    locals: a routine has variables of its own. recursion: a routine may be active twice, each time with variables of
-    its own (else they are kept on a stack around calls that lead back). call_depth: how deep calls nest (0: not said).
+    locals: a routine has variables of its own; static_locals: also some that keep their values from call to call.
+    recursion: a routine may be active twice, each time with variables of its own (else they are kept on a stack around calls that lead back). call_depth: how deep calls nest (0: not said).
 
     Data: banks: where variables of a type (class name) are kept, when they have numbers and no names; types may share a
     bank. points: taught points that live in a routine. records, arrays (False only with banks: consecutive numbers),
@@ -142,12 +144,14 @@ class Capabilities:
     parameters: str = "names"
     reference_parameters: bool = True
     locals: bool = True
+    static_locals: bool = False
     recursion: bool = True
     next_move_settings: bool = False
     call_depth: int = 0
     search_results: frozenset[str] = frozenset(("found",))
     stopping_reactions: bool = False
     task_operations: frozenset[str] = frozenset(("start", "stop", "pause", "resume", "join"))
+    background_tasks: str = ""
     banks: Mapping[str, Bank] = field(default_factory=dict)
     points: Bank | None = None
     records: bool = True

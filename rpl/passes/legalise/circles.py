@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.datalists import never_called
+from rpl.passes.legalise.datalists import moving_entries
 from rpl.passes.rewrite import rewrite_parts
 
 _SETTING = "circle_orientation"
@@ -18,7 +18,7 @@ def circle_rules(program: ir.Program, context: Context) -> ir.Program:
     ours, theirs = _at_start(context.source), _at_start(context.target)
     if ours == theirs or _SETTING not in context.capabilities.system_variables or not has_arcs(program):
         return program
-    entries = never_called(program)
+    entries = moving_entries(program)
     rule = ir.Assign(ir.System(_SETTING), ir.EnumLiteral(ours))
     modules = tuple(
         replace(

@@ -161,7 +161,7 @@ class _Configurations(Rewriter):
         def body(statements: ir.Body) -> ir.Body:
             for one in statements:
                 match one:
-                    case ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name):
+                    case ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name) | ir.TaskControl(task=name):
                         called.add(name.lower())
                 rewrite_parts(one, expression, body)
             return statements

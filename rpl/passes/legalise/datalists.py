@@ -38,9 +38,11 @@ def set_data_at_start(program: ir.Program, context: Context) -> ir.Program:
         return program
     name = context.fresh("rpl_initialise")
     context.diagnostics.report(SET_AT_START, NOWHERE, name=name)
-    entries = never_called(program)
+    entries, beside = moving_entries(program), _background(program)
     call = ir.CallRoutine(name)
     for at, module in enumerate(modules):
+        if module.name in beside:
+            continue
         routines = tuple(
             replace(routine, body=(call, *routine.body)) if routine.name.lower() in entries else routine
             for routine in module.routines
@@ -101,3 +103,15 @@ def started_tasks(program: ir.Program) -> set[str]:
             for body in bodies(routine):
                 each_statement(body, look)
     return found
+
+
+def moving_entries(program: ir.Program) -> set[str]:
+    """Where the task that moves the robot may start: procedures that nothing calls, and that no other task runs."""
+    beside = _background(program)
+    foreground = replace(program, modules=tuple(one for one in program.modules if one.name not in beside))
+    return never_called(foreground) - started_tasks(program)
+
+
+def _background(program: ir.Program) -> set[str]:
+    """Modules of tasks that do not move the robot."""
+    return {name for task in program.tasks if task.kind != "motion" for name in task.modules}

@@ -13,7 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
-from rpl.passes.legalise.datalists import never_called
+from rpl.passes.legalise.datalists import moving_entries
 from rpl.passes.legalise.modal import DROPPED, JOINT_BLEND, MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
 from rpl.passes.legalise.usage import base_name, each_expression, each_statement, usage_of
 from rpl.passes.rewrite import rewrite_parts
@@ -57,7 +57,7 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     assigned = usage_of(program).assigned
     reported: set[Code] = set()
     usual = _usual_places(program)
-    entries = never_called(program)
+    entries = moving_entries(program)
     looks_ahead = "advance" in context.capabilities.system_variables
     on_paths = any(isinstance(node, ir.Move) and node.kind != "joint" for node in walk(*program.modules))
     modules = []

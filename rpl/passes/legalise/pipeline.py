@@ -9,6 +9,7 @@ from rpl.passes.legalise.aggregates import aggregates
 from rpl.passes.legalise.aliases import without_aliases
 from rpl.passes.legalise.arithmetic import arithmetic
 from rpl.passes.legalise.arrays import array_bases, array_sizes
+from rpl.passes.legalise.background import background_tasks
 from rpl.passes.legalise.bitgroups import groups_to_bits, shared_groups_to_bits
 from rpl.passes.legalise.calls import rewrite_calls
 from rpl.passes.legalise.circles import circle_rules
@@ -63,6 +64,7 @@ from rpl.passes.legalise.sharing import share_temporaries
 from rpl.passes.legalise.shown import values_beside_messages
 from rpl.passes.legalise.speeds import fit_speeds
 from rpl.passes.legalise.spelling import one_spelling
+from rpl.passes.legalise.statics import static_variables
 from rpl.passes.legalise.steps import steps
 from rpl.passes.legalise.structure import labels_to_structure
 from rpl.passes.legalise.switches import unroll_switches
@@ -108,6 +110,8 @@ PASSES: tuple[Pass, ...] = (
     reactions,
     resumes,
     interrupts,
+    static_variables,
+    background_tasks,
     refuse,
     whole_targets,
     set_data_at_start,
