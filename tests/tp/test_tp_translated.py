@@ -173,3 +173,18 @@ ENDMODULE
 def test_stored_actions_on_the_path() -> None:
     files, _ = same_in_tp("rapid", RAPID_PATH)
     assert "DB 90mm,DO[1:doGun]=ON DB 5mm,DO[1:doGun]=OFF" in files["MAIN.LS"]
+
+MATRIX = """def p():
+  matrix = [[1, 2, 3], [4, 5, 6]]
+  i = 1
+  matrix[1, 2] = 60
+  if matrix[i, 2] + matrix[0, i] == 62:
+    set_standard_digital_out(0, True)
+  end
+end
+"""
+
+
+def test_arrays_of_two_dimensions() -> None:
+    files, _ = same_in_tp("urscript", MATRIX)
+    assert ":matrix2,3]=60" in files["P.LS"]

@@ -67,6 +67,7 @@ from rpl.passes.legalise.spelling import one_spelling
 from rpl.passes.legalise.statics import static_variables
 from rpl.passes.legalise.steps import steps
 from rpl.passes.legalise.structure import labels_to_structure
+from rpl.passes.legalise.subscripts import joined_subscripts
 from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
 from rpl.passes.legalise.threepoints import three_point_arcs
@@ -100,6 +101,7 @@ PASSES: tuple[Pass, ...] = (
     labels_to_structure,
     settings_of_next_move,
     error_routines,
+    joined_subscripts,
     array_bases,
     three_point_arcs,
     circle_rules,
