@@ -349,8 +349,11 @@ class Actions:
         signal, value = statement.signal, statement.value
         if isinstance(signal, ir.Name):
             signal = self.expressions.places.declared(signal.id) or signal
-        if not isinstance(signal, ir.Signal) or not isinstance(value, ir.BoolLiteral):
-            raise UnsayableError("an output that follows later with a level that is calculated")
+        if not isinstance(signal, ir.Signal):
+            raise UnsayableError("an output that follows later without a number")
+        if not isinstance(value, ir.BoolLiteral):
+            self.either_level(statement)
+            return
         if self.expressions.places.is_group(signal) or signal.kind.endswith("_in") or signal.kind == "analog_out":
             raise UnsayableError("anything but one digital output that follows later")
         pulse = isinstance(statement, ir.Pulse)
@@ -368,6 +371,16 @@ class Actions:
             return
         self.printer.line(f"EXECUTE {task} rpl.later({_by_value(then)}, {_by_value(time)})")
         self.expressions.notes.helpers.add("rpl.later")
+
+    def either_level(self, statement: ir.Pulse | ir.SetAfter) -> None:
+        """The level is calculated: both ways in a choice."""
+        printer, bare = self.printer, replace(statement.origin, comments=())
+        printer.line(f"IF {printer.condition(statement.value)} THEN", statement.origin)
+        for level in (True, False):
+            printer.depth += 1
+            self.later(replace(statement, value=ir.BoolLiteral(level), origin=bare))
+            printer.depth -= 1
+            printer.line("ELSE" if level else "END")
 
     # ---- the operator
 

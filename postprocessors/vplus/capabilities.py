@@ -36,7 +36,7 @@ CAPABILITIES = Capabilities(
         )
     ),
     procedures=tables.words("increment decrement clear text_append text_copy text_clear"),
-    system_variables=frozenset((*tables.SYSTEM, *tables.SETTINGS, "timer", "flag", "moving")),
+    system_variables=frozenset((*tables.SYSTEM, *tables.SETTINGS, "timer", "flag", "moving", "actual_joint")),
     operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary, *tables.WRITTEN_OPERATORS)),
     types=tables.words("RealType BoolType StringType PoseType TargetType JointsType ArrayType"),
     names=NameRules(

@@ -191,8 +191,10 @@ class Motion:
     def relative(self, move: ir.Move, target: ir.Expression, frame: ir.Expression | None) -> str:
         """An offset from where the move before ends."""
         word, text = _WORDS.get(move.kind), self.expressions.text
-        if word is None or not isinstance(target, ir.Aggregate):
-            raise UnsayableError("a relative move by a value that is not written out")
+        if word is None:
+            raise UnsayableError(f"there is no relative {move.kind} move")
+        if not isinstance(target, ir.Aggregate):
+            return f"{word} {self.displaced(move, target, frame)}"
         steps = {name: value for name, value in target.entries if name is not None and not self.zero(value)}
         if move.relative == "joints":
             return self.drive(move, steps)
@@ -205,16 +207,51 @@ class Motion:
             offset = text(ir.Binary(":", ir.System("end_pose"), target))
             return f"{word} {offset}"
         if turned:
-            raise UnsayableError("a relative move that turns the tool in the axes of the frame")
+            return f"{word} {self.displaced(move, target, frame)}"
         if frame is not None:
             here = ir.Binary(":", ir.Builtin("inverse", (frame,)), ir.System("end_pose"))
             return f"{word} {self.expressions.atom(frame)}:SHIFT({text(here)} BY {', '.join(place)})"
         return f"{word} SHIFT(DEST BY {', '.join(place)})"
 
+    def displaced(self, move: ir.Move, by: ir.Expression, frame: ir.Expression | None) -> str:
+        """Where a move by a whole location or by joints goes to: in the axes of the frame it is moved and turned about
+        its own point."""
+        expressions = self.expressions
+        if move.relative == "joints":
+            part = expressions.places.locations.decomposed(by, 0).partition("[")[0]
+            return self.joints_by({axis: ir.Name(f"{part}[{at}]") for at, axis in enumerate(tables.AXES)})
+        if move.relative == "tool":
+            return expressions.text(ir.Binary(":", ir.System("end_pose"), by))
+        old: ir.Expression = ir.System("end_pose")
+        if frame is not None:
+            old = ir.Binary(":", ir.Builtin("inverse", (frame,)), old)
+        here, step = (expressions.kept(expressions.text(one), "p", "SET ") for one in (old, by))
+        turns = [f"SHIFT({one} BY -DX({one}), -DY({one}), -DZ({one}))" for one in (step, here)]
+        turned = expressions.kept(":".join(turns), "p", "SET ")
+        place = f"SHIFT({turned} BY {', '.join(f'D{axis}({here})+D{axis}({step})' for axis in 'XYZ')})"
+        return place if frame is None else f"{expressions.atom(frame)}:{place}"
+
+    def joints_by(self, steps: dict[str, ir.Expression]) -> str:
+        """The joints where the motion ends, and these changes."""
+        if set(steps) - set(tables.AXES):
+            raise UnsayableError("there are no external axes")
+        notes = self.expressions.notes
+        part = notes.temporary("part")
+        notes.step(f"DECOMPOSE {part}[0] = #PDEST")
+        notes.autos.append(f"{part}[5]")
+        given = []
+        for at, axis in enumerate(tables.AXES):
+            change = f"+{self.number(steps[axis])}" if axis in steps else ""
+            given.append(f"{part}[{at}]{change}")
+        return f"#PPOINT({', '.join(given)})"
+
+    def number(self, value: ir.Expression) -> str:
+        return value.id if isinstance(value, ir.Name) and "[" in value.id else self.expressions.atom(value)
+
     def drive(self, move: ir.Move, steps: dict[str, ir.Expression]) -> str:
         """DRIVE moves one joint."""
         if len(steps) != 1 or move.kind != "joint":
-            raise UnsayableError("a relative move of several joints")
+            return f"{_WORDS[move.kind]} {self.joints_by(steps)}"
         ((name, value),) = steps.items()
         if name not in tables.AXES:
             raise UnsayableError("there are no external axes")

@@ -156,6 +156,10 @@ class Places:
             return self.signal(ir.Signal("flag", indices[0]))
         if name in tables.SYSTEM and not indices:
             return tables.SYSTEM[name]
+        if name == "actual_joint" and len(indices) == 1:
+            number = self.expressions.known(indices[0])
+            if number is not None and 1 <= number <= len(tables.AXES):
+                return self.locations.decomposed(ir.Builtin("current_joints", ()), int(number) - 1)
         if name == "moving" and not indices:
             return Printed(f"DISTANCE(HERE, DEST) > {tables.STANDS_MM:g}", tables.RELATION)
         raise self.refuse(f"there is no system variable for {name.replace('_', ' ')}")

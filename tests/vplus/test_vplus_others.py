@@ -1,0 +1,49 @@
+"""Moves, signals and tasks of other languages in V+: both programs must mean the same."""
+
+from __future__ import annotations
+
+import pytest
+
+from rpl.diagnostics import Diagnostics
+from rpl.project import read_sources
+from rpl.proof.prove import prove_programs
+from rpl.source import source_from_bytes, source_from_text
+from rpl.translation import translate_program
+
+KUKA = "kuka_kr6r900sixx"
+HOME = "PTP {A1 0,A2 -90,A3 90,A4 0,A5 60,A6 0}"
+
+
+def proved(text: str, name: str, dialect: str, robot: str | None, entry: str) -> tuple[list[str], str]:
+    """The lines in V+, and what the proof says that is not equal."""
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text(name, text)], dialect, diagnostics)
+    files = translate_program(read, "vplus", robot, None, diagnostics).files
+    assert not [item.as_text() for item in diagnostics if item.severity.word in ("error", "loss")]
+    back = read_sources([source_from_bytes(one.path, one.data) for one in files], "vplus", Diagnostics())
+    result = prove_programs(read.program, back.program, robot, robot, None, entry=entry, to_entry=entry)
+    lines = [line.strip() for line in files[0].data.decode("ascii").split("\r\n")]
+    return lines, "" if result.equal else result.as_text()
+
+
+@pytest.mark.parametrize(
+    "move",
+    [
+        "LIN_REL {X 10,Y 0,Z 20,A 10,B 5,C -5}",
+        "PTP_REL {A1 5,A3 -3}",
+        "$BASE={X 100,Y 0,Z 0,A 30,B 0,C 0}\nLIN_REL {X 10,Y 20,Z 0,A 0,B 10,C 0}",
+        "STEP={X 10,Y -20,Z 5,A 3,B 0,C 8}\nLIN_REL STEP",
+        "LIN_REL {X 10,Y 0,Z 20,A 10,B 5,C -5} #TOOL",
+    ],
+)
+def test_relative_moves(move: str) -> None:
+    text = f"DEF prog( )\nDECL FRAME STEP\n{HOME}\n{move}\n$OUT[1]=($AXIS_ACT.A1 > -90)\nEND\n"
+    _, difference = proved(text, "prog.src", "krl", KUKA, "prog")
+    assert not difference
+
+
+def test_a_pulse_with_the_opposite_of_the_present_level() -> None:
+    body = "Set do1;\nPulseDO\\PLength:=0.3,do1;\nWaitTime 1;\nPulseDO\\PLength:=0.3,do2;\nWaitTime 1;"
+    lines, difference = proved(f"MODULE m\nPROC main()\n{body}\nENDPROC\nENDMODULE\n", "m.mod", "rapid", None, "main")
+    assert "IF NOT SIG(1) THEN" in lines
+    assert not difference
