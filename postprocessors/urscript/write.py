@@ -13,7 +13,7 @@ from rpl.passes.scope import ProgramScope, Scope
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.target import OutputFile, WriteContext
 
-from .declarations import header, variable_line
+from .declarations import gathered, header, variable_line
 from .expressions import UnsayableError
 from .helpers import HELPERS, with_needed
 from .namespace import called_names, names_of, one_namespace, programs
@@ -66,7 +66,7 @@ class _Script:
     def __init__(self, program: ir.Program, start: ir.Routine | None, others: set[int], context: WriteContext) -> None:
         self.ledger = EmissionLedger()
         skipped = [routine for module in program.modules for routine in module.routines if id(routine) in others]
-        self.program, self.start = one_namespace(_without(program, skipped), start)
+        self.program, self.start = one_namespace(gathered(_without(program, skipped)), start)
         self.program, self.start = self.cleaned()
         self.scopes = ProgramScope(self.program)
         self.diagnostics = context.diagnostics
@@ -205,23 +205,26 @@ class _Script:
     def body(self) -> list[str]:
         """What the script does: start the tasks beside it, then the statements of the routine it starts with."""
         first = self.program.modules[0]
-        busy = (*(task.entry for task in self.tasks.values()), *self.output.counting)
-        started = [f"{INDENT}run {name}()" for name in busy]
         start = self.start
         if start is None:
-            return started
+            return self.begun()
         if not self.is_body:
-            return [*started, f"{INDENT}{start.name}()"]
+            return [*self.begun(), f"{INDENT}{start.name}()"]
         module = next((one for one in self.program.modules if any(r is start for r in one.routines)), first)
         printer = Printer(self.scopes.routine(module, start), self.output, inside=False, depth=1)
         self.ledger.written(start)
         printer.comments_only(start.origin)
         self.own_data(start, printer, "global", printer.scope)
-        printer.lines.extend(started)
+        printer.lines.extend(self.begun())  # also the watches among its own data
         printer.depth = 0
         printer.body(start.body)
         self.handlers(start)
         return printer.lines
+
+    def begun(self) -> list[str]:
+        """The threads that run from the beginning."""
+        busy = (*(task.entry for task in self.tasks.values()), *self.output.counting)
+        return [f"{INDENT}run {name}()" for name in busy]
 
     def handlers(self, routine: ir.Routine) -> None:
         """What a routine has no place for. The passes before carry over what they can."""

@@ -181,12 +181,17 @@ class _Before:
         modules = tuple(
             replace(
                 module,
-                routines=tuple(replace(r, body=self.body(r.body)) for r in module.routines),
-                declarations=tuple(d for d in module.declarations if not self.is_resolved(d)),
+                routines=tuple(
+                    replace(r, body=self.body(r.body), declarations=self.kept(r.declarations)) for r in module.routines
+                ),
+                declarations=self.kept(module.declarations),
             )
             for module in program.modules
         )
         return replace(program, modules=modules)
+
+    def kept(self, declarations: tuple[ir.Declaration, ...]) -> tuple[ir.Declaration, ...]:
+        return tuple(one for one in declarations if not self.is_resolved(one))
 
     def is_resolved(self, declaration: ir.Declaration) -> bool:
         return (
