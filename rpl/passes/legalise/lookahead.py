@@ -70,29 +70,30 @@ class _Stops:
                     continue
                 case ir.Nothing() | ir.Trigger():
                     continue
-            if not allowed and (statement.__class__.__name__ in self.stops or self.touches(statement)):
+            if not allowed and (statement.__class__.__name__ in self.stops or touches(statement, self.scope)):
                 return statement
             allowed = False
             if isinstance(statement, ir.If | ir.Switch | ir.For | ir.While | ir.Repeat | ir.Loop | ir.Label | ir.Goto):
                 return None  # what comes next depends on the run; the target's own look-ahead decides
         return None
 
-    def touches(self, statement: ir.Statement) -> bool:
-        """Does the statement itself (not its bodies) read or write a signal or an actual position?"""
-        found = False
 
-        def look(expression: ir.Expression) -> None:
-            nonlocal found
-            match expression:
-                case ir.Signal():
-                    found = True
-                case ir.System(name=name) if name in ir.SYSTEM_VARIABLES:
-                    found = found or ir.SYSTEM_VARIABLES[name].stops_advance
-                case ir.Name(id=name):
-                    symbol = self.scope.value(name)
-                    found = found or (symbol is not None and isinstance(symbol.declaration, ir.SignalDeclaration))
-                case ir.Builtin(function="current_target" | "current_joints" | "current_position"):
-                    found = True
+def touches(statement: ir.Statement, scope: Scope) -> bool:
+    """Does the statement itself (not its bodies) read or write a signal or an actual position?"""
+    found = False
 
-        each_expression(statement, look)
-        return found
+    def look(expression: ir.Expression) -> None:
+        nonlocal found
+        match expression:
+            case ir.Signal():
+                found = True
+            case ir.System(name=name) if name in ir.SYSTEM_VARIABLES:
+                found = found or ir.SYSTEM_VARIABLES[name].stops_advance
+            case ir.Name(id=name):
+                symbol = scope.value(name)
+                found = found or (symbol is not None and isinstance(symbol.declaration, ir.SignalDeclaration))
+            case ir.Builtin(function="current_target" | "current_joints" | "current_position"):
+                found = True
+
+    each_expression(statement, look)
+    return found

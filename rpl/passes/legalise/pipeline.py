@@ -64,6 +64,7 @@ from rpl.passes.legalise.sharing import share_temporaries
 from rpl.passes.legalise.shown import values_beside_messages
 from rpl.passes.legalise.speeds import fit_speeds
 from rpl.passes.legalise.spelling import one_spelling
+from rpl.passes.legalise.standing import stand_first
 from rpl.passes.legalise.statics import static_variables
 from rpl.passes.legalise.steps import steps
 from rpl.passes.legalise.structure import labels_to_structure
@@ -147,6 +148,7 @@ PASSES: tuple[Pass, ...] = (
     tool_data,
     explicit_to_modal,
     settings_at_moves,
+    stand_first,
     seen_places,
     aggregates,
     geometry,

@@ -1,0 +1,181 @@
+"""Where the source has waited for the robot and the target's program would run on: a wait is put in.
+
+A stop point holds the program of some controllers until the robot stands (RAPID, FANUC, RPL); others run ahead over all
+moves (KRL) and stop only before certain statements. What interrupts, stop watches and other tasks do is seen while the
+robot moves, so statements that arm or disarm them, or look at what they have changed, must not come early.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from rpl import ir
+from rpl.ir.walk import walk
+from rpl.passes.legalise.context import Context, ProgramScope, rules_of
+from rpl.passes.legalise.lookahead import touches
+from rpl.passes.legalise.usage import base_name, bodies, each_expression, each_statement
+from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import Scope
+
+_TIMED = frozenset(("timer", "timer_stopped", "timer_positive"))
+_MOVES = (ir.Move, ir.MoveExternal, ir.Spline)
+
+
+def stand_first(program: ir.Program, context: Context) -> ir.Program:
+    """Only from controllers whose stop points hold the program, to one that runs ahead over all moves."""
+    source, target = (rules_of(one).advance for one in (context.source, context.target))
+    if source.runs_ahead_of != "fly_by" or target.runs_ahead_of != "all":
+        return program
+    facts = _Facts.of(program)
+    scopes = ProgramScope(program)
+    modules = []
+    for module in program.modules:
+        routines = []
+        for routine in module.routines:
+            if routine.name.lower() in facts.beside:
+                routines.append(routine)  # the program waits, or drives nothing
+                continue
+            worker = _Standing(facts, scopes.routine(module, routine), target.stop_statements)
+            routines.append(replace(routine, body=worker.body(routine.body, False)[0]))
+        modules.append(replace(module, routines=tuple(routines)))
+    return replace(program, modules=tuple(modules))
+
+
+@dataclass(frozen=True, slots=True)
+class _Facts:
+    """Names in lower case. beside: routines that interrupts and background tasks run; changed: variables that these
+    assign; movers: routines that drive; watchful: routines that contain a statement which must not come early."""
+
+    beside: frozenset[str]
+    changed: frozenset[str]
+    movers: frozenset[str]
+    watchful: frozenset[str]
+
+    @classmethod
+    def of(cls, program: ir.Program) -> _Facts:
+        routines = {r.name.lower(): r for module in program.modules for r in module.routines}
+        calls = {name: _called(routine) & routines.keys() for name, routine in routines.items()}
+        started = {task.entry.lower() for task in program.tasks if task.kind != "motion"}
+        for routine in routines.values():
+            for node in walk(*bodies(routine)):
+                match node:
+                    case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)) | ir.ConnectInterrupt(routine=name):
+                        started.add(name.lower())
+                    case ir.Trigger(action=ir.CallRoutine(name=name)) | ir.TaskControl(task=name, op="start"):
+                        started.add(name.lower())
+        beside = _with_callees(started & routines.keys(), calls)
+        changed = {name for one in beside for name in _assigned(routines[one])}
+        changed |= {
+            name.lower()
+            for routine in routines.values()
+            for node in walk(*bodies(routine))
+            if isinstance(node, ir.DeclareInterrupt | ir.Trigger) and isinstance(node.action, ir.Assign)
+            for name in (base_name(node.action.target),)
+            if name is not None
+        }
+        known = cls(beside, frozenset(changed), frozenset(), frozenset())
+        movers = {n for n, r in routines.items() if any(isinstance(node, _MOVES) for node in walk(*bodies(r)))}
+        watchful = {n for n, r in routines.items() if any(known.early(node) for node in _statements(r))}
+        return replace(known, movers=_with_callers(movers, calls), watchful=_with_callers(watchful, calls))
+
+    def early(self, statement: ir.Statement) -> bool:
+        """Would it matter that the statement itself comes while the robot still moves?"""
+        match statement:
+            case ir.ControlInterrupt() | ir.OrderInterrupt() | ir.Clock() | ir.TaskControl():
+                return True
+            case ir.CallRoutine(name=name) if name.lower() in self.watchful:
+                return True
+        found = False
+
+        def look(expression: ir.Expression) -> None:
+            nonlocal found
+            match expression:
+                case ir.Name(id=name):
+                    found = found or name.lower() in self.changed
+                case ir.System(name=name):
+                    found = found or name in _TIMED
+                case ir.Builtin(function="clock_seconds"):
+                    found = True
+                case ir.Call(name=name):
+                    found = found or name.lower() in self.watchful
+
+        each_expression(statement, look)
+        return found
+
+
+class _Standing:
+    def __init__(self, facts: _Facts, scope: Scope, stops: frozenset[str]) -> None:
+        self.facts, self.scope, self.stops = facts, scope, stops
+
+    def body(self, body: ir.Body, moving: bool) -> tuple[ir.Body, bool]:
+        """`moving`: the source stands here, the target perhaps not yet. Also whether that holds at the end."""
+        done: list[ir.Statement] = []
+        for statement in body:
+            match statement:
+                case ir.Move(blend=blend, concurrent=concurrent):
+                    moving = blend in (None, ir.BlendStop()) and not concurrent
+                    done.append(statement)
+                    continue
+                case ir.MoveExternal() | ir.Spline() | ir.Label() | ir.Goto():
+                    moving = False
+                    done.append(statement)
+                    continue
+            if statement.__class__.__name__ in self.stops or touches(statement, self.scope):
+                moving = False
+            elif moving and self.facts.early(statement):
+                done.append(ir.WaitForMotion(origin=statement.origin))
+                statement = replace(statement, origin=replace(statement.origin, comments=()))
+                moving = False
+            inside = moving
+            ends: list[bool] = []
+
+            def deeper(inner: ir.Body, inside: bool = inside, ends: list[bool] = ends) -> ir.Body:
+                new, end = self.body(inner, inside)
+                ends.append(end)
+                return new
+
+            done.append(rewrite_parts(statement, lambda expression: expression, deeper))
+            moving = moving or any(ends)
+            if isinstance(statement, ir.CallRoutine):
+                moving = moving or statement.name.lower() in self.facts.movers
+        return tuple(done), moving
+
+
+def _called(routine: ir.Routine) -> set[str]:
+    return {n.name.lower() for n in walk(*bodies(routine)) if isinstance(n, ir.CallRoutine | ir.Call)}
+
+
+def _assigned(routine: ir.Routine) -> set[str]:
+    own = {d.name.lower() for d in routine.declarations if isinstance(d, ir.Variable)}
+    names = set()
+    for node in walk(*bodies(routine)):
+        match node:
+            case ir.Assign(target=target):
+                names.add(base_name(target))
+            case ir.Do(arguments=arguments):
+                names |= {base_name(one) for one in arguments if one is not None}
+    return {name.lower() for name in names if name is not None} - own
+
+
+def _statements(routine: ir.Routine) -> list[ir.Statement]:
+    found: list[ir.Statement] = []
+    for body in bodies(routine):
+        each_statement(body, found.append)
+    return found
+
+
+def _with_callees(names: set[str], calls: dict[str, set[str]]) -> frozenset[str]:
+    done, open_ = set(names), set(names)
+    while open_:
+        open_ = {callee for name in open_ for callee in calls.get(name, ())} - done
+        done |= open_
+    return frozenset(done)
+
+
+def _with_callers(names: set[str], calls: dict[str, set[str]]) -> frozenset[str]:
+    done = set(names)
+    while True:
+        more = {name for name, callees in calls.items() if callees & done} - done
+        if not more:
+            return frozenset(done)
+        done |= more
