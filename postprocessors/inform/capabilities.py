@@ -10,7 +10,7 @@ CAPABILITIES = Capabilities(
     statements=frozenset(
         (
             *("Assign", "CallRoutine", "If", "While", "For", "Label", "Goto", "Return", "Halt", "Wait", "WaitUntil"),
-            *("Pulse", "Message", "TaskControl", "Vendor", "Opaque", "Nothing", "Move", "Search"),
+            *("Pulse", "Message", "TaskControl", "Vendor", "Opaque", "Nothing", "Move", "Search", "Trigger"),
         )
     ),
     functions=frozenset((*tables.FUNCTIONS, *tables.TEXT_FUNCTIONS, *tables.POSITION_FUNCTIONS, "abs", "number_text")),

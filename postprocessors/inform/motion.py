@@ -15,7 +15,7 @@ from . import tables
 from .conditions import single
 from .errors import CannotSayError
 from .operands import bank_of, constant, element
-from .places import WORLD, Position, flat, product, way_of
+from .places import WORLD, Position, between, flat, product, way_of
 from .positions import Positions
 
 RANGE = code(
@@ -39,6 +39,15 @@ NO_SPEED = code("inform-no-speed", Severity.WARNING, "the move says no speed; it
 Number = Callable[[str, ir.Expression], None]
 
 
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """A constant position in a frame that may be computed; `changes`: how many position variables had changed then."""
+
+    position: Position
+    frame: ir.Expression | None
+    changes: int
+
+
 @dataclass(slots=True)
 class Goal:
     """Where a move went: the point as it is written, and its position where that is constant."""
@@ -47,6 +56,8 @@ class Goal:
     tool: int
     frame: int
     position: Position | None
+    seen: Seen | None = None
+    arc: bool = False  # it was the end of an arc
 
 
 @dataclass(slots=True)
@@ -60,6 +71,7 @@ class Motion:
     last: Goal | None = None
     line_of_last: int | None = None
     stands: bool = False  # the move before ended in a stop
+    before: Goal | None = None  # where the move before the last one went, when that was an arc
     reported: set[tuple[Code, str]] = field(default_factory=set)
 
     @property
@@ -68,7 +80,7 @@ class Motion:
 
     def forget(self) -> None:
         """Neither place nor line of the last move are known here."""
-        self.last, self.line_of_last, self.stands = None, None, False
+        self.last, self.line_of_last, self.stands, self.before = None, None, False, None
         self.positions.in_tools.clear()
 
     def report_once(self, about: Code, origin: Origin, key: str = "", **arguments: object) -> None:
@@ -85,6 +97,9 @@ class Motion:
             goal, shown = self.relative(move, tool)
         elif move.kind in tables.MOVES:
             goal = self.goal(move.target, move.frame, tool)
+            known = self.positions.constants.known(move.target)
+            if known is not None and known.kind == "pose":
+                goal.seen = Seen(known, move.frame, self.positions.changes)
             shown = f"{tables.MOVES[move.kind]} {goal.place}"
         else:
             raise CannotSayError(f"there is no {move.kind} move")
@@ -93,6 +108,8 @@ class Motion:
         if move.kind == "circular" and move.relative is None:
             self.arc(move, tool, speed, done)
         self.lines.append(" ".join(part for part in (shown, *speed, *blend, *ending) if part))
+        self.before = self.last if self.last is not None and self.last.arc else None
+        goal.arc = move.kind == "circular"
         self.last, self.stands = goal, blend == ["PL=0"] and not move.concurrent
         self.line_of_last = len(done) + len(self.lines) - 1
         self.positions.job.moves = True
@@ -272,13 +289,18 @@ class Motion:
         if move.via is None:
             raise CannotSayError("a circle needs its point on the way")
         via = self.goal(move.via, move.frame, tool)
+        retaught = True
         if self.line_of_last is not None and not self.lines:
-            before = done[self.line_of_last]
-            if before.startswith("MOVL "):
-                done[self.line_of_last] = f"MOVC {before[5:]}"
-            elif before.startswith("MOVC "):
-                done[self.line_of_last] = f"{before} FPT"
-        if self.line_of_last is None or not done[self.line_of_last].startswith("MOVC ") or self.lines:
+            line = done[self.line_of_last]
+            if line.startswith("MOVC "):
+                done[self.line_of_last] = f"{line} FPT"
+                retaught = False
+            elif line.startswith("MOVL "):
+                between = self.between_arcs(tool, speed) if self.before is not None else []
+                if between is not None:
+                    done[self.line_of_last : self.line_of_last + 1] = [*between, f"MOVC {line[5:]}"]
+                    retaught = False
+        if retaught:
             if self.last is not None and self.last.place:
                 start = self.last.place
             else:
@@ -286,6 +308,23 @@ class Motion:
                 self.lines.append(f"GETS {start} $PX000")
             self.lines.append(" ".join(("MOVC", start, *speed, "PL=0")))
         self.lines.append(" ".join(("MOVC", via.place, *speed)))
+
+    def between_arcs(self, tool: int, speed: list[str]) -> list[str] | None:
+        """A point in the middle of the straight way between two arcs. Without it the start of the second would be one
+        more point of the first. None: it is not known."""
+        one, other = self.before, self.last
+        if one is None or other is None or one.seen is None or other.seen is None:
+            return None
+        same = one.seen.frame == other.seen.frame and one.seen.changes == other.seen.changes
+        if not same or one.tool != tool or other.tool != tool:
+            return None
+        middle = between(one.seen.position.values, other.seen.position.values, 0.5)
+        target = Position("pose", middle, other.seen.position.flags)
+        known = Position("pose", WORLD) if one.seen.frame is None else self.positions.constants.known(one.seen.frame)
+        if known is None:
+            return None
+        place = self.positions.job.point_of(target, tool, self.positions.job.cell.frame(known.values), None)
+        return [" ".join(("MOVL", place, *speed, f"CR={tables.TAGS['CR'][0]:.1f}"))]
 
     # ---- tags
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rpl import ir
-from rpl.emulator.rotations import matrix_to_zyx, pose_matrix, quaternion_to_matrix, zyx_to_matrix
+from rpl.emulator.rotations import matrix_to_zyx, pose_matrix, quaternion_to_matrix, slerp, zyx_to_matrix
 from rpl.passes.legalise.startdata import INITIALISE
 from rpl.passes.rewrite import rewrite_parts
 
@@ -119,6 +119,13 @@ def inverse(values: Values) -> Values:
 
 def product(one: Values, other: Values) -> Values:
     return values_of(np.asarray(matrix(one) @ matrix(other), dtype=np.float64))
+
+
+def between(one: Values, other: Values, share: float) -> Values:
+    """The pose at this share of the straight way; it turns about one axis."""
+    place = np.asarray(one[:3]) + share * np.subtract(other[:3], one[:3])
+    turned = slerp(matrix(one)[:3, :3], matrix(other)[:3, :3], np.array([share]))[0]
+    return values_of(pose_matrix(place, turned))
 
 
 # ---- data that never changes

@@ -25,10 +25,12 @@ class Positions:
     constants: Constants
     lines: list[str] = field(default_factory=list)
     number: Callable[[str, ir.Expression], None] | None = None  # prints the value of a number
+    changes: int = 0  # how often variables other than helpers have been changed
     in_tools: dict[int, str] = field(default_factory=dict)  # tool -> the variable whose value it has just got
 
     def changed(self, place: str) -> None:
         """The variable has another value now."""
+        self.changes += place not in self.registers.helpers.get("P", ())
         computed = "[" in place
         self.in_tools = {n: one for n, one in self.in_tools.items() if not computed and "[" not in one and one != place}
 

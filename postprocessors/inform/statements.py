@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
@@ -17,6 +17,7 @@ from .errors import CannotSayError
 from .labels import Labels
 from .motion import Motion
 from .operands import constant, element, is_digital, operand, signal, variable
+from .pathevents import parts_of
 from .texts import ascii_text, remarks
 
 GUARDED = code(
@@ -313,35 +314,29 @@ class Printer:
     # ---- motion
 
     def move(self, move: ir.Move) -> None:
-        begun, ended = self.triggered(move)
+        parts = parts_of(move, self.motion)
         self.comments_only(move.origin)
-        lines = self.motion.move(move, self.lines)
-        if begun:
-            lines[-1] += " NWAIT"
-        self.put(lines)
-        for action in (*begun, *ended):
-            self.action(action)
-        if begun or ended:
-            self.motion.line_of_last = None
+        first = parts.begun
+        if first and parts.ended and not parts.cuts:
+            self.actions(first)  # behind the move before, which may go round its corner
+            first = []
+        for cut, actions in (*parts.cuts, (parts.last or replace(move, triggers=()), parts.ended)):
+            lines = self.motion.move(cut, self.lines)
+            if first:
+                lines[-1] += " NWAIT"
+            self.put(lines)
+            self.actions((*first, *actions))
+            if actions is parts.ended and (first or actions):
+                self.motion.line_of_last = None
+            first = []
         for trigger in move.triggers:
             if isinstance(trigger, ir.Trigger):
                 self.ledger.merged(trigger)
         self.outcome(move)
 
-    def triggered(self, move: ir.Move) -> tuple[list[ir.Assign | ir.CallRoutine], list[ir.Assign | ir.CallRoutine]]:
-        """Actions at the start and at the end of the path."""
-        begun: list[ir.Assign | ir.CallRoutine] = []
-        ended: list[ir.Assign | ir.CallRoutine] = []
-        for trigger in move.triggers:
-            if not isinstance(trigger, ir.Trigger):
-                raise CannotSayError("an action on the path that is kept in a variable")
-            apart = [one for one in (trigger.distance, trigger.delay) if one is not None and constant(one) != 0]
-            if apart or trigger.reference not in ("start", "end"):
-                raise CannotSayError("an action on the path that is neither at its start nor at its end")
-            (begun if trigger.reference == "start" else ended).append(trigger.action)
-        if begun and ended:
-            raise CannotSayError("actions at the start and at the end of one path")
-        return begun, ended
+    def actions(self, actions: Sequence[ir.Assign | ir.CallRoutine]) -> None:
+        for action in actions:
+            self.action(action)
 
     def action(self, action: ir.Assign | ir.CallRoutine) -> None:
         if isinstance(action, ir.CallRoutine):

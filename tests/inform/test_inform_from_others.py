@@ -249,3 +249,47 @@ def test_angles_of_joints_are_counted_in_pulses() -> None:
 def test_without_pulses_per_degree_the_angles_are_refused_by_name() -> None:
     _, diagnostics, _ = jobs_of("krl", JOINTS)
     assert codes(diagnostics, Severity.LOSS) == {"inform-joint-angle"}
+
+
+PATH = """DEF one()
+PTP {A1 0, A2 -90, A3 90, A4 0, A5 30, A6 0}
+LIN {X 450, Y 0, Z 600, A 0, B 90, C 0}
+TRIGGER WHEN PATH=-20 DELAY=0 DO $OUT[1]=TRUE
+TRIGGER WHEN PATH=-50 DELAY=0 DO $OUT[2]=TRUE
+LIN {X 450, Y 100, Z 600, A 0, B 90, C 0}
+TRIGGER WHEN PATH=-10 DELAY=0 DO $OUT[3]=TRUE
+CIRC {X 450, Y 150, Z 550, A 0, B 90, C 0}, {X 450, Y 100, Z 500, A 0, B 90, C 0}
+END
+"""
+
+
+def test_actions_on_a_path_stand_behind_points_that_the_move_is_cut_at() -> None:
+    jobs, diagnostics, on = jobs_of("krl", PATH, "kuka_kr6r900sixx")
+    assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    assert on == {1, 2, 3}
+    words = [line.split()[0] + ("" if "DOUT" not in line else line.split()[1]) for line in jobs["ONE"][1:]]
+    assert words == [
+        *("MOVJ", "MOVL", "MOVL", "DOUTOT#(2)", "MOVL", "DOUTOT#(1)"),
+        *("MOVC", "MOVC", "MOVC", "DOUTOT#(3)", "MOVC", "MOVC"),
+    ]
+    assert "inform-path-event" in codes(diagnostics, Severity.WARNING)
+
+
+def test_an_action_whose_place_is_not_known_is_refused_by_name() -> None:
+    text = PATH.replace("PATH=-20", "PATH=-200")
+    _, diagnostics, _ = jobs_of("krl", text, "kuka_kr6r900sixx")
+    assert codes(diagnostics, Severity.LOSS) == {"inform-path-event-lost"}
+
+
+def test_a_straight_way_between_two_arcs_stays_straight() -> None:
+    text = """DEF one()
+PTP {A1 0, A2 -90, A3 90, A4 0, A5 30, A6 0}
+LIN {X 450, Y 0, Z 600, A 0, B 90, C 0}
+CIRC {X 450, Y 50, Z 550, A 0, B 90, C 0}, {X 450, Y 0, Z 500, A 0, B 90, C 0}
+LIN {X 450, Y -50, Z 500, A 0, B 90, C 0}
+CIRC {X 450, Y -75, Z 525, A 0, B 90, C 0}, {X 450, Y -50, Z 550, A 0, B 90, C 0}
+END
+"""
+    jobs, _, _ = jobs_of("krl", text, "kuka_kr6r900sixx")
+    words = [line.split()[0] for line in jobs["ONE"][1:]]
+    assert words == ["MOVJ", *("MOVC",) * 3, "MOVL", *("MOVC",) * 3]
