@@ -14,7 +14,7 @@ CAPABILITIES = Capabilities(
     statements=frozenset(
         (
             *("Assign", "CallRoutine", "If", "Switch", "For", "Label", "Goto", "Return", "Halt", "Wait", "WaitUntil"),
-            *("Pulse", "Message", "Clock", "TaskControl", "Vendor", "Opaque", "Nothing", "Move"),
+            *("Pulse", "Message", "Clock", "TaskControl", "Vendor", "Opaque", "Nothing", "Move", "Search"),
         )
     ),
     functions=frozenset(
@@ -64,6 +64,8 @@ CAPABILITIES = Capabilities(
     locals=False,
     recursion=False,
     call_depth=tables.DEEPEST_CALL,
+    search_results=frozenset(("found", "hit")),
+    task_operations=frozenset(("start",)),
     banks={
         "RealType": tables.R,
         "BoolType": tables.F,

@@ -178,7 +178,8 @@ class Printer:
             case ir.Assign(target=ir.System()) | ir.SetForNextMove():
                 return settings.speed(body, self.expressions) or settings.acceleration(body, self.expressions)
             case ir.StopMotion() if len(body) > 1 and isinstance(body[1], ir.ClearMotion):
-                return "BRAKE", 2
+                again = len(body) > 2 and isinstance(body[2], ir.StartMotion)  # nothing is held back behind a BRAKE
+                return "BRAKE", 3 if again else 2
             case ir.WaitForMotion() as wait if len(body) > 1:  # TOOL and BASE wait for the robot by themselves
                 known = settings.parts(body[1])
                 if known is not None and known[0] in ("tool", "base") and body[1].origin == wait.origin:

@@ -240,7 +240,10 @@ class _File:
                     if word == "LOCAL" and declaration.initial is not None:
                         self.first_time(declaration, printer)
                     else:
-                        for place, _, value in values(declaration) or _filled(declaration, routine):
+                        given = values(declaration) or _filled(declaration, routine)
+                        if not given and word == "AUTO" and self.output.facts.foreign:
+                            given = _never_set(declaration, self.assigned)
+                        for place, _, value in given:
                             printer.line(printer.actions.stored(place, value))
                 elif isinstance(declaration, ir.Unread) and declaration.text:
                     raise UnsayableError(f"it was not read ({declaration.text.strip()[:40]})")
@@ -295,6 +298,14 @@ def _filled(variable: ir.Variable, routine: ir.Routine) -> list[tuple[ir.Express
             case ir.Assign(target=ir.Field(base=ir.Name(id=other))) if other.lower() == variable.name.lower():
                 return [(name, variable.type, ir.System("null_frame"))]
     return []
+
+
+def _never_set(variable: ir.Variable, assigned: set[str]) -> list[tuple[ir.Expression, ir.Type, ir.Expression]]:
+    """A variable that nothing is stored into has the source's value of no value: zero."""
+    zero = _ZEROS.get(variable.type.__class__) if variable.name.lower() not in assigned else None
+    if zero is None and isinstance(variable.type, ir.PoseType | ir.TargetType):
+        zero = ir.System("null_frame") if variable.name.lower() not in assigned else None
+    return [] if zero is None else [(ir.Name(variable.name), variable.type, zero)]
 
 
 def _head(routine: ir.Routine) -> str:

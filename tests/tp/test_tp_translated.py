@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from tp_translating_helpers import same_in_tp
 
 MESSAGES = """MODULE m
@@ -174,6 +175,7 @@ def test_stored_actions_on_the_path() -> None:
     files, _ = same_in_tp("rapid", RAPID_PATH)
     assert "DB 90mm,DO[1:doGun]=ON DB 5mm,DO[1:doGun]=OFF" in files["MAIN.LS"]
 
+
 MATRIX = """def p():
   matrix = [[1, 2, 3], [4, 5, 6]]
   i = 1
@@ -188,3 +190,37 @@ end
 def test_arrays_of_two_dimensions() -> None:
     files, _ = same_in_tp("urscript", MATRIX)
     assert ":matrix2,3]=60" in files["P.LS"]
+
+
+SEARCH = """MODULE m
+  VAR robtarget pFound;
+  CONST robtarget pHigh:=[[400,0,400],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget pLow:=[[400,0,200],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    MoveJ pHigh,v200,fine,tool0;
+    Set doGo;
+    SearchL\\Stop,diPart,pFound,pLow,v50,tool0;
+    Set doFound;
+    MoveL Offs(pFound,0,0,50),v100,fine,tool0;
+    Set doDone;
+  ERROR
+    IF ERRNO=ERR_WHLSEARCH THEN
+      Set doNone;
+      TRYNEXT;
+    ENDIF
+  ENDPROC
+ENDMODULE
+"""
+TOUCH = """[[reaction]]
+when = "doGo"
+becomes = true
+signal = "diPart"
+value = true
+after = 1.0
+"""
+
+
+@pytest.mark.parametrize("cell", [TOUCH, ""], ids=["found", "not found"])
+def test_searches_and_their_errors(cell: str) -> None:
+    files, _ = same_in_tp("rapid", SEARCH, cell)
+    assert " Skip,LBL[1],PR[1:pFound]=LPOS" in files["MAIN.LS"]

@@ -47,3 +47,30 @@ def test_a_pulse_with_the_opposite_of_the_present_level() -> None:
     lines, difference = proved(f"MODULE m\nPROC main()\n{body}\nENDPROC\nENDMODULE\n", "m.mod", "rapid", None, "main")
     assert "IF NOT SIG(1) THEN" in lines
     assert not difference
+
+
+def test_the_end_of_a_task_is_waited_for_by_a_flag() -> None:
+    text = """VAR n: INT = 0
+PROCEDURE main()
+    START TASK work
+    JOIN TASK work
+    SET do[1] TO n = 3
+END PROCEDURE
+PROCEDURE work()
+    WAIT 0.5 s
+    n = 3
+    IF n = 3 THEN RETURN
+    n = 4
+END PROCEDURE
+"""
+    lines, difference = proved(text, "p.rpl", "rpl", None, "main")
+    start = lines.index("EXECUTE 1 work()")
+    assert lines[start - 1 : start + 2] == ["work_runs = TRUE", "EXECUTE 1 work()", "WAIT NOT work_runs"]
+    assert lines.count("work_runs = FALSE") == 2
+    assert not difference
+
+
+def test_a_variable_that_nothing_is_stored_into_begins_with_zero() -> None:
+    text = "MODULE m\nPROC main()\nVAR num n;\nIF n=0 Set do1;\nENDPROC\nENDMODULE\n"
+    _, difference = proved(text, "m.mod", "rapid", None, "main")
+    assert not difference

@@ -31,6 +31,7 @@ from rpl.passes.legalise.functions import functions_to_procedures
 from rpl.passes.legalise.geometry import geometry
 from rpl.passes.legalise.groups import name_groups
 from rpl.passes.legalise.interrupts import interrupts
+from rpl.passes.legalise.joins import joins
 from rpl.passes.legalise.labels import structure_to_labels
 from rpl.passes.legalise.levels import levels_to_distances
 from rpl.passes.legalise.locals import variables_of_routines
@@ -115,6 +116,7 @@ PASSES: tuple[Pass, ...] = (
     interrupts,
     static_variables,
     background_tasks,
+    joins,
     refuse,
     whole_targets,
     set_data_at_start,

@@ -101,7 +101,7 @@ def _fitted(move: ir.Move, search: ir.Search, editor: Editor, raises: bool) -> i
         place = editor.temporary("found", ir.TargetType(editor.context.source))
         return (replace(move, search=replace(search, found=place)),)
     if search.found is None or "found" in says:
-        return (move,)
+        return _told(move, search, editor, raises) if "hit" in says else (move,)
     if search.stop == "none":
         report(NO_PLACE, move.origin)
         return (move,)
