@@ -6,6 +6,7 @@ to know one physical signal in both.
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from rpl import ir, registry
@@ -54,12 +55,44 @@ def wired_groups(program: ir.Program) -> Wired:
     return found
 
 
+_ELEMENT = re.compile(r"(\w+)\[(\d+)\](.*)", re.DOTALL)
+
+
+def _in_bases_of(cell: Cell, first: ir.Program, second: ir.Program) -> Cell:
+    """The cell whose values for elements of arrays count from where the second program's arrays begin."""
+    bases, others = _bases(first), _bases(second)
+    changed: dict[str, object] = {}
+    for path, value in cell.variables.items():
+        found = _ELEMENT.fullmatch(path)
+        name = found[1].lower() if found is not None else ""
+        if found is not None and name in bases and name in others:
+            (base, size), (other, count) = bases[name], others[name]
+            first_left_out = int(base == 0 and count == size - 1)  # nothing uses it (passes.legalise.arrays)
+            path = f"{found[1]}[{int(found[2]) - base - first_left_out + other}]{found[3]}"
+        changed[path] = value
+    return replace(cell, variables=changed)
+
+
+def _bases(program: ir.Program) -> dict[str, tuple[int, int]]:
+    """Where the program's arrays of one dimension begin, and how many elements they have."""
+    found: dict[str, tuple[int, int]] = {}
+    for module in program.modules:
+        for one in module.declarations:
+            match one:
+                case ir.Variable(name=name, type=ir.ArrayType(base=base, dimensions=(ir.IntLiteral(value=last),))):
+                    found[name.lower()] = (base, last - base + 1)
+    return found
+
+
 def in_words_of(cell: Cell, first: ir.Program, second: ir.Program) -> Cell:
     """The cell for a run of the second program, when it was written for the first: signals that the first one's
     language spells by number (V+ 1001, URScript digital_in[0]) as the second one's language spells the same signal.
     Names that the first program declares stay: the translation keeps them."""
     ours, theirs = ({module.dialect for module in one.modules} for one in (first, second))
-    if ours == theirs or not ours or len(theirs) != 1 or not (cell.inputs or cell.reactions):
+    if ours == theirs or not ours or len(theirs) != 1:
+        return cell
+    cell = _in_bases_of(cell, first, second)
+    if not (cell.inputs or cell.reactions):
         return cell
     known, spell = link(first).alias, registry.dialect(*theirs).signal_name
     declared = {name for module in first.modules for name in _declared(module)}
