@@ -72,4 +72,5 @@ CAPABILITIES = Capabilities(
     blends=tables.words("BlendDistance BlendPercent BlendSpeed BlendZone"),
     postures="joints",
     static_locals=True,
+    arrays_by_value=False,
 )

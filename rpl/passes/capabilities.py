@@ -66,6 +66,7 @@ class Capabilities:
     Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
     reference_parameters: a routine may write its parameters (else copies go in, and out by variables).
+    arrays_by_value: an array can be an argument by value (else the routine gets the caller's own).
     locals: a routine has variables of its own; static_locals: also some that keep their values from call to call.
     recursion: a routine may be active twice, each time with variables of its own (else they are kept on a stack around calls that lead back). call_depth: how deep calls nest (0: not said).
 
@@ -145,6 +146,7 @@ class Capabilities:
     reference_parameters: bool = True
     locals: bool = True
     static_locals: bool = False
+    arrays_by_value: bool = True
     recursion: bool = True
     next_move_settings: bool = False
     call_depth: int = 0

@@ -15,6 +15,7 @@ import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 from rpl import ir, registry
@@ -79,6 +80,7 @@ class Pair:
         return {"missed": list(self.missed), "losses": list(self.losses), "end": self.end}
 
 
+@lru_cache
 def read_project(name: str) -> ReadProgram:
     """The project of the folder, with every file of it that is a program."""
     diagnostics = Diagnostics()

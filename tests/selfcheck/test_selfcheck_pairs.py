@@ -1,7 +1,8 @@
 """The self-checking projects on their own arms, and what is left of their expectations in every other language.
 
-`pairs.json` says what was found last (`python tests/selfcheck/pairs.py` writes it): a pair that loses an expectation, or
-gains one, is seen. An expectation that is missed although nothing was refused is a mistranslation, whatever the file
+`pairs.json` says what was found last (`python tests/selfcheck/pairs.py` writes it): a pair that loses or gains one is
+seen.
+An expectation that is missed although nothing was refused is a mistranslation, whatever the file
 says.
 """
 

@@ -49,7 +49,7 @@ def fit_arguments(program: ir.Program, context: Context) -> ir.Program:
     if context.capabilities.parameters == "names":
         return program
     scopes = ProgramScope(program)
-    sizes = _Sizes(program, scopes)
+    sizes = ArraySizes(program, scopes)
     plans = {
         id(routine): _plan(routine, scopes.routine(module, routine), context, sizes)
         for module, routine in scopes.routines()
@@ -73,7 +73,7 @@ def fit_arguments(program: ir.Program, context: Context) -> ir.Program:
     return _with_argument_registers(done, context, plans) if numbered else done
 
 
-def _plan(routine: ir.Routine, scope: Scope, context: Context, sizes: _Sizes) -> _Plan:
+def _plan(routine: ir.Routine, scope: Scope, context: Context, sizes: ArraySizes) -> _Plan:
     plan = _Plan()
     for parameter in routine.parameters:
         type = scope.resolve(parameter.type)
@@ -91,7 +91,7 @@ def _plan(routine: ir.Routine, scope: Scope, context: Context, sizes: _Sizes) ->
     return plan
 
 
-class _Sizes:
+class ArraySizes:
     """Types of array parameters without a size of their own, from what is passed."""
 
     def __init__(self, program: ir.Program, scopes: ProgramScope) -> None:

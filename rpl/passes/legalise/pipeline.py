@@ -78,6 +78,7 @@ from rpl.passes.legalise.tooldata import tool_data
 from rpl.passes.legalise.triggers import triggers
 from rpl.passes.legalise.truths import truths_to_numbers
 from rpl.passes.legalise.unused import drop_unused, drop_untyped
+from rpl.passes.legalise.valuearrays import copy_value_arrays
 from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.legalise.watches import counted_watches
 from rpl.passes.legalise.watching import watching
@@ -130,6 +131,7 @@ PASSES: tuple[Pass, ...] = (
     numbers,
     starting_values,
     fit_parameters,
+    copy_value_arrays,
     array_sizes,
     check_errors,
     labels_to_structure,
