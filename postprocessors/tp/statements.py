@@ -137,7 +137,8 @@ class Printer:
         self.lines.append(Line("  PAUSE"))
         self.diagnostics.report(GUARDED, statement.origin, reason=reason)
         self.ledger.reported(statement)
-        self.forget()
+        if not _leaves_frames(statement):
+            self.forget()
 
     def forget(self) -> None:
         """What tool and frame are in force is not known here."""
@@ -168,6 +169,9 @@ class Printer:
                 self.line(f"JMP LBL[{self.labels.number(name)}]", origin)
             case ir.Assign(target=ir.System(name="tool" | "base" as name), value=value):
                 self.select(name, value, origin)
+            case ir.Assign(value=ir.Builtin(function="current_target", arguments=(tool, frame)), target=target):
+                self.put(self.seen_with(tool, frame, target), origin)
+                self.motion.place = ""
             case ir.Assign():
                 lines = self.assignments.lines(statement)
                 self.put(lines, origin)
@@ -218,8 +222,10 @@ class Printer:
                 return f"{self.expressions.signal(signal)}=PULSE,{number(width)}sec"
             case ir.Clock(op=op, clock=clock) if op in _CLOCKS:
                 return f"{self.expressions.place(clock)}={_CLOCKS[op]}"
-            case ir.TaskControl(op="start", task=name, arguments=arguments):
-                return f"RUN {name.upper()}{self.arguments(arguments)}"
+            case ir.TaskControl(op="start", arguments=(_, *_)):
+                raise CannotSayError("a program that runs beside takes no arguments")
+            case ir.TaskControl(op="start", task=name):
+                return f"RUN {name.upper()}"
         raise CannotSayError(f"there is no {statement.__class__.__name__} of this kind")
 
     def seconds(self, time: ir.Expression, origin: Origin) -> str:
@@ -360,6 +366,21 @@ class Printer:
         self.put(lines, origin)
         self.in_force(kind, chosen)
 
+    def seen_with(self, tool: ir.Expression, frame: ir.Expression, target: ir.Expression) -> list[Line]:
+        """Where the robot stands, seen with a tool and in a frame: LPOS is what is in force, so these are selected for
+        it, and what was in force again behind it."""
+        before: list[Line] = []
+        behind: list[Line] = []
+        for kind, value, known in (("UFRAME", frame, self.motion.frame), ("UTOOL", tool, self.motion.tool)):
+            lines, chosen = self.frames.select(kind, value, self.expressions)
+            if chosen.isdigit() and chosen == known:
+                continue
+            if not known:
+                raise CannotSayError("where the robot stands with another tool or frame than the one in force here")
+            before.extend(lines)
+            behind.append(Line(f"  {kind}_NUM={known}"))
+        return [*before, Line(f"  {self.expressions.place(target)}=LPOS"), *behind]
+
     def move(self, move: ir.Move) -> None:
         if move.search is not None:
             self.searching_alone(move)
@@ -488,3 +509,11 @@ def _leaves(body: ir.Body) -> bool:
         case (*_, ir.Goto() | ir.Return() | ir.Halt(kind="exit")):
             return True
     return False
+
+
+def _leaves_frames(statement: ir.Statement) -> bool:
+    """Does it surely neither move nor select a tool or frame, whatever is written for it by hand?"""
+    match statement:
+        case ir.Assign(target=ir.Name() | ir.Index() | ir.Field() | ir.Signal()):
+            return True
+    return isinstance(statement, ir.ControlInterrupt | ir.OrderInterrupt | ir.DeclareInterrupt | ir.Pulse | ir.Message)

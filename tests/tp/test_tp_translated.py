@@ -224,3 +224,25 @@ after = 1.0
 def test_searches_and_their_errors(cell: str) -> None:
     files, _ = same_in_tp("rapid", SEARCH, cell)
     assert " Skip,LBL[1],PR[1:pFound]=LPOS" in files["MAIN.LS"]
+
+
+SEEN = """MODULE m
+  PERS tooldata tPen:=[TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+  PERS wobjdata wTable:=[FALSE,TRUE,"",[[100,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
+  VAR robtarget pNow;
+  PROC main()
+    MoveJ [[300,0,400],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v200,fine,tPen\\WObj:=wTable;
+    pNow:=CRobT(\\Tool:=tPen\\WObj:=wTable);
+    IF Abs(pNow.trans.x-300)<0.1 Set do1;
+    pNow:=CRobT(\\Tool:=tool0\\WObj:=wobj0);
+    IF Abs(pNow.trans.x-400)<0.1 AND Abs(pNow.trans.z-500)<0.1 Set do2;
+    MoveL [[300,50,400],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v200,fine,tPen\\WObj:=wTable;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_where_the_robot_stands_seen_with_another_tool() -> None:
+    files, _ = same_in_tp("rapid", SEEN)
+    text = " ".join(files["MAIN.LS"].split())
+    assert text.count("=LPOS") >= 2
