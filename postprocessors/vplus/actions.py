@@ -26,6 +26,11 @@ TIMER_RUNS = code(
     "vplus-timer-runs", Severity.WARNING, "timers of V+ cannot be stopped; what is read later is the time until then"
 )
 SENDER = code("vplus-sender", Severity.WARNING, "a message has no sender in V+; its name is left out")
+WATCHED = code(
+    "vplus-watched",
+    Severity.WARNING,
+    "reactions watch one signal: a program in a task of its own looks at this condition once in a cycle of 16 ms",
+)
 ACKNOWLEDGE = code(
     "vplus-acknowledge", Severity.WARNING, "a message that waits for the operator is written as TYPE and PAUSE"
 )
@@ -51,7 +56,10 @@ class Actions:
             case ir.SetForNextMove(setting=ir.System(name=name), value=value):
                 self.all(settings.setting(name, value, False, self.expressions), statement)
             case ir.DeclareInterrupt() | ir.ControlInterrupt():
+                watched = len(printer.output.reactions.watches)
                 self.all(printer.output.reactions.lines(statement, self.expressions), statement)
+                if len(printer.output.reactions.watches) > watched:
+                    printer.diagnostics.report(WATCHED, origin)
             case ir.CallRoutine():
                 printer.line(self.call(statement), origin)
                 printer.motion.forget()

@@ -152,6 +152,8 @@ class Places:
     def system(self, name: str, indices: tuple[ir.Expression, ...]) -> str | Printed:
         if name == "timer" and len(indices) == 1:
             return f"TIMER({self.expressions.text(indices[0])})"
+        if name == "timer_positive" and len(indices) == 1:
+            return Printed(f"TIMER({self.expressions.text(indices[0])}) > 0", tables.RELATION)
         if name == "flag" and len(indices) == 1:
             return self.signal(ir.Signal("flag", indices[0]))
         if name in tables.SYSTEM and not indices:

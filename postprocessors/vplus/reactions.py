@@ -3,18 +3,49 @@ leaves no step: it is looked up where the interrupt is switched on."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+
 from rpl import ir
 from rpl.ir.walk import walk
 
 from . import tables
 from .expressions import Expressions, UnsayableError
 
+# M: the software signals that REACT takes on all versions come first.
+_FLAGS = (*range(8, 0, -1), *range(9, 513))
+
+
+@dataclass(frozen=True, slots=True)
+class Watch:
+    """A program that switches a software signal as a condition comes and goes, and its task."""
+
+    name: str
+    task: int
+    signal: int
+    condition: str
+
+    def steps(self) -> tuple[str, ...]:
+        wait = f"WAIT {self.condition}"
+        return (
+            "; Switches a signal as a condition comes and goes.",
+            *("WHILE TRUE DO", f"    WAIT NOT ({self.condition})", f"    SIGNAL -{self.signal}"),
+            *(f"    {wait}", f"    SIGNAL {self.signal}", "END"),
+        )
+
+
+def _no_task(signal: ir.Signal) -> int:
+    raise UnsayableError("a reaction to a condition, without a task to watch it")
+
 
 class Reactions:
-    """All interrupts of a program, by identity."""
+    """All interrupts of a program, by identity. `task_of` gives the task of a program that comes along."""
 
     def __init__(self, program: ir.Program) -> None:
+        self.task_of: Callable[[ir.Signal], int] = _no_task
         self.declared: dict[str, list[ir.DeclareInterrupt]] = {}
+        self.watches: dict[str, Watch] = {}
+        self.flags = {node.index.value for node in walk(program) if _is_flag(node)}  # type: ignore[attr-defined]
         for node in walk(program):
             if isinstance(node, ir.DeclareInterrupt):
                 self.declared.setdefault(_key(node), []).append(node)
@@ -30,10 +61,35 @@ class Reactions:
             case "disable" | "enable" if handle is None:
                 return ["LOCK 0" if statement.op == "enable" else f"LOCK {tables.PRIORITY_TOP - 1}"]
             case "on":
-                return [self.step(one, expressions) for one in self.meant(handle)]
+                return [line for one in self.meant(handle) for line in self.armed(one, expressions)]
             case "off" | "delete":
                 return [f"IGNORE {self.signal(one.condition, expressions)}" for one in self.meant(handle)]
         raise UnsayableError(f"a single interrupt cannot be {statement.op}d")
+
+    def armed(self, declared: ir.DeclareInterrupt, expressions: Expressions) -> list[str]:
+        """REACT, behind the start of the program that watches the condition, if one does."""
+        step = self.step(declared, expressions)
+        watch = self.watches.get(repr(declared.condition))
+        return [step] if watch is None else [f"EXECUTE /C {watch.task} {watch.name}()", step]
+
+    def watched(self, condition: ir.Expression, expressions: Expressions) -> str:
+        """A software signal that a program in a task of its own switches as the condition comes and goes."""
+        key = repr(condition)
+        if key not in self.watches:
+            names = [one.id for one in walk((condition,)) if isinstance(one, ir.Name)]
+            if any((symbol := expressions.scope.value(name)) is None or symbol.routine for name in names):
+                raise UnsayableError("a reaction to a condition with variables of its program")
+            steps, expressions.notes.steps = expressions.notes.steps, False
+            text = expressions.condition(condition)
+            expressions.notes.steps = steps
+            if len(text) > tables.LONGEST_LINE - 24:
+                raise UnsayableError("a reaction to a condition that is too long for one step")
+            number = next(one for one in _FLAGS if one not in self.flags)
+            self.flags.add(number)
+            task = self.task_of(ir.Signal("flag", ir.IntLiteral(number)))
+            signal = tables.SIGNALS["flag"] + number
+            self.watches[key] = Watch(f"rpl.watch.{len(self.watches) + 1}", task, signal, text)
+        return str(self.watches[key].signal)
 
     def meant(self, handle: ir.Expression | None) -> list[ir.DeclareInterrupt]:
         if handle is None:
@@ -68,7 +124,16 @@ class Reactions:
                     return self.signal(declared, expressions, on)
             case ir.Signal() if not expressions.places.is_group(condition):
                 return expressions.places.number(expressions.places.numbered(condition), not on)
-        raise UnsayableError("a reaction watches one digital signal")
+        if not on:
+            condition = ir.Unary("not", condition)
+        return self.watched(condition, expressions)
+
+
+def _is_flag(node: object) -> bool:
+    match node:
+        case ir.Signal(kind="flag", index=ir.IntLiteral()):
+            return True
+    return False
 
 
 def _key(declared: ir.DeclareInterrupt) -> str:

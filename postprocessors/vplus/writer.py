@@ -88,6 +88,7 @@ class _File:
         self.output = Output(
             self.ledger, context.diagnostics, facts, Reactions(self.program), names_of(self.program), self.tasks()
         )
+        self.output.reactions.task_of = self.output.helper_task
         self.background = {task.entry.lower(): task for task in self.program.tasks if task.kind == "background"}
         self.assigned = set(usage_of(self.program).assigned)
         self.sections: dict[str, list[str]] = {}
@@ -109,6 +110,10 @@ class _File:
         programs += [
             (ProgramText(f".PROGRAM {name}()", (f"{FIRST}WAIT.EVENT , {seconds}", f"{FIRST}SIGNAL {number}")), False)
             for (number, seconds), name in self.output.delayed.items()
+        ]
+        programs += [
+            (ProgramText(f".PROGRAM {watch.name}()", tuple(FIRST + step for step in watch.steps())), False)
+            for watch in self.output.reactions.watches.values()
         ]
         sections = [Section(word, tuple(self.sections[word])) for word in _ORDER if word in self.sections]
         text = (

@@ -74,3 +74,27 @@ def test_a_variable_that_nothing_is_stored_into_begins_with_zero() -> None:
     text = "MODULE m\nPROC main()\nVAR num n;\nIF n=0 Set do1;\nENDPROC\nENDMODULE\n"
     _, difference = proved(text, "m.mod", "rapid", None, "main")
     assert not difference
+
+
+def test_a_condition_that_is_no_signal_is_watched_by_a_task() -> None:
+    text = """MODULE m
+VAR intnum iBeat;
+VAR num n:=0;
+PROC main()
+  CONNECT iBeat WITH beat;
+  ITimer 0.2,iBeat;
+  WaitTime 1.1;
+  IDelete iBeat;
+  WaitTime 0.5;
+  IF n=5 Set do1;
+ENDPROC
+TRAP beat
+  Incr n;
+ENDTRAP
+ENDMODULE
+"""
+    lines, difference = proved(text, "m.mod", "rapid", None, "main")
+    start = lines.index("EXECUTE /C 7 rpl.watch.1()")
+    assert lines[start + 1].startswith("REACT 2008, beat_timer")
+    assert lines[lines.index(".PROGRAM rpl.watch.1()") + 3 :][:2] == ["WAIT NOT (TIMER(15) > 0)", "SIGNAL -2008"]
+    assert not difference
