@@ -11,7 +11,7 @@ from . import tables
 from .errors import CannotSayError
 from .job import Job
 from .operands import Registers, bank_of, constant, element
-from .places import WORLD, Constants, Position, flat, position_of
+from .places import WORLD, Constants, Position, flat, inverse, position_of, product
 
 _POSES = ("x", "y", "z", "a", "b", "c")
 
@@ -146,17 +146,33 @@ class Positions:
     def current(self, place: str, arguments: tuple[ir.Expression, ...]) -> None:
         """Where the tool is, in a frame."""
         frame = arguments[1] if len(arguments) > 1 else ir.System("null_frame")
-        self.tool_is_of_job(arguments[0])
+        change = self.change_of_tool(arguments[0])
         self.lines.append(f"GETS {place} $PX001")
+        if change:
+            self.lines.append(f"MULMAT {place} {place} {change}")
         if frame not in (ir.System("null_frame"), ir.System("world")):
             helper = self.registers.helper("P")
             self.position(helper, ir.Builtin("inverse", (frame,)))
             self.lines.append(f"MULMAT {place} {helper} {place}")
 
-    def tool_is_of_job(self, tool: ir.Expression) -> None:
-        known = self.constants.known(tool)
-        if known is None or self.job.cell.tool(known.values) != self.job.tool:
+    def change_of_tool(self, tool: ir.Expression) -> str:
+        """From the tool of the job, whose place $PX001 is, to another one: inverse(job's) . other; empty: the same."""
+        job, known = self.job, self.constants.known(tool)
+        own = job.cell.value_of_tool(job.tool)
+        if known is not None and own is not None:
+            if known.values == own:
+                return ""
+            return self.kept(Position("pose", product(inverse(own), known.values)))
+        kept = next((place for place, number in job.cell.by_variable.items() if number == job.tool), "")
+        wanted = self.as_variable(tool)
+        if wanted == kept:
+            return ""
+        if own is None and not kept:
             raise CannotSayError("the place of another tool than the job's own")
+        helper = self.registers.helper("P")
+        self.lines.append(f"INVMAT {helper} {kept or self.kept(Position('pose', own or WORLD))}")
+        self.lines.append(f"MULMAT {helper} {helper} {wanted}")
+        return helper
 
     def converted(self, place: str, how: str, inner: ir.Expression, more: list[ir.Expression]) -> None:
         """CNVRT place source PULSE or BF, with the tool's number."""
@@ -170,7 +186,11 @@ class Positions:
         source = inner
         if frame not in (ir.System("null_frame"), ir.System("world")):
             if how == "joints_to_target":
-                raise CannotSayError("a conversion into a user frame")
+                self.lines.append(f"CNVRT {place} {self.as_variable(inner)} BF{tool}")
+                back = self.registers.helper("P")
+                self.position(back, ir.Builtin("inverse", (frame,)))
+                self.lines.append(f"MULMAT {place} {back} {place}")
+                return
             source = ir.Binary(":", frame, inner)
         word = "PULSE" if how == "target_to_joints" else "BF"
         self.lines.append(f"CNVRT {place} {self.as_variable(source)} {word}{tool}")

@@ -26,6 +26,18 @@ GUARDED = code(
     "INFORM cannot say this: {reason}",
     "the program stops there with PAUSE; write the line by hand",
 )
+INTERRUPT = code(
+    "inform-interrupt-lost",
+    Severity.LOSS,
+    "INFORM has no word for interrupts and what they do with the motion: {reason}",
+    "the program stops there with PAUSE; watch the signal in a job of its own, or end the move by UNTIL",
+)
+TASK = code(
+    "inform-task-lost",
+    Severity.LOSS,
+    "jobs beside each other are started and waited for only: {reason}",
+    "the program stops there with PAUSE; let the other job end itself by a variable",
+)
 SPLIT_MESSAGE = code(
     "inform-split-message", Severity.WARNING, "a message of more than {most} characters is written in several lines"
 )
@@ -187,6 +199,12 @@ class Printer:
                 return f"PSTART JOB:{self.job(name)} {self.sub(name, start=True)}"
             case ir.TaskControl(op="join", task=name):
                 return f"PWAIT {self.sub(name, start=False)}"
+            case ir.ControlInterrupt() | ir.OrderInterrupt() | ir.StopMotion() | ir.StartMotion() | ir.ResumeLevel():
+                raise CannotSayError("nothing interrupts a job", INTERRUPT)
+            case ir.ClearMotion() | ir.StoreMotion():
+                raise CannotSayError("a move that has begun is not given up", INTERRUPT)
+            case ir.TaskControl(op=op):
+                raise CannotSayError(f"a job cannot {op} another one", TASK)
         raise CannotSayError(f"there is no {statement.__class__.__name__} of this kind")
 
     def time(self, value: ir.Expression, origin: Origin) -> str:

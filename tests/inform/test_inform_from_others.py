@@ -15,7 +15,9 @@ SUFFIXES = {"krl": "src", "rapid": "mod", "rpl": "rpl", "urscript": "script", "v
 ROBOT = "motoman_gp7"
 
 
-def jobs_of(language: str, text: str, robot: str | None = ROBOT) -> tuple[dict[str, list[str]], Diagnostics, set[int]]:
+def jobs_of(
+    language: str, text: str, robot: str | None = ROBOT, entry: str | None = None
+) -> tuple[dict[str, list[str]], Diagnostics, set[int]]:
     """Lines of each job behind NOP, what was reported, and the outputs that are on at the end of its run; it means the
     same as the program it was written from when nothing was lost."""
     diagnostics = Diagnostics()
@@ -29,7 +31,7 @@ def jobs_of(language: str, text: str, robot: str | None = ROBOT) -> tuple[dict[s
     if not diagnostics.of(Severity.LOSS):
         result = prove_programs(read.program, back.program, robot, robot, None)
         assert result.equal, result.as_text()
-    run = run_program(back.program, robot)
+    run = run_program(back.program, robot, None, entry)
     state: dict[int, bool] = {}
     for _, name, value in run.outputs:
         state[int(str(name).partition("(")[2].rstrip(")"))] = bool(value)
@@ -279,6 +281,44 @@ def test_an_action_whose_place_is_not_known_is_refused_by_name() -> None:
     text = PATH.replace("PATH=-20", "PATH=-200")
     _, diagnostics, _ = jobs_of("krl", text, "kuka_kr6r900sixx")
     assert codes(diagnostics, Severity.LOSS) == {"inform-path-event-lost"}
+
+
+def test_where_the_robot_is_with_a_tool_of_its_data() -> None:
+    text = """MODULE one
+PERS tooldata tPen:=[TRUE,[[0,0,100],[1,0,0,0]],[0.5,[0,0,50],[1,0,0,0],0,0,0]];
+PERS tooldata tLong:=[TRUE,[[0,0,150],[1,0,0,0]],[0.5,[0,0,50],[1,0,0,0],0,0,0]];
+PERS wobjdata wBoard:=[FALSE,TRUE,"",[[350,0,100],[0.70710678,0,0,0.70710678]],[[0,0,0],[1,0,0,0]]];
+CONST jointtarget jStart:=[[0,0,0,0,90,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+PROC main()
+VAR robtarget now;
+VAR robtarget other;
+MoveAbsJ jStart,v1000,fine,tPen;
+now:=CRobT(\\Tool:=tPen\\WObj:=wobj0);
+other:=CRobT(\\Tool:=tLong\\WObj:=wobj0);
+IF Abs(now.trans.z-other.trans.z-50) < 0.01 SetDO do1,1;
+other:=CRobT(\\Tool:=tPen\\WObj:=wBoard);
+IF Abs(now.trans.z-other.trans.z-100) < 0.01 AND Abs(350-other.trans.y-now.trans.x) < 0.01 SetDO do2,1;
+ENDPROC
+ENDMODULE
+"""
+    _, diagnostics, on = jobs_of("rapid", text, "abb_irb120_3_58")
+    assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    assert on == {1, 2}
+
+
+def test_interrupts_are_refused_by_name() -> None:
+    text = """DEF one()
+INTERRUPT DECL 5 WHEN $IN[1]==TRUE DO seen()
+INTERRUPT ON 5
+WAIT SEC 1
+INTERRUPT OFF 5
+END
+DEF seen()
+$OUT[1]=TRUE
+END
+"""
+    _, diagnostics, _ = jobs_of("krl", text, entry="ONE")
+    assert codes(diagnostics, Severity.LOSS) == {"interrupt-lost", "inform-interrupt-lost"}
 
 
 def test_a_straight_way_between_two_arcs_stays_straight() -> None:

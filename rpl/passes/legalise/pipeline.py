@@ -59,7 +59,7 @@ from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.rotationvectors import rotation_vectors
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
-from rpl.passes.legalise.seenplaces import seen_places
+from rpl.passes.legalise.seenplaces import posed_places, seen_places
 from rpl.passes.legalise.signals import name_signals, number_signals
 from rpl.passes.legalise.sharing import share_temporaries
 from rpl.passes.legalise.shown import values_beside_messages
@@ -154,6 +154,7 @@ PASSES: tuple[Pass, ...] = (
     settings_at_moves,
     stand_first,
     seen_places,
+    posed_places,
     aggregates,
     geometry,
     flat_records,

@@ -27,6 +27,14 @@ def seen_places(program: ir.Program, context: Context) -> ir.Program:
     return _Seen(program, context).program()
 
 
+def posed_places(program: ir.Program, context: Context) -> ir.Program:
+    """Tool and work object data in such functions as poses, for targets with numbered storage."""
+    can = context.capabilities
+    if can.places_in_base or not can.banks or "ToolType" in can.types:
+        return program
+    return _Posed(program, context).program()
+
+
 class _Seen(Rewriter):
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
@@ -79,8 +87,25 @@ class _Seen(Rewriter):
         return Modal(self.context, self.scope, self.assigned, set())
 
 
+class _Posed(_Seen):
+    """The functions stay; the data that they name become poses."""
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        done = rewrite_parts(expression, self.expression)
+        if not isinstance(expression, ir.Builtin) or expression.function not in PLACES:
+            return done
+        assert isinstance(done, ir.Builtin)  # only its arguments were rewritten
+        arguments = list(done.arguments)
+        for at, old in enumerate(expression.arguments):
+            if at == PLACES[expression.function][0] and isinstance(self.type_of(old), ir.ToolType):
+                arguments[at] = self.data().component(old, "frame")
+            if at == PLACES[expression.function][1] and isinstance(self.type_of(old), ir.WorkObjectType):
+                arguments[at] = self.frame(old) or ir.System("null_frame")
+        return ir.Builtin(done.function, tuple(arguments), origin=done.origin)
+
+
 def _composed(one: ir.Expression, other: ir.Expression) -> ir.Expression:
     return ir.Binary(":", one, other)
 
 
-__all__ = ["seen_places"]
+__all__ = ["posed_places", "seen_places"]
