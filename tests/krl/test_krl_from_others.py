@@ -65,3 +65,28 @@ def test_a_process_move_is_a_path_move() -> None:
     move = ir.Move("linear", ir.Name("p"), motion_class="process", blend=ir.BlendStop())
     lines, named, lost = krl(move, source="urscript")
     assert "LIN p" in lines and "process-move" in named and not lost
+
+
+def test_outputs_at_a_corner_are_triggers_of_the_move_before_them() -> None:
+    corner = ir.BlendDistance(ir.RealLiteral(10.0))
+    first, second, third = (ir.Signal("digital_out", ir.IntLiteral(number)) for number in (1, 2, 3))
+    on, off = ir.BoolLiteral(True), ir.BoolLiteral(False)
+    move = ir.Move("linear", ir.Name("p"), speed=ir.Speed(path=ir.RealLiteral(50.0)), blend=corner)
+    body = (move, ir.Assign(first, on), ir.Assign(second, off), ir.Assign(third, ir.Unary("not", third)), move)
+    lines, named, lost = krl(*body, source="tp")
+    assert not lost
+    at = lines.index("TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[1]=TRUE")
+    assert lines[at + 1 : at + 5] == [
+        "TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[2]=FALSE",
+        "LIN p C_DIS",
+        "CONTINUE",
+        "$OUT[3]=NOT $OUT[3]",
+    ]
+    assert named.count("corner-output") == 2 and "early-logic" in named
+
+
+def test_outputs_behind_a_stop_stay_where_they_are() -> None:
+    output = ir.Assign(ir.Signal("digital_out", ir.IntLiteral(1)), ir.BoolLiteral(True))
+    move = ir.Move("linear", ir.Name("p"), speed=ir.Speed(path=ir.RealLiteral(50.0)), blend=ir.BlendStop())
+    lines, named, _ = krl(move, output, source="tp")
+    assert "$OUT[1]=TRUE" in lines and "corner-output" not in named

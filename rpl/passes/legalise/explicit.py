@@ -39,6 +39,13 @@ EARLY_LOGIC = code(
     "check the place on the robot, or write the output as a trigger on the path",
 )
 
+CORNER_OUTPUT = code(
+    "corner-output",
+    Severity.WARNING,
+    "the source's controller switches this where the corner of the move begins, the target in the middle of the corner",
+    "give the trigger a distance where the place matters",
+)
+
 # Settings of the source's controller that only steer how it interpolates or checks; a target without them drops them.
 _CHECKS = frozenset(
     {
@@ -118,6 +125,12 @@ class Modal:
     ) -> None:
         self.context, self.scope, self.assigned, self.reported = context, scope, assigned, reported
         self.usual = usual
+        ours = rules_of(context.source).advance
+        self.at_corners = (
+            {"Trigger", "LookAhead"} <= context.capabilities.statements
+            and ours.runs_ahead_of == "fly_by"
+            and not ours.signals_stop
+        )
 
     def report_once(self, what: Code, statement: ir.Statement, **arguments: object) -> None:
         if what not in self.reported:
@@ -129,12 +142,22 @@ class Modal:
     def body(self, body: ir.Body, known: Environment) -> ir.Body:
         done: list[ir.Statement] = []
         fly_by = False
+        corner: int | None = None  # where the move stands whose outputs follow directly
         for statement in body:
             if isinstance(statement, ir.Move):
                 new = self.move(statement, known)
                 done.extend(new)
                 fly_by = isinstance(new[-1], ir.Move) and new[-1].blend not in (None, ir.BlendStop())
+                corner = len(done) - 1 if fly_by and self.at_corners else None
                 continue
+            if corner is not None and _plain_output(statement):
+                assert isinstance(statement, ir.Assign)
+                self.context.diagnostics.report(CORNER_OUTPUT, statement.origin)
+                action = replace(statement, origin=replace(statement.origin, comments=()))
+                done.insert(corner, ir.Trigger("middle", action, origin=statement.origin))
+                corner += 1
+                continue
+            corner = corner if isinstance(statement, ir.Nothing) else None
             if fly_by and isinstance(statement, ir.WaitUntil | ir.Assign) and _stops(statement):
                 if "LookAhead" in self.context.capabilities.statements:
                     self.context.diagnostics.report(EARLY_LOGIC, statement.origin)
@@ -401,6 +424,16 @@ def _is_identity(value: ir.Expression) -> bool:
     values = [number for _, number in numbers]
     quaternion = len(values) == 7
     return (values == [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]) if quaternion else not any(values)
+
+
+def _plain_output(statement: ir.Statement) -> bool:
+    """Does it switch one output to a value that is known beforehand?"""
+    match statement:
+        case ir.Assign(
+            target=ir.Signal(kind="digital_out", index=ir.IntLiteral(), last=None, name=None), value=ir.BoolLiteral()
+        ):
+            return True
+    return False
 
 
 def _stops(statement: ir.WaitUntil | ir.Assign) -> bool:
