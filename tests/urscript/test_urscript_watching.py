@@ -185,3 +185,21 @@ ENDMODULE
 )
 def test_searches_keep_the_place(stop: str, inputs: tuple[tuple[float, str, bool], ...]) -> None:
     equal("rapid", RAPID.format(search=f"SearchL{stop}di1,pFound,pFar,v10,tool0;"), cell(*inputs))
+
+
+def test_a_task_gets_its_arguments_by_data() -> None:
+    text = """.PROGRAM main()
+        beats = 0
+        EXECUTE 2 beat(3)
+        WAIT beats == 3
+        SIGNAL 1
+.END
+.PROGRAM beat(count)
+        AUTO REAL i
+        FOR i = 1 TO count
+            WAIT.EVENT , 0.2
+            beats = beats+1
+        END
+.END
+"""
+    assert "thread beat():" in equal("vplus", text)

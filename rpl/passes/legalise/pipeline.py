@@ -73,6 +73,7 @@ from rpl.passes.legalise.subscripts import joined_subscripts
 from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
 from rpl.passes.legalise.threepoints import three_point_arcs
+from rpl.passes.legalise.taskarguments import task_arguments
 from rpl.passes.legalise.timers import timers_to_clocks
 from rpl.passes.legalise.tooldata import tool_data
 from rpl.passes.legalise.triggers import triggers
@@ -118,6 +119,7 @@ PASSES: tuple[Pass, ...] = (
     static_variables,
     background_tasks,
     joins,
+    task_arguments,
     refuse,
     whole_targets,
     set_data_at_start,
