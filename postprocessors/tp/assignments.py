@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from rpl import ir
@@ -12,6 +13,7 @@ from .lines import Line
 from .positions import Points, flat, position_of
 from .texts import number
 
+_NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*")
 _POSITIONS = (ir.PoseType, ir.TargetType, ir.JointsType)
 
 
@@ -35,6 +37,11 @@ class Assignments:
             case ir.Field(base=ir.System(name="actual_pose"), name=name):
                 read = self.expressions.component(ir.Index(ir.Name("PR"), (ir.IntLiteral(self.scratch),)), name)
                 return [Line(f"  PR[{self.scratch}]=LPOS"), Line(f"  {place}={read}")]
+            case ir.Builtin(function="text_value", arguments=(ir.TextLiteral(value=written),)) if _NUMBER.fullmatch(
+                written
+            ) and place.startswith("R["):
+                known = constant(ir.RealLiteral(float(written)))
+                return [Line(f"  {place}={number(0 if known is None else known)}")]
             case ir.Builtin(function="text_value", arguments=(text,)):
                 held = self.expressions.element(text)  # a text stored in a number register becomes its number
                 if held is not None and held.startswith(("SR[", "AR[")) and place.startswith("R["):

@@ -19,7 +19,9 @@ CAPABILITIES = Capabilities(
     ),
     functions=frozenset(
         (
-            *tables.FUNCTIONS,
+            *(
+                name for name in tables.FUNCTIONS if name not in ("round", "trunc")
+            ),  # conversions; they take no decimals
             *tables.TEXT_FUNCTIONS,
             *tables.POSITION_FUNCTIONS,
             "clock_seconds",

@@ -246,3 +246,33 @@ def test_where_the_robot_stands_seen_with_another_tool() -> None:
     files, _ = same_in_tp("rapid", SEEN)
     text = " ".join(files["MAIN.LS"].split())
     assert text.count("=LPOS") >= 2
+
+
+ROUNDED = """MODULE m
+  PROC main()
+    VAR num x:=2.345;
+    IF Round(x\\Dec:=2)=2.35 Set do1;
+    IF Round(x)=2 Set do2;
+    IF Trunc(x\\Dec:=1)=2.3 Set do3;
+    IF Trunc(-x)=-2 Set do4;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_rounding_to_decimals() -> None:
+    files, _ = same_in_tp("rapid", ROUNDED)
+    assert "=ROUND[" in files["MAIN.LS"] and "CALL RPL_ROUND(" in files["MAIN.LS"]
+
+
+NUMBERS_IN_TEXTS = """.PROGRAM main()
+  IF (VAL("128") == 128) AND (VAL("-2.5E1") == -25) THEN
+    SIGNAL 1
+  END
+.END
+"""
+
+
+def test_numbers_in_constant_texts() -> None:
+    files, _ = same_in_tp("vplus", NUMBERS_IN_TEXTS)
+    assert "=128 ;" in files["MAIN.LS"]
