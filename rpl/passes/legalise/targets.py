@@ -12,12 +12,15 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes import rigid
+from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.editing import map_body
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
+from rpl.passes.values import Target
 
 STOPPED_FOR_POSITION = code(
     "stopped-for-position",
@@ -26,6 +29,11 @@ STOPPED_FOR_POSITION = code(
 )
 TURNED = code(
     "relative-rotation", Severity.LOSS, "a relative move that also turns the tool is not carried over; teach its end"
+)
+SHIFT_ONLY = code(
+    "relative-shift-only",
+    Severity.WARNING,
+    "of what a relative move adds only the position is carried over; that it does not turn the tool is not known",
 )
 
 _POSITION = ("x", "y", "z")
@@ -84,7 +92,7 @@ class _Whole:
         if isinstance(move.target, ir.Aggregate) and move.target.type_name == "joints":
             return self.from_here(move, move.target, ir.JointsType(), done)
         if not isinstance(move.target, ir.Aggregate):
-            return [move]
+            return self.shifted(move, done)
         if move.relative is not None:
             return self.offset(move, move.target, done)
         return self.from_here(move, move.target, ir.TargetType(self.scope.rules.name), done)
@@ -119,6 +127,23 @@ class _Whole:
         function = "tool_offset" if move.relative == "tool" else "offset"
         steps = tuple(values.get(name, ir.RealLiteral(0.0)) for name in _POSITION)
         return [replace(move, target=ir.Builtin(function, (start, *steps)), relative=None)]
+
+    def shifted(self, move: ir.Move, done: list[ir.Statement]) -> list[ir.Statement]:
+        """A relative move by data: its position; of its turn only that it is none can be known."""
+        target = move.target
+        if move.relative not in ("base", "tool") or isinstance(self.type_of(target), ir.JointsType | None):
+            return [move]
+        if not _is_place(target):
+            return [move]
+        value = constant(target, self.scope)
+        pose = value.pose if isinstance(value, Target) else value
+        if isinstance(pose, rigid.Pose) and abs(pose.rotation.quaternion[0]) < 1.0 - 1e-9:
+            self.context.diagnostics.report(TURNED, move.origin)
+            return [move]
+        if not isinstance(pose, rigid.Pose):
+            self.context.diagnostics.report(SHIFT_ONLY, move.origin)
+        entries = tuple((name, ir.Field(target, name)) for name in _POSITION)
+        return self.offset(move, ir.Aggregate(entries, "pose"), done)
 
     def last_target(self, done: list[ir.Statement], move: ir.Move) -> ir.Expression | None:
         """The target of the move before, when nothing in between can have moved the robot or changed the frame."""
