@@ -129,6 +129,9 @@ class Locations:
                 raise self.refuse("there are no external axes")
             new = self.expressions.text(value)
             part = self.decomposed(base, 0).partition("[")[0]
+            if len(new) > _SHORT and self.expressions.notes.steps:
+                self.expressions.notes.step(f"{part}[{at}] = {new}")
+                new = f"{part}[{at}]"
             given = [new if one == at else f"{part}[{one}]" for one in range(6)]
             return f"#PPOINT({', '.join(given)})"
         place = self.expressions.text(base)

@@ -98,3 +98,10 @@ ENDMODULE
     assert lines[start + 1].startswith("REACT 2008, beat_timer")
     assert lines[lines.index(".PROGRAM rpl.watch.1()") + 3 :][:2] == ["WAIT NOT (TIMER(15) > 0)", "SIGNAL -2008"]
     assert not difference
+
+
+def test_one_joint_is_changed_in_a_step_of_its_own() -> None:
+    text = "def prog():\n  q = get_actual_joint_positions()\n  q[0] = q[0] + d2r(8)\n  movej(q)\nend\n"
+    lines, difference = proved(text, "p.script", "urscript", "ur5e", "prog")
+    assert "SET #q = #PPOINT(part2[0], part2[1], part2[2], part2[3], part2[4], part2[5])" in lines
+    assert not difference
