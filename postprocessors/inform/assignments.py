@@ -10,7 +10,7 @@ from rpl.passes.rewrite import rewrite_parts
 from . import tables
 from .errors import CannotSayError
 from .operands import Registers, bank_of, constant, element, is_digital, numbered, operand, signal, simple, variable
-from .positions import Positions
+from .positions import Positions, rounded
 
 
 @dataclass(slots=True)
@@ -288,7 +288,8 @@ class Assignments:
                     return
         real, whole = self.registers.helper("R"), self.registers.helper("D")
         self.number(real, value)
-        self.lines.extend([f"MUL {real} {float(counts)!r}", f"SET {whole} {real}", f"SETE {place} ({number}) {whole}"])
+        self.lines.append(f"MUL {real} {float(counts)!r}")
+        self.lines.extend([*rounded(real, whole), f"SETE {place} ({number}) {whole}"])
 
 
 def component(name: str) -> tuple[int, int]:

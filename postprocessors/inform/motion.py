@@ -16,7 +16,7 @@ from .conditions import single
 from .errors import CannotSayError
 from .operands import bank_of, constant, element
 from .places import WORLD, Position, between, flat, product, way_of
-from .positions import Positions
+from .positions import Positions, rounded
 
 RANGE = code(
     "inform-range",
@@ -248,7 +248,7 @@ class Motion:
                 self.lines.append(f"ADD {count} {round(known * per_degree)}")
             else:
                 self.number(real, part)
-                self.lines.extend([f"MUL {real} {per_degree!r}", f"SET {whole} {real}", f"ADD {count} {whole}"])
+                self.lines.extend([f"MUL {real} {per_degree!r}", *rounded(real, whole), f"ADD {count} {whole}"])
             self.lines.append(f"SETE {place} ({number}) {count}")
         return place
 

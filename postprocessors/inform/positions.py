@@ -141,7 +141,7 @@ class Positions:
         counts = 1 / (tables.MM_PER_COUNT if number <= 3 else tables.DEG_PER_COUNT)
         real, whole = self.registers.helper("R"), self.registers.helper("D")
         self.number(real, value)
-        self.lines += [f"MUL {real} {counts:.1f}", f"SET {whole} {real}", f"SETE {place} ({number}) {whole}"]
+        self.lines += [f"MUL {real} {counts:.1f}", *rounded(real, whole), f"SETE {place} ({number}) {whole}"]
 
     def current(self, place: str, arguments: tuple[ir.Expression, ...]) -> None:
         """Where the tool is, in a frame."""
@@ -208,3 +208,8 @@ class Positions:
         self.lines.append(f"SET {place} {self.kept(known)}")
         for name, part in computed.items():
             self.element(place, tables.POSE_ELEMENTS.index(name) + 1, part)
+
+
+def rounded(real: str, whole: str) -> list[str]:
+    """whole := the nearest whole number; SET alone drops the decimals."""
+    return [f"IFTHENEXP {real}<0.0", f"SUB {real} 0.5", "ELSE", f"ADD {real} 0.5", "ENDIF", f"SET {whole} {real}"]

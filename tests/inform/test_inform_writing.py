@@ -71,7 +71,10 @@ def written(
         (
             ir.Field(SPOT, "z"),
             X,
-            ["SET P005 P127", "SET R099 R000", "MUL R099 1000.0", "SET D099 R099", "SETE P005 (3) D099"],
+            [
+                *("SET P005 P127", "SET R099 R000", "MUL R099 1000.0", "IFTHENEXP R099<0.0", "SUB R099 0.5"),
+                *("ELSE", "ADD R099 0.5", "ENDIF", "SET D099 R099", "SETE P005 (3) D099"),
+            ],
         ),
         (SPOT, ir.System("actual_pose"), ["GETS P005 $PX001"]),
         (output(2), ir.BoolLiteral(True), ["DOUT OT#(2) ON"]),
