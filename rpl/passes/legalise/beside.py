@@ -5,7 +5,6 @@ A task sees no variable of the routine that begins it, so such values are copied
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
@@ -16,7 +15,6 @@ from rpl.passes.legalise.usage import Usage, usage_of
 from rpl.source import Origin
 
 _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.ResumeLevel)
-_TIMED = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.Raise, ir.Halt, ir.TaskControl)
 _OWN = {"nearest": ir.RealType(), "now": ir.RealType()}  # variables that the tasks made here have
 
 
@@ -30,12 +28,6 @@ def local_names(routine: ir.Routine) -> frozenset[str]:
     own = [d.name.lower() for d in routine.declarations if isinstance(d, ir.Variable)]
     counters = [node.counter.lower() for node in walk(*routine.body) if isinstance(node, ir.For) and node.scoped]
     return frozenset((*own, *counters, *(parameter.name.lower() for parameter in routine.parameters)))
-
-
-def locals_in(node: object, routine: ir.Routine) -> bool:
-    """Does it name a variable of its routine?"""
-    own = local_names(routine)
-    return any(isinstance(one, ir.Name) and one.id.lower() in own for one in walk(node))
 
 
 def moves_or_waits(statement: object, routines: frozenset[str]) -> bool:
@@ -79,7 +71,6 @@ class Beside:
     context: Context
     usage: Usage = field(init=False)
     routines: frozenset[str] = field(init=False)
-    timed: frozenset[str] = field(init=False)
     moving: str | None = None
     homes: dict[int, int] = field(default_factory=dict)
     data: dict[int, list[ir.Variable]] = field(default_factory=dict)
@@ -88,7 +79,6 @@ class Beside:
     def __post_init__(self) -> None:
         self.usage = usage_of(self.program)
         self.routines = closure(self.program, _MOTION)
-        self.timed = closure(self.program, _TIMED)
         for at, module in enumerate(self.program.modules):
             for routine in module.routines:
                 self.homes[id(routine)] = at
@@ -182,10 +172,3 @@ class Beside:
             return ir.Name(copy.id, origin=node.origin)
 
         return tuple(rewrite(one, change) for one in body)
-
-
-def writes(body: Iterable[ir.Statement], names: frozenset[str]) -> bool:
-    """Does a statement assign one of these variables (folded)?"""
-    from rpl.passes.legalise.usage import assigned_in
-
-    return bool(assigned_in(tuple(body)) & names)
