@@ -61,6 +61,7 @@ PROJECTS = {
     "vplus_cell": Project(VIPER, 20, "cell"),
     "inform_logic": Project(YASKAWA, 15, "LOGIC"),
     "inform_cell": Project(YASKAWA, 14, "STATION"),
+    "tp_forms": Project(FANUC, 10, "CELLMAIN"),
     "rpl_logic": Project(KUKA, 20),
     "rpl_cell": Project(KUKA, 19),
 }
