@@ -138,7 +138,8 @@ class Expressions:
                 else:
                     relation = item
                 continue
-            make = self.expression(item)  # type: ignore[arg-type]
+            assert isinstance(item, Tree)  # what is no word of an operator is an operand
+            make = self.expression(item)
             current = make if current is None else _related(relation, current, make)
         assert current is not None
         parts.append(current)

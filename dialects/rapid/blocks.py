@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import TypeGuard
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
@@ -20,6 +21,23 @@ MISPLACED_STATEMENT = code(
 SECOND_ELSE = code("second-default", Severity.ERROR, "a second ELSE or DEFAULT is never reached")
 
 _DECLARATIONS = (ir.Variable, ir.RecordDeclaration, ir.AliasDeclaration, ir.Unread)
+
+
+def is_statement(item: Item) -> TypeGuard[ir.Statement]:
+    """What this dialect gives besides statements is declarations, routines, modules and their attributes."""
+    return not isinstance(item, (*_DECLARATIONS, ir.Routine, Attribute, ModulePart))
+
+
+def _value(data: object) -> ir.Expression:
+    """The condition or selector that a structural statement brings; a promise of our own lowering."""
+    assert isinstance(data, ir.Expression)
+    return data
+
+
+def _values(data: object) -> tuple[ir.Expression, ...]:
+    """The values of a CASE; a promise of our own lowering."""
+    assert isinstance(data, tuple)
+    return tuple(map(_value, data))
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,23 +85,19 @@ class Blocks:
 
     def divided(self, section: Section) -> tuple[ir.Body, list[Item]]:
         """Statements, and what does not belong into a block (declarations, routines after a missing end)."""
-        others: list[Item] = [
-            item for item in section.items if isinstance(item, (*_DECLARATIONS, ir.Routine, Attribute, ModulePart))
-        ]
-        if not others:
-            return section.items, others  # type: ignore[return-value]
+        kept = tuple(item for item in section.items if is_statement(item))
+        if len(kept) == len(section.items):
+            return kept, []
+        others: list[Item] = [item for item in section.items if not is_statement(item)]
         for item in others:
             if isinstance(item, ir.Variable):
                 self.diagnostics.report(MISPLACED, item.origin)
-        kept = tuple(item for item in section.items if not any(item is other for other in others))
-        return kept, others  # type: ignore[return-value]
+        return kept, others
 
     # ---- control structures
 
     def if_block(self, block: Block, bodies: list[ir.Body]) -> ir.If:
-        condition = block.open.data
-        assert condition is not None  # a promise of our own lowering
-        branches: list[tuple[ir.Expression, ir.Body]] = [(condition, bodies[0])]  # type: ignore[list-item]
+        branches: list[tuple[ir.Expression, ir.Body]] = [(_value(block.open.data), bodies[0])]
         otherwise: ir.Body = ()
         seen_else = False
         for section, body in zip(block.sections[1:], bodies[1:], strict=True):
@@ -94,7 +108,7 @@ class Blocks:
             elif section.head.data is None:
                 otherwise, seen_else = body, True
             else:
-                branches.append((section.head.data, body))  # type: ignore[arg-type]
+                branches.append((_value(section.head.data), body))
         return ir.If(tuple(branches), otherwise, origin=block.open.origin)
 
     def for_block(self, block: Block, bodies: list[ir.Body]) -> ir.For:
@@ -113,7 +127,7 @@ class Blocks:
         )
 
     def while_block(self, block: Block, bodies: list[ir.Body]) -> ir.While:
-        return ir.While(block.open.data, bodies[0], origin=block.open.origin)  # type: ignore[arg-type]
+        return ir.While(_value(block.open.data), bodies[0], origin=block.open.origin)
 
     def test_block(self, block: Block, bodies: list[ir.Body]) -> ir.Switch:
         cases: list[ir.Case] = []
@@ -127,8 +141,8 @@ class Blocks:
                     body = (ir.Opaque(section.head.origin.text, origin=section.head.origin), *body)
                 default = body if default is None else (*default, *body)
             else:
-                cases.append(ir.Case(section.head.data, body, origin=section.head.origin))  # type: ignore[arg-type]
-        return ir.Switch(block.open.data, tuple(cases), default, origin=block.open.origin)  # type: ignore[arg-type]
+                cases.append(ir.Case(_values(section.head.data), body, origin=section.head.origin))
+        return ir.Switch(_value(block.open.data), tuple(cases), default, origin=block.open.origin)
 
     def before_cases(self, body: ir.Body) -> list[ir.Statement]:
         """What stands between TEST and the first CASE goes before the block: remarks as such, statements as text."""
@@ -177,10 +191,12 @@ class Blocks:
             for item in section.items:
                 if isinstance(item, ir.Variable | ir.AliasDeclaration | ir.RecordDeclaration):
                     declarations.append(replace(item, scope="routine"))
+                elif isinstance(item, ir.Unread):
+                    declarations.append(item)
+                elif is_statement(item):
+                    kept.append(item)
                 elif isinstance(item, ir.Routine | ModulePart | Attribute):
                     outside.append(item)
-                else:
-                    kept.append(item)  # type: ignore[arg-type]
             bodies.append(tuple(kept))
         handlers = self.handlers(block.sections[1:], bodies[1:])
         made = ir.Routine(

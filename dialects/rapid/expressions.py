@@ -109,7 +109,8 @@ class Expressions:
         }
 
     def lower(self, tree: SyntaxTree | Token | Slot, values: Values) -> ir.Expression:
-        return self.rules[tree.data](tree.children, values)  # type: ignore[union-attr]
+        assert isinstance(tree, Tree)  # the grammar's expressions are rules
+        return self.rules[tree.data](tree.children, values)
 
     # ---- names, components, numbers
 

@@ -13,7 +13,7 @@ from rpl.reading.pieces import Attribute, Item, ModulePart
 from rpl.registry import ReadResult
 from rpl.source import Origin, Source
 
-from .blocks import Blocks, part
+from .blocks import Blocks, is_statement, part
 from .instructions import INSTRUCTIONS
 from .parser import RapidParser
 from .prelude import PREDEFINED_NAMES
@@ -67,7 +67,7 @@ def _read_file(
             "rapid",
             found.declarations,
             found.routines,
-            found.data,  # type: ignore[arg-type]
+            _attributes(found.data),
             task.group(1).upper() if task else "",
             origin=found.origin,
         )
@@ -80,6 +80,12 @@ def statement_names(project: Project, path: str) -> frozenset[str]:
     """Names that begin a statement: installed instructions and the project's procedures as this file sees them."""
     own = project.routines | project.local_routines.get(path, set())
     return (frozenset(INSTRUCTIONS) | EFFECTS.keys() | own) - project.declared
+
+
+def _attributes(data: object) -> tuple[tuple[str, str], ...]:
+    """The attributes that a module brings with it; a promise of our own block building."""
+    assert isinstance(data, tuple)
+    return data
 
 
 def _parts(items: tuple[Item, ...], source: Source, diagnostics: Diagnostics) -> list[ModulePart]:
@@ -96,7 +102,7 @@ def _parts(items: tuple[Item, ...], source: Source, diagnostics: Diagnostics) ->
             loose.append(item)
     if parts:
         first = parts[0]
-        attributes = (*header, *first.data)  # type: ignore[misc]
+        attributes = (*header, *_attributes(first.data))
         declarations, routines = list(first.declarations), list(first.routines)
         if loose:
             more = part(first.name, (), loose, first.origin, diagnostics)
@@ -116,11 +122,10 @@ def _without_module(
     origin = Origin(source, 0, 0)
     name = re.sub(r"\W", "_", source.name) or "module"
     diagnostics.report(NO_MODULE, origin, name=name)
-    declared = (ir.Variable, ir.RecordDeclaration, ir.AliasDeclaration, ir.Unread, ir.Routine, Attribute, ModulePart)
-    body = [item for item in loose if not isinstance(item, declared)]
-    others: list[Item] = [item for item in loose if isinstance(item, declared)]
+    body = [item for item in loose if is_statement(item)]
+    others: list[Item] = [item for item in loose if not is_statement(item)]
     if any(not isinstance(item, ir.Nothing | ir.Opaque) for item in body):
-        others.append(ir.Routine(name, body=tuple(body), origin=origin))  # type: ignore[arg-type]
+        others.append(ir.Routine(name, body=tuple(body), origin=origin))
     else:
         others.extend(body)
     made = part(name, header, others, origin, diagnostics)
@@ -138,7 +143,8 @@ def _tasks(modules: list[ir.Module]) -> tuple[ir.Task, ...]:
             names.setdefault(module.task, []).append(module)
     tasks = []
     for name, members in sorted(names.items()):
-        moves = (alone and len(names) == 1) or any(_has_motion(routine.body) for module in members for routine in module.routines)
+        routines = (routine for module in members for routine in module.routines)
+        moves = (alone and len(names) == 1) or any(_has_motion(routine.body) for routine in routines)
         kind = "motion" if moves else "background"
         listed = tuple(module.name for module in members)
         tasks.append(ir.Task(name, "main", kind, cyclic=not moves, modules=listed))
