@@ -4,7 +4,8 @@
 
 Each expectation of a project is a digital output that is on at the end. A guarded stop in what was written would hide
 all that follows it, so the run here goes on behind the stops: one refused construct costs its own expectation only.
-Without words the whole table is made and written to `pairs.json` beside this file, which the tests compare.
+Without words the whole table is made and written to `pairs.json` beside this file, which the tests compare; with the
+word `write` the rows of the pairs that were run are put into it.
 """
 
 from __future__ import annotations
@@ -51,6 +52,7 @@ class Project:
 PROJECTS = {
     "krl_logic": Project(KUKA, 20, "LOGIC"),
     "krl_cell": Project(KUKA, 21, "CELL"),
+    "krl_forms": Project(KUKA, 10, "Forms"),
     "rapid_logic": Project(ABB, 22),
     "rapid_cell": Project(ABB, 21),
     "tp_logic": Project(FANUC, 17, "LOGIC"),
@@ -78,7 +80,8 @@ class Pair:
     end: str = "finished"
 
     def as_json(self) -> dict[str, object]:
-        return {"missed": list(self.missed), "losses": list(self.losses), "end": self.end}
+        codes = sorted({loss.split(": ")[1] for loss in self.losses})
+        return {"missed": list(self.missed), "codes": codes}
 
 
 @lru_cache
@@ -156,6 +159,8 @@ def _told(item: Diagnostic) -> str:
 
 def recorded() -> dict[str, dict[str, dict[str, object]]]:
     """project -> target -> what came of it, as it was found last."""
+    if not FILE.exists():
+        return {}
     found: dict[str, dict[str, dict[str, object]]] = json.loads(FILE.read_text("utf-8"))
     return found
 
@@ -174,7 +179,7 @@ def _shown(name: str, target: str, pair: Pair) -> Iterator[str]:
 
 def main(words: list[str]) -> None:
     targets = [word.removeprefix("to:") for word in words if word.startswith("to:")] or TARGETS
-    wanted = [word for word in words if not word.startswith("to:")]
+    wanted = [word for word in words if not word.startswith("to:") and word != "write"]
     names = [name for name in PROJECTS if not wanted or any(word in name for word in wanted)]
     pairs = [(name, target) for name in names for target in targets]
     table: dict[str, dict[str, Pair]] = {}
@@ -187,8 +192,10 @@ def main(words: list[str]) -> None:
     for name, found in table.items():
         met = [f"{PROJECTS[name].count - len(found[t].missed)}/{PROJECTS[name].count}" for t in targets]
         print(f"{name:<16}" + "".join(f"{text:>{width}}" for text in met))
-    if not words:
-        rows = {name: {target: pair.as_json() for target, pair in found.items()} for name, found in table.items()}
+    if not words or "write" in words:
+        rows = recorded() if words else {}
+        for name, found in table.items():
+            rows.setdefault(name, {}).update({target: pair.as_json() for target, pair in found.items()})
         FILE.write_text(json.dumps(rows, indent=1, sort_keys=True) + "\n", "utf-8")
 
 

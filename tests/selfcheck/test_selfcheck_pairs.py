@@ -1,9 +1,7 @@
 """The self-checking projects on their own arms, and what is left of their expectations in every other language.
 
 `pairs.json` says what was found last (`python tests/selfcheck/pairs.py` writes it): a pair that loses or gains one is
-seen.
-An expectation that is missed although nothing was refused is a mistranslation, whatever the file
-says.
+seen. An expectation that is missed although nothing was refused is a mistranslation, whatever the file says.
 """
 
 from __future__ import annotations
@@ -23,4 +21,5 @@ def test_every_expectation_is_met_on_the_own_arm(name: str) -> None:
 def test_what_is_left_after_translation(name: str, target: str) -> None:
     pair = pair_of(name, target)
     assert pair.losses or not pair.missed, f"missed {pair.missed} although nothing was refused: {pair.end}"
-    assert list(pair.missed) == recorded()[name][target]["missed"], pair.losses
+    known = recorded().get(name, {}).get(target)
+    assert known is None or list(pair.missed) == known["missed"], pair.losses
