@@ -16,9 +16,9 @@ import numpy as np
 
 from rpl.proof.bits import in_bits
 from rpl.proof.difference import Difference, Side
+from rpl.proof.messages import as_lines, same_message
 from rpl.proof.paths import gap
 from rpl.proof.record import Happening, Record, Stretch, Value
-from rpl.proof.messages import as_lines, same_message
 
 LEVELS = ("none", "events", "geometry", "time")
 

@@ -48,12 +48,6 @@ def record_of(result: RunResult, program: ir.Program, robot: RobotModel | None =
     return Record(result.status, result.time_s, tasks, motion, robot.name if robot else "", language)
 
 
-def _named(language: str) -> Named:
-    """What names a value in a message of the language."""
-    rules = rules_of(language) if language else None
-    return Named() if rules is None else Named(rules.message_numbers, rules.message_texts)
-
-
 def _ways(tasks: dict[str, list[Event]], program: ir.Program) -> dict[str, _Way]:
     """What happened in each task, and the way of its robot. Of a program with one robot it is the robot's, whichever
     task moves it (a language without searches moves in one task and looks in another)."""
@@ -66,6 +60,12 @@ def _ways(tasks: dict[str, list[Event]], program: ir.Program) -> dict[str, _Way]
 
 def _moves(events: list[Event]) -> list[Event]:
     return [event for event in events if event.kind == "move" and event.legs]
+
+
+def _named(language: str) -> Named:
+    """What names a value in a message of the language."""
+    rules = rules_of(language) if language else None
+    return Named() if rules is None else Named(rules.message_numbers, rules.message_texts)
 
 
 def _by_task(trace: Sequence[Event]) -> dict[str, list[Event]]:

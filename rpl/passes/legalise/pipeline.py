@@ -60,9 +60,9 @@ from rpl.passes.legalise.rotationvectors import rotation_vectors
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
 from rpl.passes.legalise.seenplaces import posed_places, seen_places
-from rpl.passes.legalise.signals import name_signals, number_signals
 from rpl.passes.legalise.sharing import share_temporaries
 from rpl.passes.legalise.shown import values_beside_messages
+from rpl.passes.legalise.signals import name_signals, number_signals
 from rpl.passes.legalise.speeds import fit_speeds
 from rpl.passes.legalise.spelling import one_spelling
 from rpl.passes.legalise.standing import stand_first
@@ -78,7 +78,7 @@ from rpl.passes.legalise.timers import timers_to_clocks
 from rpl.passes.legalise.tooldata import tool_data
 from rpl.passes.legalise.triggers import triggers
 from rpl.passes.legalise.truths import truths_to_numbers
-from rpl.passes.legalise.unused import drop_unused, drop_untyped
+from rpl.passes.legalise.unused import drop_untyped, drop_unused
 from rpl.passes.legalise.valuearrays import copy_value_arrays
 from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.legalise.watches import counted_watches
@@ -125,9 +125,9 @@ PASSES: tuple[Pass, ...] = (
     set_data_at_start,
     timers_to_clocks,
     counted_watches,
+    shared_groups_to_bits,
     name_signals,
     number_signals,
-    shared_groups_to_bits,
     name_groups,
     groups_to_bits,
     numbers,
