@@ -68,7 +68,8 @@ class Capabilities:
     reference_parameters: a routine may write its parameters (else copies go in, and out by variables).
     arrays_by_value: an array can be an argument by value (else the routine gets the caller's own).
     locals: a routine has variables of its own; static_locals: also some that keep their values from call to call.
-    recursion: a routine may be active twice, each time with variables of its own (else they are kept on a stack around calls that lead back). call_depth: how deep calls nest (0: not said).
+    recursion: a routine may be active twice, each time with variables of its own (else they are kept on a stack
+    around calls that lead back). call_depth: how deep calls nest (0: not said).
 
     Data: banks: where variables of a type (class name) are kept, when they have numbers and no names; types may share a
     bank. points: taught points that live in a routine. records, arrays (False only with banks: consecutive numbers),
