@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from rpl import ir
 from rpl.passes.rewrite import rewrite_parts
+from rpl.writing.statements import CannotSayError
 
 from . import tables
-from .errors import CannotSayError
 from .operands import Registers, bank_of, constant, element, is_digital, numbered, operand, signal, simple, variable
 from .positions import Positions, rounded
 

@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from rpl.writing.statements import CannotSayError
+
 from . import tables
-from .errors import CannotSayError
 from .operands import Registers
 from .places import WORLD, Position, Values, product
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from rpl import ir
+from rpl.writing.statements import CannotSayError
 
 from . import tables
-from .errors import CannotSayError
 from .operands import bank_of, is_digital, operand, signal, simple
 
 Atom = tuple[str, str, str]  # left, operator, right

@@ -13,10 +13,10 @@ import numpy as np
 
 from rpl import registry
 from rpl.diagnostics import Severity, code
+from rpl.writing.statements import CannotSayError
 
 from . import tables
 from .cell import Cell, Kept
-from .errors import CannotSayError
 from .places import WORLD, Position, matrix, values_of
 from .texts import ascii_text, fixed
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 
 from rpl import ir
 from rpl.passes.rewrite import rewrite_parts
+from rpl.writing.statements import CannotSayError
 
 from . import tables
-from .errors import CannotSayError
 
 
 @dataclass(slots=True)

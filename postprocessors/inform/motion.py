@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import zip_longest
 
 from rpl import ir
 from rpl.diagnostics import Code, Diagnostics, Severity, code
 from rpl.passes.legalise.modal import MM_S_PER_PERCENT
 from rpl.source import Origin
+from rpl.writing.statements import CannotSayError
 from rpl.writing.text import number_text
 
 from . import tables
 from .conditions import single
-from .errors import CannotSayError
 from .operands import bank_of, constant, element
 from .places import WORLD, Position, between, flat, product, way_of
 from .positions import Positions, rounded
@@ -224,7 +225,10 @@ class Motion:
 
     def counted_way(self, move: ir.Move) -> str:
         """Where a relative move of the joints comes to: the robot's pulses, and those of the way added."""
+        known = way_of(move.target) or self.positions.constants.known(move.target)
         way = flat(move.target)
+        if known is not None and known.kind == "joints":
+            way = dict(zip(tables.JOINT_ELEMENTS, map(ir.RealLiteral, known.values), strict=False))
         if move.relative != "joints" and not set(way) & set(tables.JOINT_ELEMENTS):
             raise CannotSayError("a relative joint move from a place that is not known here")
         registers = self.positions.registers
@@ -271,7 +275,7 @@ class Motion:
         job = self.positions.job
         start = last.position
         if way.kind == "joints":
-            values = tuple(a + b for a, b in zip(start.values, way.values, strict=False))
+            values = tuple(a + b for a, b in zip_longest(start.values, way.values, fillvalue=0.0))
             return Goal(job.point_of(Position("joints", values), tool, 0, None), tool, 0, Position("joints", values))
         if move.relative == "tool":
             found = product(start.values, way.values)
@@ -301,7 +305,7 @@ class Motion:
                     done[self.line_of_last : self.line_of_last + 1] = [*between, f"MOVC {line[5:]}"]
                     retaught = False
         if retaught:
-            if self.last is not None and self.last.place:
+            if self.last is not None and self.last.place and self.last.position is not None:
                 start = self.last.place
             else:
                 start = self.positions.registers.helper("P")

@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 
 from rpl import ir
 from rpl.passes.rewrite import rewrite_parts
+from rpl.writing.statements import CannotSayError
 
 from . import tables
-from .errors import CannotSayError
 from .texts import quoted, real
 
 _NAMED = re.compile(r"(?P<bank>L?[BIDRSP])(?P<number>\d+)(?:_PULSES)?")

@@ -15,9 +15,9 @@ import numpy as np
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.emulator.rotations import rotation_angle
+from rpl.writing.statements import CannotSayError
 
 from . import tables
-from .errors import CannotSayError
 from .job import pose_of_joints
 from .motion import Goal, Motion
 from .operands import constant

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from rpl import ir
+from rpl.writing.statements import CannotSayError
 
 from . import tables
-from .errors import CannotSayError
 from .job import Job
 from .operands import Registers, bank_of, constant, element
 from .places import WORLD, Constants, Position, flat, inverse, position_of, product

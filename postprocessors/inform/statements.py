@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from rpl import ir
-from rpl.diagnostics import Code, Diagnostics, Severity, code
+from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.source import NOWHERE, Origin
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.statements import CannotSayError, StatementPrinter
 
 from . import tables
 from .assignments import Assignments
 from .conditions import alternatives, single, text
-from .errors import CannotSayError
 from .labels import Labels
 from .motion import Motion
 from .operands import constant, element, is_digital, operand, signal, variable
@@ -50,18 +50,24 @@ _HALTS = {"stop": "PAUSE", "exit": "ABORT"}
 _POLL_S = 0.01
 
 
-@dataclass(slots=True)
-class Printer:
-    """Prints the body of one job."""
+class Printer(StatementPrinter[str]):
+    """Prints the body of one job. `jobs`: routine, folded -> job; `tasks`: job -> sub task, of the whole program."""
 
-    assignments: Assignments
-    motion: Motion
-    labels: Labels
-    jobs: Mapping[str, str]  # routine, folded -> job
-    tasks: dict[str, str]  # job -> sub task, of the whole program
-    ledger: EmissionLedger
-    diagnostics: Diagnostics
-    lines: list[str] = field(default_factory=list)
+    guarded, dialect = GUARDED, "inform"
+
+    def __init__(
+        self,
+        assignments: Assignments,
+        motion: Motion,
+        labels: Labels,
+        jobs: Mapping[str, str],
+        tasks: dict[str, str],
+        ledger: EmissionLedger,
+        diagnostics: Diagnostics,
+    ) -> None:
+        super().__init__(ledger, diagnostics)
+        self.assignments, self.motion, self.labels = assignments, motion, labels
+        self.jobs, self.tasks = jobs, tasks
 
     # ---- lines and remarks
 
@@ -78,10 +84,6 @@ class Printer:
 
     def remark(self, about: str) -> None:
         self.lines.extend(remarks(about))
-
-    def comments_only(self, origin: Origin) -> None:
-        for comment in origin.comments:
-            self.remark(comment.text)
 
     # ---- bodies
 
@@ -123,24 +125,13 @@ class Printer:
 
     def statement(self, statement: ir.Statement) -> None:
         """One statement, or its guarded stop."""
-        kept = len(self.lines)
         self.assignments.registers.begin()
-        try:
-            self.written(statement)
-        except CannotSayError as error:
-            del self.lines[kept:]
-            self.guard(statement, str(error), error.code or GUARDED)
-        else:
-            self.ledger.written(statement)
+        super().statement(statement)
 
-    def guard(self, statement: ir.Statement, reason: str, code: Code) -> None:
-        self.comments_only(statement.origin)
-        original = statement.origin.text or getattr(statement, "text", "") or statement.__class__.__name__
-        for part in original.splitlines():
-            self.remark(part.strip())
+    def stop(self) -> None:
         self.lines.append("PAUSE")
-        self.diagnostics.report(code, statement.origin, reason=reason)
-        self.ledger.reported(statement)
+
+    def guarded_behind(self, statement: ir.Statement) -> None:
         self.motion.forget()
 
     # ---- statements
@@ -169,12 +160,8 @@ class Printer:
                 self.waiting(statement)
             case ir.Message():
                 self.message(statement)
-            case ir.Opaque(text=given):
-                raise CannotSayError(f"it was not read ({given.strip()[:40]})")
-            case ir.Vendor(dialect=dialect, text=given):
-                if dialect != "inform":
-                    raise CannotSayError(f"it belongs to {dialect}")
-                self.put([part.strip() for part in given.splitlines()], origin)
+            case ir.Opaque() | ir.Vendor():
+                self.put([part.strip() for part in self.own_text(statement).splitlines()], origin)
             case _:
                 self.line(self.simple(statement), origin)
                 if isinstance(statement, ir.CallRoutine | ir.Halt):

@@ -5,10 +5,10 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterator
 
+from rpl.writing.statements import CannotSayError
 from rpl.writing.text import NumberStyle, number_text, wrapped
 
 from . import tables
-from .errors import CannotSayError
 
 _SPELLED = str.maketrans({"ß": "ss", "æ": "ae", "ø": "o", "ł": "l", "đ": "d", "°": "deg", "µ": "u", "€": "EUR"})
 _REAL = NumberStyle(always_point=True, exponent="")

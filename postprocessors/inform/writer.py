@@ -9,12 +9,12 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
 
 from . import tables
 from .assignments import Assignments
 from .cell import Cell
-from .errors import CannotSayError
 from .flags import with_flags_in_bytes
 from .job import Job
 from .labels import Labels

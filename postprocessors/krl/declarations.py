@@ -6,9 +6,10 @@ from collections.abc import Iterator
 
 from rpl import ir
 from rpl.passes.scope import Scope
+from rpl.writing.statements import CannotSayError
 
 from . import tables
-from .expressions import CannotSayError, Expressions
+from .expressions import Expressions
 
 _LITERALS = (ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.EnumLiteral)
 

@@ -6,12 +6,12 @@ import re
 from dataclasses import replace
 
 from rpl import ir
-from rpl.errors import RplError
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import component_type
 from rpl.passes.typing import type_of
 from rpl.writing.precedence import ExpressionPrinter, Printed
+from rpl.writing.statements import CannotSayError
 from rpl.writing.text import ALWAYS_POINT, number_text
 
 from . import tables
@@ -19,10 +19,6 @@ from . import tables
 _LEAVES = (ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.EnumLiteral, ir.Name, ir.Aggregate)
 _REAL = re.compile(r"(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+")
 _BITS = re.compile(r"'[BHbh][0-9A-Fa-f]+'")
-
-
-class CannotSayError(RplError):
-    """KRL has no words for this; the statement is written as a guarded stop."""
 
 
 class Expressions:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from rpl import ir
+from rpl.writing.statements import CannotSayError
 
-from .expressions import CannotSayError, Expressions
+from .expressions import Expressions
 from .settings import grouped
 
 _WORDS = {

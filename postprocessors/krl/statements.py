@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.passes.scope import Scope
-from rpl.source import Comment, Origin
+from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.statements import CannotSayError, StatementPrinter
 
 from . import tables
 from .declarations import constant, elements
-from .expressions import CannotSayError, Expressions
+from .expressions import Expressions
 from .motion import Motion
 from .settings import whole_structure
 
@@ -29,22 +30,16 @@ _BRAKES = {"BRAKE_SOFT": "BRAKE", "BRAKE_HARD": "BRAKE F"}  # routines of the re
 _LARGEST_STRUCTURE = 4
 
 
-@dataclass(slots=True)
-class Printer:
+class Printer(StatementPrinter[str]):
     """Prints the bodies of one routine."""
 
-    scope: Scope
-    ledger: EmissionLedger
-    diagnostics: Diagnostics
-    lines: list[str] = field(default_factory=list)
-    depth: int = 0
+    guarded, dialect = GUARDED, "krl"
 
-    def __post_init__(self) -> None:
-        self.expressions = Expressions(self.scope)
+    def __init__(self, scope: Scope, ledger: EmissionLedger, diagnostics: Diagnostics) -> None:
+        super().__init__(ledger, diagnostics)
+        self.scope = scope
+        self.expressions = Expressions(scope)
         self.motion = Motion(self.expressions)
-
-    expressions: Expressions = field(init=False)
-    motion: Motion = field(init=False)
 
     # ---- lines and comments
 
@@ -62,12 +57,11 @@ class Printer:
             self.diagnostics.report(LONG_LINE, origin, length=len(whole), most=tables.LONGEST_LINE)
         self.lines.append(whole)
 
-    def comment(self, comment: Comment) -> None:
-        self.lines.extend(f"{_STEP * self.depth};{part}" for part in comment.text.splitlines() or [""])
+    def remark(self, text: str) -> None:
+        self.lines.extend(f"{_STEP * self.depth};{part}" for part in text.splitlines() or [""])
 
-    def comments_only(self, origin: Origin) -> None:
-        for comment in origin.comments:
-            self.comment(comment)
+    def stop(self) -> None:
+        self.lines.append(f"{_STEP * self.depth}HALT")
 
     # ---- bodies
 
@@ -104,26 +98,6 @@ class Printer:
             self.ledger.written(statement)
         return count
 
-    def statement(self, statement: ir.Statement) -> None:
-        """One statement, or its guarded stop."""
-        kept, depth = len(self.lines), self.depth
-        try:
-            self.written(statement)
-        except CannotSayError as error:
-            del self.lines[kept:]
-            self.depth = depth
-            self.guard(statement, str(error))
-        else:
-            self.ledger.written(statement)
-
-    def guard(self, statement: ir.Statement, reason: str) -> None:
-        self.comments_only(statement.origin)
-        original = statement.origin.text or getattr(statement, "text", "") or statement.__class__.__name__
-        self.lines.extend(f"{_STEP * self.depth};{part.strip()}" for part in original.splitlines())
-        self.lines.append(f"{_STEP * self.depth}HALT")
-        self.diagnostics.report(GUARDED, statement.origin, reason=reason)
-        self.ledger.reported(statement)
-
     def written(self, statement: ir.Statement) -> None:
         match statement:
             case ir.Nothing(origin=origin):
@@ -132,12 +106,8 @@ class Printer:
                 self.block(statement)
             case ir.Assign(target=target, value=ir.Aggregate() as value) if self.is_array(target):
                 self.whole_array(statement, target, value)
-            case ir.Opaque(text=text):
-                raise CannotSayError(f"it was not read ({text.strip()[:40]})")
-            case ir.Vendor(dialect=dialect, text=text):
-                if dialect != "krl":
-                    raise CannotSayError(f"it belongs to {dialect}")
-                self.line(text, statement.origin)
+            case ir.Opaque() | ir.Vendor():
+                self.line(self.own_text(statement), statement.origin)
             case _:
                 self.line(self.simple(statement), statement.origin)
 

@@ -11,11 +11,11 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
 
 from . import tables
 from .declarations import enum_line, first_values, header_line, parameter_line, record_line, signal_line, variable_line
-from .expressions import CannotSayError
 from .statements import Printer, assignment
 
 if TYPE_CHECKING:

@@ -1,15 +1,15 @@
-"""Print expressions as RAPID. What RAPID cannot say raises UnsayableError; the statement around it is then guarded."""
+"""Print expressions as RAPID. What RAPID cannot say raises CannotSayError; the statement around it is then guarded."""
 
 from __future__ import annotations
 
 import re
 
 from rpl import ir
-from rpl.errors import RplError
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import component_names, word_type
 from rpl.passes.typing import type_of
 from rpl.writing.precedence import ExpressionPrinter, Printed
+from rpl.writing.statements import CannotSayError
 from rpl.writing.text import NumberStyle, number_text
 
 from .functions import FUNCTIONS, TARGETS_FOR_POSITIONS
@@ -31,10 +31,6 @@ _REAL = re.compile(r"(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+")
 _INT = re.compile(r"\d+")
 _STYLE = NumberStyle(largest_plain=1e9, smallest_plain=1e-4)
 _SIGNIFICANT = 9
-
-
-class UnsayableError(RplError):
-    """RAPID has no words for this."""
 
 
 class Expressions:
@@ -89,7 +85,7 @@ class Expressions:
                 return self.converted(expression)
             case ir.Present(name=name):
                 return f"Present({name})"
-        raise UnsayableError(f"a {expression.__class__.__name__} has no form in this language")
+        raise CannotSayError(f"a {expression.__class__.__name__} has no form in this language")
 
     def list(self, expressions: tuple[ir.Expression, ...]) -> str:
         return ",".join(self.text(expression) for expression in expressions)
@@ -98,7 +94,7 @@ class Expressions:
 
     def field(self, expression: ir.Field) -> str:
         if isinstance(expression.base, ir.Builtin | ir.Call | ir.Aggregate | ir.Binary):
-            raise UnsayableError("a component can only be taken of a variable")
+            raise CannotSayError("a component can only be taken of a variable")
         base = self.printer.atom(expression.base)
         type = type_of(expression.base, self.scope)
         name = expression.name
@@ -108,7 +104,7 @@ class Expressions:
         if isinstance(type, ir.NamedType | None):
             return f"{base}.{name}"
         if name in ("a", "b", "c"):
-            raise UnsayableError("orientations have quaternion components only")
+            raise CannotSayError("orientations have quaternion components only")
         return f"{base}.{COMPONENTS.get(type.__class__, {}).get(name, name)}"
 
     def value_of_signal(self, signal: ir.Signal) -> str:
@@ -124,7 +120,7 @@ class Expressions:
             case ir.Signal(name=str() as name, index=None):
                 return name
             case ir.Signal():
-                raise UnsayableError("signals have names, not numbers")
+                raise CannotSayError("signals have names, not numbers")
             case ir.Convert(how="bit", operand=operand):
                 return self.signal(operand)
         return self.printer.atom(signal)
@@ -151,7 +147,7 @@ class Expressions:
             if isinstance(type_of(left, self.scope), ir.RotationType):
                 return f"({self.printer.atom(left)}*{self.printer.atom(right)})"
             return f"PoseMult({self.text(left)},{self.text(right)})"
-        raise UnsayableError(f"there is no operator {expression.op}")
+        raise CannotSayError(f"there is no operator {expression.op}")
 
     def scaled(self, value: ir.Expression, factor: float) -> str | Printed:
         if factor == 1.0:
@@ -178,7 +174,7 @@ class Expressions:
                 return f"StrToByte({self.text(operand)}\\Char)"
             case "char":
                 return f"ByteToStr({self.text(operand)}\\Char)"
-        raise UnsayableError("a BOOL has no number here")
+        raise CannotSayError("a BOOL has no number here")
 
     # ---- calls and values
 
@@ -192,7 +188,7 @@ class Expressions:
                 piece, option = f"\\{argument.name}?{argument.if_present}", True
             elif argument.name is None:
                 if argument.value is None:
-                    raise UnsayableError("an argument cannot be left out")
+                    raise CannotSayError("an argument cannot be left out")
                 piece, option = self.argument(argument.value), False
             elif argument.value is None:
                 piece, option = f"\\{argument.name}", True
@@ -210,14 +206,14 @@ class Expressions:
     def builtin(self, expression: ir.Builtin) -> str:
         patterns = FUNCTIONS.get(expression.function)
         if patterns is None:
-            raise UnsayableError(f"there is no function {expression.function}")
+            raise CannotSayError(f"there is no function {expression.function}")
         arguments = list(expression.arguments)
         for position in range(TARGETS_FOR_POSITIONS.get(expression.function, 0)):
             match arguments[position]:
                 case ir.Field(base=base, name="trans"):
                     arguments[position] = base
                 case _:
-                    raise UnsayableError("three points are needed here, not three positions")
+                    raise CannotSayError("three points are needed here, not three positions")
         if expression.function in ("joints_to_target", "target_to_joints") and arguments[2:] == [ir.Name("wobj0")]:
             arguments.pop()
         if expression.function.startswith("current_") and arguments[:1] == [ir.Builtin("current_tool", ())]:
@@ -229,7 +225,7 @@ class Expressions:
                 arguments = [ir.Builtin("text_upper", (argument,)) for argument in arguments]
         found = patterns.get(len(arguments))
         if found is None:
-            raise UnsayableError(f"{expression.function} is not known with {len(arguments)} arguments")
+            raise CannotSayError(f"{expression.function} is not known with {len(arguments)} arguments")
         return found.format(*(self.text(argument) for argument in arguments))
 
     def system(self, name: str) -> str:
@@ -240,7 +236,7 @@ class Expressions:
             "actual_joints": "CJointT()",
         }
         if name not in words:
-            raise UnsayableError(f"there is no system variable for {name.replace('_', ' ')}")
+            raise CannotSayError(f"there is no system variable for {name.replace('_', ' ')}")
         return words[name]
 
     def aggregate(self, expression: ir.Aggregate) -> str:
@@ -249,12 +245,12 @@ class Expressions:
             return f"[{','.join(self.text(value) for _, value in entries)}]"
         type = word_type(expression.type_name, self.scope) if expression.type_name else None
         if type is None:
-            raise UnsayableError("a structured value of unknown type cannot be written in order")
+            raise CannotSayError("a structured value of unknown type cannot be written in order")
         order = component_names(type, self.scope)
         given = {(name or "").lower(): value for name, value in entries}
         strange = set(given) - {name.lower() for name in order}
         if strange:
-            raise UnsayableError(f"there is no component {', '.join(sorted(strange))} in {expression.type_name}")
+            raise CannotSayError(f"there is no component {', '.join(sorted(strange))} in {expression.type_name}")
         values = tuple(given.get(name.lower()) for name in order)
         if all(value is not None for value in values):
             named = self.predefined(expression, tuple(value for value in values if value is not None))
@@ -302,7 +298,7 @@ def missing(type: ir.Type, name: str) -> str:
             return "1"
         case ir.VectorType() | ir.AxesType() | ir.ConfigType() | ir.RotationType(), _:
             return "0"
-    raise UnsayableError(f"the component {name} is missing")
+    raise CannotSayError(f"the component {name} is missing")
 
 
 def integer(literal: ir.IntLiteral) -> str:

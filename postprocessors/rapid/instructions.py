@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.passes.typing import type_of
+from rpl.writing.statements import CannotSayError
 
-from .expressions import Expressions, UnsayableError
+from .expressions import Expressions
 from .motion import output_value
 
 _CONTROL = {"on": "IWatch", "off": "ISleep", "enable": "IEnable", "disable": "IDisable", "delete": "IDelete"}
@@ -35,7 +36,7 @@ _ALONE = {
 
 
 class Instructions:
-    """The instructions of one scope. Every method raises UnsayableError for what RAPID has not."""
+    """The instructions of one scope. Every method raises CannotSayError for what RAPID has not."""
 
     def __init__(self, expressions: Expressions) -> None:
         self.expressions = expressions
@@ -58,14 +59,14 @@ class Instructions:
 
     def output(self, target: ir.Expression, kind: str, value: ir.Expression) -> str:
         if kind not in _SETTERS:
-            raise UnsayableError("only outputs can be written")
+            raise CannotSayError("only outputs can be written")
         name = self.signal(target)
         if kind == "digital_out":
             if value == ir.Unary("not", target):
                 return f"InvertDO {name};"
             try:
                 return f"SetDO {name},{output_value(kind, value, self.expressions)};"
-            except UnsayableError:
+            except CannotSayError:
                 condition = self.print(value)
                 return f"IF {condition} THEN\n  SetDO {name},1;\nELSE\n  SetDO {name},0;\nENDIF"
         return f"{_SETTERS[kind]} {name},{self.print(value)};"
@@ -75,7 +76,7 @@ class Instructions:
             match value:
                 case ir.BoolLiteral(value=truth):
                     return f"{_SETTINGS[name]}\\{'On' if truth else 'Off'};"
-            raise UnsayableError("this setting is on or off, not computed")
+            raise CannotSayError("this setting is on or off, not computed")
         if name in _MODES:
             word, modes = _MODES[name]
             match value:
@@ -83,7 +84,7 @@ class Instructions:
                     return f"{word}\\{modes[mode.lower()]};"
         if name in _ALONE:
             return _ALONE[name].format(self.print(value))
-        raise UnsayableError(f"there is no setting for {name.replace('_', ' ')}")
+        raise CannotSayError(f"there is no setting for {name.replace('_', ' ')}")
 
     def settings(self, body: ir.Body, at: int) -> tuple[int, str]:
         """How many statements from here one instruction says together, and its text; 0 when none."""
@@ -99,7 +100,7 @@ class Instructions:
             if len(values) == len(names):
                 try:
                     return len(names), pattern.format(*map(self.print, values))
-                except UnsayableError:
+                except CannotSayError:
                     return 0, ""
         return 0, ""
 
@@ -121,7 +122,7 @@ class Instructions:
                 return self.order(statement)
             case ir.ControlInterrupt(op=op, handle=handle):
                 if (handle is None) != (op in ("enable", "disable")):
-                    raise UnsayableError("IEnable and IDisable work on all interrupts, the others on one")
+                    raise CannotSayError("IEnable and IDisable work on all interrupts, the others on one")
                 return f"{_CONTROL[op]}{'' if handle is None else ' ' + self.print(handle)};"
             case ir.Message():
                 return self.message(statement)
@@ -146,8 +147,8 @@ class Instructions:
         if statement.__class__ in words:
             return words[statement.__class__]
         if isinstance(statement, ir.Opaque):
-            raise UnsayableError("it could not be read")
-        raise UnsayableError(f"there is no {statement.__class__.__name__} statement")
+            raise CannotSayError("it could not be read")
+        raise CannotSayError(f"there is no {statement.__class__.__name__} statement")
 
     def wait(self, time: ir.Expression, stand: bool) -> str:
         return f"WaitTime\\InPos,{self.print(time)};" if stand else f"WaitTime {self.print(time)};"
@@ -156,7 +157,7 @@ class Instructions:
         options = ""
         if wait.timeout is not None:
             if wait.timed_out is None and wait.error is None:
-                raise UnsayableError("a wait that ends by time needs a flag or an error")
+                raise CannotSayError("a wait that ends by time needs a flag or an error")
             options = f"\\MaxTime:={self.print(wait.timeout)}"
             if wait.timed_out is not None:
                 options += f"\\TimeFlag:={self.print(wait.timed_out)}"
@@ -175,12 +176,12 @@ class Instructions:
             return f"PulseDO\\High\\PLength:={length},{name};"
         if pulse.value == ir.Unary("not", pulse.signal):
             return f"PulseDO\\PLength:={length},{name};"
-        raise UnsayableError("a pulse goes high or to the opposite")
+        raise CannotSayError("a pulse goes high or to the opposite")
 
     def delayed(self, signal: ir.Expression, value: ir.Expression, delay: ir.Expression) -> str:
         kind = self.kind_of(signal)
         if kind not in _SETTERS:
-            raise UnsayableError("only outputs can be written")
+            raise CannotSayError("only outputs can be written")
         written = output_value(kind, value, self.expressions)
         return f"{_SETTERS[kind]}\\SDelay:={self.print(delay)},{self.signal(signal)},{written};"
 
@@ -202,7 +203,7 @@ class Instructions:
                 return f"IError COMMON_ERR,TYPE_ALL,{handle};"
         condition = order.condition
         if condition is None:
-            raise UnsayableError("an interrupt needs its event")
+            raise CannotSayError("an interrupt needs its event")
         level = "1"
         if isinstance(condition, ir.Unary) and condition.op == "not":
             condition, level = condition.operand, "0"
@@ -216,7 +217,7 @@ class Instructions:
                 return f"ISignal{_short(kind)}{single}{self.signal(condition)},{handle};"
             if not kind:
                 return f"IPers{single}{self.print(condition)},{handle};"
-        raise UnsayableError("an interrupt watches one signal")
+        raise CannotSayError("an interrupt watches one signal")
 
     # ---- operator and numbers
 
@@ -242,7 +243,7 @@ class Instructions:
 
     def dialog(self, dialog: ir.Dialog) -> str:
         if dialog.timed_out is not None:
-            raise UnsayableError("a dialog that ends by time raises an error")
+            raise CannotSayError("a dialog that ends by time raises an error")
         whole = dialog.text
         if dialog.sender is not None:
             whole = ir.Binary("&", ir.Binary("&", dialog.sender, ir.TextLiteral(": ")), whole)
@@ -251,7 +252,7 @@ class Instructions:
         if dialog.kind == "number":
             return f"TPReadNum {answer},{text}{time};"
         if len(dialog.keys) > _KEYS:
-            raise UnsayableError("a dialog has five keys")
+            raise CannotSayError("a dialog has five keys")
         keys = ["stEmpty" if key is None else self.print(key) for key in dialog.keys]
         keys += ["stEmpty"] * (_KEYS - len(keys))
         return f"TPReadFK {answer},{text},{','.join(keys)}{time};"
@@ -278,7 +279,7 @@ class Instructions:
                 return f'{printed[0]}:="";'
             case "parse_value" | "parse_number", 2:
                 return f"IF StrToVal({printed[0]},{printed[1]}) THEN\nENDIF"
-        raise UnsayableError(f"there is no instruction for {do.procedure.replace('_', ' ')}")
+        raise CannotSayError(f"there is no instruction for {do.procedure.replace('_', ' ')}")
 
 
 def _short(kind: str) -> str:

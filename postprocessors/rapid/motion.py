@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 from rpl import ir
 from rpl.passes.typing import type_of
+from rpl.writing.statements import CannotSayError
 
-from .expressions import Expressions, UnsayableError
+from .expressions import Expressions
 
 _WORLD = ir.Name("wobj0")
 _LETTERS = {"joint": "J", "linear": "L", "circular": "C"}
@@ -28,17 +29,17 @@ class MoveText:
 
 
 def move(statement: ir.Move, expressions: Expressions) -> MoveText:
-    """The parts of a move. Raises UnsayableError for a setting that RAPID has not."""
+    """The parts of a move. Raises CannotSayError for a setting that RAPID has not."""
     _refuse(statement)
     letter = _LETTERS.get(statement.kind)
     if letter is None:
-        raise UnsayableError(f"there is no {statement.kind} move")
+        raise CannotSayError(f"there is no {statement.kind} move")
     if statement.search is not None:
         return _search(statement, statement.search, letter, expressions)
     name = f"Move{letter}"
     if isinstance(type_of(statement.target, expressions.scope), ir.JointsType):
         if statement.kind != "joint":
-            raise UnsayableError("only a joint move goes to joint values")
+            raise CannotSayError("only a joint move goes to joint values")
         name = "MoveAbsJ"
     points = _points(statement, expressions)
     speed, zone = _speed(statement.speed, expressions), _zone(statement.blend, expressions)
@@ -50,16 +51,16 @@ def move(statement: ir.Move, expressions: Expressions) -> MoveText:
     if len(triggers) == 1 and isinstance(triggers[0], ir.Trigger):
         suffix, more = _middle_action(triggers[0], expressions)
         if name == "MoveAbsJ":
-            raise UnsayableError("a move to joint values has no action on its path")
+            raise CannotSayError("a move to joint values has no action on its path")
         return MoveText(f"{name}{suffix}", before, (*points, speed, zone, tool, *more))
     events = []
     for trigger in triggers:
         if isinstance(trigger, ir.Trigger):
-            raise UnsayableError("an event on the path has to be stored before")
+            raise CannotSayError("an event on the path has to be stored before")
         events.append(expressions.text(trigger))
     listed = events[0] + "".join(f"\\T{number}:={event}" for number, event in enumerate(events[1:], 2))
     if len(events) > 8 or name == "MoveAbsJ":
-        raise UnsayableError("these events cannot be attached to the move")
+        raise CannotSayError("these events cannot be attached to the move")
     return MoveText(f"Trigg{letter}", before, (*points, speed, listed, zone, tool))
 
 
@@ -75,7 +76,7 @@ def _refuse(statement: ir.Move) -> None:
         ("a motion group", statement.group != 1),
     ):
         if found:
-            raise UnsayableError(f"{what} is not known")
+            raise CannotSayError(f"{what} is not known")
 
 
 def _points(statement: ir.Move, expressions: Expressions) -> tuple[str, ...]:
@@ -85,15 +86,15 @@ def _points(statement: ir.Move, expressions: Expressions) -> tuple[str, ...]:
     if statement.kind != "circular":
         return (target,)
     if statement.via is None:
-        raise UnsayableError("a circle needs its point on the way")
+        raise CannotSayError("a circle needs its point on the way")
     return (expressions.text(statement.via), target)
 
 
 def _speed(speed: ir.Speed | None, expressions: Expressions) -> str:
     if speed is None or speed.joint is not None or (speed.profile is None and speed.path is None):
-        raise UnsayableError("the move has no speed of its own")
+        raise CannotSayError("the move has no speed of its own")
     if speed.rotation is not None:
-        raise UnsayableError("a move has no rotation speed beside its speed data")
+        raise CannotSayError("a move has no rotation speed beside its speed data")
     own = "" if speed.path is None else f"\\V:={expressions.text(speed.path)}"
     if speed.profile is None:
         assert speed.path is not None  # checked above
@@ -112,7 +113,7 @@ def _zone(blend: ir.Blend | None, expressions: Expressions) -> str:
             size = "" if distance is None else f"\\Z:={expressions.text(distance)}"
             stop = "" if in_position is None else f"\\Inpos:={expressions.text(in_position)}"
             return f"{expressions.text(zone)}{size}{stop}"
-    raise UnsayableError("corners are given by zone data only")
+    raise CannotSayError("corners are given by zone data only")
 
 
 def _tool(statement: ir.Move, expressions: Expressions) -> str:
@@ -129,13 +130,13 @@ def _persistent(value: ir.Expression, expressions: Expressions, what: str) -> st
     is_pose = isinstance(type_of(value, expressions.scope), ir.PoseType | ir.TargetType)
     if isinstance(value, ir.Name | ir.Index | ir.Field) and not is_pose:
         return expressions.text(value)
-    raise UnsayableError(f"the {what} of a move has to be persistent data")
+    raise CannotSayError(f"the {what} of a move has to be persistent data")
 
 
 def _middle_action(trigger: ir.Trigger, expressions: Expressions) -> tuple[str, tuple[str, ...]]:
     """Suffix and further arguments of an instruction that acts in the middle of the corner path."""
     if trigger.reference != "middle" or trigger.distance is not None or trigger.delay is not None:
-        raise UnsayableError("an event on the path has to be stored before")
+        raise CannotSayError("an event on the path has to be stored before")
     match trigger.action:
         case ir.Assign(target=ir.Signal(kind=kind) as signal, value=value) if kind in _OUTPUTS:
             return _OUTPUTS[kind], (expressions.signal(signal), output_value(kind, value, expressions))
@@ -143,11 +144,11 @@ def _middle_action(trigger: ir.Trigger, expressions: Expressions) -> tuple[str, 
             return "Sync", (f'"{name}"',)
         case ir.CallRoutine(dynamic=text, arguments=()) if text is not None:
             return "Sync", (expressions.text(text),)
-    raise UnsayableError("this action cannot be attached to a move")
+    raise CannotSayError("this action cannot be attached to a move")
 
 
 def output_value(kind: str, value: ir.Expression, expressions: Expressions) -> str:
-    """The number written to an output. Raises UnsayableError for a BOOL that is not a literal or a signal."""
+    """The number written to an output. Raises CannotSayError for a BOOL that is not a literal or a signal."""
     if kind != "digital_out":
         return expressions.text(value)
     match value:
@@ -157,16 +158,16 @@ def output_value(kind: str, value: ir.Expression, expressions: Expressions) -> s
             return expressions.text(operand)
         case ir.Signal():
             return expressions.value_of_signal(value)
-    raise UnsayableError("a digital output takes a number")
+    raise CannotSayError("a digital output takes a number")
 
 
 def _search(statement: ir.Move, search: ir.Search, letter: str, expressions: Expressions) -> MoveText:
     if statement.kind == "joint" or statement.triggers:
-        raise UnsayableError("a search goes on a line or circle and carries no events")
+        raise CannotSayError("a search goes on a line or circle and carries no events")
     if not isinstance(search.condition, ir.Signal | ir.Name):
-        raise UnsayableError("a search watches one signal")
+        raise CannotSayError("a search watches one signal")
     if search.found is None:
-        raise UnsayableError("a search gives the place where it found something")
+        raise CannotSayError("a search gives the place where it found something")
     signal = expressions.signal(search.condition)
     points = _points(statement, expressions)
     speed, tool = _speed(statement.speed, expressions), _tool(statement, expressions)
@@ -197,7 +198,7 @@ def define_trigger(statement: ir.DefineTrigger, expressions: Expressions) -> str
             option = f"\\{_OPTIONS[kind]}:={expressions.signal(signal)}"
             written = output_value(kind, value, expressions)
         case _:
-            raise UnsayableError("a path event writes an output")
+            raise CannotSayError("a path event writes an output")
     if switch == "\\Time" or trigger.delay is None:
         return f"TriggIO {target},{place}{switch}{option},{written}"
     lag = negative_of(trigger.delay)
@@ -219,9 +220,9 @@ def _place(trigger: ir.Trigger, expressions: Expressions) -> tuple[str, str]:
         case "end" | "middle", distance if distance is not None:
             before = negative_of(distance)
             if before is None and isinstance(distance, ir.IntLiteral | ir.RealLiteral):
-                raise UnsayableError("a path event cannot lie behind the end of its move")
+                raise CannotSayError("a path event cannot lie behind the end of its move")
             return expressions.text(before if before is not None else ir.Unary("-", distance)), ""
-    raise UnsayableError("there is no path event at this place")
+    raise CannotSayError("there is no path event at this place")
 
 
 def negative_of(value: ir.Expression) -> ir.Expression | None:

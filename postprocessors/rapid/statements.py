@@ -10,9 +10,10 @@ from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.statements import CannotSayError
 
 from . import motion
-from .expressions import Expressions, UnsayableError, text_literal
+from .expressions import Expressions, text_literal
 from .frames import macros
 from .instructions import Instructions
 
@@ -90,7 +91,7 @@ class Statements:
     def statement(self, statement: ir.Statement) -> list[str]:
         try:
             lines = self.lines(statement)
-        except UnsayableError as reason:
+        except CannotSayError as reason:
             return self.guarded(statement, str(reason))
         return self.framed(statement, lines, (statement,))
 
@@ -115,7 +116,7 @@ class Statements:
         return [*remark_lines(statement.origin), *text.splitlines()]
 
     def lines(self, statement: ir.Statement) -> list[str]:
-        """The statement's own lines. Raises UnsayableError."""
+        """The statement's own lines. Raises CannotSayError."""
         block = self.block(statement)
         if block is not None:
             return block.splitlines()
@@ -147,7 +148,7 @@ class Statements:
 
     def counting(self, loop: ir.For) -> str:
         if not (loop.at_least_once and loop.scoped) or loop.automatic != (loop.step is None):
-            raise UnsayableError("FOR counts by its own rule")
+            raise CannotSayError("FOR counts by its own rule")
         head = [self.text(loop.start), self.text(loop.stop), "" if loop.step is None else self.text(loop.step)]
         scope = self.expressions.scope.with_value(ir.Variable(loop.counter, ir.RealType()))
         inner = Expressions(scope, self.expressions.long_texts)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from rpl import ir
+from rpl.writing.statements import CannotSayError
 
-from .expressions import Expressions, UnsayableError
+from .expressions import Expressions
 from .tables import SIGNAL_NAMES, TYPE_NAMES
 
 _STORAGE = {"constant": "CONST", "variable": "VAR", "persistent": "PERS"}
@@ -13,7 +14,7 @@ _PERSISTENT = (ir.ToolType, ir.WorkObjectType, ir.LoadType)
 
 
 def type_name(type: ir.Type) -> str:
-    """The type's name; of an array that of its elements. Raises UnsayableError."""
+    """The type's name; of an array that of its elements. Raises CannotSayError."""
     match type:
         case ir.ArrayType(element=element):
             return type_name(element)
@@ -24,10 +25,10 @@ def type_name(type: ir.Type) -> str:
         case ir.SignalType(kind=kind) if kind in SIGNAL_NAMES:
             return SIGNAL_NAMES[kind]
         case ir.TargetType(notation=notation) | ir.ConfigType(notation=notation) if notation != "rapid":
-            raise UnsayableError(f"targets in the notation of {notation} are not known here")
+            raise CannotSayError(f"targets in the notation of {notation} are not known here")
     word = TYPE_NAMES.get(type.__class__)
     if word is None:
-        raise UnsayableError(f"there is no type for {type.__class__.__name__}")
+        raise CannotSayError(f"there is no type for {type.__class__.__name__}")
     return word
 
 
@@ -36,7 +37,7 @@ def sizes(type: ir.Type, expressions: Expressions) -> str:
     if not isinstance(type, ir.ArrayType):
         return ""
     if len(type.dimensions) > 3:
-        raise UnsayableError("arrays have three dimensions at most")
+        raise CannotSayError("arrays have three dimensions at most")
     parts = ("*" if size is None else expressions.text(size) for size in type.dimensions)
     return f"{{{','.join(parts)}}}"
 
@@ -96,7 +97,7 @@ def heading(routine: ir.Routine, expressions: Expressions) -> tuple[str, str]:
     match routine.kind:
         case "function":
             if routine.returns is None:
-                raise UnsayableError("a function without a type of result")
+                raise CannotSayError("a function without a type of result")
             returns = type_name(routine.returns)
             return f"{local}FUNC {returns} {routine.name}({parameters(routine, expressions)})", "ENDFUNC"
         case "trap":

@@ -7,9 +7,10 @@ from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.passes.scope import ProgramScope
 from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
 
-from .expressions import LONGEST_TEXT, Expressions, UnsayableError
+from .expressions import LONGEST_TEXT, Expressions
 from .frames import environment
 from .statements import INDENT, NOT_SAID, Statements, behind, indented, remark_lines
 from .types import heading, record, type_name, variable
@@ -77,7 +78,7 @@ class _ModuleWriter:
         """The lines of a declaration with its comments; as comment lines when RAPID cannot say it."""
         try:
             lines = self.declared(declaration, expressions)
-        except UnsayableError as reason:
+        except CannotSayError as reason:
             self.ledger.reported(declaration)
             self.diagnostics.report(NOT_SAID, declaration.origin, reason=str(reason))
             original = declaration.origin.text or getattr(declaration, "text", "") or repr(declaration)
@@ -101,17 +102,17 @@ class _ModuleWriter:
             case ir.Unread(text=""):
                 return []
             case ir.Unread():
-                raise UnsayableError("it could not be read")
+                raise CannotSayError("it could not be read")
             case ir.ExternalDeclaration(text=text):
                 return [f"! {line.strip()}" for line in text.splitlines()]
-        raise UnsayableError(f"there is no {declaration.__class__.__name__}")
+        raise CannotSayError(f"there is no {declaration.__class__.__name__}")
 
     def routine(self, routine: ir.Routine) -> list[str]:
         expressions = Expressions(self.scopes.routine(self.module, routine))
         statements = Statements(expressions, self.diagnostics, self.ledger)
         try:
             head, ending = heading(routine, expressions)
-        except UnsayableError as reason:
+        except CannotSayError as reason:
             self.ledger.reported(routine)
             self.diagnostics.report(NOT_SAID, routine.origin, reason=str(reason))
             shown = [f"! {line.strip()}" for line in (routine.origin.text or routine.name).splitlines()]

@@ -6,9 +6,10 @@ import re
 from dataclasses import dataclass
 
 from rpl import ir
+from rpl.writing.statements import CannotSayError
 
 from . import tables
-from .expressions import CannotSayError, Expressions, constant
+from .expressions import Expressions, constant
 from .lines import Line
 from .positions import Points, flat, position_of
 from .texts import number

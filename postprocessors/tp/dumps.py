@@ -10,12 +10,13 @@ from collections.abc import Iterator, Mapping
 
 from rpl import ir
 from rpl.passes.scope import ProgramScope, Scope
+from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile
 from rpl.writing.text import number_text
 
 from . import tables
 from .configuration import config_text
-from .expressions import CannotSayError, constant
+from .expressions import constant
 from .positions import position_of
 from .texts import comment
 

@@ -11,10 +11,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from rpl import ir
-from rpl.errors import RplError
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 from rpl.writing.precedence import ExpressionPrinter, Printed
+from rpl.writing.statements import CannotSayError
 
 from . import tables
 from .texts import ascii_text, comment, number
@@ -23,10 +23,6 @@ _ELEMENT = re.compile(r"(?P<bank>R|PR|SR|F|AR|P|TIMER)\[?(?P<number>\d+)\]?", re
 _NAMED = re.compile(r"(?P<kind>[A-Z]{1,3})\[?(?P<number>\d+)\]?", re.IGNORECASE)
 _LAST = 99999
 _ACTIVE = {"UFRAME_NUM": "$MNUFRAMENUM[1]", "UTOOL_NUM": "$MNUTOOLNUM[1]"}
-
-
-class CannotSayError(RplError):
-    """TP has no words for this; the statement is written as a guarded stop."""
 
 
 @dataclass(slots=True)

@@ -9,9 +9,10 @@ from typing import NamedTuple
 
 from rpl import ir
 from rpl.passes.rewrite import rewrite_parts
+from rpl.writing.statements import CannotSayError
 
 from . import tables
-from .expressions import CannotSayError, Expressions
+from .expressions import Expressions
 from .texts import comment
 
 _COMMENTED = re.compile(r"\bLBL\s*\[\s*\d+\s*:([^\]]*)\]", re.IGNORECASE)

@@ -15,10 +15,11 @@ from rpl.passes.fold import constant
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import pose_of
 from rpl.source import NOWHERE
+from rpl.writing.statements import CannotSayError
 from rpl.writing.text import number_text
 
 from . import tables
-from .expressions import CannotSayError, Expressions
+from .expressions import Expressions
 from .lines import Line
 from .positions import Position, position_of
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from rpl import ir
+from rpl.writing.statements import CannotSayError
 
-from .expressions import CannotSayError
 from .flow import single_jump
 from .lines import Line
 from .own import alarm_number, raw_text, table_change, table_select, without_trunc

@@ -10,10 +10,11 @@ from rpl import ir
 from rpl.diagnostics import Code, Diagnostics, Severity, code
 from rpl.passes.legalise.modal import MM_S_PER_PERCENT
 from rpl.source import Origin
+from rpl.writing.statements import CannotSayError
 from rpl.writing.text import number_text
 
 from . import tables
-from .expressions import CannotSayError, Expressions, constant, measured
+from .expressions import Expressions, constant, measured
 from .lines import Line
 from .positions import Points, Position, position_of, step_of
 

@@ -14,11 +14,11 @@ from rpl import ir
 from rpl.passes.fold import constant
 from rpl.passes.scope import Scope
 from rpl.passes.values import Record, Target, pose_of
+from rpl.writing.statements import CannotSayError
 from rpl.writing.text import number_text
 
 from . import tables
 from .configuration import FLAGS, config_text
-from .expressions import CannotSayError
 from .expressions import constant as number_of
 from .texts import comment
 

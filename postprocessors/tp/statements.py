@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.source import Comment, Origin
+from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.statements import CannotSayError, StatementPrinter
 
 from . import tables
 from .assignments import Assignments, set_output
-from .expressions import CannotSayError, Expressions, constant, measured
+from .expressions import Expressions, constant, measured
 from .flow import If, Labels, choice
 from .frames import Frames
 from .idioms import Idioms
@@ -37,34 +37,28 @@ _CLOCKS = {"start": "START", "stop": "STOP", "reset": "RESET"}
 _HALTS = {"stop": "PAUSE", "exit": "ABORT"}
 
 
-@dataclass(slots=True)
-class Printer:
+class Printer(StatementPrinter[Line]):
     """Prints the body of one program."""
 
-    expressions: Expressions
-    points: Points
-    frames: Frames
-    labels: Labels
-    ledger: EmissionLedger
-    diagnostics: Diagnostics
-    lines: list[Line] = field(default_factory=list)
-    depth: int = 0
-    monitors: Mapping[int, tuple[str, int]] = field(default_factory=dict)
-    quiet: frozenset[str] = frozenset()  # programs that neither move nor select a frame, folded
-    motion: Motion = field(init=False)
-    assignments: Assignments = field(init=False)
-    idioms: Idioms = field(init=False)
+    guarded, dialect = GUARDED, "tp"
 
-    def __post_init__(self) -> None:
+    def __init__(
+        self,
+        expressions: Expressions,
+        points: Points,
+        frames: Frames,
+        labels: Labels,
+        ledger: EmissionLedger,
+        diagnostics: Diagnostics,
+    ) -> None:
+        super().__init__(ledger, diagnostics)
+        self.expressions, self.points, self.frames, self.labels = expressions, points, frames, labels
+        self.monitors: Mapping[int, tuple[str, int]] = {}
+        self.quiet: frozenset[str] = frozenset()  # programs that neither move nor select a frame, folded
         self.motion = Motion(
-            self.expressions,
-            self.points,
-            self.diagnostics,
-            self.action,
-            scratch=self.frames.scratch,
-            second=self.frames.second,
+            expressions, points, diagnostics, self.action, scratch=frames.scratch, second=frames.second
         )
-        self.assignments = Assignments(self.expressions, self.points, self.frames.scratch)
+        self.assignments = Assignments(expressions, points, frames.scratch)
         self.idioms = Idioms(self)
 
     # ---- lines and comments
@@ -84,12 +78,8 @@ class Printer:
     def remark(self, text: str) -> None:
         self.lines.extend(Line(one) for one in remarks(text))
 
-    def comment(self, comment: Comment) -> None:
-        self.remark(comment.text)
-
-    def comments_only(self, origin: Origin) -> None:
-        for comment in origin.comments:
-            self.comment(comment)
+    def stop(self) -> None:
+        self.lines.append(Line("  PAUSE"))
 
     # ---- bodies
 
@@ -117,26 +107,7 @@ class Printer:
         else:
             self.motion.frame = number if number.isdigit() else ""
 
-    def statement(self, statement: ir.Statement) -> None:
-        """One statement, or its guarded stop."""
-        kept, depth = len(self.lines), self.depth
-        try:
-            self.written(statement)
-        except CannotSayError as error:
-            del self.lines[kept:]
-            self.depth = depth
-            self.guard(statement, str(error))
-        else:
-            self.ledger.written(statement)
-
-    def guard(self, statement: ir.Statement, reason: str) -> None:
-        self.comments_only(statement.origin)
-        original = statement.origin.text or getattr(statement, "text", "") or statement.__class__.__name__
-        for part in original.splitlines():
-            self.remark(part.strip())
-        self.lines.append(Line("  PAUSE"))
-        self.diagnostics.report(GUARDED, statement.origin, reason=reason)
-        self.ledger.reported(statement)
+    def guarded_behind(self, statement: ir.Statement) -> None:
         if not _leaves_frames(statement):
             self.forget()
 
@@ -183,12 +154,8 @@ class Printer:
                 self.limited_alone(statement)
             case ir.Message():
                 self.message(statement)
-            case ir.Opaque(text=text):
-                raise CannotSayError(f"it was not read ({text.strip()[:40]})")
-            case ir.Vendor(dialect=dialect, text=text):
-                if dialect != "tp":
-                    raise CannotSayError(f"it belongs to {dialect}")
-                self.put([Line(f"  {part.strip()}") for part in text.splitlines()], origin)
+            case ir.Opaque() | ir.Vendor():
+                self.put([Line(f"  {part.strip()}") for part in self.own_text(statement).splitlines()], origin)
             case _:
                 self.line(self.simple(statement), origin)
                 if isinstance(statement, ir.CallRoutine):

@@ -13,12 +13,13 @@ from rpl.diagnostics import Severity, code
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.source import NOWHERE
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
 
 from . import tables
 from .assignments import Assignments
 from .dumps import dump_files
-from .expressions import CannotSayError, Expressions
+from .expressions import Expressions
 from .flow import Labels
 from .frames import Frames, highest_free_registers, kept_registers
 from .lines import Line

@@ -8,10 +8,10 @@ from rpl import ir
 from rpl.ir.walk import expressions as all_expressions
 from rpl.passes.legalise.jumps import opposite
 from rpl.passes.typewords import component_names, word_type
+from rpl.writing.statements import CannotSayError
 
 from . import tables
 from .declarations import in_one_list
-from .expressions import UnsayableError
 
 if TYPE_CHECKING:
     from .statements import Printer
@@ -57,7 +57,7 @@ class Actions:
         name = clock.id if isinstance(clock, ir.Name) else ""
         runs = self.printer.output.watches.get(name)
         if runs is None:
-            raise UnsayableError("a stop watch that is not a variable of the program")
+            raise CannotSayError("a stop watch that is not a variable of the program")
         return name, runs
 
     def simple(self, statement: ir.Statement) -> str:
@@ -87,7 +87,7 @@ class Actions:
                 return f"global {task}_run = run {task}()"
             case ir.TaskControl(op="stop" | "join" as op, task=task):
                 return f"{'kill' if op == 'stop' else 'join'} {task}_run"
-        raise UnsayableError(f"there is no {statement.__class__.__name__}")
+        raise CannotSayError(f"there is no {statement.__class__.__name__}")
 
     # ---- assignments
 
@@ -96,7 +96,7 @@ class Actions:
         measured, places = self.expressions.measured, self.expressions.places
         match target:
             case ir.Index(base=text) if isinstance(self.expressions.type(text), ir.StringType):
-                raise UnsayableError("one character of a text cannot be changed")
+                raise CannotSayError("one character of a text cannot be changed")
             case ir.System(name=name):
                 return self.setting(name, target.indices, value)
             case ir.Signal():
@@ -126,7 +126,7 @@ class Actions:
                 return self.payload(value)
             case "flag" if len(indices) == 1:
                 return self.expressions.places.output(ir.Signal("flag", indices[0]), value)
-        raise UnsayableError(f"there is no setting for {name.replace('_', ' ')}")
+        raise CannotSayError(f"there is no setting for {name.replace('_', ' ')}")
 
     def payload(self, value: ir.Expression) -> str:
         """`set_payload(mass, [x, y, z])` in kg and m."""
@@ -157,13 +157,13 @@ class Actions:
 
     def call(self, statement: ir.CallRoutine) -> str:
         if statement.dynamic is not None:
-            raise UnsayableError("there is no call by a computed name")
+            raise CannotSayError("there is no call by a computed name")
         return f"{statement.name}({self.expressions.arguments(statement.name, statement.arguments)})"
 
     def procedure(self, name: str, arguments: tuple[ir.Expression | None, ...]) -> str:
         given = [argument for argument in arguments if argument is not None]
         if not given:
-            raise UnsayableError(f"there is no procedure {name}")
+            raise CannotSayError(f"there is no procedure {name}")
         target = self.expressions.text(given[0])
         step = self.expressions.atom(given[1]) if len(given) > 1 else "1"
         match name:
@@ -178,7 +178,7 @@ class Actions:
                 return f"{target} = {self.expressions.text(given[1])}"
             case "text_clear":
                 return f'{target} = ""'
-        raise UnsayableError(f"there is no procedure {name}")
+        raise CannotSayError(f"there is no procedure {name}")
 
     # ---- waiting
 
@@ -191,7 +191,7 @@ class Actions:
             printer.more("  sync()", "end")
             return
         if wait.timed_out is None:
-            raise UnsayableError("a wait whose time limit raises an error")
+            raise CannotSayError("a wait whose time limit raises an error")
         flag = self.assignment(ir.Assign(wait.timed_out, _negated(wait.condition)))
         printer.comments_only(wait.origin)
         waited = printer.temporary("waited", "0.0")
@@ -211,7 +211,7 @@ class Actions:
         for node in all_expressions(statement):
             symbol = scope.value(node.id) if isinstance(node, ir.Name) else None
             if symbol is not None and symbol.routine is not None and printer.inside:
-                raise UnsayableError("an output that changes later by a variable of the routine")
+                raise CannotSayError("an output that changes later by a variable of the routine")
         if isinstance(statement, ir.Pulse):
             printer.line(self.assignment(ir.Assign(statement.signal, statement.value)), statement.origin)
             back, delay = _negated(statement.value), statement.duration
@@ -221,7 +221,7 @@ class Actions:
         if isinstance(statement, ir.Pulse) and statement.value == ir.Unary("not", statement.signal):
             back = statement.value  # the other way round, and back again
         elif _reads(back, statement.signal):
-            raise UnsayableError("an output that changes later to the opposite of what it is")
+            raise CannotSayError("an output that changes later to the opposite of what it is")
         name = printer.output.fresh("output_later")
         set_back = self.assignment(ir.Assign(statement.signal, back))
         sleep = f"  sleep({self.expressions.measured(delay, 's')})"
@@ -237,7 +237,7 @@ class Actions:
             printer.remark("(the log is not cleared)")
             return
         if message.kind not in _MESSAGES:
-            raise UnsayableError(f"there is no message of kind {message.kind}")
+            raise CannotSayError(f"there is no message of kind {message.kind}")
         text = message.text
         option = _MESSAGES[message.kind]
         if option or (message.kind == "notify" and message.sender is not None):  # a log has no place for the sender
@@ -261,7 +261,7 @@ class Actions:
 
     def dialog(self, dialog: ir.Dialog) -> str:
         if dialog.timeout is not None or dialog.timed_out is not None:
-            raise UnsayableError("a dialog that ends by time")
+            raise CannotSayError("a dialog that ends by time")
         question: ir.Expression = dialog.text
         if dialog.sender is not None:
             question = ir.Binary("&", ir.Binary("&", dialog.sender, ir.TextLiteral(": ")), question)

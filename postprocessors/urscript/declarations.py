@@ -8,8 +8,9 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.fold import constant_number
 from rpl.passes.scope import Scope
+from rpl.writing.statements import CannotSayError
 
-from .expressions import Expressions, UnsayableError
+from .expressions import Expressions
 from .places import is_matrix
 
 _POSES = (ir.PoseType, ir.TargetType, ir.VectorType, ir.RotationType)
@@ -123,7 +124,7 @@ def neutral(type: ir.Type, scope: Scope, expressions: Expressions, depth: int = 
                 return f"struct({', '.join(fields)})"
     if isinstance(resolved, _POSES):
         return "p[0, 0, 0, 0, 0, 0]"
-    raise UnsayableError(f"there is no type for {resolved.__class__.__name__.removesuffix('Type').lower()}")
+    raise CannotSayError(f"there is no type for {resolved.__class__.__name__.removesuffix('Type').lower()}")
 
 
 def _empty_array(type: ir.ArrayType, scope: Scope, expressions: Expressions, depth: int) -> str:
@@ -131,7 +132,7 @@ def _empty_array(type: ir.ArrayType, scope: Scope, expressions: Expressions, dep
     for bound in type.dimensions:
         last = None if bound is None else constant_number(bound, scope)
         if last is None:
-            raise UnsayableError("an array whose size is not a constant")
+            raise CannotSayError("an array whose size is not a constant")
         counts.append(int(last) - type.base + 1)
     inner = neutral(type.element, scope, expressions, depth + 1)
     if is_matrix(type, scope):
@@ -144,9 +145,9 @@ def header(routine: ir.Routine) -> str:
     """`def name(a, b):`"""
     for parameter in routine.parameters:
         if parameter.optional or parameter.switch:
-            raise UnsayableError("there are no optional parameters")
+            raise CannotSayError("there are no optional parameters")
         if parameter.mode == "reference" and _assigned(parameter.name, routine):
-            raise UnsayableError(f"the parameter {parameter.name} gives a value back, and arguments are copies")
+            raise CannotSayError(f"the parameter {parameter.name} gives a value back, and arguments are copies")
     return f"def {routine.name}({', '.join(parameter.name for parameter in routine.parameters)}):"
 
 

@@ -1,6 +1,6 @@
 """IR expressions as URScript. Numbers stay in the source's mm and degrees; poses and joints are in metres and radians.
 
-What URScript cannot say raises UnsayableError, and the statement around it is guarded. Functions that the program has
+What URScript cannot say raises CannotSayError, and the statement around it is guarded. Functions that the program has
 to bring along are noted in `Notes.helpers`.
 """
 
@@ -11,20 +11,16 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from rpl import ir
-from rpl.errors import RplError
 from rpl.passes.fold import constant_number
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 from rpl.writing.precedence import ExpressionPrinter, Printed
+from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
 
 _WHOLE = re.compile(r"\d+")
 _POSES = (ir.PoseType, ir.TargetType, ir.VectorType, ir.RotationType)
-
-
-class UnsayableError(RplError):
-    """URScript has no words for this; the statement is written as a guarded stop."""
 
 
 @dataclass(slots=True)
@@ -170,8 +166,8 @@ class Expressions:
             case ir.VendorValue(dialect="urscript", text=text):
                 return text
             case ir.VendorValue(dialect=dialect):
-                raise UnsayableError(f"a value that only {dialect} has")
-        raise UnsayableError(f"there is no {_what(expression)}")
+                raise CannotSayError(f"a value that only {dialect} has")
+        raise CannotSayError(f"there is no {_what(expression)}")
 
     def literal(self, text: str) -> str:
         """A text between quotes. URScript has no way to write a quote or a line end inside."""
@@ -186,7 +182,7 @@ class Expressions:
         shown = []
         for at, argument in enumerate(arguments):
             if argument.value is None or argument.if_present is not None:
-                raise UnsayableError("an argument cannot be left out here")
+                raise CannotSayError("an argument cannot be left out here")
             text = self.given(argument.value, types[at] if at < len(types) and not argument.name else None)
             shown.append(f"{argument.name}={text}" if argument.name else text)
         return ", ".join(shown)
@@ -208,13 +204,13 @@ class Expressions:
         op, left, right = expression.op, expression.left, expression.right
         name = tables.OPERATOR_FUNCTIONS.get(op)
         if name is None:
-            raise UnsayableError(f"there is no operator {op}")
+            raise CannotSayError(f"there is no operator {op}")
         if op == ":":
             pose = self.places.constant(expression)
             if pose is not None:
                 return pose
         if op in ("div", "mod") and not (self.whole(left) and self.whole(right)):
-            raise UnsayableError("a whole division of numbers with fractions")
+            raise CannotSayError("a whole division of numbers with fractions")
         arguments = (self.text(left), self.text(right))
         return self.helper(name, *arguments) if name.startswith("rpl_") else f"{name}({', '.join(arguments)})"
 
@@ -241,7 +237,7 @@ class Expressions:
                 return self.helper("rpl_bit", self.text(operand))
             case "truth":
                 return Printed(f"{self.printer.text(operand, tables.RELATION + 1)} != 0", tables.RELATION)
-        raise UnsayableError(f"there is no conversion {expression.how}")
+        raise CannotSayError(f"there is no conversion {expression.how}")
 
     # ---- functions
 
@@ -266,7 +262,7 @@ class Expressions:
             return f"{spelled}({self.listed(values)})"
         geometric = self.geometry.function(name, values)
         if geometric is None:
-            raise UnsayableError(f"there is no function {name}")
+            raise CannotSayError(f"there is no function {name}")
         return geometric
 
     def rounded(self, name: str, values: tuple[ir.Expression, ...]) -> str | Printed:
@@ -275,7 +271,7 @@ class Expressions:
         if places == ir.IntLiteral(0):
             return self.helper(name, self.text(values[0]))
         if not isinstance(places, ir.IntLiteral):
-            raise UnsayableError("rounding to a computed count of decimals")
+            raise CannotSayError("rounding to a computed count of decimals")
         scale = spelling.real_text(10.0**places.value)
         if name == "rpl_rounded":
             return self.helper("rpl_decimals", self.text(values[0]), scale)
@@ -310,7 +306,7 @@ class Expressions:
             return self.atom(_size(found, type.base))
         if len(bounds) == 1:
             return f"length({self.text(values[0])})"
-        raise UnsayableError("an array cannot be asked for the size of one of its dimensions")
+        raise CannotSayError("an array cannot be asked for the size of one of its dimensions")
 
 
 def _size(bound: ir.Expression, base: int) -> ir.Expression:

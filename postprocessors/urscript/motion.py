@@ -13,9 +13,10 @@ from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.passes import rigid
 from rpl.passes.fold import constant, constant_number
 from rpl.source import Origin
+from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
-from .expressions import Expressions, UnsayableError
+from .expressions import Expressions
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
@@ -41,13 +42,13 @@ class Motion:
         self.refuse(move)
         word = _WORDS.get(move.kind)
         if word is None:
-            raise UnsayableError(f"there is no {move.kind} move")
+            raise CannotSayError(f"there is no {move.kind} move")
         if move.motion_class == "process" and move.kind == "linear":
             word = "movep"
         places = [self.place(move, move.target)]
         if move.kind == "circular":
             if move.via is None:
-                raise UnsayableError("a circle needs its point on the way")
+                raise CannotSayError("a circle needs its point on the way")
             places.insert(0, self.place(move, move.via))
         settings = [*self.speed(move), *(self.blend(move.blend) if blended else ())]
         if move.kind == "circular" and move.circle_orientation == "path":
@@ -70,7 +71,7 @@ class Motion:
             ("spline blocks", move.motion_class == "spline"),
         ):
             if found:
-                raise UnsayableError(f"a move with {what}")
+                raise CannotSayError(f"a move with {what}")
 
     # ---- where to
 
@@ -107,7 +108,7 @@ class Motion:
             shown.append(f"v={velocity}")
         if speed.duration is not None:
             if move.motion_class == "process" or move.kind == "circular":
-                raise UnsayableError("a circle or a process move takes no time")
+                raise CannotSayError("a circle or a process move takes no time")
             shown.append(f"t={self.number(speed.duration, 's')}")
         return shown
 
@@ -154,7 +155,7 @@ class Motion:
                     distance = next((value for name, value in zone.entries if name == "path"), None)
                 if distance is not None:
                     return [f"r={self.number(distance, 'm')}"]
-        raise UnsayableError("a blend is given by the distance to the target only")
+        raise CannotSayError("a blend is given by the distance to the target only")
 
 
 def _says_orientation(move: ir.Move) -> bool:

@@ -11,6 +11,7 @@ from rpl.passes.fold import constant, constant_number
 from rpl.passes.typewords import word_type
 from rpl.passes.values import Target
 from rpl.writing.precedence import Printed
+from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
 
@@ -34,9 +35,8 @@ class Places:
         self.expressions = expressions
 
     def refuse(self, reason: str) -> Exception:
-        from .expressions import UnsayableError
 
-        return UnsayableError(reason)
+        return CannotSayError(reason)
 
     def value(self, expression: ir.Expression) -> str | Printed:
         match expression:

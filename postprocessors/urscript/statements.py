@@ -6,16 +6,17 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from rpl import ir
-from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.diagnostics import Code, Diagnostics, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant_number
 from rpl.passes.scope import Scope
-from rpl.source import Comment, Origin
+from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.statements import CannotSayError, StatementPrinter
 
 from . import spelling
 from .actions import Actions
-from .expressions import Expressions, Notes, UnsayableError
+from .expressions import Expressions, Notes
 from .motion import Motion
 
 if TYPE_CHECKING:
@@ -75,14 +76,16 @@ class Output:
         return name
 
 
-class Printer:
+class Printer(StatementPrinter[str]):
     """Prints the bodies of one routine. `inside`: the routine has variables of its own (the program itself has not)."""
 
+    guarded, dialect = GUARDED, "urscript"
+
     def __init__(self, scope: Scope, output: Output, inside: bool = True, depth: int = 0) -> None:
+        super().__init__(output.ledger, output.diagnostics)
         self.scope, self.output, self.inside, self.depth = scope, output, inside, depth
-        self.ledger, self.diagnostics = output.ledger, output.diagnostics
-        self.lines: list[str] = []
         self.stopped = False  # does the statement follow one that brakes the robot?
+        self.rest: ir.Body = ()  # what follows in the same body
         self.before_next: list[tuple[str, ...]] = []
         self.expressions = Expressions(scope, output.notes)
         self.motion = Motion(self.expressions, output.diagnostics, output.robot)
@@ -104,17 +107,13 @@ class Printer:
         """Lines of a statement that is written as several."""
         self.lines.extend(f"{INDENT * self.depth}{text}" for text in texts)
 
-    def comment(self, comment: Comment) -> None:
-        self.remark(comment.text)
-
     def remark(self, text: str) -> None:
         for part in text.splitlines() or [""]:
             plain = spelling.ascii_text(part.strip())
             self.lines.append(f"{INDENT * self.depth}# {plain}".rstrip())
 
-    def comments_only(self, origin: Origin) -> None:
-        for comment in origin.comments:
-            self.comment(comment)
+    def stop(self) -> None:
+        self.more("halt")
 
     def temporary(self, stem: str, value: str) -> str:
         """A new variable with its first value."""
@@ -129,50 +128,35 @@ class Printer:
         for at, statement in enumerate(body):
             after = body[at - 1] if at else None
             self.stopped = isinstance(after, ir.StopMotion) or (self.stopped and isinstance(after, ir.ClearMotion))
-            self.statement(statement, body[at + 1 :])
+            self.rest = body[at + 1 :]
+            self.statement(statement)
         self.depth -= 1
 
-    def statement(self, statement: ir.Statement, rest: ir.Body = ()) -> None:
-        """One statement, or its guarded stop. `rest`: what follows in the same body."""
-        kept, depth, known = len(self.lines), self.depth, len(self.output.notes.changed_texts)
-        try:
-            self.written(statement, rest)
-        except UnsayableError as error:
-            del self.lines[kept:]
-            self.depth = depth
-            self.guard(statement, str(error))
-        else:
-            self.ledger.written(statement)
+    def statement(self, statement: ir.Statement) -> None:
+        """One statement, or its guarded stop."""
+        known = len(self.output.notes.changed_texts)
+        super().statement(statement)
         for text in self.output.notes.changed_texts[known:]:
             self.diagnostics.report(TEXT_CHANGED, statement.origin, text=text)
 
-    def guard(self, statement: ir.Statement, reason: str) -> None:
-        self.comments_only(statement.origin)
-        self.remark(statement.origin.text or getattr(statement, "text", "") or statement.__class__.__name__)
-        self.more("halt")
-        match statement:
-            case ir.Trigger() | ir.DefineTrigger() | ir.Move(triggers=(_, *_)):
-                self.diagnostics.report(PATH_ACTION, statement.origin)
-            case _:
-                self.diagnostics.report(GUARDED, statement.origin, reason=reason)
-        self.ledger.reported(statement)
+    def guard(self, statement: ir.Statement, reason: str, code: Code | None = None) -> None:
+        on_path = isinstance(statement, ir.Trigger | ir.DefineTrigger) or (
+            isinstance(statement, ir.Move) and bool(statement.triggers)
+        )
+        super().guard(statement, reason, PATH_ACTION if on_path else code)
 
-    def written(self, statement: ir.Statement, rest: ir.Body) -> None:
+    def written(self, statement: ir.Statement) -> None:
         match statement:
             case ir.Nothing(origin=origin):
                 self.comments_only(origin)
-            case ir.Opaque(text=text):
-                raise UnsayableError(f"it was not read ({text.strip()[:40]})")
-            case ir.Vendor(dialect=dialect, text=text, origin=origin):
-                if dialect != "urscript":
-                    raise UnsayableError(f"it belongs to {dialect}")
-                first, *others = text.splitlines() or [""]
-                self.line(first, origin)
+            case ir.Opaque() | ir.Vendor():
+                first, *others = self.own_text(statement).splitlines() or [""]
+                self.line(first, statement.origin)
                 self.more(*others)
             case ir.ClearMotion() | ir.StartMotion() if self.stopped:
                 self.comments_only(statement.origin)  # stopj forgets the rest of the path by itself
             case ir.Move(origin=origin):
-                self.line(self.motion.move(statement, not _stands(rest)), origin)
+                self.line(self.motion.move(statement, not _stands(self.rest)), origin)
             case ir.If() | ir.Switch() | ir.For() | ir.While() | ir.Repeat() | ir.Loop():
                 self.block(statement)
             case _:
@@ -228,7 +212,7 @@ class Printer:
         """The first branch whose value matches; the selector is looked at once."""
         selector = statement.selector
         if not statement.cases:
-            raise UnsayableError("a choice without a case")
+            raise CannotSayError("a choice without a case")
         if isinstance(selector, ir.Name | ir.IntLiteral) or len(statement.cases) == 1 == len(statement.cases[0].values):
             chosen: ir.Expression = selector
             self.comments_only(statement.origin)
@@ -244,7 +228,7 @@ class Printer:
     def counting(self, loop: ir.For) -> None:
         """A counting loop as a while with its counter; the counter keeps the first value past the end."""
         if loop.scoped or loop.automatic or loop.at_least_once or loop.keeps_last:
-            raise UnsayableError("a loop whose counter or first pass follows another language's rule")
+            raise CannotSayError("a loop whose counter or first pass follows another language's rule")
         text, counter = self.expressions.text, ir.Name(loop.counter)
         step = 1.0 if loop.step is None else constant_number(loop.step, self.scope)
         self.comments_only(loop.origin)

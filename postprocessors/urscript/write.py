@@ -11,10 +11,10 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
 
 from .declarations import gathered, header, variable_line
-from .expressions import UnsayableError
 from .helpers import HELPERS, with_needed
 from .namespace import called_names, names_of, one_namespace, programs
 from .readings import clean_readings
@@ -133,7 +133,7 @@ class _Script:
             match declaration:
                 case ir.Variable(name=name, type=ir.ClockType()):
                     if word != "global":
-                        raise UnsayableError("a stop watch of a routine")
+                        raise CannotSayError("a stop watch of a routine")
                     seconds, runs = self.output.watch(name)
                     printer.line(f"global {seconds}", origin)
                     printer.more(f"global {runs}")
@@ -146,10 +146,10 @@ class _Script:
                 case ir.Initialise(assign=assign):
                     printer.line(printer.actions.assignment(assign), origin)
                 case ir.Unread(text=text):
-                    raise UnsayableError(f"it was not read ({text.strip()[:40]})")
+                    raise CannotSayError(f"it was not read ({text.strip()[:40]})")
                 case _:
-                    raise UnsayableError(f"there is no {declaration.__class__.__name__}")
-        except UnsayableError as error:
+                    raise CannotSayError(f"there is no {declaration.__class__.__name__}")
+        except CannotSayError as error:
             self.lost(declaration, printer, str(error))
         else:
             self.ledger.written(declaration)
@@ -173,8 +173,8 @@ class _Script:
         try:
             head = header(routine)
             if thread and routine.parameters:
-                raise UnsayableError("a thread takes no arguments")
-        except UnsayableError as error:
+                raise CannotSayError("a thread takes no arguments")
+        except CannotSayError as error:
             self.diagnostics.report(LOST_DECLARATION, routine.origin, name=routine.name, reason=str(error))
             self.ledger.reported(routine)
             names = ", ".join(parameter.name for parameter in routine.parameters)

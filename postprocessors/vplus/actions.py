@@ -10,9 +10,9 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.source import Origin
+from rpl.writing.statements import CannotSayError
 
 from . import settings, tables
-from .expressions import UnsayableError
 
 if TYPE_CHECKING:
     from .statements import Printer
@@ -114,7 +114,7 @@ class Actions:
                 return f"REACTE {routine.lower()}" if routine else "REACTE"
             case ir.TryNext():
                 return "RETURNE"
-        raise UnsayableError(f"there is no {statement.__class__.__name__}")
+        raise CannotSayError(f"there is no {statement.__class__.__name__}")
 
     # ---- assignments
 
@@ -143,7 +143,7 @@ class Actions:
             case ir.Field(base=base, name=name):
                 return f"SET {text(base)} = {self.expressions.places.locations.with_component(base, name, value)}"
             case ir.Index(base=base) if isinstance(self.expressions.type(base), ir.StringType):
-                raise UnsayableError("one character of a text cannot be changed")
+                raise CannotSayError("one character of a text cannot be changed")
         if isinstance(value, ir.Builtin) and value.function == "joints_to_target" and len(value.arguments) == 1:
             value = value.arguments[0]  # SET makes a transformation of a precision point
         word = "SET " if isinstance(self.expressions.type(target), _SET) else ""
@@ -194,10 +194,10 @@ class Actions:
             return listed(target, value, type)
         bounds = [self.expressions.known(bound) if bound is not None else None for bound in type.dimensions]
         if None in bounds:
-            raise UnsayableError("an array whose size is not known is copied")
+            raise CannotSayError("an array whose size is not known is copied")
         places = list(product(*(range(type.base, int(bound or 0) + 1) for bound in bounds)))
         if len(places) > _LARGEST_COPY:
-            raise UnsayableError("a large array is copied at once")
+            raise CannotSayError("a large array is copied at once")
         indices = [tuple(ir.IntLiteral(number) for number in place) for place in places]
         return [(ir.Index(target, one), ir.Index(value, one)) for one in indices]
 
@@ -209,7 +209,7 @@ class Actions:
             printer.line(f"AIO.OUT {self.expressions.text(signal.index)} = {self.expressions.text(value)}", origin)
             return
         if signal.kind.endswith("_in"):
-            raise UnsayableError("an input cannot be switched")
+            raise CannotSayError("an input cannot be switched")
         if places.is_group(signal):
             printer.line(f"BITS {places.group(signal)} = {self.expressions.text(value)}", origin)
             return
@@ -242,7 +242,7 @@ class Actions:
 
     def call(self, statement: ir.CallRoutine) -> str:
         if statement.dynamic is not None:
-            raise UnsayableError("there is no call by a computed name")
+            raise CannotSayError("there is no call by a computed name")
         return f"CALL {statement.name.lower()}{self.arguments(statement.name, statement.arguments)}"
 
     def arguments(self, name: str, given: tuple[ir.Argument, ...]) -> str:
@@ -292,7 +292,7 @@ class Actions:
     def procedure(self, name: str, arguments: tuple[ir.Expression | None, ...]) -> str:
         given = [argument for argument in arguments if argument is not None]
         if not given:
-            raise UnsayableError(f"there is no procedure {name}")
+            raise CannotSayError(f"there is no procedure {name}")
         target = given[0]
         step = given[1] if len(given) > 1 else ir.IntLiteral(1)
         match name:
@@ -306,12 +306,12 @@ class Actions:
                 return self.stored(target, given[1])
             case "text_clear":
                 return self.stored(target, ir.TextLiteral(""))
-        raise UnsayableError(f"there is no procedure {name}")
+        raise CannotSayError(f"there is no procedure {name}")
 
     def task(self, statement: ir.TaskControl) -> str:
         number = self.printer.output.tasks.get(statement.task.lower())
         if number is None:
-            raise UnsayableError(f"there are at most {tables.TASKS} tasks beside the main one")
+            raise CannotSayError(f"there are at most {tables.TASKS} tasks beside the main one")
         match statement.op:
             case "start":
                 name = statement.task.lower()
@@ -320,7 +320,7 @@ class Actions:
                 return f"ABORT {number}"
             case "resume":
                 return f"PROCEED {number}"
-        raise UnsayableError(f"a program cannot {statement.op} another task")
+        raise CannotSayError(f"a program cannot {statement.op} another task")
 
     # ---- waiting, path events
 
@@ -328,7 +328,7 @@ class Actions:
         if isinstance(statement, ir.Wait):
             return f"WAIT.EVENT , {self.expressions.measured(statement.time, 's')}"
         if statement.timeout is not None or statement.error is not None:
-            raise UnsayableError("a wait whose time limit raises an error")
+            raise CannotSayError("a wait whose time limit raises an error")
         return f"WAIT {self.printer.condition(statement.condition, True)}"
 
     def hand(self, body: ir.Body) -> tuple[str, int] | None:
@@ -358,12 +358,12 @@ class Actions:
         if isinstance(signal, ir.Name):
             signal = self.expressions.places.declared(signal.id) or signal
         if not isinstance(signal, ir.Signal):
-            raise UnsayableError("an output that follows later without a number")
+            raise CannotSayError("an output that follows later without a number")
         if not isinstance(value, ir.BoolLiteral):
             self.either_level(statement)
             return
         if self.expressions.places.is_group(signal) or signal.kind.endswith("_in") or signal.kind == "analog_out":
-            raise UnsayableError("anything but one digital output that follows later")
+            raise CannotSayError("anything but one digital output that follows later")
         pulse = isinstance(statement, ir.Pulse)
         delay = statement.duration if isinstance(statement, ir.Pulse) else statement.delay
         places, output = self.expressions.places, self.printer.output
@@ -398,7 +398,7 @@ class Actions:
             printer.comments_only(message.origin)
             return
         if message.kind not in _TOLD:
-            raise UnsayableError(f"there is no message of kind {message.kind}")
+            raise CannotSayError(f"there is no message of kind {message.kind}")
         text = message.text
         if message.sender is not None and message.sender != ir.TextLiteral(""):
             printer.output.facts.once(SENDER, message.origin)
@@ -409,7 +409,7 @@ class Actions:
 
     def dialog(self, dialog: ir.Dialog) -> str:
         if dialog.timeout is not None or dialog.timed_out is not None:
-            raise UnsayableError("a dialog that ends by time")
+            raise CannotSayError("a dialog that ends by time")
         question: ir.Expression = dialog.text
         if dialog.sender is not None and dialog.sender != ir.TextLiteral(""):
             question = ir.Binary("&", ir.Binary("&", dialog.sender, ir.TextLiteral(": ")), question)
@@ -433,7 +433,7 @@ def listed(target: ir.Expression, value: ir.Aggregate, type: ir.ArrayType) -> li
             found.append((ir.Index(target, indices), part))
             return
         if not isinstance(part, ir.Aggregate):
-            raise UnsayableError("a part of an array is filled at once")
+            raise CannotSayError("a part of an array is filled at once")
         for number, (_, inner) in enumerate(part.entries, type.base):
             fill((*indices, ir.IntLiteral(number)), inner)
 

@@ -7,10 +7,11 @@ from rpl.passes import rigid
 from rpl.passes.fold import constant
 from rpl.passes.scope import Scope
 from rpl.passes.values import Record, Target, component
+from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
 from .actions import listed
-from .expressions import Expressions, UnsayableError
+from .expressions import Expressions
 
 _SECTIONS = {"": ".REALS", "$": ".STRINGS", "#": ".LOCATIONS"}
 
@@ -26,7 +27,7 @@ def declared(variable: ir.Variable, expressions: Expressions) -> str:
 
 
 def stored(place: ir.Expression, type: ir.Type, value: ir.Expression, scope: Scope) -> tuple[str, str]:
-    """Section and line of one value; raises UnsayableError when it is not constant."""
+    """Section and line of one value; raises CannotSayError when it is not constant."""
     name = _name(place, type)
     if isinstance(type, ir.JointsType):
         numbers = _joints(value, scope)
@@ -39,13 +40,13 @@ def stored(place: ir.Expression, type: ir.Type, value: ir.Expression, scope: Sco
     if isinstance(known, str):
         plain, lost = spelling.pieces(known)
         if lost or len(plain) > 1:
-            raise UnsayableError("a text with signs that a data section cannot hold")
+            raise CannotSayError("a text with signs that a data section cannot hold")
         return ".STRINGS", f"{name} {plain[0]}"
     if isinstance(known, bool):
         return ".REALS", f"{name} {-1 if known else 0}"
     if isinstance(known, int | float):
         return ".REALS", f"{name} {spelling.number(known)}"
-    raise UnsayableError("a data section takes constants only")
+    raise CannotSayError("a data section takes constants only")
 
 
 def _name(place: ir.Expression, type: ir.Type) -> str:
@@ -55,13 +56,13 @@ def _name(place: ir.Expression, type: ir.Type) -> str:
         case ir.Index(base=ir.Name(id=name), indices=indices):
             numbers = [str(one.value) for one in indices if isinstance(one, ir.IntLiteral)]
             return f"{spelling.spelled(name, type)}[{','.join(numbers)}]"
-    raise UnsayableError("only variables and their elements have values of their own")
+    raise CannotSayError("only variables and their elements have values of their own")
 
 
 def _joints(value: ir.Expression, scope: Scope) -> list[str]:
     known = constant(value, scope)
     if not isinstance(known, Record):
-        raise UnsayableError("a data section takes constants only")
+        raise CannotSayError("a data section takes constants only")
     axes = known.part("robax")
     source = axes if isinstance(axes, Record) else known
     found = []
@@ -78,6 +79,6 @@ def values(variable: ir.Variable) -> list[tuple[ir.Expression, ir.Type, ir.Expre
         return []
     if isinstance(type, ir.ArrayType):
         if not isinstance(value, ir.Aggregate):
-            raise UnsayableError("an array that is filled by a calculation")
+            raise CannotSayError("an array that is filled by a calculation")
         return [(place, type.element, one) for place, one in listed(name, value, type)]
     return [(name, type, value)]

@@ -1,4 +1,4 @@
-"""IR expressions as V+. What V+ cannot say raises UnsayableError, and the statement around it is guarded.
+"""IR expressions as V+. What V+ cannot say raises CannotSayError, and the statement around it is guarded.
 
 A value that only a step of its own can give (the numbers of a location) asks for lines in front: `Notes.before`.
 """
@@ -10,17 +10,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.errors import RplError
 from rpl.passes.fold import constant_number
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 from rpl.writing.precedence import ATOM, ExpressionPrinter, Printed
+from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
-
-
-class UnsayableError(RplError):
-    """V+ has no words for this; the statement is written as a guarded stop."""
 
 
 @dataclass(slots=True)
@@ -49,7 +45,7 @@ class Notes:
 
     def step(self, line: str) -> None:
         if not self.steps:
-            raise UnsayableError("a step of its own would have to stand inside of a condition")
+            raise CannotSayError("a step of its own would have to stand inside of a condition")
         self.before.append(line)
 
 
@@ -135,10 +131,10 @@ class Expressions:
             case ir.VendorValue(dialect="vplus", text=text):
                 return text
             case ir.VendorValue(dialect=dialect):
-                raise UnsayableError(f"a value that only {dialect} has")
+                raise CannotSayError(f"a value that only {dialect} has")
             case ir.Call(name=name):
-                raise UnsayableError(f"there are no user functions ({name})")
-        raise UnsayableError(f"there is no {_what(expression)}")
+                raise CannotSayError(f"there are no user functions ({name})")
+        raise CannotSayError(f"there is no {_what(expression)}")
 
     def literal(self, text: str) -> str | Printed:
         shown, lost = spelling.pieces(text)
@@ -175,13 +171,13 @@ class Expressions:
                 return f"ASC({self.text(operand)})"
             case "char":
                 return f"$CHR({self.text(operand)})"
-        raise UnsayableError(f"there is no conversion {expression.how}")
+        raise CannotSayError(f"there is no conversion {expression.how}")
 
     def rounded(self, name: str, values: tuple[ir.Expression, ...]) -> str | Printed:
         """Rounding and cutting, to whole numbers or to a constant count of decimals."""
         value, places = values[0], values[1] if len(values) > 1 else ir.IntLiteral(0)
         if not isinstance(places, ir.IntLiteral):
-            raise UnsayableError("rounding to a computed count of decimals")
+            raise CannotSayError("rounding to a computed count of decimals")
         if places.value:
             scale = ir.RealLiteral(10.0**places.value)
             inner = self.rounded(name, (ir.Binary("*", value, scale),))
@@ -270,7 +266,7 @@ class Expressions:
         found = self.places.locations.function(call)
         found = found if found is not None else self.texts.function(name, values)
         if found is None:
-            raise UnsayableError(f"there is no function {name}")
+            raise CannotSayError(f"there is no function {name}")
         return found
 
     def tangent(self, values: tuple[ir.Expression, ...]) -> Printed:
@@ -290,7 +286,7 @@ class Expressions:
     def shifted(self, values: tuple[ir.Expression, ...]) -> Printed:
         count = self.known(values[1])
         if count is None:
-            raise UnsayableError("a shift by a computed count of bits")
+            raise CannotSayError("a shift by a computed count of bits")
         return Printed(f"{self.printer.text(values[0], tables.PRODUCT)}*{2 ** int(count)}", tables.PRODUCT)
 
     def power(self, values: tuple[ir.Expression, ...]) -> str | Printed:
@@ -332,7 +328,7 @@ class Expressions:
                     return spelling.number(last - type.base + 1)
         if isinstance(type, ir.StringType):
             return f"LEN({self.text(values[0])})"
-        raise UnsayableError("an array cannot be asked for its size")
+        raise CannotSayError("an array cannot be asked for its size")
 
 
 _SHORT = 30
@@ -391,4 +387,4 @@ def _what(expression: ir.Expression) -> str:
     return f"{words} {getattr(expression, 'how', getattr(expression, 'op', ''))}".strip()
 
 
-__all__ = ["ATOM", "Expressions", "Notes", "UnsayableError"]
+__all__ = ["ATOM", "Expressions", "Notes", "CannotSayError"]

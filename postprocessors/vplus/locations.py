@@ -13,6 +13,7 @@ from rpl.passes import rigid
 from rpl.passes.fold import constant
 from rpl.passes.values import Target
 from rpl.writing.precedence import Printed
+from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
 
@@ -32,9 +33,8 @@ class Locations:
         self.expressions = expressions
 
     def refuse(self, reason: str) -> Exception:
-        from .expressions import UnsayableError
 
-        return UnsayableError(reason)
+        return CannotSayError(reason)
 
     # ---- written out
 

@@ -14,10 +14,11 @@ from rpl.diagnostics import Code, Diagnostics, Severity, code
 from rpl.passes import rigid
 from rpl.passes.fold import constant
 from rpl.source import Origin
+from rpl.writing.statements import CannotSayError
 
 from . import settings, spelling, tables
 from .corners import Corners, size_of
-from .expressions import Expressions, UnsayableError
+from .expressions import Expressions
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
@@ -98,7 +99,7 @@ class Motion:
 
     def own(self, place: ir.Expression, value: ir.Expression) -> list[str]:
         if not isinstance(place, ir.System):
-            raise UnsayableError("a move with a setting of its own")
+            raise CannotSayError("a move with a setting of its own")
         return settings.setting(place.name, value, False, self.expressions)
 
     def refuse(self, move: ir.Move) -> None:
@@ -113,7 +114,7 @@ class Motion:
             ("spline blocks", move.motion_class == "spline"),
         ):
             if found:
-                raise UnsayableError(f"a move with {what}")
+                raise CannotSayError(f"a move with {what}")
 
     # ---- where to
 
@@ -126,7 +127,7 @@ class Motion:
         entries = dict(near.entries) if isinstance(near, ir.Aggregate) else {}
         joints = [self.expressions.known(value) for name, value in entries.items() if name in tables.AXES]
         if move.kind != "joint" or not joints or None in joints or len(target.arguments) > 2:
-            raise UnsayableError("a move to the solution nearest to joints")
+            raise CannotSayError("a move to the solution nearest to joints")
         return place, self.words([float(value or 0.0) for value in joints], move.origin)
 
     def words(self, joints: list[float], origin: Origin) -> tuple[str, ...]:
@@ -169,12 +170,12 @@ class Motion:
             return self.relative(move, target, frame)
         if move.kind == "circular":
             if move.via is None:
-                raise UnsayableError("a circle needs its point on the way")
+                raise CannotSayError("a circle needs its point on the way")
             self.facts.once(ARC, move.origin)
             return f"MOVEC {text(self.placed(move.via, frame))}, {text(self.placed(target, frame))}"
         word = _WORDS.get(move.kind)
         if word is None:
-            raise UnsayableError(f"there is no {move.kind} move")
+            raise CannotSayError(f"there is no {move.kind} move")
         match target:
             case ir.System(name="home_joints"):
                 return "READY"
@@ -192,7 +193,7 @@ class Motion:
         """An offset from where the move before ends."""
         word, text = _WORDS.get(move.kind), self.expressions.text
         if word is None:
-            raise UnsayableError(f"there is no relative {move.kind} move")
+            raise CannotSayError(f"there is no relative {move.kind} move")
         if not isinstance(target, ir.Aggregate):
             return f"{word} {self.displaced(move, target, frame)}"
         steps = {name: value for name, value in target.entries if name is not None and not self.zero(value)}
@@ -234,7 +235,7 @@ class Motion:
     def joints_by(self, steps: dict[str, ir.Expression]) -> str:
         """The joints where the motion ends, and these changes."""
         if set(steps) - set(tables.AXES):
-            raise UnsayableError("there are no external axes")
+            raise CannotSayError("there are no external axes")
         notes = self.expressions.notes
         part = notes.temporary("part")
         notes.step(f"DECOMPOSE {part}[0] = #PDEST")
@@ -254,7 +255,7 @@ class Motion:
             return f"{_WORDS[move.kind]} {self.joints_by(steps)}"
         ((name, value),) = steps.items()
         if name not in tables.AXES:
-            raise UnsayableError("there are no external axes")
+            raise CannotSayError("there are no external axes")
         speed = ""
         if move.speed is not None and move.speed.joint is not None:
             speed = f", {self.expressions.text(self.bare(move.speed.joint))}"

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
+from rpl.writing.statements import CannotSayError
 
 from . import spelling
-from .expressions import UnsayableError
 
 if TYPE_CHECKING:
     from .statements import Printer
@@ -128,7 +128,7 @@ class PathEvents:
             return distance
         speed = move.speed.path if move.speed is not None else None
         if speed is None or move.kind == "joint":
-            raise UnsayableError("an action some time before a place of a move whose path speed is not known")
+            raise CannotSayError("an action some time before a place of a move whose path speed is not known")
         self.once(AHEAD, trigger)
         way: ir.Expression = ir.Binary("*", expressions.in_unit(speed, "mm/s"), early)
         if distance is not None:
@@ -142,7 +142,7 @@ class PathEvents:
             return None
         known = self.printer.expressions.known(self.printer.expressions.in_unit(trigger.delay, "s"))
         if known is None:
-            raise UnsayableError("an action on the path with a computed delay")
+            raise CannotSayError("an action on the path with a computed delay")
         return ir.RealLiteral(known) if known < 0 else None
 
     def reach(self, trigger: ir.Trigger, place: ir.Expression, move: ir.Move, around: Around) -> None:
@@ -176,7 +176,7 @@ class PathEvents:
         delay = trigger.delay
         if delay is not None and self.early(trigger) is None and self.printer.expressions.known(delay) != 0:
             if not isinstance(trigger.action, ir.Assign) or not isinstance(trigger.action.target, ir.Signal):
-                raise UnsayableError("a call some time behind a place on the path")
+                raise CannotSayError("a call some time behind a place on the path")
             action = ir.SetAfter(trigger.action.target, trigger.action.value, delay)
         if isinstance(action, ir.CallRoutine):
             self.once(CALLED, trigger, name=action.name)

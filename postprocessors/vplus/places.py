@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from rpl import ir
 from rpl.passes.typewords import word_type
 from rpl.writing.precedence import Printed
+from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
 from .locations import Locations
@@ -23,9 +24,8 @@ class Places:
         self.locations = Locations(expressions)
 
     def refuse(self, reason: str) -> Exception:
-        from .expressions import UnsayableError
 
-        return UnsayableError(reason)
+        return CannotSayError(reason)
 
     def value(self, expression: ir.Expression) -> str | Printed:
         match expression:

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.writing.statements import CannotSayError
 
 from . import tables
-from .expressions import Expressions, UnsayableError
+from .expressions import Expressions
 
 # M: the software signals that REACT takes on all versions come first.
 _FLAGS = (*range(8, 0, -1), *range(9, 513))
@@ -35,7 +36,7 @@ class Watch:
 
 
 def _no_task(signal: ir.Signal) -> int:
-    raise UnsayableError("a reaction to a condition, without a task to watch it")
+    raise CannotSayError("a reaction to a condition, without a task to watch it")
 
 
 class Reactions:
@@ -64,7 +65,7 @@ class Reactions:
                 return [line for one in self.meant(handle) for line in self.armed(one, expressions)]
             case "off" | "delete":
                 return [f"IGNORE {self.signal(one.condition, expressions)}" for one in self.meant(handle)]
-        raise UnsayableError(f"a single interrupt cannot be {statement.op}d")
+        raise CannotSayError(f"a single interrupt cannot be {statement.op}d")
 
     def armed(self, declared: ir.DeclareInterrupt, expressions: Expressions) -> list[str]:
         """REACT, behind the start of the program that watches the condition, if one does."""
@@ -78,12 +79,12 @@ class Reactions:
         if key not in self.watches:
             names = [one.id for one in walk((condition,)) if isinstance(one, ir.Name)]
             if any((symbol := expressions.scope.value(name)) is None or symbol.routine for name in names):
-                raise UnsayableError("a reaction to a condition with variables of its program")
+                raise CannotSayError("a reaction to a condition with variables of its program")
             steps, expressions.notes.steps = expressions.notes.steps, False
             text = expressions.condition(condition)
             expressions.notes.steps = steps
             if len(text) > tables.LONGEST_LINE - 24:
-                raise UnsayableError("a reaction to a condition that is too long for one step")
+                raise CannotSayError("a reaction to a condition that is too long for one step")
             number = next(one for one in _FLAGS if one not in self.flags)
             self.flags.add(number)
             task = self.task_of(ir.Signal("flag", ir.IntLiteral(number)))
@@ -96,17 +97,17 @@ class Reactions:
             return [one for group in self.declared.values() for one in group[:1]]
         found = self.declared.get(repr(handle), [])
         if not found:
-            raise UnsayableError("an interrupt that is not declared")
+            raise CannotSayError("an interrupt that is not declared")
         if any(one != found[0] for one in found):
-            raise UnsayableError("an interrupt that is declared in different ways")
+            raise CannotSayError("an interrupt that is declared in different ways")
         return found[:1]
 
     def step(self, declared: ir.DeclareInterrupt, expressions: Expressions) -> str:
         action = declared.action
         if not isinstance(action, ir.CallRoutine) or action.arguments or action.dynamic is not None:
-            raise UnsayableError("a reaction calls a program without arguments")
+            raise CannotSayError("a reaction calls a program without arguments")
         if declared.once:
-            raise UnsayableError("a reaction that comes once only")
+            raise CannotSayError("a reaction that comes once only")
         word = "REACTI" if declared.stops else "REACT"
         urgency = expressions.text(_lifted(declared.priority))
         return f"{word} {self.signal(declared.condition, expressions)}, {action.name.lower()}, {urgency}"

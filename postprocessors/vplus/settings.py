@@ -8,9 +8,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rpl import ir
+from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
-from .expressions import Expressions, UnsayableError
+from .expressions import Expressions
 
 _SPEEDS = ("joint_speed", "path_speed", "swivel_speed")
 Setting = ir.Assign | ir.SetForNextMove
@@ -73,10 +74,10 @@ def setting(name: str, value: ir.Expression, always: bool, expressions: Expressi
     match name:
         case "tool" | "base":
             if not always:
-                raise UnsayableError(f"a {name} for one move")
+                raise CannotSayError(f"a {name} for one move")
             shown = text(value)
             if name == "base" and shown[:1].isdigit():
-                raise UnsayableError("a base that is a number")
+                raise CannotSayError("a base that is a number")
             return [f"{name.upper()} {shown}"]
         case "override":
             return [f"SPEED {text(value)} MONITOR"]
@@ -99,4 +100,4 @@ def setting(name: str, value: ir.Expression, always: bool, expressions: Expressi
             word = tables.POSTURES.get((name, value.member.lower()))
             if word is not None:
                 return [word]
-    raise UnsayableError(f"there is no setting for {name.replace('_', ' ')}")
+    raise CannotSayError(f"there is no setting for {name.replace('_', ' ')}")

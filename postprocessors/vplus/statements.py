@@ -8,15 +8,16 @@ from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.scope import Scope
-from rpl.source import Comment, Origin
+from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.statements import CannotSayError, StatementPrinter
 from rpl.writing.text import wrapped
 
 from . import settings, spelling, tables
 from .actions import Actions
 from .corners import deferred
 from .decoding import decoded
-from .expressions import Expressions, Notes, UnsayableError
+from .expressions import Expressions, Notes
 from .motion import Motion, MotionFacts
 from .pathevents import PathEvents
 from .reactions import Reactions
@@ -57,24 +58,25 @@ class Output:
             self.pulses.append(signal)
         number = tables.TASKS - self.pulses.index(signal)
         if number <= len(self.tasks):
-            raise UnsayableError(f"pulses need tasks of their own, and there are {tables.TASKS}")
+            raise CannotSayError(f"pulses need tasks of their own, and there are {tables.TASKS}")
         return number
 
 
-class Printer:
+class Printer(StatementPrinter[str]):
     """Prints the body of one program."""
 
+    guarded, dialect = GUARDED, "vplus"
+
     def __init__(self, scope: Scope, output: Output, labels: dict[str, str] | None = None) -> None:
+        super().__init__(output.ledger, output.diagnostics)
         self.scope, self.output = scope, output
-        self.ledger, self.diagnostics = output.ledger, output.diagnostics
-        self.lines: list[str] = []
-        self.depth = 0
         self.labels = labels or {}
         self.notes = Notes(taken=output.taken, helpers=output.helpers)
         self.expressions = Expressions(scope, self.notes)
         self.motion = Motion(self.expressions, output.facts)
         self.actions = Actions(self)
         self.events = PathEvents(self)
+        self.elsewhere: list[str] | None = None  # where the lines of the statement go that is printed next
         self.rest: ir.Body = ()  # what follows in the body that is printed
         self.owed = False  # must the robot stand before it moves again, although the program goes on?
 
@@ -102,16 +104,13 @@ class Printer:
     def fitted(self, text: str) -> str:
         """The step, indented as far as the line is long enough."""
         if len(text) > tables.LONGEST_LINE:
-            raise UnsayableError(f"a line of {len(text)} characters; at most {tables.LONGEST_LINE} are read")
+            raise CannotSayError(f"a line of {len(text)} characters; at most {tables.LONGEST_LINE} are read")
         indent = FIRST + STEP * self.depth
         return indent[: tables.LONGEST_LINE - len(text)] + text
 
     def more(self, *texts: str) -> None:
         for text in texts:
             self.line(text)
-
-    def comment(self, comment: Comment) -> None:
-        self.remark(comment.text)
 
     def remark(self, text: str) -> None:
         indent = FIRST + STEP * self.depth
@@ -120,9 +119,8 @@ class Printer:
             room = tables.LONGEST_LINE - len(indent) - 1
             self.lines.extend(f"{indent};{one}".rstrip() for one in wrapped(plain, room))
 
-    def comments_only(self, origin: Origin) -> None:
-        for comment in origin.comments:
-            self.comment(comment)
+    def stop(self) -> None:
+        self.line("PAUSE")
 
     # ---- bodies
 
@@ -160,7 +158,7 @@ class Printer:
         known = len(self.notes.autos)
         try:
             found = self.together(body)
-        except UnsayableError:
+        except CannotSayError:
             found = None  # each is then guarded on its own
         if found is None or len(found[0]) > tables.LONGEST_LINE:
             self.notes.before.clear()
@@ -194,39 +192,25 @@ class Printer:
 
     def statement(self, statement: ir.Statement, elsewhere: list[str] | None = None) -> None:
         """One statement, or its guarded stop. `elsewhere`: its lines stand later."""
-        kept, depth, known = len(self.lines), self.depth, len(self.notes.changed_texts)
-        try:
-            if elsewhere is None:
-                self.written(statement)
-            else:
-                elsewhere += self.captured(statement)
-        except UnsayableError as error:
-            del self.lines[kept:]
-            self.notes.before.clear()
-            self.depth, self.notes.steps = depth, True
-            self.guard(statement, str(error))
-        else:
-            self.ledger.written(statement)
+        known, self.elsewhere = len(self.notes.changed_texts), elsewhere
+        super().statement(statement)
         for text in self.notes.changed_texts[known:]:
             self.diagnostics.report(TEXT_CHANGED, statement.origin, text=text)
 
-    def guard(self, statement: ir.Statement, reason: str) -> None:
-        self.comments_only(statement.origin)
-        self.remark(statement.origin.text or getattr(statement, "text", "") or statement.__class__.__name__)
-        self.line("PAUSE")
-        self.diagnostics.report(GUARDED, statement.origin, reason=reason)
-        self.ledger.reported(statement)
+    def taken_back(self) -> None:
+        self.notes.before.clear()
+        self.notes.steps = True
 
     def written(self, statement: ir.Statement) -> None:
+        elsewhere, self.elsewhere = self.elsewhere, None
+        if elsewhere is not None:
+            elsewhere += self.captured(statement)
+            return
         match statement:
             case ir.Nothing(origin=origin):
                 self.comments_only(origin)
-            case ir.Opaque(text=text):
-                raise UnsayableError(f"it was not read ({text.strip()[:40]})")
-            case ir.Vendor(dialect=dialect, text=text, origin=origin):
-                if dialect != "vplus":
-                    raise UnsayableError(f"it belongs to {dialect}")
-                self.line(text, origin)
+            case ir.Opaque() | ir.Vendor():
+                self.line(self.own_text(statement), statement.origin)
             case ir.LookAhead(origin=origin):
                 self.comments_only(origin)  # programs of V+ always run ahead
             case ir.Label(name=name):
@@ -254,7 +238,7 @@ class Printer:
         try:
             before, step, behind = self.motion.move(move)
             around = self.events.of(move, bool(behind), deferred(rest) is not None)
-        except UnsayableError as error:
+        except CannotSayError as error:
             self.guard(move, str(error))
             self.more(*self.events.pending())
             return
@@ -338,7 +322,7 @@ class Printer:
 
     def switch(self, statement: ir.Switch) -> None:
         if not statement.cases:
-            raise UnsayableError("a choice without a case")
+            raise CannotSayError("a choice without a case")
         self.line(f"CASE {self.expressions.text(statement.selector)} OF", statement.origin)
         self.depth += 1
         for case in statement.cases:
@@ -352,7 +336,7 @@ class Printer:
 
     def counting(self, loop: ir.For) -> None:
         if loop.scoped or loop.automatic or loop.at_least_once or loop.keeps_last:
-            raise UnsayableError("a loop whose counter or first pass follows another language's rule")
+            raise CannotSayError("a loop whose counter or first pass follows another language's rule")
         text = self.expressions.text
         step = f" STEP {text(loop.step)}" if loop.step is not None else ""
         counter = text(ir.Name(loop.counter))

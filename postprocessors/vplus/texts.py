@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.writing.precedence import Printed
+from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
 
@@ -74,9 +75,8 @@ class Texts:
         return [("/G0.8", self.item(value))]
 
     def refuse(self, reason: str) -> None:
-        from .expressions import UnsayableError
 
-        raise UnsayableError(reason)
+        raise CannotSayError(reason)
 
     def written(self, text: str) -> list[tuple[str, str]]:
         """Line ends are controls, other signs that cannot be quoted stand as $CHR."""

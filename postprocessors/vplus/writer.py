@@ -16,12 +16,12 @@ from rpl.passes.fold import constant_number
 from rpl.passes.legalise.usage import usage_of
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
 
 from . import spelling, tables
 from .corners import Corners
 from .data import declared, stored, values
-from .expressions import UnsayableError
 from .helpers import HELPERS, with_needed
 from .motion import MotionFacts
 from .namespace import names_of, one_namespace, starts
@@ -166,7 +166,7 @@ class _File:
                 case ir.Initialise(assign=ir.Assign(target=target, value=value)):
                     type = printer.expressions.type(target)
                     if type is None:
-                        raise UnsayableError("its type is not known")
+                        raise CannotSayError("its type is not known")
                     self.add(*stored(target, type, value, scope))
                 case ir.SignalDeclaration(name=name, signal=signal):
                     printer.comments_only(origin)
@@ -174,10 +174,10 @@ class _File:
                 case ir.ExternalDeclaration() | ir.Unread(text="") | ir.RecordDeclaration() | ir.AliasDeclaration():
                     printer.comments_only(origin)
                 case ir.Unread(text=text):
-                    raise UnsayableError(f"it was not read ({text.strip()[:40]})")
+                    raise CannotSayError(f"it was not read ({text.strip()[:40]})")
                 case _:
-                    raise UnsayableError(f"there is no {declaration.__class__.__name__}")
-        except UnsayableError as error:
+                    raise CannotSayError(f"there is no {declaration.__class__.__name__}")
+        except CannotSayError as error:
             self.lost(declaration, printer, str(error))
         else:
             self.ledger.written(declaration)
@@ -251,10 +251,10 @@ class _File:
                         for place, _, value in given:
                             printer.line(printer.actions.stored(place, value))
                 elif isinstance(declaration, ir.Unread) and declaration.text:
-                    raise UnsayableError(f"it was not read ({declaration.text.strip()[:40]})")
+                    raise CannotSayError(f"it was not read ({declaration.text.strip()[:40]})")
                 else:
                     printer.comments_only(declaration.origin)
-            except UnsayableError as error:
+            except CannotSayError as error:
                 self.lost(declaration, printer, str(error))
             else:
                 self.ledger.written(declaration)

@@ -20,11 +20,16 @@ LineT = TypeVar("LineT")
 
 
 class CannotSayError(RplError):
-    """The target has no words for this; the statement is written as a guarded stop."""
+    """The target has no words for this; the statement is written as a guarded stop. `code`: that of the report, where
+    it is not the printer's own (its argument is `reason` too)."""
+
+    def __init__(self, reason: str, code: Code | None = None) -> None:
+        super().__init__(reason)
+        self.code = code
 
 
 class StatementPrinter(ABC, Generic[LineT]):
-    """Prints bodies as lines. `guarded`: the report of a guarded stop (its argument is `reason`)."""
+    """Prints bodies as lines. `guarded`: the report of a guarded stop; `dialect`: whose vendor statements it writes."""
 
     guarded: ClassVar[Code]
     dialect: ClassVar[str]
@@ -46,13 +51,13 @@ class StatementPrinter(ABC, Generic[LineT]):
     def stop(self) -> None:
         """Put the controller's own stop."""
 
+    def comment(self, comment: Comment) -> None:
+        self.remark(comment.text)
+
     def comments_only(self, origin: Origin) -> None:
         """Put the remarks of a statement that has no line of its own."""
         for comment in origin.comments:
             self.comment(comment)
-
-    def comment(self, comment: Comment) -> None:
-        self.remark(comment.text)
 
     def statement(self, statement: ir.Statement) -> None:
         """One statement, or its guarded stop."""
@@ -62,21 +67,25 @@ class StatementPrinter(ABC, Generic[LineT]):
         except CannotSayError as error:
             del self.lines[kept:]
             self.depth = depth
-            self.guard(statement, str(error))
+            self.taken_back()
+            self.guard(statement, str(error), error.code)
         else:
             self.ledger.written(statement)
 
-    def guard(self, statement: ir.Statement, reason: str) -> None:
-        """The original as remarks, then the stop; what was known of the robot's state is forgotten."""
+    def taken_back(self) -> None:
+        """What a printer has noted down for a statement does not hold."""
+
+    def guard(self, statement: ir.Statement, reason: str, code: Code | None = None) -> None:
+        """The original as remarks, then the stop."""
         self.comments_only(statement.origin)
         self.remark(original(statement))
         self.stop()
-        self.diagnostics.report(self.guarded, statement.origin, reason=reason)
+        self.diagnostics.report(code or self.guarded, statement.origin, reason=reason)
         self.ledger.reported(statement)
-        self.forget()
+        self.guarded_behind(statement)
 
-    def forget(self) -> None:
-        """Behind a stop nothing is known of what was in force."""
+    def guarded_behind(self, statement: ir.Statement) -> None:
+        """What a printer knows of the robot's state does not hold behind the stop."""
 
     def own_text(self, statement: ir.Opaque | ir.Vendor) -> str:
         """The text of a statement that only its own controller has. Raises CannotSayError for another's."""

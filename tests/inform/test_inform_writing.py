@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 from rpl.postprocessors.inform import tables
 from rpl.postprocessors.inform.conditions import alternatives, text
-from rpl.postprocessors.inform.errors import CannotSayError
 from rpl.postprocessors.inform.labels import Labels
 
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import load_robot
+from rpl.writing.statements import CannotSayError
 from rpl.writing.target import WriteContext
 
 X, Y = ir.Index(ir.Name("R"), (ir.IntLiteral(0),)), ir.Index(ir.Name("R"), (ir.IntLiteral(1),))
