@@ -9,6 +9,7 @@ wired at the controller) gets free bits and a declaration too, where the target 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import replace
 
 from rpl import ir, registry
@@ -197,18 +198,7 @@ def number_signals(program: ir.Program, context: Context) -> ir.Program:
                 return f"{min(prefixes.get(kind, {kind}))}{number}" if alone else None
         return None
 
-    names: dict[tuple[str, str], str] = {}
-    used: dict[str, set[int]] = {}
-    for node in walk(*(routine for module in program.modules for routine in module.routines)):
-        if isinstance(node, ir.Signal):
-            name = known(node)
-            if name is not None:
-                names.setdefault((node.kind, name.lower()), name)
-    for node in walk(*program.modules):
-        if isinstance(node, ir.Signal) and isinstance(node.index, ir.IntLiteral) and known(node) is None:
-            last = node.last.value if isinstance(node.last, ir.IntLiteral) else node.index.value
-            bits = node.kind.replace("group", "digital")
-            used.setdefault(bits, set()).update(range(node.index.value, last + 1))
+    names, used = _named_and_numbered(program, known)
     if not names:
         return program
     numbers = _numbers(names, prefixes, used)
@@ -251,6 +241,25 @@ def number_signals(program: ir.Program, context: Context) -> ir.Program:
         name = context.fresh("rpl_signals")
         modules.append(ir.Module(name, modules[0].dialect, tuple(declared), task=modules[0].task, public=True))
     return replace(program, modules=tuple(modules))
+
+
+def _named_and_numbered(
+    program: ir.Program, known: Callable[[ir.Signal], str | None]
+) -> tuple[dict[tuple[str, str], str], dict[str, set[int]]]:
+    """The names that routines use, by kind and folded name, and the numbers in use, by kind of the single signals."""
+    names: dict[tuple[str, str], str] = {}
+    used: dict[str, set[int]] = {}
+    for node in walk(*(routine for module in program.modules for routine in module.routines)):
+        if isinstance(node, ir.Signal):
+            name = known(node)
+            if name is not None:
+                names.setdefault((node.kind, name.lower()), name)
+    for node in walk(*program.modules):
+        if isinstance(node, ir.Signal) and isinstance(node.index, ir.IntLiteral) and known(node) is None:
+            last = node.last.value if isinstance(node.last, ir.IntLiteral) else node.index.value
+            bits = node.kind.replace("group", "digital")
+            used.setdefault(bits, set()).update(range(node.index.value, last + 1))
+    return names, used
 
 
 def _signal(kind: str, number: int) -> ir.Signal:
