@@ -85,15 +85,17 @@ class Expressions:
 
     def expression(self, tree: SyntaxTree) -> ir.Expression:
         """The expression of a tree."""
-        match str(tree.data):
-            case "integer":
-                return self.integer(tree.children[0])
+        match tree.data:
             case "real":
                 spelling = self.spelling(tree.children[0])
                 value = float(spelling)
                 if value > _LARGEST:
                     raise StatementError(f"the number {spelling} is too large", 0)
                 return ir.RealLiteral(value, spelling)
+            case "integer":
+                return self.integer(tree.children[0])
+            case "unary":
+                return self.unary(tree)
             case "based":
                 return _based(str(tree.children[0]))
             case "character":
@@ -106,8 +108,6 @@ class Expressions:
                 return self.relation(tree)
             case "binary":
                 return self.binary(tree)
-            case "unary":
-                return self.unary(tree)
             case "compose":
                 left, right = (self.expression(subtree(child)) for child in tree.children)
                 return ir.Binary(":", left, right, origin=self.origin)

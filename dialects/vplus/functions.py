@@ -50,11 +50,12 @@ class Functions(Expressions):
         values: Values = []
         for child in arguments.children:
             parts = subtree(child).children
-            if any(isinstance(part, Token) for part in parts):
-                raise StatementError("a format control stands only in $ENCODE, TYPE and WRITE", 0)
             if not parts:
                 values.append(None)
-            values.extend(self.expression(subtree(part)) for part in parts)
+            for part in parts:
+                if isinstance(part, Token):
+                    raise StatementError("a format control stands only in $ENCODE, TYPE and WRITE", 0)
+                values.append(self.expression(subtree(part)))
         while values and values[-1] is None:
             values.pop()
         return values
@@ -263,9 +264,7 @@ def transformation(values: Sequence[ir.Expression], origin: Origin = NOWHERE) ->
 @lru_cache(maxsize=10_000)
 def _neutral_angles(yaw: float, pitch: float, roll: float) -> tuple[ir.Expression, ...]:
     """The angles about z, y, x of the same rotation; programs write few different ones."""
-    about_y = rigid.rotation_of_zyx(0.0, pitch, 0.0)
-    whole = rigid.rotation_of_zyx(yaw, 0.0, 0.0).then(about_y).then(rigid.rotation_of_zyx(roll, 0.0, 0.0))
-    return tuple(literal(angle) for angle in whole.zyx)
+    return tuple([literal(angle) for angle in rigid.rotation_of_turns((3, yaw), (2, pitch), (3, roll)).zyx])
 
 
 def constant(value: ir.Expression) -> float | None:

@@ -301,20 +301,25 @@ class _Looker:
                 self.symbols.links.append((self.symbols.symbol(self.key, given), (key, significant(parameter))))
 
 
+_NUMBERS = (ir.IntLiteral, ir.RealLiteral)
+
+
 def is_settled(statement: ir.Statement) -> bool:
     """Does the statement hold nothing but written out numbers? Most of a generated program does; no name is in it."""
     match statement:
         case ir.Move(target=ir.Aggregate(entries=entries), via=None, speed=None, triggers=(), search=None):
-            return all(_is_number(value) for _, value in entries)
+            return _are_numbers(entries)
         case ir.Assign(target=ir.Signal(index=ir.IntLiteral(), last=None), value=ir.BoolLiteral()):
             return True
     return isinstance(statement, ir.Nothing | ir.WaitForMotion)
 
 
-def _is_number(value: ir.Expression) -> bool:
-    if isinstance(value, ir.Unary):
-        value = value.operand
-    return isinstance(value, ir.IntLiteral | ir.RealLiteral)
+def _are_numbers(entries: tuple[tuple[str | None, ir.Expression], ...]) -> bool:
+    for _, value in entries:
+        inner = value.operand if isinstance(value, ir.Unary) else value
+        if inner.__class__ not in _NUMBERS:
+            return False
+    return True
 
 
 def largest(symbols: Symbols, program: str, index: ir.Expression, depth: int) -> int | None:

@@ -25,6 +25,8 @@ def outputs_later(modules: tuple[ir.Module, ...]) -> tuple[ir.Module, ...]:
                 ]:
                     if not routine.parameters and not _calculated(wait, assign):
                         found[significant(routine.name)] = (wait, assign)
+    if not found:
+        return modules
     for name in _used_otherwise(modules):
         found.pop(name, None)
     started = {significant(one.task) for one in walk(modules) if isinstance(one, ir.TaskControl)}

@@ -33,6 +33,8 @@ _FIRST_WORD = re.compile(r"\.?[A-Za-z_][\w.]*")
 _VALUE_LINE = re.compile(r"""VALUE\b(?:[^:"']|"[^"]*"|'.)*:""", re.IGNORECASE)
 _SECTIONS = frozenset((".LOCATIONS", ".REALS", ".DOUBLES", ".STRINGS"))
 OPENERS = frozenset(("IF", "CASE", "FOR", "WHILE", "DO"))
+_NOTED = OPENERS | _SECTIONS | {".PROGRAM", ".END", "ELSE", "VALUE", "ANY", "END", "UNTIL"}
+_SIGNS = re.compile("[;\"']")
 
 
 @dataclass(slots=True)
@@ -49,6 +51,8 @@ class Outline:
         """Take note of one statement."""
         found = _FIRST_WORD.match(text)
         word = found.group().upper() if found else ""
+        if word not in _NOTED:
+            return
         if re.match(r"\s*(?:=(?!=)|\[)", text[len(word) :]):
             return  # a variable called like a word of the language
         if word == ".PROGRAM":
@@ -120,7 +124,7 @@ def _line(line: str, start: int, number: int, source: Source, outline: Outline) 
     if body.strip(_BLANKS).startswith(";"):
         yield Piece(COMMENT, at, end, body.strip(_BLANKS)[1:].rstrip())
         return
-    found = _CODE.match(body)
+    found = _CODE.match(body) if _SIGNS.search(body) else None
     code = found.group() if found else body
     comment = body[len(code) + 1 :].rstrip(_BLANKS) if len(code) < len(body) else None
     text = code.strip(_BLANKS)
@@ -143,13 +147,13 @@ def _parts(code: str, at: int) -> Iterator[tuple[int, str]]:
     rest = code
     offset = at + len(code) - len(code.lstrip(_BLANKS))
     rest = code.strip(_BLANKS)
-    label = _LABEL.match(rest)
+    label = _LABEL.match(rest) if rest[:1].isdigit() else None
     if label:
         yield offset, label.group()
         tail = rest[label.end() :]
         offset += label.end() + len(tail) - len(tail.lstrip(_BLANKS))
         rest = tail.strip(_BLANKS)
-    head = _VALUE_LINE.match(rest)
+    head = _VALUE_LINE.match(rest) if ":" in rest else None
     if head and rest[head.end() :].strip(_BLANKS):
         yield offset, head.group()
         tail = rest[head.end() :]

@@ -45,15 +45,18 @@ class _Finder:
         self.given: set[Symbol] = set()  # gets a truth somewhere
 
     def find(self) -> None:
+        open_ones = {
+            key: [statement for statement in part.body if not is_settled(statement)]
+            for key, part in self.programs.items()
+        }
         before = -1
         while len(self.candidates) != before:
             before = len(self.candidates)
             self.given = set()
-            for key, part in self.programs.items():
+            for key, body in open_ones.items():
                 self.program = key
-                for statement in part.body:
-                    if not is_settled(statement):
-                        self.statement(statement)
+                for statement in body:
+                    self.statement(statement)
             self.connect()
         self.candidates &= self.reached()
         while self.connect():

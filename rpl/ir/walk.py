@@ -33,20 +33,32 @@ def _fields(kind: type) -> tuple[str, ...]:
     return known
 
 
-# Classes whose values hold no nodes: what most fields of a node are.
-_PLAIN = frozenset((str, int, float, bool, type(None), Origin))
+# Classes whose values hold no nodes: what most fields of a node are; classes that were asked for are added.
+_PLAIN: set[type] = {str, int, float, bool, type(None), Origin}
+_NODES: set[type] = set()
 
 
 def _is_node(part: object) -> bool:
-    return part.__class__ not in _PLAIN and dataclasses.is_dataclass(part)
+    kind = part.__class__
+    if kind in _PLAIN or kind in _NODES:
+        return kind in _NODES
+    if dataclasses.is_dataclass(kind):
+        _NODES.add(kind)
+        return True
+    if kind is not tuple:
+        _PLAIN.add(kind)
+    return False
 
 
 def children(node: object) -> list[object]:
     """The nodes directly below a node (or inside nested tuples), in the order of its fields."""
     found: list[object] = []
-    for name in _fields(node.__class__):
+    for name in _FIELDS.get(node.__class__) or _fields(node.__class__):
         part = getattr(node, name)
-        if part.__class__ not in _PLAIN:
+        kind = part.__class__
+        if kind in _NODES:
+            found.append(part)
+        elif kind not in _PLAIN:
             _collect(part, found)
     return found
 
@@ -54,9 +66,12 @@ def children(node: object) -> list[object]:
 def _collect(part: object, found: list[object]) -> None:
     if part.__class__ is tuple:
         for item in cast(tuple[object, ...], part):
-            if item.__class__ not in _PLAIN:
+            kind = item.__class__
+            if kind in _NODES:
+                found.append(item)
+            elif kind not in _PLAIN:
                 _collect(item, found)
-    elif dataclasses.is_dataclass(part):
+    elif _is_node(part):
         found.append(part)
 
 
@@ -72,7 +87,10 @@ def walk(*roots: object) -> Iterator[object]:
     while stack:
         node = stack.pop()
         yield node
-        stack.extend(reversed(children(node)))
+        below = children(node)
+        if below:
+            below.reverse()
+            stack += below
 
 
 def expressions(*roots: object) -> Iterator[Expression]:

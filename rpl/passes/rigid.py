@@ -122,6 +122,14 @@ def rotation_of_zyx(a: float, b: float, c: float) -> Rotation:
     return Rotation(_unit(multiply(multiply(turns[0], turns[1]), turns[2])), (a, b, c))
 
 
+def rotation_of_turns(*turns: tuple[int, float]) -> Rotation:
+    """One turn after the other, each about an axis (1 x, 2 y, 3 z) of what the turns before have made, in degrees."""
+    whole: Quadruple = (1.0, 0.0, 0.0, 0.0)
+    for axis, degrees in turns:
+        whole = multiply(whole, _about(axis, degrees))
+    return Rotation(_unit(whole))
+
+
 def rotation_of_rows(rows: tuple[Triple, Triple, Triple]) -> Rotation:
     """The rotation of a matrix by rows (Shepperd 1978: the formula with the largest divisor)."""
     (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = rows
@@ -194,11 +202,18 @@ def _exact_sine(degrees: float) -> float:
 
 def _unit(q: Quadruple) -> Quadruple:
     """Unit length, w >= 0, and the first component that is not zero positive when w is."""
-    length = math.sqrt(sum(part * part for part in q)) or 1.0
-    parts = [0.0 if abs(part / length) < 1e-16 else part / length for part in q]
-    lead = next((part for part in parts if part != 0.0), 1.0)
-    sign = -1.0 if lead < 0 else 1.0
-    return (sign * parts[0] + 0.0, sign * parts[1] + 0.0, sign * parts[2] + 0.0, sign * parts[3] + 0.0)
+    w, x, y, z = q
+    length = math.sqrt(w * w + x * x + y * y + z * z) or 1.0
+    w, x, y, z = w / length, x / length, y / length, z / length
+    if w < 1e-16:  # nothing, or negative: look for the component that leads
+        w, x, y, z = (0.0 if abs(part) < 1e-16 else part for part in (w, x, y, z))
+        if (w or x or y or z) < 0.0:
+            return 0.0 - w, 0.0 - x, 0.0 - y, 0.0 - z
+        return w + 0.0, x + 0.0, y + 0.0, z + 0.0
+    return (
+        *(w, 0.0 if abs(x) < 1e-16 else x + 0.0, 0.0 if abs(y) < 1e-16 else y + 0.0),
+        0.0 if abs(z) < 1e-16 else z + 0.0,
+    )
 
 
 def _half_open(degrees: float) -> float:
