@@ -40,6 +40,7 @@ class Job:
     cell: Cell
     robot: RobotModel | None = None
     tool: int = 0
+    counting: bool = False  # the program calculates with joints: an arm without pulses gets a neutral scale
     lines: list[str] = field(default_factory=list)
     points: dict[Kept, int] = field(default_factory=dict)
     positions: set[int] = field(default_factory=set)  # position variables whose values the header gives
@@ -51,7 +52,7 @@ class Job:
         """The taught point for a position; `wanted` is its number when that is free."""
         if position.kind == "joints":
             frame = 0
-        what = Kept(self.sayable(position, tool), tool, frame)
+        what = Kept(self.sayable(position, tool, taught=True), tool, frame)
         if what not in self.points:
             taken = set(self.points.values())
             free = next(n for n in range(tables.POINTS.last + 2) if n not in taken)
@@ -75,8 +76,17 @@ class Job:
             return self.sayable(position, 0)
         return pose_of_joints(position, self.robot, WORLD)
 
-    def sayable(self, position: Position, tool: int) -> Position:
-        """The position as a controller can keep it: joints as pulses where they can be counted, else as a pose."""
+    @property
+    def scale(self) -> list[float] | None:
+        """Pulses per degree of each axis, where the program can count joints."""
+        if self.robot is None:
+            return None
+        counts = self.robot.pulse_scale if self.counting else self.robot.pulses_per_degree
+        return None if counts is None else [float(one) for one in counts]
+
+    def sayable(self, position: Position, tool: int, taught: bool = False) -> Position:
+        """The position as a controller can keep it: joints as pulses where they can be counted, else as a pose. Taught
+        points are poses as well where pulses would be counted by a neutral scale."""
         if any(position.external):
             raise CannotSayError("positions of external axes are in pulses, which are not known here")
         if position.kind != "joints":
@@ -85,19 +95,19 @@ class Job:
             raise CannotSayError("joint values need the arm (--robot): jobs have pulses, or poses with a posture")
         if len(position.values) < self.robot.axes:
             raise CannotSayError(f"{self.robot.name} has {self.robot.axes} axes")
-        if self.robot.pulses_per_degree is not None:
+        if (self.robot.pulses_per_degree if taught else self.scale) is not None:
             return position
         return pose_of_joints(position, self.robot, self.cell.value_of_tool(tool))
 
     def pulses(self, axis: int) -> float:
         """Pulses per degree of an axis (1-based)."""
-        counts = self.robot.pulses_per_degree if self.robot is not None else None
+        counts = self.scale
         if counts is None:
             name = "the arm" if self.robot is None else self.robot.name
             raise CannotSayError(f"the pulses per degree of {name} are not known", JOINT_ANGLE)
         if axis > len(counts):
             raise CannotSayError(f"there is no axis {axis}", JOINT_ANGLE)
-        return float(counts[axis - 1])
+        return counts[axis - 1]
 
     def text(self) -> str:
         head = ["/JOB", f"//NAME {self.name}", "//POS", *self.header(), "//INST", f"///DATE {_DATE}"]
@@ -142,7 +152,7 @@ class Job:
 
     def values(self, position: Position) -> str:
         if position.kind == "joints":
-            counts = self.robot.pulses_per_degree if self.robot is not None else None
+            counts = self.scale
             assert counts is not None  # `sayable` has made poses of the others
             return ",".join(str(round(v * k)) for v, k in zip(position.values, counts, strict=False))
         x, y, z, a, b, c = position.values

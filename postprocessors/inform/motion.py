@@ -232,7 +232,8 @@ class Motion:
         if move.relative != "joints" and not set(way) & set(tables.JOINT_ELEMENTS):
             raise CannotSayError("a relative joint move from a place that is not known here")
         registers = self.positions.registers
-        place, count, real, whole = (registers.helper(bank) for bank in ("P", "D", "R", "D"))
+        place = registers.helper("P", "pulses")
+        count, real, whole = (registers.helper(bank) for bank in ("D", "R", "D"))
         if not way:
             if not self.is_joints(move.target):
                 raise CannotSayError("a relative joint move by a computed way")
@@ -246,10 +247,10 @@ class Motion:
             if part is None or constant(part) == 0:
                 continue
             per_degree = self.positions.job.pulses(number)
-            known = constant(part)
+            degrees = constant(part)
             self.lines.append(f"GETE {count} {place} ({number})")
-            if known is not None:
-                self.lines.append(f"ADD {count} {round(known * per_degree)}")
+            if degrees is not None:
+                self.lines.append(f"ADD {count} {round(degrees * per_degree)}")
             else:
                 self.number(real, part)
                 self.lines.extend([f"MUL {real} {per_degree!r}", *rounded(real, whole), f"ADD {count} {whole}"])
@@ -308,7 +309,7 @@ class Motion:
             if self.last is not None and self.last.place and self.last.position is not None:
                 start = self.last.place
             else:
-                start = self.positions.registers.helper("P")
+                start = self.positions.registers.helper("P", "pulses")
                 self.lines.append(f"GETS {start} $PX000")
             self.lines.append(" ".join(("MOVC", start, *speed, "PL=0")))
         self.lines.append(" ".join(("MOVC", via.place, *speed)))

@@ -25,8 +25,9 @@ class Registers:
     """Which numbers of the banks are taken in the whole program."""
 
     used: dict[str, set[int]] = field(default_factory=dict)
-    helpers: dict[str, list[str]] = field(default_factory=dict)
-    in_use: dict[str, int] = field(default_factory=dict)
+    helpers: dict[tuple[str, ...], list[str]] = field(default_factory=dict)
+    in_use: dict[tuple[str, ...], int] = field(default_factory=dict)
+    jobs: str = ""  # which jobs that run beside each other the lines at hand belong to; each have their own helpers
 
     @classmethod
     def of(cls, program: ir.Program) -> Registers:
@@ -68,13 +69,18 @@ class Registers:
         """A new statement: its helpers are free."""
         self.in_use.clear()
 
-    def helper(self, bank: str) -> str:
-        at = self.in_use.get(bank, 0)
-        known = self.helpers.setdefault(bank, [])
+    def helper(self, bank: str, holds: str = "") -> str:
+        """`holds`: pulses are kept in other position variables than poses, because a variable of both is neither."""
+        pool = (bank, self.jobs, holds)
+        at = self.in_use.get(pool, 0)
+        known = self.helpers.setdefault(pool, [])
         if at == len(known):
             known.append(f"{bank}{self.take(bank):03d}")
-        self.in_use[bank] = at + 1
+        self.in_use[pool] = at + 1
         return known[at]
+
+    def is_helper(self, place: str) -> bool:
+        return any(place in known for known in self.helpers.values())
 
 
 def numbered(expression: ir.Expression) -> tuple[str, int] | None:

@@ -64,6 +64,8 @@ def position_of(value: ir.Expression) -> Position | None:
 def way_of(value: ir.Expression) -> Position | None:
     """The way of a relative move: components that are left out are zero."""
     parts = flat(value)
+    if not parts:
+        return None
     joints = any(name in parts for name in tables.JOINT_ELEMENTS)
     names = tables.JOINT_ELEMENTS if joints else _POSE
     found = _numbers({**dict.fromkeys(names, ir.RealLiteral(0.0)), **parts}, names)

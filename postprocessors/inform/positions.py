@@ -30,7 +30,7 @@ class Positions:
 
     def changed(self, place: str) -> None:
         """The variable has another value now."""
-        self.changes += place not in self.registers.helpers.get("P", ())
+        self.changes += not self.registers.is_helper(place)
         computed = "[" in place
         self.in_tools = {n: one for n, one in self.in_tools.items() if not computed and "[" not in one and one != place}
 
@@ -90,7 +90,7 @@ class Positions:
         known = self.constants.known(value)
         if known is not None:
             return self.kept(known)
-        helper = self.registers.helper("P")
+        helper = self.registers.helper("P", "pulses" if self.constants.is_joints(value) else "")
         self.position(helper, value)
         return helper
 

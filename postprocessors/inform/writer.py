@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.legalise.pulses import assumed
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
@@ -66,6 +67,11 @@ class _Writer:
         self.start: list[ir.Assign] = []  # values of data before the program
         self.tools: dict[int, int] = {}  # id of a routine -> the tool of its positions in variables
         self.choose_tools()
+        self.beside = _beside(program)
+        self.counting = _counts_joints(program)
+        robot = context.robot
+        if self.counting and robot is not None and robot.pulses_per_degree is None and robot.pulse_scale is not None:
+            assumed(robot, self.diagnostics)
 
     def choose_tools(self) -> None:
         """The tool that positions in variables are driven to with, in each job and in most of them."""
@@ -139,7 +145,8 @@ class _Writer:
         if len(name) > tables.LONGEST_NAME:
             self.diagnostics.report(LONG_NAME, routine.origin, name=name, most=tables.LONGEST_NAME)
         self.taken.add(name)
-        job = Job(name, self.cell, self.context.robot, self.tools[id(routine)])
+        job = Job(name, self.cell, self.context.robot, self.tools[id(routine)], self.counting)
+        self.registers.jobs = self.beside.get(routine.name.lower(), "")
         printer = self.printer(routine, job)
         self.ledger.written(routine)
         printer.comments_only(routine.origin)
@@ -207,7 +214,7 @@ class _Writer:
         done = []
         for number in _filled(self.program):
             begin = Position("joints" if number in self.constants.joints else "pose", WORLD)
-            if begin.kind == "pose" or (job.robot is not None and job.robot.pulses_per_degree is not None):
+            if begin.kind == "pose" or job.scale is not None:
                 done.append(f"SET P{number:03d} {positions.kept(begin)}")
         for assign in self.start:
             self.registers.begin()
@@ -217,6 +224,41 @@ class _Writer:
                 self.diagnostics.report(LOST_DECLARATION, assign.origin, name="this value", reason=str(error))
                 done.append("PAUSE")
         return done
+
+
+def _beside(program: ir.Program) -> dict[str, str]:
+    """Routine, folded -> the jobs that run beside the program and come to it; empty for the program itself."""
+    calls: dict[str, set[str]] = {}
+    roots = {task.entry.lower() for task in program.tasks if task.kind == "background"}
+    for module in program.modules:
+        for routine in module.routines:
+            found = calls.setdefault(routine.name.lower(), set())
+            for node in walk(routine.body):
+                match node:
+                    case ir.CallRoutine(name=name):
+                        found.add(name.lower())
+                    case ir.TaskControl(op="start", task=name):
+                        roots.add(name.lower())
+    reached: dict[str, set[str]] = {}
+    for root in roots:
+        waiting = [root]
+        while waiting:
+            name = waiting.pop()
+            if root not in reached.setdefault(name, set()):
+                reached[name].add(root)
+                waiting.extend(calls.get(name, ()))
+    return {name: " ".join(sorted(found)) for name, found in reached.items()}
+
+
+def _counts_joints(program: ir.Program) -> bool:
+    """Does the program calculate with the joints of positions, or move them by a way?"""
+    for node in walk(program):
+        match node:
+            case ir.Field(name=name) if name.lower() in tables.JOINT_ELEMENTS:
+                return True
+            case ir.Move(kind="joint", relative=str()) | ir.Move(relative="joints"):
+                return True
+    return False
 
 
 def _filled(program: ir.Program) -> list[int]:

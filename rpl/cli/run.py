@@ -25,6 +25,7 @@ from rpl.cli.output import (
 )
 from rpl.diagnostics import Severity
 from rpl.errors import UsageError
+from rpl.passes.legalise.pulses import report_assumed
 
 if TYPE_CHECKING:
     from rpl.simulation import RunResult
@@ -66,6 +67,10 @@ def command(
     if not read.files:
         raise UsageError("no robot program was found; name the language with --from if there is one")
     model = robot_named(robot)
+    if model is not None:
+        assumptions = collector()
+        report_assumed(read.program, model, assumptions)
+        print_diagnostics(assumptions, Severity.WARNING)
     with waiting("running"):
         result = run_program(read.program, model, load_cell(cell), entry, max_time)
     if trace is not None:

@@ -51,6 +51,9 @@ SNAP_DEG = 1e-10
 LIMIT_SLACK = 1e-6
 # Time to full axis speed where no acceleration is published; a model, not a fact (see docs/robots.md).
 RAMP_S = 0.3
+# Pulses per degree (or mm) of arms whose own controller counts none, for programs of controllers that do. Neutral: one
+# count is 0.0001 degrees, as in other angles of such programs.
+NEUTRAL_PULSES = 10000.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -111,11 +114,20 @@ class RobotModel:
     offsets: FloatArray
     unit: FloatArray
     pulses_per_degree: FloatArray | None = None  # motor pulses, of arms whose controller counts positions in them
+    counts_pulses: bool = True  # whether the maker's own controller does, or nobody has said that it does not
 
     @property
     def axes(self) -> int:
         """Number of joints."""
         return len(self.joint_kinds)
+
+    @property
+    def pulse_scale(self) -> FloatArray | None:
+        """Pulses per degree (or mm) that programs count this arm's joints in. None: its own controller counts, and how
+        many there are is not known; any other number would move the real arm wrongly."""
+        if self.pulses_per_degree is not None or self.counts_pulses:
+            return self.pulses_per_degree
+        return _fixed([NEUTRAL_PULSES] * self.axes)
 
     @property
     def revolute(self) -> BoolArray:
@@ -282,6 +294,7 @@ def _assembled(
         offsets=_fixed(offsets),
         unit=_fixed([np.pi / 180.0 if joint == "revolute" else 1.0 for joint in kinds]),
         pulses_per_degree=None if file.pulses_per_degree is None else _fixed(file.pulses_per_degree),
+        counts_pulses=file.counts_pulses,
     )
 
 

@@ -64,6 +64,7 @@ class RobotFile:
     urdf: Path | None
     tip: str | None
     pulses_per_degree: Vector | None = None
+    counts_pulses: bool = True
 
 
 def robot_names() -> list[str]:
@@ -141,6 +142,7 @@ def _parse(text: str, place: str, folder: Path | None) -> RobotFile:
         urdf=(folder / urdf) if urdf and folder is not None else None,
         tip=geometry.text("tip", "") or None,
         pulses_per_degree=_pulses(axes, count),
+        counts_pulses=axes.flag("counts_pulses", True),
     )
 
 
@@ -183,8 +185,8 @@ class _Reader:
             raise self.fail(key, "a list of texts")
         return tuple(value)
 
-    def flag(self, key: str) -> bool:
-        value = self.data.get(key, False)
+    def flag(self, key: str, default: bool = False) -> bool:
+        value = self.data.get(key, default)
         if not isinstance(value, bool):
             raise self.fail(key, "true or false")
         return value

@@ -1,6 +1,7 @@
 """Neutral functions on the joints of the arm that runs: positions in motor pulses, and external axes put to a position.
 
-Controllers that count positions in pulses need the arm's pulses per degree, which its file gives (`pulses_per_degree`).
+Controllers that count positions in pulses need the arm's pulses per degree, which its file gives (`pulses_per_degree`);
+an arm whose own controller does not count in pulses has a neutral scale (`RobotModel.pulse_scale`).
 """
 
 from __future__ import annotations
@@ -32,9 +33,9 @@ def _pulses_per_degree(task: Task) -> list[float]:
     model = task.machine.model
     if model is None:
         raise ProgramError("motion", "positions in pulses need a robot (--robot)")
-    if model.pulses_per_degree is None:
+    if model.pulse_scale is None:
         raise ProgramError("motion", f"the file of robot {model.name} gives no pulses_per_degree")
-    return [float(number) for number in model.pulses_per_degree]
+    return [float(number) for number in model.pulse_scale]
 
 
 def _joints_from_pulses(task: Task, *pulses: Value) -> JointsValue:

@@ -264,3 +264,13 @@ def test_every_robot_is_in_the_documentation() -> None:
         file = read_robot_file(name)
         row = f"| `{name}` | {file.maker} | {file.title} | {len(file.home)} | {file.kind} | "
         assert row + (", ".join(file.assumed) or "-") in page
+
+
+@pytest.mark.parametrize("name", robot_names())
+def test_a_scale_of_pulses_is_never_guessed_for_an_arm_whose_controller_counts(name: str) -> None:
+    model = load_robot(name)
+    published = {load_robot(each).maker for each in robot_names() if load_robot(each).pulses_per_degree is not None}
+    if model.maker in published:
+        assert model.counts_pulses and model.pulse_scale is model.pulses_per_degree
+    elif not model.counts_pulses:
+        assert model.pulse_scale is not None and set(model.pulse_scale) == {10000.0}

@@ -253,6 +253,62 @@ def test_without_pulses_per_degree_the_angles_are_refused_by_name() -> None:
     assert codes(diagnostics, Severity.LOSS) == {"inform-joint-angle"}
 
 
+def test_joints_of_an_arm_whose_controller_counts_no_pulses_have_a_neutral_scale() -> None:
+    """Variables are pulses by it, which is reported once; taught points stay poses, which any controller can go to."""
+    jobs, diagnostics, on = jobs_of("krl", JOINTS, "kuka_kr6r900sixx")
+    assert not diagnostics.of(Severity.LOSS) and on == {1, 2, 3}
+    assert [item.code.name for item in diagnostics.of(Severity.WARNING)].count("pulses-assumed") == 1
+    assert "///PULSE" not in jobs["ONE"] and any("10000.0" in line for line in jobs["ONE"])
+
+
+def test_programs_that_calculate_with_no_joints_need_no_scale() -> None:
+    text = "DEF one()\nPTP {A1 0, A2 -90, A3 90, A4 0, A5 30, A6 0}\n$OUT[1] = TRUE\nEND\n"
+    _, diagnostics, on = jobs_of("krl", text, "kuka_kr6r900sixx")
+    assert not diagnostics.of(Severity.WARNING) and on == {1}
+
+
+RELATIVE = """DEF one()
+DECL E6AXIS AX
+PTP {A1 0, A2 -90, A3 90, A4 0, A5 30, A6 0}
+LIN {X 450, Y 0, Z 600, A 0, B 90, C 0}
+LIN_REL {Z 10}
+AX = $AXIS_ACT
+PTP_REL {A1 8}
+$OUT[1] = (ABS($AXIS_ACT.A1 - AX.A1 - 8) < 0.01)
+AX = {A1 0, A2 -90, A3 90, A4 0, A5 30, A6 0}
+AX.A5 = AX.A5 + 20
+PTP AX
+$OUT[2] = (ABS($AXIS_ACT.A5 - 50) < 0.01)
+END
+"""
+
+
+def test_relative_joint_moves_from_a_place_that_is_not_known() -> None:
+    _, diagnostics, on = jobs_of("krl", RELATIVE, "kuka_kr6r900sixx")
+    assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    assert on == {1, 2}
+
+
+ARC_IN_COMPUTED_FRAME = """DEF one()
+DECL FRAME F
+F = {X 0, Y 0, Z 0, A 0, B 0, C 0}
+F.X = F.X + 400 * 1.0
+$BASE = F
+PTP {A1 0, A2 -90, A3 90, A4 0, A5 60, A6 0}
+LIN {X 60, Y -80, Z 200, A 0, B 180, C 0}
+CIRC {X 100, Y -120, Z 200, A 0, B 180, C 0}, {X 140, Y -80, Z 200, A 0, B 180, C 0}
+$OUT[1] = (ABS($POS_ACT.X - 140) < 0.05) AND (ABS($POS_ACT.Y + 80) < 0.05)
+END
+"""
+
+
+def test_an_arc_whose_points_are_all_computed_starts_where_the_robot_is() -> None:
+    jobs, diagnostics, on = jobs_of("krl", ARC_IN_COMPUTED_FRAME, "kuka_kr6r900sixx")
+    assert not diagnostics.of(Severity.LOSS) and on == {1}
+    points = [line.split()[1] for line in jobs["ONE"] if line.startswith("MOVC")]
+    assert len(points) == len(set(points)) == 3
+
+
 PATH = """DEF one()
 PTP {A1 0, A2 -90, A3 90, A4 0, A5 30, A6 0}
 LIN {X 450, Y 0, Z 600, A 0, B 90, C 0}

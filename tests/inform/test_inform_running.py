@@ -115,6 +115,9 @@ def test_pulses_need_an_arm_that_has_them() -> None:
     assert outputs(run(text, robot="motoman_ma2010")) == [("OT#(1)", True)]
     with pytest.raises(RunError, match="pulses_per_degree"):
         run(text, robot="motoman_gp7")
+    # an arm whose own controller counts none: 10000 per degree
+    text = text.replace("D000=13414", "D000=50000")
+    assert outputs(run(text.replace("C00000=13414", "C00000=50000"), robot="abb_irb1200_5_90")) == [("OT#(1)", True)]
 
 
 def test_pulses_and_a_pose_in_one_variable() -> None:

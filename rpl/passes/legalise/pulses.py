@@ -1,8 +1,8 @@
 """Positions in motor pulses become joints in degrees, by the pulses per degree of the arm the source was written for.
 
 Only a controller that counts in pulses has a name for this; for every other target the numbers must be made degrees,
-which needs the arm. Without its data the functions stay, and the writer reports them. The external axes of a taught
-point are put into it here, too.
+which needs the arm. Without its data the functions stay, and the writer reports them; an arm whose own controller does
+not count pulses has a neutral scale, which is reported. The external axes of a taught point are put into it here, too.
 """
 
 from __future__ import annotations
@@ -10,18 +10,44 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rpl import ir
-from rpl.ir.walk import rewrite
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.walk import rewrite, walk
 from rpl.passes import rigid
-from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.context import Arm, Context
+from rpl.source import NOWHERE, Origin
 
+PULSES_ASSUMED = code(
+    "pulses-assumed",
+    Severity.WARNING,
+    "the controller of {robot} counts no pulses; positions in pulses take {scale:g} per degree",
+    "a neutral scale for the emulator and for comparing; such numbers never drive a real arm",
+)
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
+_COUNTING = ("joints_from_pulses", "joint_pulses")
 
 
 def fold_pulses(program: ir.Program, context: Context) -> ir.Program:
     """The program without pulses, as far as the arm is known."""
-    each = context.robot.pulses_per_degree if context.robot is not None else None
+    each = context.robot.pulse_scale if context.robot is not None else None
     ratios = None if each is None else [float(number) for number in each]
+    if context.robot is not None:
+        report_assumed(program, context.robot, context.diagnostics)
     return rewrite(program, lambda node: _folded(node, ratios))
+
+
+def report_assumed(program: ir.Program, arm: Arm, diagnostics: Diagnostics) -> None:
+    """Say it once where a program in pulses is for an arm whose own controller counts none."""
+    if arm.pulses_per_degree is not None or arm.pulse_scale is None:
+        return
+    counted = (node for node in walk(program) if isinstance(node, ir.Builtin) and node.function in _COUNTING)
+    first = next(counted, None)
+    if first is not None:
+        assumed(arm, diagnostics, first.origin)
+
+
+def assumed(arm: Arm, diagnostics: Diagnostics, origin: Origin = NOWHERE) -> None:
+    """The report of a neutral scale."""
+    diagnostics.report(PULSES_ASSUMED, origin, robot=arm.name, scale=float(arm.pulse_scale[0]))
 
 
 def _folded(node: object, ratios: Sequence[float] | None) -> object:
