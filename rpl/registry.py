@@ -46,6 +46,10 @@ def _signal_name(kind: str, number: int) -> str:
     return f"{kind}[{number}]"
 
 
+def _no_flag_terms(arm: str) -> Mapping[str, tuple[tuple[int, str, int], ...]]:
+    return {}
+
+
 def _no_companions(path: str) -> tuple[str, ...]:
     return ()
 
@@ -58,7 +62,8 @@ class Dialect:
     read(sources, diagnostics): all sources of one project together. rules(): the data of its meaning. prelude(): its
     predefined data and system routines as a module, or None. notation(): arm configuration flags, or None.
     companions(path): files that belong to a named one where they exist (a data list). signal_name(kind, number): how
-    the language spells a numbered signal.
+    the language spells a numbered signal. flag_terms(arm): what each flag of the notation is the sum of: weight, a fact
+    of rpl.emulator.model.Posture (or `negative`, `quarter`: the sign and the quarter turn of an axis) and the axis.
     """
 
     name: str
@@ -72,6 +77,7 @@ class Dialect:
     notation_fields: tuple[str, ...] = ()
     companions: Callable[[str], tuple[str, ...]] = _no_companions
     signal_name: Callable[[str, int], str] = _signal_name
+    flag_terms: Callable[[str], Mapping[str, tuple[tuple[int, str, int], ...]]] = _no_flag_terms
 
 
 @dataclass(frozen=True, slots=True)

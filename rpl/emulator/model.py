@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rpl.emulator.arms import Arm, BoolArray, Branch, Branches, OpwArm, ScaraArm, UrArm
+from rpl.emulator.postures import Fact, posture_facts
 from rpl.emulator.recognise import OpwFit, fit_opw
 from rpl.emulator.robotfile import (
     Kind,
@@ -233,6 +234,10 @@ class RobotModel:
         """The posture of one joint vector (n,), computed from the geometry by strict signs."""
         branch = self.arm.branch(self.theta(joints))
         return Posture(bool(branch.shoulder), not branch.elbow, bool(branch.elbow), bool(branch.wrist))
+
+    def posture_facts(self) -> dict[str, Fact]:
+        """The posture as inequalities over the joints; empty where the arm's build has none."""
+        return posture_facts(self)
 
     def jacobian(self, joints: ArrayLike) -> FloatArray:
         """Geometric Jacobian (..., 6, n) at the flange origin, base frame: mm/rad (mm/mm) above, rad/rad below.

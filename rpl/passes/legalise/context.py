@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.passes.capabilities import Capabilities
 from rpl.passes.scope import Fold, ProgramScope, rules_of
+
+if TYPE_CHECKING:
+    from rpl.emulator.postures import Fact
 
 
 class Arm(Protocol):
@@ -41,6 +44,8 @@ class Arm(Protocol):
     def expand_turns(self, solution: Any) -> Any: ...
 
     def posture(self, joints: Any) -> Any: ...
+
+    def posture_facts(self) -> dict[str, Fact]: ...
 
     def nearest(self, flange: Any, reference: Any) -> Any: ...
 

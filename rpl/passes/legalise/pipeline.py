@@ -26,6 +26,7 @@ from rpl.passes.legalise.errorcodes import name_errors
 from rpl.passes.legalise.errorroutines import error_routines
 from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.explicit import explicit_to_modal
+from rpl.passes.legalise.flagreadings import flag_readings
 from rpl.passes.legalise.flatrecords import flat_records
 from rpl.passes.legalise.functions import functions_to_procedures
 from rpl.passes.legalise.geometry import geometry
@@ -109,6 +110,7 @@ PASSES: tuple[Pass, ...] = (
     array_bases,
     three_point_arcs,
     circle_rules,
+    flag_readings,
     configurations,
     without_aliases,
     stop_blends,
