@@ -28,6 +28,7 @@ def stand_first(program: ir.Program, context: Context) -> ir.Program:
         return program
     facts = _Facts.of(program)
     scopes = ProgramScope(program)
+    facts = _with_ends(program, facts, scopes, target.stop_statements)
     modules = []
     for module in program.modules:
         routines = []
@@ -44,12 +45,14 @@ def stand_first(program: ir.Program, context: Context) -> ir.Program:
 @dataclass(frozen=True, slots=True)
 class _Facts:
     """Names in lower case. beside: routines that interrupts and background tasks run; changed: variables that these
-    assign; movers: routines that drive; watchful: routines that contain a statement which must not come early."""
+    assign; movers: routines that drive; halting: those of them that end with a stop point; watchful: routines that
+    contain a statement which must not come early."""
 
     beside: frozenset[str]
     changed: frozenset[str]
     movers: frozenset[str]
     watchful: frozenset[str]
+    halting: frozenset[str] = frozenset()
 
     @classmethod
     def of(cls, program: ir.Program) -> _Facts:
@@ -103,6 +106,20 @@ class _Facts:
         return found
 
 
+def _with_ends(program: ir.Program, facts: _Facts, scopes: ProgramScope, stops: frozenset[str]) -> _Facts:
+    """The facts with the routines that end with a stop point, those by what they call included."""
+    while True:
+        halting = set()
+        for module in program.modules:
+            for routine in module.routines:
+                worker = _Standing(facts, scopes.routine(module, routine), stops)
+                if routine.name.lower() in facts.movers and worker.body(routine.body, False)[1]:
+                    halting.add(routine.name.lower())
+        if halting <= facts.halting:
+            return facts
+        facts = replace(facts, halting=facts.halting | halting)
+
+
 class _Standing:
     def __init__(self, facts: _Facts, scope: Scope, stops: frozenset[str]) -> None:
         self.facts, self.scope, self.stops = facts, scope, stops
@@ -135,10 +152,24 @@ class _Standing:
                 return new
 
             done.append(rewrite_parts(statement, lambda expression: expression, deeper))
-            moving = moving or any(ends)
-            if isinstance(statement, ir.CallRoutine):
-                moving = moving or statement.name.lower() in self.facts.movers
+            moving = any(ends) or (moving and not _surely_inside(statement))
+            if isinstance(statement, ir.CallRoutine) and statement.name.lower() in self.facts.movers:
+                moving = statement.name.lower() in self.facts.halting
         return tuple(done), moving
+
+
+def _surely_inside(statement: ir.Statement) -> bool:
+    """Does one of the statement's bodies run in any case?"""
+    match statement:
+        case ir.If(otherwise=otherwise):
+            return bool(otherwise)
+        case ir.Switch(default=default):
+            return default is not None
+        case ir.Repeat() | ir.Loop():
+            return True
+        case ir.For(start=ir.IntLiteral(value=start), stop=ir.IntLiteral(value=stop), step=None):
+            return start <= stop
+    return False
 
 
 def _called(routine: ir.Routine) -> set[str]:
