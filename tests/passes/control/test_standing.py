@@ -1,4 +1,4 @@
-"""Where a wait for the robot is put in for a controller that runs ahead over stop points: only where the source stands."""
+"""Waits for the robot, for a controller that runs ahead over stop points: only where the source stands."""
 
 import pytest
 
@@ -40,7 +40,7 @@ ENDMODULE
         ("FOR i FROM 1 TO 3 DO\npasses;\nENDFOR", False),
         ("FOR i FROM 1 TO 3 DO\nstops;\nENDFOR", True),
         ("stops;\nFOR i FROM 1 TO 3 DO\npasses;\nENDFOR", False),
-        ("stops;\nFOR i FROM 1 TO n DO\npasses;\nENDFOR", True),
+        ("stops;\nWHILE n>2 DO\npasses;\nENDWHILE", True),
         ("stops;\nIF n>1 THEN\npasses;\nENDIF", True),
         ("stops;\nIF n>1 THEN\npasses;\nELSE\npasses;\nENDIF", False),
     ],
