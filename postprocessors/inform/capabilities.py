@@ -11,6 +11,7 @@ CAPABILITIES = Capabilities(
         (
             *("Assign", "CallRoutine", "If", "While", "For", "Label", "Goto", "Return", "Halt", "Wait", "WaitUntil"),
             *("Pulse", "Message", "TaskControl", "Vendor", "Opaque", "Nothing", "Move", "Search", "Trigger"),
+            *("DeclareInterrupt", "ControlInterrupt"),
         )
     ),
     functions=frozenset((*tables.FUNCTIONS, *tables.TEXT_FUNCTIONS, *tables.POSITION_FUNCTIONS, "abs", "number_text")),
@@ -68,4 +69,6 @@ CAPABILITIES = Capabilities(
     speeds=frozenset(("joint", "path", "rotation")),
     blends=frozenset(("BlendStop", "BlendDistance", "BlendLevel")),
     static_locals=True,
+    watched_interrupts=True,
+    poll_s=tables.WATCH_STEP_S,
 )

@@ -157,6 +157,8 @@ class Positions:
 
     def change_of_tool(self, tool: ir.Expression) -> str:
         """From the tool of the job, whose place $PX001 is, to another one: inverse(job's) . other; empty: the same."""
+        if tool == ir.System("tool"):
+            return ""
         job, known = self.job, self.constants.known(tool)
         own = job.cell.value_of_tool(job.tool)
         if known is not None and own is not None:

@@ -186,8 +186,10 @@ class Printer(StatementPrinter[str]):
                 return f"PSTART JOB:{self.job(name)} {self.sub(name, start=True)}"
             case ir.TaskControl(op="join", task=name):
                 return f"PWAIT {self.sub(name, start=False)}"
-            case ir.ControlInterrupt() | ir.OrderInterrupt() | ir.StopMotion() | ir.StartMotion() | ir.ResumeLevel():
+            case ir.DeclareInterrupt() | ir.ConnectInterrupt() | ir.ControlInterrupt() | ir.OrderInterrupt():
                 raise CannotSayError("nothing interrupts a job", INTERRUPT)
+            case ir.StopMotion() | ir.StartMotion() | ir.ResumeLevel():
+                raise CannotSayError("a job does not stop the robot in its move", INTERRUPT)
             case ir.ClearMotion() | ir.StoreMotion():
                 raise CannotSayError("a move that has begun is not given up", INTERRUPT)
             case ir.TaskControl(op=op):
@@ -362,7 +364,13 @@ class Printer(StatementPrinter[str]):
             if right == "OFF":
                 self.line(f"XOR {flag} 1")
         if search.found is not None:
-            self.put(self.assignments.assign(ir.Assign(search.found, ir.System("actual_pose"))))
+            self.put(self.assignments.assign(ir.Assign(search.found, self.place_of(move))))
+
+    def place_of(self, move: ir.Move) -> ir.Expression:
+        """Where the robot is, seen as the move sees its target."""
+        if move.frame is None or self.assignments.positions.constants.is_joints(move.target):
+            return ir.System("actual_pose")
+        return ir.Builtin("current_target", (move.tool or ir.System("tool"), move.frame))
 
     # ---- waits, messages
 

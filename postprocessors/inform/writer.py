@@ -9,6 +9,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.pulses import assumed
+from rpl.source import NOWHERE
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
@@ -32,6 +33,12 @@ LOST_DECLARATION = code(
 )
 LOST_ROUTINE = code("inform-lost-routine", Severity.LOSS, "INFORM cannot say this about {name}: {reason}")
 SAME_NAME = code("inform-same-name", Severity.ERROR, "two jobs would be called {name}", "rename one; jobs are global")
+MANY_TASKS = code(
+    "inform-many-tasks",
+    Severity.LOSS,
+    "{count} jobs would run beside the program; a controller has {most} sub tasks",
+    "begin some of them from one job, or watch fewer conditions",
+)
 LONG_NAME = code(
     "inform-long-name", Severity.ERROR, "{name}: a job's name has at most {most} characters", "rename the routine"
 )
@@ -190,6 +197,9 @@ class _Writer:
     def finish(self, jobs: list[Job]) -> None:
         """Values of tools and user frames, and tasks that run beside, at the start of each job that may be started."""
         background = [task for task in self.program.tasks if task.kind == "background"]
+        count = len(background) + len(self.tasks)
+        if count > tables.MOST_SUBTASKS:
+            self.diagnostics.report(MANY_TASKS, NOWHERE, count=count, most=tables.MOST_SUBTASKS)
         first = {job.name: self.first_values(job) for job in jobs if job.entry}
         setup = list(self.cell.setup())
         for job in jobs:

@@ -93,7 +93,8 @@ class Capabilities:
 
     move_triggers: a move says the actions on its path itself (Move.triggers), and only so.
     watching_tasks: path events, searches and interrupts stand in `statements` although moves and the controller have
-    none: the passes make tasks of them that watch beside the move (pathevents, watching).
+    none: the passes make tasks of them that watch beside the move (pathevents, watching). watched_interrupts: only
+    interrupts are such tasks; one that stops the robot ends its moves by a search.
 
     declared_groups: a group of signals exists only by a declaration with a name (KRL SIGNAL). signal_groups: a group
     can be named by its first and last signal, or a pass or the writer finds a name for it. Where signals have names
@@ -177,6 +178,7 @@ class Capabilities:
     blends: frozenset[str] = frozenset()
     move_triggers: bool = False
     watching_tasks: bool = False
+    watched_interrupts: bool = False
     declared_groups: bool = False
     signal_groups: bool = True
     numbered_groups: bool = False

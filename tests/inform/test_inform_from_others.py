@@ -370,11 +370,11 @@ WAIT SEC 1
 INTERRUPT OFF 5
 END
 DEF seen()
-$OUT[1]=TRUE
+WAIT SEC 1
 END
 """
     _, diagnostics, _ = jobs_of("krl", text, entry="ONE")
-    assert codes(diagnostics, Severity.LOSS) == {"interrupt-lost", "inform-interrupt-lost"}
+    assert codes(diagnostics, Severity.LOSS) == {"interrupt-not-watched", "inform-interrupt-lost"}
 
 
 def test_a_straight_way_between_two_arcs_stays_straight() -> None:

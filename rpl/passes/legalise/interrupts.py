@@ -236,7 +236,7 @@ class _Priorities:
                 ]
             case ir.OrderInterrupt(handle=handle, event="timer", time=time) if time is not None:
                 name = base_name(handle)
-                if name is not None and name in self.priority_of and self.context.capabilities.watching_tasks:
+                if name is not None and name in self.priority_of and self.watching:
                     return self.watched(statement, name)
                 if name is None or name not in self.priority_of or not self.context.capabilities.timers:
                     return [statement]
@@ -272,6 +272,10 @@ class _Priorities:
             ),
             ir.ControlInterrupt("on", priority, origin=later),
         ]
+
+    @property
+    def watching(self) -> bool:
+        return self.context.capabilities.watching_tasks or self.context.capabilities.watched_interrupts
 
     def watched(self, statement: ir.OrderInterrupt, name: str) -> list[ir.Statement]:
         """A timer for a target whose interrupts are tasks: these know how to wait for a time by themselves."""

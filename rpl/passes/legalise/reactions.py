@@ -29,7 +29,7 @@ _FIRST_PRIORITY = 10  # as passes.interrupts numbers them
 def reactions(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with interrupts, and programs that give theirs an identity."""
     can = context.capabilities
-    if can.watching_tasks or not {"DeclareInterrupt", "ConnectInterrupt"} & can.statements:
+    if can.watching_tasks or can.watched_interrupts or not {"DeclareInterrupt", "ConnectInterrupt"} & can.statements:
         return program
     declared = [one for one in walk(*program.modules) if isinstance(one, ir.DeclareInterrupt)]
     drops = not context.capabilities.stopping_reactions

@@ -1,8 +1,9 @@
 """Searches and interrupts for targets that have tasks, but neither of them.
 
 An interrupt whose action takes no time and leaves the robot alone is a task of its own that waits for the condition and
-acts in a critical section. Any other one the program serves itself: while it may come, a task drives the moves, and the
-program looks at the condition in each cycle of its waiting (`served`).
+acts in a critical section, where the target has these. Any other one the program serves itself: while it may come, a
+task drives the moves, and the program looks at the condition in each cycle of its waiting (`served`); or the moves are
+searches that end at the condition (`endedmoves`).
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.beside import Beside, closure, local_names, tidy
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.endedmoves import EndedMoves, unending
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.movers import Movers
 from rpl.passes.legalise.reach import armed_statements
@@ -47,10 +49,11 @@ _ALONE = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.Raise, ir.Halt,
 
 def watching(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that are asked for this."""
-    if not context.capabilities.watching_tasks:
+    can = context.capabilities
+    if not can.watching_tasks and not can.watched_interrupts:
         return program
     nodes = list(walk(*program.modules))
-    searches = any(isinstance(node, ir.Search) for node in nodes)
+    searches = can.watching_tasks and any(isinstance(node, ir.Search) for node in nodes)
     interrupts = any(isinstance(node, ir.DeclareInterrupt) for node in nodes)
     if not searches and not interrupts:
         return program
@@ -58,7 +61,8 @@ def watching(program: ir.Program, context: Context) -> ir.Program:
     movers = Movers(beside, ProgramScope(program))
     watches = _Watches(program, beside)
     watches.collect()
-    served = Served(program, context, beside, movers, watches.served())
+    kind = Served if can.watching_tasks else EndedMoves
+    served = kind(program, context, beside, movers, watches.served())
     marked = armed_statements(program, served) if served.watches else frozenset()
     served.marked = marked
 
@@ -190,7 +194,11 @@ class _Watches:
             return "it puts the motion aside"
         if name in drives and name not in brakes and not one.stops:
             return "it moves the robot without braking first"
-        return ""
+        if self.beside.context.capabilities.watching_tasks or not self.takes_time(one):
+            return ""
+        if any(other.served for other in self.watches.values() if other.key != key):
+            return "another one stops the robot already, and a move looks at one condition"
+        return unending(one, name in brakes)
 
     def takes_time(self, one: ir.DeclareInterrupt) -> bool:
         if one.stops:
@@ -206,11 +214,9 @@ class _Watches:
         name = self.beside.context.fresh(f"rpl_interrupt_{watch.key}")
         armed = ir.Name(watch.armed)
         off, cond = ir.Unary("not", armed), watch.declared.condition
-        acts: list[ir.Statement] = [
-            ir.Critical(True),
-            tidied(watch.declared.action),
-            ir.Critical(False),
-        ]
+        acts: list[ir.Statement] = [tidied(watch.declared.action)]
+        if "Critical" in self.beside.context.capabilities.statements:
+            acts = [ir.Critical(True), *acts, ir.Critical(False)]
         if watch.declared.once:
             acts.insert(0, ir.Assign(armed, ir.BoolLiteral(False)))
         body: list[ir.Statement] = [
