@@ -17,6 +17,7 @@ from pathlib import Path, PurePosixPath
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.errors import UsageError
+from rpl.passes.collector import paused_cycle_collector
 from rpl.passes.typing import normalise
 from rpl.reading.ledger import FileReport
 from rpl.source import Origin, Source, source_from_bytes
@@ -82,6 +83,11 @@ def read_sources(sources: Sequence[Source], dialect: str, diagnostics: Diagnosti
 
 
 def _read_groups(groups: dict[str, list[Source]], diagnostics: Diagnostics) -> ReadProgram:
+    with paused_cycle_collector():
+        return _read(groups, diagnostics)
+
+
+def _read(groups: dict[str, list[Source]], diagnostics: Diagnostics) -> ReadProgram:
     raw = ir.Program(())
     files: list[FileReport] = []
     for name, sources in groups.items():

@@ -111,9 +111,9 @@ class Expressions:
     def value(self, expression: Expr, wanted: Kind | None = None) -> ir.Expression:
         """The expression in the IR; `wanted` types what only the controller knows."""
         match expression:
+            case nodes.Number(value=int() as whole, spelling=spelling):
+                return ir.IntLiteral(whole, spelling)
             case nodes.Number(value=number, spelling=spelling):
-                if isinstance(number, int):
-                    return ir.IntLiteral(number, spelling)
                 return ir.RealLiteral(number, spelling)
             case nodes.Text(value=text):
                 return ir.TextLiteral(text)
@@ -122,7 +122,7 @@ class Expressions:
             case nodes.Var():
                 return self.name(expression)
             case nodes.PoseOf(items=items):
-                return pose_literal([signed_literal(self.value(item, REAL)) for item in items])
+                return pose_literal([_written(item) or signed_literal(self.value(item, REAL)) for item in items])
             case nodes.ListOf(items=items):
                 element = wanted.element if wanted is not None and wanted.word == "list" else None
                 values = [signed_literal(self.element_value(item, element)) for item in items]
@@ -215,7 +215,7 @@ class Expressions:
     # ---- operators
 
     def signed(self, expression: Expr, op: str, operand: Expr) -> ir.Expression:
-        kind = self.kind(operand)
+        kind = None if isinstance(operand, nodes.Number) else self.kind(operand)
         if kind is not None and kind.word == "list":
             return self.written_out(expression, kind)
         return ir.Unary(op, self.value(operand, REAL))
@@ -304,6 +304,17 @@ class Expressions:
 def returns_joints(function: Function) -> bool:
     """Does the function give joints of the arm?"""
     return is_joints(function.returns) and function.returns is not None and function.returns.joints
+
+
+def _written(expression: Expr) -> ir.IntLiteral | ir.RealLiteral | None:
+    """The literal of a number that is written out, with its sign: most components of poses."""
+    inner, sign = expression, ""
+    if isinstance(expression, nodes.Sign) and expression.op == "-":
+        inner, sign = expression.operand, "-"
+    if not isinstance(inner, nodes.Number):
+        return None
+    value, spelling = -inner.value if sign else inner.value, sign + inner.spelling
+    return ir.IntLiteral(value, spelling) if isinstance(value, int) else ir.RealLiteral(value, spelling)
 
 
 def signed_literal(value: ir.Expression) -> ir.Expression:

@@ -10,6 +10,7 @@ in `calls`, `moves` or `procedures`. Sources: script manuals 3.5 and 5.2; defaul
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 from .kinds import BOOL, HANDLE, INT, JOINTS, POSE, REAL, TEXT, Kind, list_of
 from .nodes import Expr, ListOf, Number, PoseOf, Sign, Text, Truth
@@ -276,8 +277,22 @@ class BindError(Exception):
 def bind(builtin: Builtin, arguments: tuple[tuple[str | None, Expr], ...]) -> dict[str, Expr | None]:
     """Each parameter's expression: given by place or by name, else its default, None where it was left out."""
     bound: dict[str, Expr | None] = {}
+    parameters = _parameters(builtin.name, tuple([name for name, _ in arguments]))
+    for name, (_, value) in zip(parameters, arguments, strict=True):
+        bound[name] = value
+    for parameter in builtin.parameters:
+        if parameter.name not in bound:
+            bound[parameter.name] = parameter.default
+    return bound
+
+
+@lru_cache(maxsize=4096)
+def _parameters(function: str, names: tuple[str | None, ...]) -> tuple[str, ...]:
+    """The parameter that each argument is for; programs write few different ways to call a function."""
+    builtin = BUILTINS[function]
+    bound: list[str] = []
     place = 0
-    for name, value in arguments:
+    for name in names:
         if name is None:
             if place >= len(builtin.parameters):
                 raise BindError(f"{builtin.name} takes {len(builtin.parameters)} arguments at most")
@@ -287,14 +302,13 @@ def bind(builtin: Builtin, arguments: tuple[tuple[str | None, Expr], ...]) -> di
             name = _first_free(builtin, name)
         if name in bound:
             raise BindError(f"{builtin.name} gets {name} twice")
-        bound[name] = value
+        bound.append(name)
     for parameter in builtin.parameters:
         if parameter.name in bound:
             continue
         if parameter.default is None and not parameter.optional:
             raise BindError(f"{builtin.name} needs {parameter.name}")
-        bound[parameter.name] = parameter.default
-    return bound
+    return tuple(bound)
 
 
 def _first_free(builtin: Builtin, name: str) -> str:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from rpl.diagnostics import Diagnostics, Severity, code
 
 from . import nodes
-from .functions import BUILTINS, HINTS, BindError, bind
+from .functions import BUILTINS, HINTS, BindError, bind, constant
 from .kinds import (
     BOOL,
     HANDLE,
@@ -26,7 +26,7 @@ from .kinds import (
     list_of,
     word_of,
 )
-from .nodes import Block, Expr
+from .nodes import Expr, Node
 from .scopes import Function, Project, Symbol, statements
 
 CHANGED = code(
@@ -38,6 +38,7 @@ CHANGED = code(
 _MOST_ROUNDS = 12
 _ARITHMETIC = frozenset("+-*/%^")
 _ORDER = frozenset(("<", ">", "<=", ">="))
+_TELLING = (nodes.Store, nodes.Perform, nodes.Branches, nodes.Repeat, nodes.Give, nodes.Thread)
 
 
 class Inference:
@@ -47,6 +48,7 @@ class Inference:
         self.project = project
         self.changed = False
         self.clashes: list[tuple[Symbol, Kind, nodes.Store]] = []
+        self.telling: dict[Function, list[Node]] = {}
 
     # ---- the whole project
 
@@ -72,7 +74,7 @@ class Inference:
                 for name, default in function.node.parameters:
                     if default is not None:
                         self.widen(function.parameters[name], self.kind(default, function))
-                self.block(function.node.body, function)
+                self.block(function)
             if not self.changed:
                 return
 
@@ -100,8 +102,11 @@ class Inference:
 
     # ---- statements
 
-    def block(self, block: Block, here: Function) -> None:
-        for node in statements(block):
+    def block(self, here: Function) -> None:
+        """What the statements of a function tell; those that hold numbers alone tell nothing."""
+        if here not in self.telling:
+            self.telling[here] = [node for node in statements(here.node.body) if not self.is_silent(node, here)]
+        for node in self.telling[here]:
             match node:
                 case nodes.Store():
                     self.store(node, here)
@@ -120,6 +125,14 @@ class Inference:
                         self.changed = True
                 case nodes.Thread(handle=handle):
                     self.kind(handle, here)
+
+    def is_silent(self, node: Node, here: Function) -> bool:
+        """A call of a function of the controller with nothing but numbers and texts, as most moves are?"""
+        match node:
+            case nodes.Perform(call=nodes.Apply(base=None, name=name, arguments=arguments)):
+                plain = all(constant(value) for _, value in arguments)
+                return plain and self.project.function(name, here) is None
+        return not isinstance(node, _TELLING)
 
     def store(self, node: nodes.Store, here: Function) -> None:
         kind = self.kind(node.value, here)
@@ -173,7 +186,8 @@ class Inference:
                 return symbol.kind if symbol is not None else None
             case nodes.PoseOf(items=items):
                 for item in items:
-                    self.expect(item, REAL, here)
+                    if not _is_written_number(item):
+                        self.expect(item, REAL, here)
                 return POSE
             case nodes.ListOf(items=items):
                 element: Kind | None = None
@@ -305,6 +319,12 @@ class Inference:
                 self.hint(value, HINTS[parameter.letter], here)
             elif kind is None and parameter.letter == "m":
                 self.hint(value, HINTS["q" if builtin.name == "movej" else "p"], here)
+
+
+def _is_written_number(expression: Expr) -> bool:
+    """Most components of poses; nothing is to be found out about them."""
+    inner = expression.operand if isinstance(expression, nodes.Sign) else expression
+    return inner.__class__ is nodes.Number
 
 
 _RATES = frozenset(("speedj", "speedl"))

@@ -265,18 +265,28 @@ def own_expressions(node: Node) -> tuple[Expr, ...]:
     return ()
 
 
-def inside(expression: Expr) -> Iterator[Expr]:
-    """The expression and all in it."""
-    yield expression
-    for part in nodes.parts(expression):
-        yield from inside(part)
+def calls_inside(expression: Expr) -> list[nodes.Apply]:
+    """The calls in an expression, outer ones first."""
+    found: list[nodes.Apply] = []
+    stack = [expression]
+    while stack:
+        part = stack.pop()
+        if part.__class__ in _SINGLE:
+            continue
+        if isinstance(part, nodes.Apply):
+            found.append(part)
+        stack.extend(reversed(nodes.parts(part)))
+    return found
+
+
+_SINGLE = (nodes.Number, nodes.Text, nodes.Truth, nodes.Var)
 
 
 def _called(function: Function) -> Iterator[str]:
     for node in statements(function.node.body):
         for expression in own_expressions(node):
-            for part in inside(expression):
-                if isinstance(part, nodes.Apply) and part.base is None and part.name != function.node.name:
+            for part in calls_inside(expression):
+                if part.base is None and part.name != function.node.name:
                     yield part.name
 
 

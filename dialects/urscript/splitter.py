@@ -31,17 +31,26 @@ _TOKEN = re.compile(
     r"|(?P<sign>==|!=|<=|>=|.)",
     re.DOTALL,
 )
-# Words that can only begin a statement, wherever they stand.
-STARTERS = frozenset(
-    (
-        *("def", "sec", "thread", "if", "elif", "else", "while", "end", "break", "continue", "halt", "return"),
-        *("global", "local", "join", "kill", "enter_critical", "exit_critical"),
-    )
+_STARTS = (
+    *("def", "sec", "thread", "if", "elif", "else", "while", "end", "break", "continue", "halt", "return"),
+    *("global", "local", "join", "kill", "enter_critical", "exit_critical"),
 )
-# Words that are a whole statement; an empty pair of brackets may follow some.
-_ALONE = frozenset(("end", "break", "continue", "halt", "enter_critical", "exit_critical"))
 _INFIX = frozenset(("and", "or", "xor"))
 _PREFIX = frozenset(("not", "run", "def", "sec", "thread", "if", "elif", "while", "global", "local", "join", "kill"))
+# Words that can only begin a statement, wherever they stand.
+STARTERS = frozenset(_STARTS)
+# Words that are a whole statement; an empty pair of brackets may follow some.
+_ALONE = frozenset(("end", "break", "continue", "halt", "enter_critical", "exit_critical"))
+# The most frequent lines hold one whole statement and nothing that could end or go on elsewhere: a call, or a name that
+# gets numbers, names and calls joined by signs. They need no look at each sign.
+_WORD = rf"(?!(?:{'|'.join(sorted(_INFIX | _PREFIX | frozenset(_STARTS)))})\b)[^\W\d]\w*"
+_PLAIN = r"[^()\[\]\"'#{}$;\r\n]*"
+_INNER = rf"{_PLAIN}(?:[(\[]{_PLAIN}[)\]]{_PLAIN})*"
+_OPERAND = rf"[ \t]*-?(?:(?:\d+\.?\d*|\.\d+)(?!\w)|{_WORD}(?:[(\[]{_INNER}[)\]])?)[ \t]*"
+_WHOLE_LINE = re.compile(
+    rf"[ \t]*(?P<code>{_WORD}(?:\({_INNER}\)|[ \t]*=(?!=){_OPERAND}(?:[-+*/]{_OPERAND})*))[ \t]*"
+    r"(?P<remark>#[^\r\n]*)?(?:\r\n|\r|\n)"
+)
 _LINE_END = re.compile(r"[\r\n]")
 _MARKS = re.compile("[\ufeff\x1a\x00]")
 
@@ -62,6 +71,14 @@ def split(source: Source) -> Iterator[Piece]:
     return _Splitter(source.text).pieces()
 
 
+def _whole_line(match: re.Match[str]) -> Piece:
+    start = match.start("code")
+    code = match["code"].rstrip()
+    if match["remark"] is None:
+        return Piece(STATEMENT, start, start + len(code), code)
+    return Piece(STATEMENT, start, match.end("remark"), code, match["remark"][1:].rstrip())
+
+
 class _Splitter:
     def __init__(self, text: str) -> None:
         self.text = text
@@ -70,7 +87,14 @@ class _Splitter:
 
     def pieces(self) -> Iterator[Piece]:
         at = 0
+        fresh = True  # at the beginning of a line
         while at < len(self.text):
+            if self.now is None and fresh:
+                whole = _WHOLE_LINE.match(self.text, at)
+                if whole is not None:
+                    yield _whole_line(whole)
+                    at = whole.end()
+                    continue
             match = _TOKEN.match(self.text, at)
             assert match is not None  # the last alternative takes any sign
             if self.now is not None and self.is_broken_at(match):
@@ -78,6 +102,7 @@ class _Splitter:
                 at = self.resume
                 continue
             at = match.end()
+            fresh = match.lastgroup == "line"
             yield from self.token(match.lastgroup or "sign", match)
             if at == len(self.text) and self.now is not None and self.now.depth:
                 yield self.first_line()

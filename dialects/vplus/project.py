@@ -10,7 +10,6 @@ from pathlib import PureWindowsPath
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.passes.collector import paused_cycle_collector
 from rpl.reading.assemble import assemble
 from rpl.reading.ledger import FileReport
 from rpl.reading.pieces import Item, ModulePart
@@ -55,11 +54,6 @@ class _File:
 
 def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     """Read all files of one project together."""
-    with paused_cycle_collector():
-        return _read(sources, diagnostics)
-
-
-def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     lowering = Settings(facts_of(source.text for source in sources), diagnostics)
     build = Builder(diagnostics)
     files: list[_File] = []
