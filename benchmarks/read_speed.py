@@ -1,6 +1,10 @@
 """How fast long programs read: generated ones of 20,000 lines, from text to normal form.
 
-python benchmarks/read_speed.py [--lines 20000]
+    python benchmarks/read_speed.py [--lines 20000] [--from DIALECT]
+
+Processor time of one process; twice the lines take twice the time in every language. Lines read a second on two cores
+that others used too, with Python 3.11: TP 48,000, KRL 27,000, INFORM 12,500, RPL 12,500, V+ 10,500, URScript 10,000,
+RAPID 9,600; the normal form takes another tenth to half of that time.
 """
 
 from __future__ import annotations

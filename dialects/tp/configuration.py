@@ -7,6 +7,7 @@ taught points of public backups; the pair N U T / F U T of an R-2000iB published
 """
 
 import re
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -41,6 +42,12 @@ def turn_of(angle: float) -> int:
 
 def parse_config(text: str) -> dict[str, int | None] | None:
     """The flags of a CONFIG text such as `N U T, 0, 0, 0`; None when it is none."""
+    flags = _parsed(text)
+    return None if flags is None else dict(flags)
+
+
+@lru_cache(maxsize=1000)
+def _parsed(text: str) -> dict[str, int | None] | None:
     found = _CONFIG.search(text)
     if found is None:
         return None

@@ -25,6 +25,12 @@ _VALUE = re.compile(
     r"\b(?:(?P<remote>R)(?=[XYZWPR]\b))?(?P<name>[XYZWPR]|[JE]\d)\s*=\s*(?P<value>\*+|[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)",
     re.IGNORECASE,
 )
+_NUMBER = r"\s*=\s*([+-]?(?:\d+\.?\d*|\.\d+))\s*"
+# What nearly all positions of a listing look like: one group, taught in space, no further axes.
+_USUAL = re.compile(
+    r"P\[(\d+)(?::\s*\"([^\"\[\]{}:]*)\"\s*)?\]\{\s*GP1:\s*UF\s*:\s*(\d+),\s*UT\s*:\s*(\d+),\s*CONFIG\s*:\s*'([^':]*)',\s*"
+    rf"X{_NUMBER}mm,\s*Y{_NUMBER}mm,\s*Z{_NUMBER}mm,\s*W{_NUMBER}deg,\s*P{_NUMBER}deg,\s*R{_NUMBER}deg\s*\}};?"
+)
 _ORDER = ("X", "Y", "Z", "W", "P", "R")
 _NEUTRAL = {"X": "x", "Y": "y", "Z": "z", "W": "c", "P": "b", "R": "a"}
 EXTERNALS = 6
@@ -68,6 +74,12 @@ class Position:
 
 def parse_position(text: str) -> Position:
     """A position block. Raises StatementError where it is none."""
+    usual = _USUAL.fullmatch(text)
+    flags = parse_config(usual[5]) if usual is not None else None
+    if usual is not None and flags is not None:
+        number, label, frame, tool, _, *numbers = usual.groups()
+        values: dict[str, float | None] = dict(zip(_ORDER, map(float, numbers), strict=True))
+        return Position(int(number), (label or "").strip(), {1: Group(values, int(frame), int(tool), flags)})
     head = _HEAD.match(text)
     if head is None:
         raise StatementError("expected P[number]{ ... }", 0)

@@ -36,6 +36,8 @@ MIXED_ELEMENTS = code(
 )
 MODULE = "registers"
 
+# A move with nothing in it that a register, frame or program could stand for; most lines of most programs.
+_PLAIN_MOVE = re.compile(r"[JL] P\[\d+\] \d+(?:\.\d+)?(?:%|mm/sec|cm/min|deg/sec) ?(?:FINE|CNT ?\d+)\s*")
 _REFERENCE = re.compile(r"(?<![\w$.])(R|PR|SR)\s*\[\s*(?:GP\d+\s*:?\s*)?(?:(\d+)\s*(?=[\],]))?", re.IGNORECASE)
 _ELEMENT = re.compile(r"(?<![\w$.])PR\s*\[\s*(?:GP1\s*:?\s*)?(\d+)\s*,", re.IGNORECASE)
 _ASSIGNED = re.compile(
@@ -111,6 +113,8 @@ def survey(facts: Facts, program: str, pieces: Iterable[Piece], points: dict[int
         if piece.kind == COMMENT or piece.text.startswith(("/", MACRO)):
             continue
         text = piece.text
+        if _PLAIN_MOVE.fullmatch(text):
+            continue
         origin = Origin(source, piece.start, piece.end)
         for match in _REFERENCE.finditer(text):
             bank = match[1].upper()
