@@ -62,9 +62,10 @@ SHIFT = "SHIFT"
 
 VENDOR: dict[str, str] = {
     # look-ahead, accuracy, monitoring: no effect on what the program means
-    **dict.fromkeys(("ADVINIT", "ADVSTOP", "HTRAJON", "HTRAJOF", "HPVELON", "HPVELOF", "SMOOTH", "HPMMVON"), "none"),
-    **dict.fromkeys(("HPMMVOF", "SHCKSET", "SHCKRST", "CWAIT", "PRINT", "LATESTJOB", "SAVEJ", "SAVEV"), "none"),
-    **dict.fromkeys(("REFP", "GRPOF", "GRPON", "SETTM", "PMTON", "PMTOF", "FLWOF", "FLWON"), "none"),
+    **dict.fromkeys(("ADVINIT", "ADVSTOP", "HTRAJON", "HTRAJOF", "HPVELON", "HPVELOF", "SMOOTH", "HPMMVON"), "tuning"),
+    **dict.fromkeys(("HPMMVOF", "SHCKSET", "SHCKRST", "SETTM"), "tuning"),
+    **dict.fromkeys(("PRINT", "LATESTJOB", "SAVEJ", "SAVEV"), "none"),
+    **dict.fromkeys(("REFP", "GRPOF", "GRPON", "PMTON", "PMTOF", "FLWOF", "FLWON"), "none"),
     # arc welding
     **dict.fromkeys(("ARCON", "ARCOF", "ARCSET", "ARCCUR", "ARCVOL", "AWELD", "VWELD", "WVON", "WVOF"), "none"),
     **dict.fromkeys(("ARCCTS", "ARCCTE", "COMARCON", "COMARCOF", "WIRRTN", "TAILON", "PRE-TIG"), "none"),

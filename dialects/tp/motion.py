@@ -70,8 +70,8 @@ class Motion(Statements):
         if options.cnt is not None:
             options.blend = self.cnt_blend(letter, options)
         move = self.move(letter, first, options)
-        before = tuple(self.vendor(text, effect) for text, effect in options.vendor if effect == "none")
-        unknown = tuple(self.vendor(text, effect) for text, effect in options.vendor if effect != "none")
+        before = tuple(self.vendor(text, effect) for text, effect in options.vendor if effect == "tuning")
+        unknown = tuple(self.vendor(text, effect) for text, effect in options.vendor if effect != "tuning")
         if options.nested is not None:
             if before or unknown or options.skip:
                 raise StatementError("point logic cannot stand beside these options", 0)
@@ -190,7 +190,7 @@ class Motion(Statements):
     def part_external_velocity(self, tree: SyntaxTree, options: Options) -> None:
         """EV and Ind.EV: speed of extended axes in percent."""
         self.number(_tree(tree.children[1]))
-        options.vendor.append((self.written(r"(?:\bInd\.)?\bEV\s*[^%]*%"), "none"))
+        options.vendor.append((self.written(r"(?:\bInd\.)?\bEV\s*[^%]*%"), "tuning"))
 
     def part_coordinated(self, tree: SyntaxTree, options: Options) -> None:
         options.vendor.append(("COORD", "unknown"))
@@ -203,13 +203,13 @@ class Motion(Statements):
             case "wjnt":
                 options.orientation = "wrist"
             case lower:
-                options.vendor.append((word, "none" if lower in tables.HARMLESS_OPTIONS else "unknown"))
+                options.vendor.append((word, "tuning" if lower in tables.HARMLESS_OPTIONS else "unknown"))
 
     def part_number_option(self, tree: SyntaxTree, options: Options) -> None:
         self.number(_tree(tree.children[1]))
         word = str(tree.children[0])
         text = self.written(rf"\b{word}\s*\S+")
-        options.vendor.append((text, "none" if word.upper() == "PSPD" else "unknown"))
+        options.vendor.append((text, "tuning" if word.upper() == "PSPD" else "unknown"))
 
     def part_other_option(self, tree: SyntaxTree, options: Options) -> None:
         name = str(tree.children[0]).partition("[")[0].strip()

@@ -444,11 +444,11 @@ class Statements(Expressions):
 
     def on_payload(self, tree: SyntaxTree) -> Lowered:
         self.index(_tree(tree.children[-1]))
-        return self.vendor(self.origin_line(), "none")
+        return self.vendor(self.origin_line(), "tuning")
 
     def on_preread(self, tree: SyntaxTree) -> Lowered:
         """LOCK PREG lets position registers be read ahead: no difference to a program that is right."""
-        return self.vendor(self.origin_line(), "none")
+        return self.vendor(self.origin_line(), "tuning")
 
     def on_program_setting(self, tree: SyntaxTree) -> Lowered:
         return self.vendor(self.origin_line(), "none")

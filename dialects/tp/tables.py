@@ -103,13 +103,13 @@ HARMLESS_OPTIONS = frozenset(("pth", "break", "mrot", "cjnt"))
 
 # Instructions of applications, by their first words: what a run must know of them. Everything else is unknown.
 INSTRUCTION_EFFECTS: tuple[tuple[str, str], ...] = (
-    ("col detect", "none"),
-    ("col guard", "none"),
-    ("lock preg", "none"),
-    ("unlock preg", "none"),
-    ("lock vreg", "none"),
-    ("unlock vreg", "none"),
-    ("payload", "none"),
+    ("col detect", "tuning"),
+    ("col guard", "tuning"),
+    ("lock preg", "tuning"),
+    ("unlock preg", "tuning"),
+    ("lock vreg", "tuning"),
+    ("unlock vreg", "tuning"),
+    ("payload", "tuning"),
     ("arc start", "unknown"),
 )
 # M: names of the gripper macros as the handling tool comes with them -> their programs.

@@ -29,6 +29,7 @@ CAPABILITIES = Capabilities(
     types=frozenset(type.__name__ for type in TYPE_NAMES),
     names=NameRules(32, False, RESERVED),
     modal_motion=False,
+    paths_to_joints=False,
     notation="rapid",
     rotation="quaternion",
     for_at_least_once=True,

@@ -29,8 +29,9 @@ class CallRoutine:
 
 @dataclass(frozen=True, slots=True)
 class Vendor:
-    """A statement only one controller has. effect: none, message, time, unknown. An unknown effect stops a run unless
-    the cell file says what it stands for."""
+    """A statement only one controller has. effect: none, tuning, message, time, unknown. `tuning` concerns only how
+    its controller drives or watches itself (payload, collision guard), not what the program does. An unknown effect
+    stops a run unless the cell file says what it stands for."""
 
     dialect: str
     text: str

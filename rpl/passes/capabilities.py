@@ -89,7 +89,8 @@ class Capabilities:
     be although nothing else can: a place seen from another one, with simple operands. places_in_base: functions of
     places know only the tool in use and the robot's base. no_tool, no_frame: the target's
     own tool and work object data without any offset; then moves name such data, and no plain poses. arcs_by_angle: an
-    arc may go on for an angle (else it ends at a computed point).
+    arc may go on for an angle (else it ends at a computed point). paths_to_joints: a straight move may go to joint
+    values.
 
     move_triggers: a move says the actions on its path itself (Move.triggers), and only so.
     watching_tasks: path events, searches and interrupts stand in `statements` although moves and the controller have
@@ -171,6 +172,7 @@ class Capabilities:
     expressions: str = "any"
     calculated_places: bool = True
     arcs_by_angle: bool = False
+    paths_to_joints: bool = True
     conditions: str = "any"
     functions_alone: bool = False
     move_settings: frozenset[str] = frozenset()

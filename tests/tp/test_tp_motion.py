@@ -54,10 +54,10 @@ def test_a_move_means(line: str, meaning: str) -> None:
 
 
 VENDOR = [
-    ("PTH", "none"),
-    ("BREAK", "none"),
-    ("EV50%", "none"),
-    ("Ind.EV 50%", "none"),
+    ("PTH", "tuning"),
+    ("BREAK", "tuning"),
+    ("EV50%", "tuning"),
+    ("Ind.EV 50%", "tuning"),
     ("COORD", "unknown"),
     ("RTCP", "unknown"),
     ("Arc Start[1]", "unknown"),

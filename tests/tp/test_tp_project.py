@@ -214,7 +214,7 @@ GERMAN = [
     ("WARTE    .10(sec)", "WAIT 0.1"),
     ("TIMER[3]=STOPP", "$timer_stopped[3] = TRUE"),
     ("AUFRUF MAIN", "MAIN()"),
-    ("TRAGLST[1]", 'VENDOR tp "TRAGLST[1]" EFFECT none'),
+    ("TRAGLST[1]", 'VENDOR tp "TRAGLST[1]" EFFECT tuning'),
     ("ENDE", "RETURN"),
     ("L P[2] 10mm/sek CNT0 ACC250", "MOVE LINEAR TO P2 SPEED 10 ACCELERATION 250 BLEND PERCENT 0"),
     ("L P[2] max_Geschw. FINE", "MOVE LINEAR TO P2 SPEED 2000.0 FINE"),

@@ -192,7 +192,7 @@ TALKING: list[tuple[str, list[str]]] = [
     ('PROMPT "How many? ", n', ['ASK "How many? " INTO n KIND number']),
     ('PROMPT "Name? ", $t', ['ASK "Name? " INTO `$t` KIND text']),
     ('PROMPT "ready"', ['MESSAGE "ready" KIND write']),
-    ("ATTACH", ['VENDOR vplus "ATTACH" EFFECT none']),
+    ("ATTACH", ['VENDOR vplus "ATTACH" EFFECT tuning']),
     ('ATTACH (lun, 4) "TCP"', ['VENDOR vplus "ATTACH (lun, 4) \\"TCP\\"" EFFECT unknown']),
     ("SELECT ROBOT = 1", ['VENDOR vplus "SELECT ROBOT = 1" EFFECT none']),
     ("FCLOSE (lun)", ['VENDOR vplus "FCLOSE (lun)" EFFECT none']),

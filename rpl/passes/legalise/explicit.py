@@ -47,6 +47,7 @@ CORNER_OUTPUT = code(
 )
 
 # Settings of the source's controller that only steer how it interpolates or checks; a target without them drops them.
+_OF_EACH_AXIS = ("joint_speed", "joint_acceleration")
 _CHECKS = frozenset(
     {
         *("joint_configuration_check", "path_configuration_check", "singularity_mode", "acceleration_percent"),
@@ -175,9 +176,9 @@ class Modal:
                 setting = name.replace("_", " ")
                 self.context.diagnostics.report(DROPPED, statement.origin, name=setting)
                 return [ir.Nothing(origin=statement.origin)]
-            case ir.Assign(target=ir.System(name="joint_speed", indices=()), value=value):
-                self.changed("joint_speed", known)
-                first, *rest = _set("joint_speed", value, replace(statement.origin, comments=()))
+            case ir.Assign(target=ir.System(name=name, indices=()), value=value) if name in _OF_EACH_AXIS:
+                self.changed(name, known)
+                first, *rest = _set(name, value, replace(statement.origin, comments=()))
                 return [replace(first, origin=statement.origin), *rest]
             case ir.Assign(target=ir.System(name="speed_percent"), value=value):
                 return [replace(statement, target=ir.System("override"), value=value)]
@@ -365,7 +366,7 @@ def _assigned(statement: ir.Statement) -> str | None:
 
 
 def _set(name: str, value: ir.Expression, origin: Origin) -> list[ir.Statement]:
-    if name == "joint_speed":
+    if name in _OF_EACH_AXIS:
         return [ir.Assign(ir.System(name, (ir.IntLiteral(axis),)), value, origin=origin) for axis in range(1, 7)]
     return [ir.Assign(ir.System(name), value, origin=origin)]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.legalise.accelerations import accelerations_of_moves
 from rpl.passes.legalise.aggregates import aggregates
 from rpl.passes.legalise.aliases import without_aliases
 from rpl.passes.legalise.arithmetic import arithmetic
@@ -33,6 +34,7 @@ from rpl.passes.legalise.geometry import geometry
 from rpl.passes.legalise.groups import name_groups
 from rpl.passes.legalise.interrupts import interrupts
 from rpl.passes.legalise.joins import joins
+from rpl.passes.legalise.jointgoals import joint_goals
 from rpl.passes.legalise.labels import structure_to_labels
 from rpl.passes.legalise.levels import levels_to_distances
 from rpl.passes.legalise.locals import variables_of_routines
@@ -108,6 +110,7 @@ PASSES: tuple[Pass, ...] = (
     error_routines,
     joined_subscripts,
     array_bases,
+    joint_goals,
     three_point_arcs,
     circle_rules,
     flag_readings,
@@ -151,6 +154,7 @@ PASSES: tuple[Pass, ...] = (
     enums_to_constants,
     fit_speeds,
     corners,
+    accelerations_of_moves,
     settings_of_one_move,
     modal_to_explicit,
     tool_data,

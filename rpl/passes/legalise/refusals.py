@@ -1,10 +1,13 @@
 """What no rewriting can give a target: critical sections, control of other tasks, interrupts. Each is named with its
 reason; the statement stays, and the writer puts the target's stop there.
 
-A critical section of a program with one task says nothing and is left out.
+A critical section of a program with one task says nothing and is left out; so is, with a report and a remark, what only
+tunes the source's controller.
 """
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
@@ -13,6 +16,7 @@ from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, map_
 from rpl.passes.legalise.effects import statements_in
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.usage import bodies
+from rpl.source import Comment
 
 CRITICAL = code(
     "critical-section-lost", Severity.LOSS, "the target cannot keep other tasks from running in a section of a program"
@@ -24,6 +28,12 @@ INTERRUPT = code(
     "the target has no interrupts; {action} does not run when the condition comes true",
     "watch the condition in a task of its own or with the controller's monitoring function",
     stops=True,
+)
+TUNING = code(
+    "tuning-left-out",
+    Severity.WARNING,
+    "{text} sets up the source's controller only; it is left out",
+    "set the same on the target's controller where it has it (payload, collision guard)",
 )
 SEARCH = code("search-lost", Severity.LOSS, "the target's moves do not watch a condition on their way", stops=True)
 _WHAT = {"start": "start", "stop": "end", "pause": "halt", "resume": "go on with", "join": "wait for the end of"}
@@ -43,6 +53,10 @@ def refuse(program: ir.Program, context: Context) -> ir.Program:
                     return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
                 if statement.enter:
                     report(CRITICAL, statement.origin)
+            case ir.Vendor(dialect=owner, text=text, effect="tuning") if owner != context.target:
+                report(TUNING, statement.origin, text=text.strip())
+                remark = Comment(f" left out: {text.strip()}")
+                return (ir.Nothing(origin=replace(statement.origin, comments=(*statement.origin.comments, remark))),)
             case ir.TaskControl(op=op, task=name) if "TaskControl" not in statements or op not in operations:
                 report(TASK, statement.origin, what=_WHAT.get(op, op), name=name)
             case ir.DeclareInterrupt(action=action) if not _INTERRUPTS & statements:
