@@ -313,6 +313,10 @@ class Control(Motion):
                 return (ir.Wait(self.seconds(relation.right), origin=self.origin),)
         raise StatementError("TIMER needs T=", len(command.word))
 
+    def on_cwait(self, command: Command) -> Statements:
+        """The program goes on where a move with NWAIT has arrived."""
+        return (ir.WaitForMotion(origin=self.origin),)
+
     def on_wait(self, command: Command) -> Statements:
         """WAIT condition [T=limit] [result]: a limit that passes is no error, the program goes on."""
         limit: ir.Expression | None = None
@@ -407,6 +411,7 @@ class Control(Motion):
 
 _METHODS: dict[str, Callable[[Control, Command], Statements]] = {
     "NOP": Control.on_nop,
+    "CWAIT": Control.on_cwait,
     "SET": Control.on_set,
     **dict.fromkeys(ARITHMETIC, Control.arithmetic),
     **dict.fromkeys(("INC", "DEC"), Control.on_inc),

@@ -204,6 +204,8 @@ class Motion:
         """IMOV with the way in a position variable, or the place itself where it is known."""
         way = way_of(move.target) or self.positions.constants.known(move.target)
         frame = self.positions.constants.known(move.frame) if move.frame is not None else Position("pose", WORLD)
+        if move.relative == "tool":
+            frame = frame or Position("pose", WORLD)  # the tool's axes are the same in any frame
         job = self.positions.job
         if move.kind == "joint":
             reached = None if way is None or frame is None else self.reached(move, way, tool, frame)

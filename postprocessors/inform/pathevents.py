@@ -51,9 +51,10 @@ _AXES = ("x", "y", "z", "a", "b", "c")
 
 @dataclass(slots=True)
 class Parts:
-    """A move with what happens on its way: at its start, at points that it is cut at, and at its end."""
+    """A move with what happens on its way: at its start, some time later, where it is cut, and at its end."""
 
     begun: list[Action] = field(default_factory=list)
+    later: list[tuple[ir.Expression, Action]] = field(default_factory=list)  # so long after the start, in order
     cuts: list[tuple[ir.Move, list[Action]]] = field(default_factory=list)
     ended: list[Action] = field(default_factory=list)
     last: ir.Move | None = None  # what is left behind the cuts, where it is not the move itself
@@ -71,11 +72,41 @@ def parts_of(move: ir.Move, motion: Motion) -> Parts:
         else:
             (done.begun if trigger.reference == "start" else done.ended).append(trigger.action)
     if apart:
-        _cut(move, apart, motion, done)
+        whole = replace(done, begun=[*done.begun], ended=[*done.ended])
+        try:
+            _cut(move, apart, motion, done)
+        except CannotSayError:
+            if not all(map(_by_time, apart)) or move.search is not None or move.concurrent:
+                raise
+            done = replace(whole, later=_in_order(apart))
     blended = move.blend is not None and move.blend != ir.BlendStop()
     if (done.ended and blended) or (done.begun and done.ended and not motion.stands):
         motion.report_once(IN_CORNER, move.origin, str(move.origin.line))
     return done
+
+
+def _by_time(trigger: ir.Trigger) -> bool:
+    """Does it come some time behind the start of the move?"""
+    distance, delay = trigger.distance, trigger.delay
+    if trigger.reference != "start" or delay is None or (distance is not None and constant(distance) != 0):
+        return False
+    known = constant(delay)
+    return known is None or known > 0
+
+
+def _in_order(triggers: Sequence[ir.Trigger]) -> list[tuple[ir.Expression, Action]]:
+    """Each with the time behind the one before it."""
+    if len(triggers) == 1 and triggers[0].delay is not None:
+        return [(triggers[0].delay, triggers[0].action)]
+    delays = [0.0 if one.delay is None else constant(one.delay) for one in triggers]
+    found: list[tuple[ir.Expression, Action]] = []
+    before = 0.0
+    for delay, trigger in sorted(zip(delays, triggers, strict=True), key=lambda pair: pair[0] or 0.0):
+        if delay is None:
+            raise CannotSayError("several times behind its start, one of them computed", LOST)
+        found.append((ir.RealLiteral(round(delay - before, 6)), trigger.action))
+        before = delay
+    return found
 
 
 def _cut(move: ir.Move, triggers: Sequence[ir.Trigger], motion: Motion, done: Parts) -> None:

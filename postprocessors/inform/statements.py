@@ -68,6 +68,7 @@ class Printer(StatementPrinter[str]):
         super().__init__(ledger, diagnostics)
         self.assignments, self.motion, self.labels = assignments, motion, labels
         self.jobs, self.tasks = jobs, tasks
+        self.going = False  # the last move has NWAIT: what stands behind it is done on its way
 
     # ---- lines and remarks
 
@@ -113,6 +114,7 @@ class Printer(StatementPrinter[str]):
             self.statement(statement)
         for trigger in loose:
             self.statement(trigger)
+        self.arrive()
 
     def with_triggers(self, move: ir.Move, triggers: list[ir.Trigger], like: ir.Move | None = None) -> None:
         """A move (or one like it) and the actions that stand before it."""
@@ -126,6 +128,8 @@ class Printer(StatementPrinter[str]):
     def statement(self, statement: ir.Statement) -> None:
         """One statement, or its guarded stop."""
         self.assignments.registers.begin()
+        if not isinstance(statement, ir.Move | ir.Nothing | ir.Trigger):
+            self.arrive()
         super().statement(statement)
 
     def stop(self) -> None:
@@ -324,22 +328,41 @@ class Printer(StatementPrinter[str]):
         parts = parts_of(move, self.motion)
         self.comments_only(move.origin)
         first = parts.begun
-        if first and parts.ended and not parts.cuts:
+        if first and not parts.later and (parts.ended or parts.cuts or self.motion.stands):
+            self.arrive()
             self.actions(first)  # behind the move before, which may go round its corner
             first = []
         for cut, actions in (*parts.cuts, (parts.last or replace(move, triggers=()), parts.ended)):
             lines = self.motion.move(cut, self.lines)
-            if first:
+            if first or parts.later:
                 lines[-1] += " NWAIT"
             self.put(lines)
-            self.actions((*first, *actions))
-            if actions is parts.ended and (first or actions):
+            self.going = bool(first or parts.later)
+            self.actions(first)
+            self.timed(parts.later, move.origin)
+            if actions:
+                self.arrive()
+            self.actions(actions)
+            if actions is parts.ended and (first or actions or parts.later):
                 self.motion.line_of_last = None
             first = []
         for trigger in move.triggers:
             if isinstance(trigger, ir.Trigger):
                 self.ledger.merged(trigger)
         self.outcome(move)
+
+    def timed(self, events: Sequence[tuple[ir.Expression, ir.Assign | ir.CallRoutine]], origin: Origin) -> None:
+        """Actions each some time behind the one before, while the robot moves."""
+        for delay, action in events:
+            if constant(delay) != 0:
+                self.line(f"TIMER {self.time(delay, origin)}")
+            self.action(action)
+
+    def arrive(self) -> None:
+        """Behind a move with NWAIT the program goes on only where the robot has arrived."""
+        if self.going:
+            self.line("CWAIT")
+            self.going = False
 
     def actions(self, actions: Sequence[ir.Assign | ir.CallRoutine]) -> None:
         for action in actions:

@@ -377,6 +377,46 @@ END
     assert codes(diagnostics, Severity.LOSS) == {"interrupt-not-watched", "inform-interrupt-lost"}
 
 
+TIMED = """DEF one()
+DECL FRAME F
+PTP {A1 0, A2 -90, A3 90, A4 0, A5 60, A6 0}
+F = $POS_ACT
+F.X = F.X - 30
+$VEL.CP = 0.1
+LIN F
+F.Y = F.Y + 60
+TRIGGER WHEN DISTANCE=0 DELAY=100 DO $OUT[1]=TRUE
+TRIGGER WHEN DISTANCE=0 DELAY=250 DO $OUT[3]=TRUE
+LIN F
+$OUT[2] = $OUT[1] AND $OUT[3]
+END
+"""
+
+
+def test_an_action_some_time_behind_the_start_of_a_computed_move_follows_a_timer() -> None:
+    """The lines behind NWAIT are done on the way, those behind CWAIT at its end."""
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("one.src", TIMED)], "krl", diagnostics)
+    robot = "kuka_kr6r900sixx"
+    translation = translate_program(read, "inform", robot, None, diagnostics)
+    assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    sources = [source_from_bytes(file.path, file.data) for file in translation.files if file.path.endswith(".JBI")]
+    lines = sources[0].text.splitlines()
+    at = next(n for n, line in enumerate(lines) if line.endswith("NWAIT"))
+    assert lines[at + 1 : at + 6] == ["TIMER T=0.10", "DOUT OT#(1) ON", "TIMER T=0.15", "DOUT OT#(3) ON", "CWAIT"]
+    first = [round(time, 2) for time, *_ in run_program(read.program, robot).outputs]
+    back = read_sources(sources, "inform", diagnostics)
+    second = [round(time, 2) for time, *_ in run_program(back.program, robot).outputs]
+    assert first[1] - first[0] == pytest.approx(second[1] - second[0])
+    assert first[2] - first[0] == pytest.approx(second[2] - second[0], abs=0.02)
+
+
+def test_what_stands_behind_a_move_waits_for_its_end() -> None:
+    text = PATH.replace("TRIGGER WHEN PATH=-20", "TRIGGER WHEN DISTANCE=0").replace("END\n", "$OUT[4] = TRUE\nEND\n")
+    _, diagnostics, on = jobs_of("krl", text, "kuka_kr6r900sixx")
+    assert on == {1, 2, 3, 4} and not diagnostics.of(Severity.LOSS)
+
+
 def test_a_straight_way_between_two_arcs_stays_straight() -> None:
     text = """DEF one()
 PTP {A1 0, A2 -90, A3 90, A4 0, A5 30, A6 0}
