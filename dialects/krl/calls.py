@@ -34,9 +34,6 @@ def function_call(name: str, arguments: Arguments, origin: Origin) -> ir.Express
         return _compared(values, origin) or ir.Call(name, arguments, origin=origin)
     if lower == "strfind" and count == 4:
         return _found(values, origin) or ir.Call(name, arguments, origin=origin)
-    if lower == "inverse" and count in (1, 2, 3):
-        # M: the start joints and the error status say which branch and whether it worked
-        return ir.Call(name, arguments, origin=origin)
     return ir.Call(name, arguments, origin=origin)
 
 

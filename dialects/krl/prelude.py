@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from importlib import resources
 from pathlib import Path
@@ -11,6 +12,8 @@ from rpl.diagnostics import Diagnostics
 from rpl.errors import InternalError
 from rpl.reading.cache import kept, stamps
 from rpl.source import source_from_text
+
+from .kinematics import kinematics
 
 _FILES = ("prelude.src", "prelude.dat")
 
@@ -31,4 +34,5 @@ def _read() -> ir.Module:
     modules = read(sources, diagnostics).program.modules
     if diagnostics.has_errors or len(modules) != 1:
         raise InternalError(f"the KRL prelude does not read: {[item.as_text() for item in diagnostics]}")
-    return modules[0]
+    module = modules[0]
+    return replace(module, routines=(*module.routines, *kinematics()))

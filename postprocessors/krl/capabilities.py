@@ -18,7 +18,7 @@ CAPABILITIES = Capabilities(
     ),
     functions=frozenset((*tables.FUNCTIONS, "text_equal", "text_find", "is_uninitialised", "message_text", "compose")),
     procedures=frozenset(tables.PROCEDURES),
-    system_variables=frozenset(tables.SYSTEM),
+    system_variables=frozenset((*tables.SYSTEM, "actual_joint")),
     operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary)),
     types=frozenset(
         (
@@ -53,4 +53,5 @@ CAPABILITIES = Capabilities(
     data_lists=True,
     declared_groups=True,
     background_tasks="shared",
+    kinematics=("INVERSE", "FORWARD"),
 )

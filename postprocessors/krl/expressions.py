@@ -118,6 +118,8 @@ class Expressions:
                 return self.system(variable, unit)
             case ir.Signal():
                 return self.signal(expression)
+            case ir.VendorValue(dialect="krl", text=text):
+                return text
             case ir.Convert(how=how, operand=operand) if how in tables.SILENT_CONVERSIONS:
                 return printer.printed(operand)
             case ir.Quantity(value=value, unit=unit):
@@ -249,6 +251,8 @@ class Expressions:
 
     def system(self, variable: ir.System, unit: str) -> str:
         """A system variable as a value in `unit` (empty: in the neutral one)."""
+        if variable.name == "actual_joint" and isinstance(variable.indices[0], ir.IntLiteral):
+            return f"$AXIS_ACT.A{variable.indices[0].value}"
         found = tables.SYSTEM.get(variable.name)
         if found is None:
             raise CannotSayError(f"KRL has no system variable for {variable.name}")

@@ -126,7 +126,7 @@ FUNCTIONS: dict[str, Function] = _table(
     arc_middle     | ppp      | 2 | halfway from second to third on the circle through all three, where first is not
     pose_sum       | pp       | p | positions added, rotations multiplied (first . second)
     pose_difference | pp      | p | what added to the second gives the first: positions subtracted, second^-1 . first
-    target_to_joints_near | pjx?x? | j | inverse kinematics: the solution nearest to the given joints (tool, frame)
+    target_to_joints_near | pjx?x? | j | joints of a target nearest to given ones; flags choose first (tool, frame)
     is_reachable   | pjx?x?   | b | is there a solution for the target, starting from the given joints (tool, frame)
     """
 )

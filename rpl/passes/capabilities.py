@@ -49,6 +49,8 @@ class Capabilities:
     dynamic_calls: a procedure may be called by a name computed at run time.
     switch_types: type classes a Switch may select by (NamedType: enumerations); empty: any type.
     switch_constant_cases: case values must be literals. text_results: functions may return texts.
+    kinematics: functions of the controller for the joints of a target (near joints) and for the target of joints, that
+    write 0 or an error into a further argument, when that is how it says so.
     format_state: type of the state that format_into writes; None when it has none. carries_rules: the target's text
     says by which language's rules a module runs (RPL's USING), so nothing has to be rewritten.
 
@@ -134,6 +136,7 @@ class Capabilities:
     partial_aggregates: bool = False
     constant_aggregates: bool = False
     format_state: Type | None = None
+    kinematics: tuple[str, str] | None = None
     carries_rules: bool = False
     relative_moves: bool = False
     partial_targets: bool = False

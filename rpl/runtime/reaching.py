@@ -4,7 +4,7 @@ Millimetres and degrees.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,7 +14,7 @@ from rpl.runtime.chain import filled, frames_of, joints_of, joints_value, matrix
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.geometry import as_pose
 from rpl.runtime.tasks import robot_of
-from rpl.runtime.values import PoseValue, Value, rotation_of
+from rpl.runtime.values import PoseValue, TargetValue, Value, rotation_of
 
 if TYPE_CHECKING:
     from rpl.emulator.rotations import FloatArray
@@ -40,8 +40,20 @@ def _near(task: Task, target: Value, joints: Value, tool: Value = None, frame: V
         raise ProgramError("motion", "inverse kinematics need a robot")
     place, moving = frames_of(tool, frame, task.modal, {}).target_in_robot(filled(target, rigid.IDENTITY))
     near = np.array(joints_of(joints, [0.0] * robot.model.axes, False))
-    found: FloatArray | None = robot.model.nearest(matrix_of(place.then(moving.inverse)), near)
+    flange = matrix_of(place.then(moving.inverse))
+    flags = {name: int(value) for name, value in _flags(target) if value is not None}
+    notation = task.machine.linked.notation(task.frame.code.rules.name) if flags else None
+    found: FloatArray | None = (
+        robot.model.nearest(flange, near)
+        if notation is None
+        else notation.select(robot.model, flange, flags, near).joints
+    )
     return found
+
+
+def _flags(target: Value) -> Iterable[tuple[str, Value]]:
+    """The arm configuration that a target has."""
+    return target.conf.flags if isinstance(target, TargetValue) else ()
 
 
 def _target_to_joints_near(task: Task, target: Value, joints: Value, tool: Value = None, frame: Value = None) -> Value:

@@ -16,6 +16,7 @@ from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.library import Library, composed, minus, number, plus, times
 from rpl.passes.legalise.records import RECORDS, Records
+from rpl.passes.legalise.tooldata import KINEMATICS
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.typewords import component_names, type_word
@@ -479,14 +480,37 @@ class _ToAngles(Rewriter):
                 return self.here(arguments)
             case "current_joints", () if not can:
                 return ir.System("actual_joints", origin=expression.origin)
+            case name, _ if name in KINEMATICS and not can and self.context.capabilities.kinematics is not None:
+                return self.kinematic(name, arguments)
         return rewrite_parts(expression, self.expression)
+
+    def kinematic(self, name: str, arguments: tuple[ir.Expression, ...]) -> ir.Expression:
+        """A kinematic function by the target's own two, which know the modal tool and frame."""
+        count = 2 if name in ("target_to_joints_near", "is_reachable") else 1
+        frames = self.tool_and_frame(arguments[count:])
+        first = self.expression(arguments[0])
+        if name == "joints_to_target":
+            return self.library.call("seen", first, *frames) if frames else self.library.call("target_of_joints", first)
+        start: ir.Expression = ir.System("actual_joints")
+        if count > 1:
+            start = self.expression(arguments[1])
+            if isinstance(start, ir.Builtin) and start.function == "current_joints":
+                start = ir.System("actual_joints")
+        if self.is_a(arguments[0], ir.PoseType):
+            first = self.library.call("as_target", first)
+        if frames:
+            first = self.library.call("into", first, *frames)
+        return self.library.call("reached" if name == "is_reachable" else "joints", first, start)
 
     def here(self, arguments: tuple[ir.Expression, ...]) -> ir.Expression:
         """Where the robot stands, seen with the given tool and work object."""
-        now: ir.Expression = ir.System("actual_pose")
-        given = [one for one in arguments if not isinstance(one, ir.Builtin)]
-        if not given:
-            return now
+        frames = self.tool_and_frame(arguments)
+        return self.library.call("current", *frames) if frames else ir.System("actual_pose")
+
+    def tool_and_frame(self, arguments: tuple[ir.Expression, ...]) -> tuple[ir.Expression, ...]:
+        """The poses of the given tool and work object; none where both are the modal ones."""
+        if all(isinstance(one, ir.Builtin) for one in arguments):
+            return ()
         tool: ir.Expression = ir.System("tool")
         frame: ir.Expression = ir.System("base")
         for at, one in enumerate(arguments):
@@ -498,7 +522,7 @@ class _ToAngles(Rewriter):
             else:
                 parts = (ir.Field(base, "user_frame"), ir.Field(base, "object_frame"))
                 frame = composed(*parts) if self.is_a(one, ir.WorkObjectType) else base
-        return self.library.call("current", tool, frame)
+        return tool, frame
 
 
 Numbers = tuple[ir.Expression, ir.Expression, ir.Expression]

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from rpl import ir
 from rpl.passes.legalise.context import Context
 
-_REAL, _POSE = ir.RealType(), ir.PoseType()
+_REAL, _POSE, _JOINTS = ir.RealType(), ir.PoseType(), ir.JointsType()
 COMPONENTS = ("x", "y", "z", "a", "b", "c")
 Made = tuple[tuple[ir.Parameter, ...], ir.Type, tuple[ir.Variable, ...], ir.Body]
 
@@ -74,6 +74,12 @@ class Library:
             parameters, returns, declarations, body = _MAKERS[key](self)
             self.routines.append(ir.Routine(name, "function", parameters, returns, declarations, body, scope="global"))
         return self.names[key]
+
+    def asked(self, type: ir.Type, *parts: str) -> ir.Expression:
+        """The controller's own function for the joints of a target, or for the target of joints; `error` is written."""
+        inverse, forward = self.context.capabilities.kinematics or ("", "")
+        name = inverse if type == _JOINTS else forward
+        return ir.VendorValue(self.context.target, f"{name}({','.join((*parts, 'error'))})", type)
 
     def call(self, key: str, *arguments: ir.Expression) -> ir.Call:
         return call(self.name(key), *arguments)
@@ -166,6 +172,71 @@ def _current(library: Library) -> Made:
         ir.Return(ir.Name("p")),
     )
     parameters = (ir.Parameter("tcp", _POSE), ir.Parameter("reference", _POSE))
+    return parameters, library.target, (*_local("p", library.target), *_local("f", _POSE)), body
+
+
+def _joints(library: Library) -> Made:
+    """The joints of a target, near given ones; out of reach the program stops, as the source's does."""
+    return _solved(library, "q", ir.JointsType(), ir.Parameter("p", library.target), ir.Parameter("start", _JOINTS))
+
+
+def _as_target(library: Library) -> Made:
+    """A pose as a target that leaves the arm's posture open."""
+    body: ir.Body = (*_copy("p", "f", COMPONENTS), ir.Return(ir.Name("p")))
+    return (ir.Parameter("f", _POSE),), library.target, _local("p", library.target), body
+
+
+def _target_of_joints(library: Library) -> Made:
+    """Where the tool is at given joints."""
+    return _solved(library, "p", library.target, ir.Parameter("q", _JOINTS))
+
+
+def _reached(library: Library) -> Made:
+    """Whether a target has joints near given ones."""
+    ask = ir.Assign(ir.Name("q"), library.asked(ir.JointsType(), "p", "start"))
+    parameters = (ir.Parameter("p", library.target), ir.Parameter("start", _JOINTS))
+    local = (*_local("q", _JOINTS), *_local("error", ir.IntType()))
+    return parameters, ir.BoolType(), local, (ask, ir.Return(ir.Binary("=", ir.Name("error"), ir.IntLiteral(0))))
+
+
+def _solved(library: Library, result: str, type: ir.Type, *parameters: ir.Parameter) -> Made:
+    """The controller's own function, with a stop where it says that there is no answer."""
+    failed = ir.If(((ir.Binary("<>", ir.Name("error"), ir.IntLiteral(0)), (ir.Halt(),)),))
+    ask = ir.Assign(ir.Name(result), library.asked(type, *(one.name for one in parameters)))
+    local = (*_local(result, type), *_local("error", ir.IntType()))
+    return parameters, type, local, (ask, failed, ir.Return(ir.Name(result)))
+
+
+def _into(library: Library) -> Made:
+    """A target that is seen with another tool and in another frame than the modal ones, seen with these."""
+    product = composed(
+        function("inverse", ir.System("base")),
+        ir.Name("reference"),
+        ir.Name("p"),
+        function("inverse", ir.Name("tcp")),
+        ir.System("tool"),
+    )
+    body: ir.Body = (_set("f", product), *_copy("p", "f", COMPONENTS), ir.Return(ir.Name("p")))
+    parameters = (ir.Parameter("p", library.target), ir.Parameter("tcp", _POSE), ir.Parameter("reference", _POSE))
+    return parameters, library.target, _local("f", _POSE), body
+
+
+def _seen(library: Library) -> Made:
+    """Where another tool is in another frame at given joints."""
+    product = composed(
+        function("inverse", ir.Name("reference")),
+        ir.System("base"),
+        ir.Name("p"),
+        function("inverse", ir.System("tool")),
+        ir.Name("tcp"),
+    )
+    body: ir.Body = (
+        _set("p", call(library.name("target_of_joints"), ir.Name("q"))),
+        _set("f", product),
+        *_copy("p", "f", COMPONENTS),
+        ir.Return(ir.Name("p")),
+    )
+    parameters = (ir.Parameter("q", _JOINTS), ir.Parameter("tcp", _POSE), ir.Parameter("reference", _POSE))
     return parameters, library.target, (*_local("p", library.target), *_local("f", _POSE)), body
 
 
@@ -286,6 +357,12 @@ _MAKERS: dict[str, Callable[[Library], Made]] = {
     "length": _length,
     "pose": _pose,
     "current": _current,
+    "joints": _joints,
+    "as_target": _as_target,
+    "target_of_joints": _target_of_joints,
+    "reached": _reached,
+    "into": _into,
+    "seen": _seen,
     "quaternion": _quaternion,
     "rotation": _rotation,
     "from_points": _from_points,

@@ -145,8 +145,11 @@ class _Settings:
                 return self.framed(expression, inverse=True)
             case ir.Builtin(function="joints_to_target", arguments=(_,)):
                 return self.framed(expression, inverse=True)
-            case ir.Builtin(function="target_to_joints", arguments=(place,)):
-                return replace(expression, arguments=(self.framed(place, inverse=False),))
+            case (
+                ir.Builtin(function="target_to_joints", arguments=(place,) as arguments)
+                | ir.Builtin(function="target_to_joints_near" | "is_reachable", arguments=(place, _) as arguments)
+            ):
+                return replace(expression, arguments=(self.framed(place, inverse=False), *arguments[1:]))
         return expression
 
     def framed(self, pose: ir.Expression, *, inverse: bool) -> ir.Expression:
@@ -163,6 +166,10 @@ class _Settings:
         for name in own.keys() - SETTINGS:
             self.report_once(DROPPED, move, name, name=name.replace("_", " "))
         done = rewrite_parts(replace(move, settings=(), blend=None), self.expression, self.body)
+        near = move.target
+        if isinstance(near, ir.Builtin) and near.function == "target_to_joints_near":
+            # a posture beside the move's target: the target stands in the frame of the move
+            done = replace(done, target=rewrite_parts(near, self.expression))
         says = self.context.capabilities.move_settings
         blend = self.blend(move, state, own) if "blend" in says else move.blend
         done = replace(done, blend=blend)

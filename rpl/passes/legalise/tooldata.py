@@ -30,6 +30,7 @@ PLACES: dict[str, tuple[int, int]] = {
     "target_to_joints_near": (2, 3),
     "is_reachable": (2, 3),
 }
+KINEMATICS = ("joints_to_target", "target_to_joints", "target_to_joints_near", "is_reachable")
 
 _ZERO = ir.RealLiteral(0.0)
 _NO_TURN = ir.Aggregate(
