@@ -20,7 +20,14 @@ CAPABILITIES = Capabilities(
     system_variables=frozenset(ir.SYSTEM_VARIABLES),
     operators=frozenset((*ir.BINARY_OPERATORS, *ir.UNARY_OPERATORS)),
     types=frozenset(node.__name__ for node in get_args(ir.Type)),
-    names=NameRules(longest=1000, case_sensitive=True, reserved=words.RESERVED),
+    # In backticks a name may be spelled as its own language does, so that it still means what that language predefines.
+    names=NameRules(
+        longest=1000,
+        case_sensitive=True,
+        reserved=words.RESERVED,
+        first="abcdefghijklmnopqrstuvwxyz_$",
+        further="abcdefghijklmnopqrstuvwxyz0123456789_$.",
+    ),
     modal_motion=True,
     notation=words.NATIVE,
     rotation="zyx",
