@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.walk import walk
 from rpl.source import NOWHERE, Origin
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError, StatementPrinter
@@ -51,7 +52,8 @@ _POLL_S = 0.01
 
 
 class Printer(StatementPrinter[str]):
-    """Prints the body of one job. `jobs`: routine, folded -> job; `tasks`: job -> sub task, of the whole program."""
+    """Prints the body of one job. `jobs`: routine, folded -> job; `tasks`: job -> sub task, of the whole program;
+    `moving`: routines, folded, that move the robot."""
 
     guarded, dialect = GUARDED, "inform"
 
@@ -62,12 +64,13 @@ class Printer(StatementPrinter[str]):
         labels: Labels,
         jobs: Mapping[str, str],
         tasks: dict[str, str],
+        moving: frozenset[str],
         ledger: EmissionLedger,
         diagnostics: Diagnostics,
     ) -> None:
         super().__init__(ledger, diagnostics)
         self.assignments, self.motion, self.labels = assignments, motion, labels
-        self.jobs, self.tasks = jobs, tasks
+        self.jobs, self.tasks, self.moving = jobs, tasks, moving
         self.going = False  # the last move has NWAIT: what stands behind it is done on its way
 
     # ---- lines and remarks
@@ -168,7 +171,9 @@ class Printer(StatementPrinter[str]):
                 self.put([part.strip() for part in self.own_text(statement).splitlines()], origin)
             case _:
                 self.line(self.simple(statement), origin)
-                if isinstance(statement, ir.CallRoutine | ir.Halt):
+                if isinstance(statement, ir.CallRoutine):
+                    self.called(statement)
+                elif isinstance(statement, ir.Halt):
                     self.motion.forget()
 
     def simple(self, statement: ir.Statement) -> str:
@@ -217,6 +222,15 @@ class Printer(StatementPrinter[str]):
             return f"CALL JOB:{variable(call.dynamic)}"
         return f"CALL JOB:{self.job(call.name)}"
 
+    def called(self, call: ir.CallRoutine) -> None:
+        """A job that does not move the robot leaves it where it is; variables may have changed."""
+        if call.dynamic is not None or call.name.lower() in self.moving:
+            self.motion.forget()
+        else:
+            self.motion.positions.changes += 1
+            self.motion.positions.in_tools.clear()
+            self.motion.line_of_last = None
+
     def sub(self, task: str, start: bool) -> str:
         """The sub task of a job."""
         if task.lower() not in self.tasks:
@@ -228,9 +242,24 @@ class Printer(StatementPrinter[str]):
     # ---- blocks
 
     def inner(self, body: ir.Body) -> None:
-        self.motion.forget()
+        """A body that may be left out or repeated. One that does not move the robot leaves it where it is."""
+        if not self.rests(body):
+            self.motion.forget()
+            self.body(body)
+            self.motion.forget()
+            return
+        self.motion.line_of_last = None
         self.body(body)
-        self.motion.forget()
+
+    def rests(self, body: ir.Body) -> bool:
+        """Does the robot certainly stay where it is?"""
+        for node in walk(*body):
+            match node:
+                case ir.Move() | ir.MoveExternal() | ir.Spline() | ir.Label() | ir.Vendor() | ir.Opaque() | ir.Halt():
+                    return False
+                case ir.CallRoutine(name=name, dynamic=dynamic) if dynamic is not None or name.lower() in self.moving:
+                    return False
+        return True
 
     def choice(self, statement: ir.If) -> None:
         statement = self.decided(statement)
@@ -297,7 +326,7 @@ class Printer(StatementPrinter[str]):
         self.line(f"{deed} IF {shown}", statement.origin)
         self.ledger.written(body[0])
         if isinstance(body[0], ir.CallRoutine):
-            self.motion.forget()
+            self.called(body[0])
         return True
 
     def repeating(self, loop: ir.While) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.legalise.beside import closure
 from rpl.passes.legalise.pulses import assumed
 from rpl.source import NOWHERE
 from rpl.writing.ledger import EmissionLedger
@@ -75,6 +76,7 @@ class _Writer:
         self.tools: dict[int, int] = {}  # id of a routine -> the tool of its positions in variables
         self.choose_tools()
         self.beside = _beside(program)
+        self.moving = closure(program, (ir.Move, ir.MoveExternal, ir.Spline, ir.Vendor, ir.Opaque))
         self.counting = _counts_joints(program)
         robot = context.robot
         if self.counting and robot is not None and robot.pulses_per_degree is None and robot.pulse_scale is not None:
@@ -176,7 +178,8 @@ class _Writer:
         motion = Motion(positions, assignments.number, self.diagnostics)
         motion.names = {name: int(name[1:]) for name in constants.points if name[:1] == "C" and name[1:].isdigit()}
         labels = Labels.of(routine.body)
-        return Printer(assignments, motion, labels, self.jobs, self.tasks, self.ledger, self.diagnostics)
+        tasks, moving = self.tasks, self.moving
+        return Printer(assignments, motion, labels, self.jobs, tasks, moving, self.ledger, self.diagnostics)
 
     def lost_parts(self, routine: ir.Routine) -> None:
         """What a job has no place for. The passes before carry over what they can."""

@@ -429,3 +429,29 @@ END
     jobs, _, _ = jobs_of("krl", text, "kuka_kr6r900sixx")
     words = [line.split()[0] for line in jobs["ONE"][1:]]
     assert words == ["MOVJ", *("MOVC",) * 3, "MOVL", *("MOVC",) * 3]
+
+
+STAYS = """DEF one()
+PTP {A1 0, A2 -90, A3 90, A4 0, A5 60, A6 0}
+$VEL.CP = 0.1
+LIN {X 450, Y 0, Z 600, A 0, B 120, C 0}
+count()
+IF $IN[1] THEN
+  $OUT[3] = TRUE
+ENDIF
+TRIGGER WHEN PATH=-20 DELAY=0 DO $OUT[1]=TRUE
+LIN {X 450, Y 100, Z 600, A 0, B 120, C 0}
+END
+DEF count()
+$OUT[2] = TRUE
+END
+"""
+
+
+def test_calls_and_branches_that_do_not_move_leave_the_robot_where_it_is() -> None:
+    """So the place of an action on the next move stays known."""
+    _, diagnostics, on = jobs_of("krl", STAYS, "kuka_kr6r900sixx", "ONE")
+    assert not diagnostics.of(Severity.LOSS) and on == {1, 2}
+    moving = STAYS.replace("$OUT[2] = TRUE", "LIN_REL {Z 10}")
+    _, diagnostics, _ = jobs_of("krl", moving, "kuka_kr6r900sixx", "ONE")
+    assert codes(diagnostics, Severity.LOSS) == {"inform-path-event-lost"}
