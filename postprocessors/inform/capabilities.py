@@ -70,5 +70,6 @@ CAPABILITIES = Capabilities(
     blends=frozenset(("BlendStop", "BlendDistance", "BlendLevel")),
     static_locals=True,
     watched_interrupts=True,
+    pulse_levels=False,
     poll_s=tables.WATCH_STEP_S,
 )

@@ -97,7 +97,8 @@ class Capabilities:
     move_triggers: a move says the actions on its path itself (Move.triggers), and only so.
     watching_tasks: path events, searches and interrupts stand in `statements` although moves and the controller have
     none: the passes make tasks of them that watch beside the move (pathevents, watching). watched_interrupts: only
-    interrupts are such tasks; one that stops the robot ends its moves by a search.
+    interrupts are such tasks; one that stops the robot ends its moves by a search. pulse_levels: a Pulse may be to any
+    level (else it is to high).
 
     declared_groups: a group of signals exists only by a declaration with a name (KRL SIGNAL). signal_groups: a group
     can be named by its first and last signal, or a pass or the writer finds a name for it. Where signals have names
@@ -184,6 +185,7 @@ class Capabilities:
     move_triggers: bool = False
     watching_tasks: bool = False
     watched_interrupts: bool = False
+    pulse_levels: bool = True
     declared_groups: bool = False
     signal_groups: bool = True
     numbered_groups: bool = False

@@ -455,3 +455,29 @@ def test_calls_and_branches_that_do_not_move_leave_the_robot_where_it_is() -> No
     moving = STAYS.replace("$OUT[2] = TRUE", "LIN_REL {Z 10}")
     _, diagnostics, _ = jobs_of("krl", moving, "kuka_kr6r900sixx", "ONE")
     assert codes(diagnostics, Severity.LOSS) == {"inform-path-event-lost"}
+
+
+PULSES = """MODULE One
+PROC one()
+VAR num n;
+SetDO do1, 1;
+PulseDO \\PLength:=0.3, do1;
+WaitTime 0.1;
+IF DOutput(do1)=0 SetDO do11, 1;
+WaitTime 0.5;
+IF DOutput(do1)=1 SetDO do12, 1;
+PulseDO \\PLength:=0.3, do2;
+WaitTime 0.1;
+IF DOutput(do2)=1 SetDO do13, 1;
+WaitTime 0.5;
+IF DOutput(do2)=0 SetDO do14, 1;
+ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_pulse_to_low_is_ended_by_a_job_beside() -> None:
+    jobs, diagnostics, on = jobs_of("rapid", PULSES, "abb_irb1200_5_90", "ONE")
+    assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    assert on == {1, 11, 12, 13, 14}
+    assert "PSTART JOB:RPL_PULSE SUB1" in jobs["ONE"] and "PULSE OT#(2) T=0.30" in jobs["ONE"]

@@ -53,6 +53,7 @@ from rpl.passes.legalise.parameters import fit_arguments
 from rpl.passes.legalise.pathevents import path_events
 from rpl.passes.legalise.polling import poll_waits
 from rpl.passes.legalise.prelude import link_prelude
+from rpl.passes.legalise.pulselevels import pulse_levels
 from rpl.passes.legalise.pulses import fold_pulses
 from rpl.passes.legalise.reactions import reactions
 from rpl.passes.legalise.reactionsearches import reaction_searches
@@ -143,6 +144,7 @@ PASSES: tuple[Pass, ...] = (
     check_errors,
     labels_to_structure,
     fit_waits,
+    pulse_levels,
     poll_waits,
     unroll_switches,
     decide_logic,
