@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from rpl.proof.record import Happening, Named
 
+_BLANKS = r"\s*"
 _NUMBER, _TEXT = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", r".*"
 
 
@@ -55,8 +56,9 @@ def _goes_on(ours: Sequence[Happening], theirs: Sequence[Happening]) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class _Said:
-    """A text without blanks, and the expression that says what else would say the same."""
+    """A text as it was shown and without blanks, and the expression that says what else would say the same."""
 
+    shown: str
     text: str
     pattern: str
 
@@ -64,7 +66,8 @@ class _Said:
     def of(cls, lines: Sequence[Happening]) -> _Said:
         named = next((one.named for one in lines), Named())
         texts = [str(one.value) for one in lines]
-        return cls("".join(map(_bare, texts)), "".join(_pattern(text, named) for text in texts))
+        pattern = _BLANKS.join(_pattern(text, named) for text in texts)
+        return cls(" ".join(texts), "".join(map(_bare, texts)), rf"\s*{pattern}\s*")
 
 
 def _same(ours: Sequence[Happening], theirs: Sequence[Happening]) -> bool:
@@ -73,19 +76,23 @@ def _same(ours: Sequence[Happening], theirs: Sequence[Happening]) -> bool:
         return True
     if ours[0].named == theirs[0].named:
         return False
-    return bool(re.fullmatch(a.pattern, b.text) or re.fullmatch(b.pattern, a.text))
+    return bool(re.fullmatch(a.pattern, b.shown, re.DOTALL) or re.fullmatch(b.pattern, a.shown, re.DOTALL))
 
 
 def _pattern(text: str, named: Named) -> str:
-    """The text with what it names left open."""
+    """The text with what it names left open; blanks may stand anywhere but inside of a number."""
     if not named.numbers and not named.texts:
-        return re.escape(_bare(text))
+        return _constant(text)
     names = re.compile(rf"\b(?:(?P<number>{named.numbers or '(?!)'})|(?P<text>{named.texts or '(?!)'}))\b")
-    done, at = "", 0
+    done, at = [], 0
     for found in names.finditer(text):
-        done += re.escape(_bare(text[at : found.start()])) + (_NUMBER if found["number"] else _TEXT)
+        done += [_constant(text[at : found.start()]), _NUMBER if found["number"] else _TEXT]
         at = found.end()
-    return done + re.escape(_bare(text[at:]))
+    return _BLANKS.join((*done, _constant(text[at:])))
+
+
+def _constant(text: str) -> str:
+    return _BLANKS.join(map(re.escape, _bare(text)))
 
 
 def _bare(text: str) -> str:

@@ -85,3 +85,35 @@ def test_groups_that_nothing_switches_singly_stay() -> None:
 )
 def test_names_of_groups_meet(a: tuple, b: tuple, same: bool) -> None:  # type: ignore[type-arg]
     assert bool(signal_names(*a) & signal_names(*b)) is same
+
+
+@pytest.mark.parametrize(
+    ("other", "same"),
+    [
+        (record((1.0, 34, True), (2.5, 36, True)), False),  # a bit at another moment
+        (record((1.0, 34, True), (1.0, 36, True), (1.0, 36, False)), False),  # switched off again
+        (record((1.0, 34, True), (1.0, 36, True), (2.0, 37, True)), False),  # a bit beside the group
+        (record((1.0, 33, False), (1.0, 34, True), (1.0, 36, True)), False),  # a bit that does not change is written
+        (record((1.0, (32, 36), 20), (1.0, 33, False)), False),
+        (record(), False),
+    ],
+)
+def test_bits_that_are_not_the_group(other: Record, same: bool) -> None:
+    assert equal(TEN, other) is same
+    assert equal(other, TEN) is same
+
+
+def test_a_group_without_a_change_writes_no_bits() -> None:
+    twice = record((1.0, (33, 36), 10), (2.0, (33, 36), 10), (3.0, 40, True))
+    once = record((1.0, 34, True), (1.0, 36, True), (3.0, 40, True))
+    assert equal(twice, once)
+    assert equal(record((0.5, (33, 36), 0), (1.0, (33, 36), 10)), record((1.0, 34, True), (1.0, 36, True)))
+
+
+def test_groups_one_after_the_other_at_the_same_time() -> None:
+    ours = record((1.0, (33, 36), 10), (1.0, (33, 36), 5))
+    same = record(
+        (1.0, 34, True), (1.0, 36, True), (1.0, 33, True), (1.0, 34, False), (1.0, 35, True), (1.0, 36, False)
+    )
+    assert equal(ours, same)
+    assert not equal(ours, record((1.0, 33, True), (1.0, 35, True)))

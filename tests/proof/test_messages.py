@@ -58,3 +58,56 @@ def test_two_sides_that_name_registers_have_the_same_text() -> None:
 def test_lines_of_one_message(one: list[Happening], several: list[Happening], lines: tuple[int, int]) -> None:
     assert as_lines(one, several) == lines
     assert as_lines(several, one) == lines[::-1]
+
+
+@pytest.mark.parametrize(
+    "one, other",
+    [
+        ("count: 17", "number: R12"),  # another word
+        ("17 parts", "R12 boxes"),
+        ("count: TRUE", "count: R12"),  # a truth is no number
+        ("count: 17 18", "count: R12"),
+        ("count: 1.2.3", "count: R12"),
+        ("count: ", "count: R12"),
+        ("count: 17", "count: PR12"),  # no register of that name
+        ("count: 17", "count: XR12"),
+        ("lid", "part SR1"),
+        ("part lid now", "part SR1 then"),
+        ("(17)", "[R1]"),  # signs are signs, no pattern
+        ("a+b 17", "aab R1"),
+    ],
+)
+def test_messages_that_do_not_say_the_same(one: str, other: str) -> None:
+    assert not same_message(shown(one)[0], named(other)[0])
+    assert not same_message(named(other)[0], shown(one)[0])
+
+
+OUTPUT = Happening("output", 1.0, True)
+
+
+@pytest.mark.parametrize(
+    "one, several",
+    [
+        (shown("part 7 is ready"), named("part R1", "is")),  # a line is missing
+        (shown("part 7"), named("part R1", "is ready")),  # a line too many: it is the next message
+        (shown("part 7 is ready"), named("part R1", "was ready")),  # another word in the second line
+        (shown("part lid is ready"), named("part R1", "is ready")),  # a value of another kind
+        (shown("a", "b"), shown("b", "a")),  # another order
+        (shown("a b"), [*shown("a"), OUTPUT, *shown("b")]),  # something between the lines
+        ([OUTPUT, *shown("a")], shown("a")),
+        (shown("a b"), []),
+        ([], []),
+    ],
+)
+def test_lines_that_are_not_one_message(one: list[Happening], several: list[Happening]) -> None:
+    assert as_lines(one, several) == (1, 1)
+    assert as_lines(several, one) == (1, 1)
+
+
+def test_consecutive_messages_at_the_same_time_stay_apart() -> None:
+    """Each message takes its own lines; a name for any text does not swallow the next message."""
+    assert as_lines(shown("v lid", "v lid"), named("v SR1", "v SR1")) == (1, 1)
+    assert as_lines(shown("7", "8"), named("R1", "R2")) == (1, 1)
+    assert as_lines(shown("7 8", "9"), named("R1", "R2", "R3")) == (1, 2)
+    assert as_lines(shown("a", "b c"), shown("a", "b", "c")) == (1, 1)
+    assert as_lines(shown("b c"), shown("b", "c")) == (1, 2)
