@@ -127,7 +127,8 @@ def split(source: Source) -> Iterator[Piece]:
     sections = {match[1]: match for match in reversed(list(_SECTION.finditer(text)))}
     head = _HEAD.search(text)
     begin = sections["MN"].end() if "MN" in sections else (head.end() if head else 0)
-    start = head.start() if head else 0
+    start = head.start() if head and head.start() < begin else 0
+    yield from _loose(text, 0, start)
     yield Piece(STATEMENT, start, begin, HEADER)
     stop = min((sections[name].start() for name in ("POS", "END") if name in sections), default=len(text))
     yield from _statements(text, begin, max(begin, stop), german)

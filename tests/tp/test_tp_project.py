@@ -198,6 +198,20 @@ def test_a_damaged_position_costs_itself_alone() -> None:
     assert "CONST P1: JOINTS" in as_rpl(program)
 
 
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("lost line\n/PROG  A\n/MN\n   1:  R[1]=1 ;\n/POS\n/END\n", "unreadable-statement"),
+        ("/ATTR\n/MN\n   1:  R[1]=1 ;\n/PROG  A\n   2:  R[1]=2 ;\n/POS\n/END\n", "tp-instruction"),
+    ],
+)
+def test_text_in_front_of_the_head_is_reported(text: str, expected: str) -> None:
+    _, diagnostics = read(text)
+    found = [item.code.name for item in diagnostics]
+    assert expected in found
+    assert "unclaimed-text" not in found
+
+
 def test_a_written_position_is_no_constant() -> None:
     program, _ = read(listing("P[2]=LPOS\nL P[2] 100mm/sec FINE", cartesian(2, 1, 2, 3)))
     assert "PERSISTENT P2" in as_rpl(program)

@@ -249,8 +249,8 @@ class _Flat(Rewriter):
             return None
         if place is not None:
             return [self.leaf(place, leaf.path) for leaf in leaves]
-        if isinstance(expression, ir.Call):
-            return self.called(expression, leaves)
+        if isinstance(expression, ir.Call):  # one that the project lacks gives nothing
+            return None if self.scope.routine(expression.name) is None else self.called(expression, leaves)
         if not isinstance(expression, ir.Aggregate):
             return None
         found = [self.part(expression, type, leaf.path) for leaf in leaves]

@@ -104,3 +104,10 @@ def test_any_program_shows_the_same(body: list[str]) -> None:
     given_ = context(before, WEAK)
     same(before, (flat_records,), given_, entry="t")
     assert not list(given_.diagnostics)
+
+
+def test_a_function_that_the_project_lacks_gives_no_components() -> None:
+    before = read(MODULE % "s = missing(1.0)")
+    given_ = context(before, WEAK)
+    flat_records(before, given_)
+    assert [item.code.name for item in given_.diagnostics] == ["record-as-a-whole"]
