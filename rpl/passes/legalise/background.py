@@ -212,7 +212,9 @@ class _Maker:
             for node in walk(root):
                 if isinstance(node, ir.NamedType) and (known := names.get(node.name.lower())) is not None:
                     enter(known[1], known[0])
-                symbol = scope.value(node.id) if isinstance(node, ir.Name) else None
+                named = node.counter if isinstance(node, ir.For) and not node.scoped else None
+                named = node.id if isinstance(node, ir.Name) else named
+                symbol = None if named is None else scope.value(named)
                 if symbol is None or symbol.module is None or symbol.routine is not None:
                     continue
                 if not isinstance(symbol.declaration, ir.Parameter):

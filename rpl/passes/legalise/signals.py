@@ -55,7 +55,28 @@ def name_signals(program: ir.Program, context: Context) -> ir.Program:
         )
         modules.append(replace(module, declarations=declarations, routines=routines))
     support = worker.support(program.modules[0].dialect, modules[0].task if modules else "")
-    return replace(program, modules=(*modules, *support))
+    return replace(program, modules=_with_shared_flags((*modules, *support), worker.flags))
+
+
+def _with_shared_flags(modules: tuple[ir.Module, ...], flags: str | None) -> tuple[ir.Module, ...]:
+    """Flags belong to the whole controller: where tasks have data of their own, each that uses them declares them."""
+    users = {
+        module.task: module
+        for module in reversed(modules)
+        if flags and any(isinstance(node, ir.Name) and node.id == flags for node in walk(module))
+    }
+    if len(users) < 2:
+        return modules
+    type = ir.ArrayType(ir.BoolType(), (ir.IntLiteral(_FLAGS),))
+    shared = ir.Variable(str(flags), type, storage="persistent", scope="global")
+    done = []
+    for module in modules:
+        kept = tuple(one for one in module.declarations if not (isinstance(one, ir.Variable) and one.name == flags))
+        home = len(kept) < len(module.declarations)
+        if home or (users.get(module.task) is module and module.task != modules[0].task):
+            kept = (shared, *kept)
+        done.append(replace(module, declarations=kept))
+    return tuple(done)
 
 
 class _Named:
