@@ -108,3 +108,55 @@ def test_an_option_of_the_target(tmp_path: Path, capsys: pytest.CaptureFixture[s
 def test_an_option_that_is_none(given: str, answer: str, program: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["translate", str(program), "--to", "tp", "--option", given]) == 2
     assert answer in capsys.readouterr().err
+
+
+COUNTS = """DEF counts()
+DECL INT {names}
+{lines}
+$OUT[1]=TRUE
+END
+"""
+
+
+def counts(path: Path, *names: str) -> Path:
+    path.write_text(
+        COUNTS.format(names=",".join(names), lines="\n".join(f"{name}=1\n{name}={name}+1" for name in names))
+    )
+    return path
+
+
+def numbers(file: Path) -> dict[str, tuple[str, int]]:
+    rows = [line.split(",") for line in file.read_text().splitlines()[1:]]
+    return {name.lower(): (bank, int(number)) for bank, number, name, _ in rows}
+
+
+def test_numbers_of_an_earlier_translation_are_kept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A variable more in front does not move the others."""
+    first, second, anew = tmp_path / "first", tmp_path / "second", tmp_path / "anew"
+    program = counts(tmp_path / "counts.src", "parts", "boxes")
+    assert run(["translate", str(program), "--to", "tp", "-o", str(first)]) == 0
+    before = numbers(first / "registers.csv")
+    counts(program, "added", "boxes", "parts")
+    kept = ["--registers", str(first / "registers.csv")]
+    assert run(["translate", str(program), "--to", "tp", "-o", str(anew)]) == 0
+    assert run(["translate", str(program), "--to", "tp", "-o", str(second), *kept, "--prove"]) == 0
+    after = numbers(second / "registers.csv")
+    assert {name: after[name] for name in before} == before
+    assert after["added"] not in before.values()
+    assert numbers(anew / "registers.csv") != after
+    bank, number = before["boxes"]
+    assert f"{bank}[{number}:boxes]={bank}[{number}:boxes]+1" in (second / "COUNTS.LS").read_text()
+
+
+@pytest.mark.parametrize(
+    ("text", "answer"),
+    [("", "the first line"), ("bank,number,name,type\nR,x,parts,int\n", "numbers.csv:2"), (None, "numbers.csv")],
+)
+def test_a_file_of_numbers_that_is_none(
+    text: str | None, answer: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    program, given = counts(tmp_path / "counts.src", "parts"), tmp_path / "numbers.csv"
+    if text is not None:
+        given.write_text(text)
+    assert run(["translate", str(program), "--to", "tp", "--registers", str(given)]) == 2
+    assert answer in capsys.readouterr().err

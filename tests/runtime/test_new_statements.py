@@ -45,6 +45,38 @@ def test_a_paused_task_goes_on_when_it_is_resumed() -> None:
     assert [name for _, name, _ in result.outputs] == ["do[1]", "do[2]"]
 
 
+@pytest.mark.parametrize(
+    ("body", "at"),
+    [
+        # a wait for a moment ends when it would have, but what follows comes after the pause
+        ("WAIT 0.25 s\nPAUSE TASK late\nWAIT 2 s\nRESUME TASK late\nJOIN TASK late", 2.25),
+        ("WAIT 0.25 s\nPAUSE TASK late\nWAIT 0.1 s\nRESUME TASK late\nJOIN TASK late", 0.5),
+        ("WAIT 0.25 s\nPAUSE TASK late\nPAUSE TASK late\nWAIT 2 s\nRESUME TASK late\nJOIN TASK late", 2.25),
+        ("RESUME TASK late\nJOIN TASK late", 0.5),  # one that is not paused just goes on
+        ("WAIT 0.25 s\nPAUSE TASK late\nSTOP TASK late\nRESUME TASK late\nWAIT 2 s", None),
+        ("WAIT 0.25 s\nPAUSE TASK late\nWAIT 2 s", None),
+        ("JOIN TASK late\nPAUSE TASK late\nRESUME TASK late", 0.5),
+    ],
+)
+def test_when_a_paused_task_goes_on(body: str, at: float | None) -> None:
+    late = "PROCEDURE late()\nWAIT 0.5 s\nSET do[2] TO ON\nEND PROCEDURE"
+    result = rpl(f"START TASK late\n{body}\nSET do[1] TO ON", late)
+    times = {name: t for t, name, _ in result.outputs}
+    assert times.get("do[2]") == (None if at is None else pytest.approx(at))
+    assert "do[1]" in times
+
+
+def test_tasks_that_are_chosen_while_running_are_paused_each() -> None:
+    """One task pauses another and lets it go on; a third one is not held up."""
+    result = rpl(
+        "START TASK slow\nSTART TASK guard\nSTART TASK free\nJOIN TASK slow\nJOIN TASK free\nSET do[1] TO ON",
+        "PROCEDURE slow()\nWAIT 1 s\nSET do[2] TO ON\nEND PROCEDURE\n"
+        "PROCEDURE free()\nWAIT 1 s\nSET do[3] TO ON\nEND PROCEDURE\n"
+        "PROCEDURE guard()\nWAIT 0.5 s\nPAUSE TASK slow\nWAIT 1 s\nRESUME TASK slow\nEND PROCEDURE",
+    )
+    assert [(round(t, 3), name) for t, name, _ in result.outputs] == [(1.0, "do[3]"), (1.5, "do[2]"), (1.5, "do[1]")]
+
+
 def test_nothing_else_runs_in_a_critical_section() -> None:
     result = rpl(
         "START TASK other\nENTER CRITICAL\nWAIT 1 s\nSET do[1] TO ON\nLEAVE CRITICAL\nJOIN TASK other",
