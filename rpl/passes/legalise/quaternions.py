@@ -236,6 +236,11 @@ class _ToQuaternions(Rewriter):
                 return self.composed(expression, left, right)
             case ir.Builtin(function="inverse", arguments=(one,)):
                 return replace(expression, arguments=(self.pose(one),))
+            case ir.Builtin(function="target_to_joints_near" as name, arguments=(place, _, *frames)) if (
+                name not in self.context.capabilities.functions and self.is_a(place, ir.TargetType)
+            ):  # the target's own configuration chooses first
+                solved = (self.expression(place), *map(self.expression, frames))
+                return ir.Builtin("target_to_joints", solved, origin=expression.origin)
             case ir.System(name="null_frame" | "world" as name) if self.lacks(name):
                 return self.literal(rigid.IDENTITY)
             case ir.System(name="actual_pose") if self.lacks("actual_pose"):

@@ -15,7 +15,9 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.effects import statements_in
 from rpl.passes.legalise.jumps import inside
-from rpl.passes.legalise.usage import bodies
+from rpl.passes.legalise.usage import bodies, each_expression, each_statement
+from rpl.passes.scope import Scope
+from rpl.passes.typing import type_of
 from rpl.source import Comment
 
 CRITICAL = code(
@@ -36,6 +38,19 @@ TUNING = code(
     "set the same on the target's controller where it has it (payload, collision guard)",
 )
 SEARCH = code("search-lost", Severity.LOSS, "the target's moves do not watch a condition on their way", stops=True)
+KINEMATICS = code(
+    "kinematics-lost",
+    Severity.LOSS,
+    "the target's programs cannot {what}",
+    "teach the position in the target's own form, or let the move itself find the joints",
+    stops=True,
+)
+_SOLVED = {
+    "joints_to_target": "calculate the place of the tool at given joints",
+    "target_to_joints": "calculate the joints of a place",
+    "target_to_joints_near": "calculate the joints of a place that are nearest to given ones",
+    "is_reachable": "ask whether a place can be reached",
+}
 _WHAT = {"start": "start", "stop": "end", "pause": "halt", "resume": "go on with", "join": "wait for the end of"}
 _INTERRUPTS = frozenset(("DeclareInterrupt", "ConnectInterrupt"))
 
@@ -69,9 +84,34 @@ def refuse(program: ir.Program, context: Context) -> ir.Program:
         return (inside(statement, lambda inner: map_body(inner, change)),)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        for body in bodies(routine):
+            each_statement(body, lambda statement: _unsolved(statement, editor.scope, context))
         return edit_bodies(routine, lambda body: map_body(body, change))
 
     return edit_routines(program, context, work)
+
+
+def _unsolved(statement: ir.Statement, scope: Scope, context: Context) -> None:
+    """Reports a kinematic function that the target has in no form."""
+    can = context.capabilities
+    if can.kinematics is not None:
+        return
+
+    def look(expression: ir.Expression) -> None:
+        if not isinstance(expression, ir.Builtin) or expression.function not in _SOLVED:
+            return
+        needed = {expression.function}
+        if expression.function == "target_to_joints_near":
+            if isinstance(statement, ir.Move) and statement.target == expression:
+                return  # how a move says the posture that it wants
+            chosen = isinstance(type_of(expression.arguments[0], scope), ir.TargetType) and not can.banks
+            needed = {"target_to_joints"} if chosen else {"target_to_joints", "target_to_joints_near"}
+        elif can.banks and expression.function != "is_reachable":
+            return  # registers change their form where they are assigned
+        if not needed <= can.functions:
+            context.diagnostics.report(KINEMATICS, statement.origin, what=_SOLVED[expression.function])
+
+    each_expression(statement, look)
 
 
 def _single(program: ir.Program) -> bool:
