@@ -3,7 +3,8 @@ start and have no statement to begin one (RAPID tasks, the KRL submit interprete
 
 Each such routine gets a background program that waits for a flag, calls the routine, and takes the flag back. To start
 the task is to set its flag, to wait for its end is to wait until the flag is off. A task that is ended from outside
-looks at a second flag wherever it waits, and leaves. Such programs do not move the robot; what does not fit is named.
+looks at a second flag wherever it waits, and leaves. A task that runs from the start needs no flag, only a program of
+its own. Such programs do not move the robot; what does not fit is named.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.editing import edit_bodies, map_body
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.scope import Scope
+from rpl.source import NOWHERE, Origin
 
 LOST = code(
     "background-task-lost",
@@ -42,19 +44,21 @@ _FALSE, _TRUE = ir.BoolLiteral(False), ir.BoolLiteral(True)
 
 @dataclass(frozen=True, slots=True)
 class _Plan:
-    """A task that can be made: its routine and all that it calls; the flags; variables that carry its arguments."""
+    """A task that can be made: its routine and all that it calls; the flags; variables that carry its arguments.
+    Without `runs` it is a task of the program that runs from the start, again and again when it is `cyclic`."""
 
     name: str
     home: ir.Module
     routine: ir.Routine
     called: tuple[tuple[ir.Module, ir.Routine], ...]
-    runs: ir.Variable
+    runs: ir.Variable | None
     stops: ir.Variable | None
     arguments: tuple[ir.Variable, ...]
+    cyclic: bool = False
 
     @property
     def data(self) -> tuple[ir.Variable, ...]:
-        return (self.runs, *((self.stops,) if self.stops is not None else ()), *self.arguments)
+        return (*(one for one in (self.runs, self.stops) if one is not None), *self.arguments)
 
 
 class _UnfitError(Exception):
@@ -64,12 +68,12 @@ class _UnfitError(Exception):
 def background_tasks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with background programs and no statement that starts a task."""
     capabilities = context.capabilities
-    if not capabilities.background_tasks or "TaskControl" in capabilities.statements or program.tasks:
+    if not capabilities.background_tasks or "TaskControl" in capabilities.statements:
+        return program
+    if any(module.task for module in program.modules) or any(task.kind != "background" for task in program.tasks):
         return program
     controls = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl)]
-    if not controls or any(module.task for module in program.modules):
-        return program
-    return _Maker(program, context, controls).done()
+    return _Maker(program, context, controls).done() if controls or program.tasks else program
 
 
 class _Maker:
@@ -87,26 +91,49 @@ class _Maker:
             except _UnfitError as reason:
                 context.diagnostics.report(LOST, asked[0].origin, name=asked[0].task, reason=str(reason))
 
+        for task in program.tasks:
+            if self.separate or not task.modules:  # a module of its own is a background program already
+                try:
+                    self.plans[task.entry.lower()] = self.fixed(task)
+                except _UnfitError as reason:
+                    context.diagnostics.report(LOST, self.origin_of(task.entry), name=task.name, reason=str(reason))
+
     # ---- what can be made
 
-    def plan(self, asked: list[ir.TaskControl]) -> _Plan:
-        name = asked[0].task
+    def origin_of(self, routine: str) -> Origin:
+        found = (r.origin for m in self.program.modules for r in m.routines if r.name.lower() == routine.lower())
+        return next(found, NOWHERE)
+
+    def fixed(self, task: ir.Task) -> _Plan:
+        """A task that runs from the start."""
+        if any(one in self.operations for one in (task.entry.lower(), task.name.lower())):
+            raise _UnfitError("the program controls it, although it runs from the start")
+        home, routine, called = self.routines_of(task.entry)
+        return _Plan(task.name, home, routine, called, None, None, (), task.cyclic)
+
+    def routines_of(self, name: str) -> tuple[ir.Module, ir.Routine, tuple[tuple[ir.Module, ir.Routine], ...]]:
+        """The routine of a task with its module, and all that it calls."""
         found = next(((m, r) for m in self.program.modules for r in m.routines if r.name.lower() == name.lower()), None)
         if found is None:
             raise _UnfitError("the program has no such routine")
-        operations = {one.op for one in asked}
-        if operations & {"pause", "resume"}:
-            raise _UnfitError("it is halted and goes on in the middle")
         home, routine = found
-        if routine.kind == "function":
-            raise _UnfitError("it is a function")
         called = tuple(self.closure(home, routine, {id(routine)}))
         for module, one in ((home, routine), *called):
             self.check(module, one)
         for variable in self.needed((home, routine), *called).values() if self.separate else ():
             if isinstance(variable, ir.Variable) and variable.storage != "constant":
                 _shared(variable)
-        if "stop" in operations and any(_waits(one) for _, one in called):
+        return home, routine, called
+
+    def plan(self, asked: list[ir.TaskControl]) -> _Plan:
+        name = asked[0].task
+        operations = {one.op for one in asked}
+        if operations & {"pause", "resume"}:
+            raise _UnfitError("it is halted and goes on in the middle")
+        home, routine, called = self.routines_of(name)
+        if routine.kind == "function":
+            raise _UnfitError("it is a function")
+        if "stop" in operations and any(waits(one) for _, one in called):
             raise _UnfitError("it is ended from outside and waits in a routine that it calls")
         if "stop" in operations and self.is_called(routine):
             raise _UnfitError("it is ended from outside, and called as a routine too")
@@ -168,24 +195,30 @@ class _Maker:
             made.append(module)
             task = module.task or module.name.lower()
             tasks.append(ir.Task(task, entry, "background", cyclic=self.separate, modules=(module.name,)))
-            where = self.operations[plan.name.lower()][0].origin
-            self.context.diagnostics.report(MADE, where, name=plan.name, made=module.name, flag=plan.runs.name)
-        modules = tuple(self.changed(module, shared) for module in self.program.modules)
-        return replace(self.program, modules=(*modules, *made), tasks=tuple(tasks))
+            if plan.runs is not None:
+                where = self.operations[plan.name.lower()][0].origin
+                self.context.diagnostics.report(MADE, where, name=plan.name, made=module.name, flag=plan.runs.name)
+        planned = {plan.routine.name.lower() for plan in self.plans.values() if plan.runs is None}
+        kept = [task for task in self.program.tasks if task.entry.lower() not in planned]
+        changed = (self.changed(module, shared) for module in self.program.modules)
+        modules = tuple(one for one in changed if one.routines or one.declarations)
+        return replace(self.program, modules=(*modules, *made), tasks=(*kept, *tasks))
 
     def task_module(self, plan: _Plan, task: str, shared: dict[int, ir.Variable]) -> tuple[ir.Module, str]:
         """The module of a background program, and its first routine."""
         name = self.context.fresh(f"{plan.name}_task")
         arguments = tuple(ir.Argument(ir.Name(one.name)) for one in plan.arguments)
-        runs = ir.Name(plan.runs.name)
-        served: ir.Body = (
-            ir.WaitUntil(runs),
-            ir.CallRoutine(plan.routine.name, arguments),
-            ir.Assign(runs, _FALSE),
-        )
+        call = ir.CallRoutine(plan.routine.name, arguments)
+        cyclic = plan.cyclic or plan.runs is not None
+        served: ir.Body = (call,)
+        if plan.runs is not None:
+            runs = ir.Name(plan.runs.name)
+            served = (ir.WaitUntil(runs), call, ir.Assign(runs, _FALSE))
+        elif self.separate and not cyclic:  # such a task begins anew at its end
+            served = (call, ir.Loop((ir.Wait(ir.Quantity(ir.RealLiteral(1.0), "s")),)))
         dialect = plan.home.dialect
         if not self.separate:
-            entry = ir.Routine(name, body=(ir.Loop(served),), scope="global")
+            entry = ir.Routine(name, body=(ir.Loop(served),) if cyclic else served, scope="global")
             return ir.Module(name, dialect, plan.data, (entry,), public=True), name
         entry = ir.Routine("main", body=served, scope="global")
         routines = ((plan.home, self.stoppable(plan)), *plan.called)
@@ -249,6 +282,7 @@ class _Maker:
         return replace(module, declarations=tuple(declarations), routines=tuple(routines))
 
     def control(self, statement: ir.TaskControl, plan: _Plan) -> ir.Body:
+        assert plan.runs is not None  # a task that runs from the start is not controlled
         runs = ir.Name(plan.runs.name)
         ended = ir.WaitUntil(ir.Unary("not", runs))
         if statement.op == "join":
@@ -272,26 +306,30 @@ class _Maker:
         """The routine; it leaves at its next wait when the second flag is set."""
         if plan.stops is None:
             return plan.routine
-        stop = ir.Name(plan.stops.name)
-        leave = ir.If(((stop, (ir.Return(),)),))
-        late = ir.Variable(self.context.fresh("late"), ir.BoolType(), scope="routine")
-
-        def statement(one: ir.Statement) -> ir.Body:
-            match one:
-                case ir.Wait(time=time, origin=origin):
-                    waiting = ir.WaitUntil(stop, timeout=time, timed_out=ir.Name(late.name), origin=origin)
-                    return (waiting, leave)
-                case ir.WaitUntil(condition=condition):
-                    return (replace(one, condition=ir.Binary("or", condition, stop)), leave)
-                case ir.Loop() | ir.While() | ir.Repeat() | ir.For() if not _waits(one):
-                    return (inside(one, lambda body: (leave, *body)),)
-            return (inside(one, lambda body: map_body(body, statement)),)
-
-        done = edit_bodies(plan.routine, lambda body: map_body(body, statement))
-        return replace(done, declarations=(*done.declarations, late))
+        return leaving_at(plan.routine, ir.Name(plan.stops.name), self.context, (ir.Return(),))
 
 
-def _waits(part: ir.Statement | ir.Routine) -> bool:
+def leaving_at(routine: ir.Routine, stop: ir.Name, context: Context, leaving: ir.Body) -> ir.Routine:
+    """The routine of a task that does `leaving` at its next wait when the flag `stop` is set."""
+    leave = ir.If(((stop, leaving),))
+    late = ir.Variable(context.fresh("late"), ir.BoolType(), scope="routine")
+
+    def statement(one: ir.Statement) -> ir.Body:
+        match one:
+            case ir.Wait(time=time, origin=origin):
+                waiting = ir.WaitUntil(stop, timeout=time, timed_out=ir.Name(late.name), origin=origin)
+                return (waiting, leave)
+            case ir.WaitUntil(condition=condition):
+                return (replace(one, condition=ir.Binary("or", condition, stop)), leave)
+            case ir.Loop() | ir.While() | ir.Repeat() | ir.For() if not waits(one):
+                return (inside(one, lambda body: (leave, *body)),)
+        return (inside(one, lambda body: map_body(body, statement)),)
+
+    done = edit_bodies(routine, lambda body: map_body(body, statement))
+    return replace(done, declarations=(*done.declarations, late))
+
+
+def waits(part: ir.Statement | ir.Routine) -> bool:
     return any(isinstance(node, _WAITS) for node in walk(part))
 
 
