@@ -192,9 +192,9 @@ class Printer(StatementPrinter[str]):
             case ir.Pulse(signal=ir.Signal() as given, value=ir.BoolLiteral(value=True), duration=duration):
                 return f"PULSE {signal(given)} {self.time(duration, statement.origin)}"
             case ir.TaskControl(op="start", task=name, arguments=()):
-                return f"PSTART JOB:{self.job(name)} {self.sub(name, start=True)}"
+                return f"PSTART JOB:{self.job(name)} {self.sub(name)}"
             case ir.TaskControl(op="join", task=name):
-                return f"PWAIT {self.sub(name, start=False)}"
+                return f"PWAIT {self.sub(name)}"
             case ir.DeclareInterrupt() | ir.ConnectInterrupt() | ir.ControlInterrupt() | ir.OrderInterrupt():
                 raise CannotSayError("nothing interrupts a job", INTERRUPT)
             case ir.StopMotion() | ir.StartMotion() | ir.ResumeLevel():
@@ -231,12 +231,10 @@ class Printer(StatementPrinter[str]):
             self.motion.positions.in_tools.clear()
             self.motion.line_of_last = None
 
-    def sub(self, task: str, start: bool) -> str:
+    def sub(self, task: str) -> str:
         """The sub task of a job."""
         if task.lower() not in self.tasks:
-            if not start or len(self.tasks) == tables.MOST_SUBTASKS:
-                raise CannotSayError("there is no sub task for it")
-            self.tasks[task.lower()] = f"SUB{len(self.tasks) + 1}"
+            raise CannotSayError("there is no sub task for it", TASK)
         return self.tasks[task.lower()]
 
     # ---- blocks

@@ -67,7 +67,7 @@ class _Writer:
         self.cell = Cell(self.registers)
         self.entries = _entries(program)
         self.constants = Constants.of(program, self.entries)
-        self.tasks: dict[str, str] = {}
+        self.tasks = _sub_tasks(program)
         self.jobs = {
             routine.name.lower(): routine.name.upper() for module in program.modules for routine in module.routines
         }
@@ -237,6 +237,15 @@ class _Writer:
                 self.diagnostics.report(LOST_DECLARATION, assign.origin, name="this value", reason=str(error))
                 done.append("PAUSE")
         return done
+
+
+def _sub_tasks(program: ir.Program) -> dict[str, str]:
+    """Routine, folded -> the sub task that it is started as, as far as there are any."""
+    names: dict[str, str] = {}
+    for node in walk(*program.modules):
+        if isinstance(node, ir.TaskControl) and node.op == "start" and len(names) < tables.MOST_SUBTASKS:
+            names.setdefault(node.task.lower(), f"SUB{len(names) + 1}")
+    return names
 
 
 def _beside(program: ir.Program) -> dict[str, str]:

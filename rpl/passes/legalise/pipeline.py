@@ -72,6 +72,7 @@ from rpl.passes.legalise.spelling import one_spelling
 from rpl.passes.legalise.standing import stand_first
 from rpl.passes.legalise.statics import static_variables
 from rpl.passes.legalise.steps import steps
+from rpl.passes.legalise.stoppedtasks import stopped_tasks
 from rpl.passes.legalise.structure import labels_to_structure
 from rpl.passes.legalise.subscripts import joined_subscripts
 from rpl.passes.legalise.switches import unroll_switches
@@ -124,6 +125,7 @@ PASSES: tuple[Pass, ...] = (
     interrupts,
     static_variables,
     background_tasks,
+    stopped_tasks,
     joins,
     task_arguments,
     refuse,
