@@ -20,6 +20,7 @@ from rpl.passes.legalise.context import Context, Pass, names_in
 from rpl.passes.legalise.corners import corners
 from rpl.passes.legalise.datalists import set_data_at_start
 from rpl.passes.legalise.defaults import starting_values
+from rpl.passes.legalise.destinations import destinations
 from rpl.passes.legalise.elementwise import elementwise
 from rpl.passes.legalise.elseif import nest_branches
 from rpl.passes.legalise.enums import enums_to_constants
@@ -115,6 +116,7 @@ PASSES: tuple[Pass, ...] = (
     joint_goals,
     three_point_arcs,
     circle_rules,
+    destinations,
     flag_readings,
     configurations,
     without_aliases,

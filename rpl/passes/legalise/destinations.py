@@ -1,0 +1,113 @@
+"""Where the robot's motion will end (`end_pose`), for targets that do not say so.
+
+Right behind a move it is the target of that move. Where reading it stops the advance run, the robot stands there by
+then, and it is the actual place. What is neither stays, and the writer refuses it.
+"""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.usage import assigned_in, base_name, each_expression
+from rpl.passes.legalise.walk import Rewriter
+from rpl.passes.rewrite import rewrite_parts
+
+_SETTINGS = frozenset(("tool", "base", "robot_root"))
+_WHOLE = 6  # components of a whole place
+_QUIET = (ir.Assign, ir.WaitForMotion, ir.Nothing)
+
+
+def destinations(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets without such a system variable."""
+    if "end_pose" in context.capabilities.system_variables:
+        return program
+    return _Destinations(program, context).program()
+
+
+class _Destinations(Rewriter):
+    def __init__(self, program: ir.Program, context: Context) -> None:
+        super().__init__(program, context)
+        self.standing = rules_of(context.source).advance.signals_stop
+        self.last: ir.Move | None = None
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        if expression == ir.System("end_pose"):
+            if self.standing:
+                return ir.System("actual_pose", origin=expression.origin)
+            if self.last is not None:
+                return self.goal(self.last)
+        return rewrite_parts(expression, self.expression)
+
+    def goal(self, move: ir.Move) -> ir.Expression:
+        """The place a move goes to, seen in the modal frame."""
+        if isinstance(self.type_of(move.target), ir.JointsType):
+            return ir.Builtin("joints_to_target", (move.target,))
+        return move.target
+
+    def body(self, body: ir.Body) -> ir.Body:
+        outside, self.last = self.last, None
+        done: list[ir.Statement] = []
+        for statement in body:
+            done.extend(super().body((statement,)) if isinstance(statement, _QUIET) else self.nested(statement))
+            self.last = self.behind(statement)
+        self.last = outside
+        return tuple(done)
+
+    def nested(self, statement: ir.Statement) -> ir.Body:
+        """A statement with bodies, or one behind which the motion may be another: only its own first look counts."""
+        first = statement.branches[0][0] if isinstance(statement, ir.If) else None
+        kept, self.last = self.last, None
+        done = Rewriter.body(self, (statement,))
+        self.last = kept
+        if first is None or not done or not isinstance(done[-1], ir.If):
+            return done
+        branches = done[-1].branches
+        asked = (self.expression(first), branches[0][1])
+        return (*done[:-1], ir.If((asked, *branches[1:]), done[-1].otherwise, origin=done[-1].origin))
+
+    def behind(self, statement: ir.Statement) -> ir.Move | None:
+        """The move that the robot drives behind a statement, as far as it is known."""
+        match statement:
+            case ir.Move():
+                own = (statement.relative, statement.swept, statement.tool, statement.frame, statement.search)
+                plain = all(one is None for one in own) and not statement.settings and statement.group == 1
+                return statement if plain and _repeatable(statement.target) else None
+            case ir.Assign(target=ir.System(name=name)):
+                return None if name in _SETTINGS else self.last
+            case ir.Assign(target=target) if self.last is not None:
+                changed, used = base_name(target), _names(self.last)
+                return None if changed in used or assigned_in((statement,)) & used else self.last
+            case ir.WaitForMotion() | ir.Nothing():
+                return self.last
+        return None
+
+
+def _names(move: ir.Move) -> set[str]:
+    found: set[str] = set()
+
+    def look(expression: ir.Expression) -> None:
+        if isinstance(expression, ir.Name):
+            found.add(expression.id.lower())
+
+    each_expression(move, look)
+    return found
+
+
+def _repeatable(target: ir.Expression) -> bool:
+    """Does the expression give the same place again, whatever the robot has done?"""
+    again = True
+
+    def look(expression: ir.Expression) -> ir.Expression:
+        nonlocal again
+        again = again and not isinstance(expression, ir.Call | ir.System | ir.Signal | ir.VendorValue)
+        if isinstance(expression, ir.Aggregate) and (expression.type_name or "").startswith(("target", "joints")):
+            again = again and len(expression.entries) >= _WHOLE  # what is left out stays as it is
+        if isinstance(expression, ir.Builtin):
+            again = again and not expression.function.startswith(("current_", "target_to", "random"))
+        return rewrite_parts(expression, look)
+
+    look(target)
+    return again
+
+
+__all__ = ["destinations"]
