@@ -116,6 +116,8 @@ class Assignments:
                 self.function(place, value)
             case ir.Field(base=base, name=name):
                 self.read_component(place, base, name)
+            case ir.System(name="actual_joint", indices=(ir.IntLiteral(value=axis),)):
+                self.read_component(place, ir.System("actual_joints"), f"j{axis}")
             case ir.VendorValue(dialect="inform", text=text):
                 self.lines.append(f"GETS {place} {text}" if text.startswith("$") else f"{text} {place}")
             case _:

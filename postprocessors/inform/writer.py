@@ -278,7 +278,7 @@ def _counts_joints(program: ir.Program) -> bool:
         match node:
             case ir.Field(name=name) if name.lower() in tables.JOINT_ELEMENTS:
                 return True
-            case ir.Move(kind="joint", relative=str()) | ir.Move(relative="joints"):
+            case ir.System(name="actual_joint") | ir.Move(kind="joint", relative=str()) | ir.Move(relative="joints"):
                 return True
     return False
 
