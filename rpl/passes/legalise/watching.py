@@ -78,7 +78,7 @@ def watching(program: ir.Program, context: Context) -> ir.Program:
     served.finish()
     movers.finish()
     done = watches.levels(beside.placed(done))
-    done = replace(done, tasks=(*done.tasks, *watches.tasks))
+    done = replace(done, tasks=(*done.tasks, *watches.by_urgency()))
     done = exposed(done, called_names((*served.made, *watches.made)))
     made = (*served.made, *watches.made)
     return with_support(done, context, (*movers.data(), *served.data(), *watches.data), made, done.modules[0].task)
@@ -113,7 +113,7 @@ class _Watches:
     declaring: dict[str, set[int]] = field(default_factory=dict)
     data: list[ir.Variable] = field(default_factory=list)
     made: list[ir.Routine] = field(default_factory=list)
-    tasks: list[ir.Task] = field(default_factory=list)
+    tasks: list[tuple[int, ir.Task]] = field(default_factory=list)  # with their priority: lower is more urgent
     mask: str = ""
     periods: dict[int, list[ir.Expression]] = field(default_factory=dict)  # of interrupts that come by time
 
@@ -169,6 +169,10 @@ class _Watches:
             watch.was = self.flag(f"rpl_interrupt_{key}_was")
         else:
             self.task(watch)
+
+    def by_urgency(self) -> tuple[ir.Task, ...]:
+        """The tasks, the most urgent first: of two that wait for the same moment it acts first."""
+        return tuple(task for _, task in sorted(self.tasks, key=lambda entry: entry[0]))
 
     def refused(self, one: ir.DeclareInterrupt, key: int | None, routine: ir.Routine) -> str:
         """Why it cannot be watched; empty when it can."""
@@ -230,7 +234,7 @@ class _Watches:
             body.append(ir.WaitUntil(ir.Binary("cor", held, off)))
         body.append(ir.If(((armed, tuple(acts)),)))
         self.made.append(ir.Routine(name, body=tuple(body), scope="global"))
-        self.tasks.append(ir.Task(name, name, kind="background", cyclic=True))
+        self.tasks.append((watch.priority, ir.Task(name, name, kind="background", cyclic=True)))
 
     # ---- statements
 
