@@ -72,6 +72,8 @@ class PathEvents:
 
     def add(self, trigger: ir.Trigger) -> None:
         """A trigger of the next move. Refuses what cannot be said, where it stands."""
+        if any(self.delayed(event) and self.early(event.trigger) is None for event in self.waiting):
+            raise CannotSayError("an action on the path behind a call some time behind a place")
         self.waiting.append(Event(trigger, tuple(self.steps(trigger))))
 
     def pending(self) -> list[str]:
@@ -96,8 +98,8 @@ class PathEvents:
             else:
                 if place is not None and sign != 0:
                     self.reach(event.trigger, place, move, around)
-                    if not stops:
-                        self.once(HELD, event.trigger)
+                if not stops and ((place is not None and sign != 0) or self.delayed(event)):
+                    self.once(HELD, event.trigger)
                 around.behind += event.steps
         around.behind[:0] = self.deferred
         self.deferred = []
@@ -170,13 +172,28 @@ class PathEvents:
         known = self.printer.expressions.known(value)
         return self.printer.expressions.atom(value) if known is None else spelling.number(known)
 
+    def later_call(self, trigger: ir.Trigger, delay: ir.Expression) -> list[str]:
+        """The program itself waits for the time and calls, where no other action of the move could come meanwhile."""
+        if self.waiting or self.carried or not isinstance(trigger.action, ir.CallRoutine):
+            raise CannotSayError("a call some time behind a place on the path")
+        self.once(CALLED, trigger, name=trigger.action.name)
+        origin = replace(trigger.origin, comments=())
+        steps = self.printer.captured(ir.Wait(delay, origin=origin))
+        return [*steps, *self.printer.captured(replace(trigger.action, origin=origin))]
+
+    def delayed(self, event: Event) -> bool:
+        """Does the program wait at this action?"""
+        trigger = event.trigger
+        signal = isinstance(trigger.action, ir.Assign)
+        return not signal and trigger.delay is not None and self.printer.expressions.known(trigger.delay) != 0
+
     def steps(self, trigger: ir.Trigger) -> list[str]:
         """The action itself, at once or after its delay."""
         action: ir.Statement = trigger.action
         delay = trigger.delay
         if delay is not None and self.early(trigger) is None and self.printer.expressions.known(delay) != 0:
             if not isinstance(trigger.action, ir.Assign) or not isinstance(trigger.action.target, ir.Signal):
-                raise CannotSayError("a call some time behind a place on the path")
+                return self.later_call(trigger, delay)
             action = ir.SetAfter(trigger.action.target, trigger.action.value, delay)
         if isinstance(action, ir.CallRoutine):
             self.once(CALLED, trigger, name=action.name)
