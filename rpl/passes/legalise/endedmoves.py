@@ -9,10 +9,17 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from rpl import ir
+from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.beside import tidy
 from rpl.passes.legalise.editing import Editor, negation
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.served import Served
+
+CORNER = code(
+    "interrupt-stops-corner",
+    Severity.WARNING,
+    "a move that an interrupt may stop ends at its point: its corner is not rounded while the interrupt may come",
+)
 
 
 def unending(one: ir.DeclareInterrupt, brakes: bool) -> str:
@@ -58,6 +65,8 @@ class EndedMoves(Served):
         """The move, which ends where the condition comes; what was only stopped begins again from there. Where the
         condition holds from the start the interrupt has come before and the move is one as any other."""
         (move,) = moves
+        if not isinstance(move.blend, ir.BlendStop | None):
+            self.context.diagnostics.report(CORNER, move.origin)
         (watch,) = self.watches.values()
         hit = editor.temporary("hit", ir.BoolType())
         condition, was = watch.declared.condition, ir.Name(watch.was)
