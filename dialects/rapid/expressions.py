@@ -6,13 +6,13 @@ A digital signal reads as the number 0 or 1. `di1=1` says what the BOOL signal i
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 
 from lark import Token, Tree
 
 from rpl import ir
-from rpl.reading.shapes import Slot, StatementError, SyntaxTree
+from rpl.reading.shapes import Slot, SyntaxTree
 
+from .arguments import Arguments
 from .functions import FUNCTIONS
 from .project import Project
 
@@ -21,23 +21,6 @@ Children = list[SyntaxTree | Token | Slot]
 _ON, _OFF = ("high",), ("low",)
 _SYSTEM = {"errno": "error_number", "intno": "interrupt_number"}
 _BASES = {"0x": 16, "0b": 2, "0o": 8}
-
-
-@dataclass(slots=True)
-class Arguments:
-    """Actual arguments of an installed function or instruction: positional ones, options by lower-case name (None for
-    a switch), and whether one is passed on only when present."""
-
-    name: str
-    positional: list[ir.Expression] = field(default_factory=list)
-    options: dict[str, ir.Expression | None] = field(default_factory=dict)
-    conditional: bool = False
-
-    def need(self, least: int, most: int | None = None) -> list[ir.Expression]:
-        """The positional arguments, at least so many. Raises StatementError."""
-        if not least <= len(self.positional) <= (least if most is None else most):
-            raise StatementError(f"{self.name} takes {least} arguments, {len(self.positional)} are given", 0)
-        return self.positional
 
 
 def leaf(child: SyntaxTree | Token | Slot, values: Values) -> str:

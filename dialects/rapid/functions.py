@@ -6,14 +6,12 @@ Sources: RAPID reference manuals, system functions; see docs/rapid.md for what i
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from rpl import ir
 
-if TYPE_CHECKING:
-    from .expressions import Arguments, Expressions
+from .arguments import Arguments, Signals
 
-Make = Callable[["Arguments", "Expressions"], ir.Expression | None]
+Make = Callable[[Arguments, Signals], ir.Expression | None]
 """make(arguments, expressions): the expression, or None when an option has no neutral form. May raise
 StatementError."""
 
@@ -21,7 +19,7 @@ _ZERO, _ONE, _BYTE = ir.IntLiteral(0), ir.IntLiteral(1), ir.IntLiteral(255)
 
 
 def _plain(function: str, least: int, most: int | None = None) -> Make:
-    def make(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    def make(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
         positional = arguments.need(least, most)
         return None if arguments.options else ir.Builtin(function, tuple(positional))
 
@@ -31,7 +29,7 @@ def _plain(function: str, least: int, most: int | None = None) -> Make:
 def _with_option(function: str, least: int, option: str) -> Make:
     """The option's value follows the positional arguments."""
 
-    def make(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    def make(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
         positional = arguments.need(least)
         rest = dict(arguments.options)
         value = rest.pop(option, None)
@@ -43,7 +41,7 @@ def _with_option(function: str, least: int, option: str) -> Make:
 
 
 def _binary(op: str) -> Make:
-    def make(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    def make(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
         left, right = arguments.need(2)
         return ir.Binary(op, left, right)
 
@@ -57,22 +55,22 @@ def bit_mask(number: ir.Expression) -> ir.Expression:
     return ir.Builtin("bit_shift_left", (_ONE, ir.Binary("-", number, _ONE)))
 
 
-def _bit_check(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+def _bit_check(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
     """BitCheck data, position (1 ... 8; of a dnum 1 ... 52)"""
     value, number = arguments.need(2)
     return ir.Binary("<>", ir.Binary("band", value, bit_mask(number)), _ZERO)
 
 
-def _bit_shift_left(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+def _bit_shift_left(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
     """BitLSh of a byte: what leaves it on the left is lost."""
     return ir.Binary("band", ir.Builtin("bit_shift_left", tuple(arguments.need(2))), _BYTE)
 
 
-def _bit_negated(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+def _bit_negated(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
     return ir.Binary("bxor", arguments.need(1)[0], _BYTE)
 
 
-def _byte_of_text(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+def _byte_of_text(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
     r"""StrToByte text [\Char]: the code of a character, or a decimal number."""
     (text,) = arguments.need(1)
     if set(arguments.options) == {"char"}:
@@ -80,7 +78,7 @@ def _byte_of_text(arguments: Arguments, expressions: Expressions) -> ir.Expressi
     return None if arguments.options else ir.Builtin("text_value", (text,))
 
 
-def _text_of_byte(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+def _text_of_byte(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
     r"""ByteToStr byte [\Char]: the character of a code, or the number in decimal."""
     (value,) = arguments.need(1)
     if set(arguments.options) == {"char"}:
@@ -88,25 +86,25 @@ def _text_of_byte(arguments: Arguments, expressions: Expressions) -> ir.Expressi
     return None if arguments.options else ir.Builtin("number_text", (value, _ZERO))
 
 
-def _same(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+def _same(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
     """NumToDnum and DnumToNum: num and dnum are one type here."""
     value = arguments.need(1)[0]
     return None if set(arguments.options) - {"integer"} else value
 
 
 def _signal_value(kind: str) -> Make:
-    def make(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    def make(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
         signal = expressions.signal(arguments.need(1)[0], kind)
         return ir.Convert("bit", signal) if kind.startswith("digital") else signal
 
     return make
 
 
-def _test_signal(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+def _test_signal(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
     return expressions.signal(arguments.need(1)[0], "digital_in")
 
 
-def _rel_tool(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+def _rel_tool(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
     """RelTool(p, dx, dy, dz \\Rx \\Ry \\Rz)"""
     positional = arguments.need(4)
     options = arguments.options
@@ -121,7 +119,7 @@ def _rel_tool(arguments: Arguments, expressions: Expressions) -> ir.Expression |
 def _current(function: str) -> Make:
     """CRobT and CPos: `\\Tool`, `\\WObj`; what is left out is the one in use."""
 
-    def make(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    def make(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
         arguments.need(0)
         options = arguments.options
         if set(options) - {"tool", "wobj"}:
@@ -138,7 +136,7 @@ def _current(function: str) -> Make:
 def _kinematics(function: str) -> Make:
     """CalcRobT(joints, tool \\WObj) and CalcJointT(target, tool \\WObj); the work object is wobj0 when left out."""
 
-    def make(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+    def make(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
         position, tool = arguments.need(2)
         if set(arguments.options) - {"wobj"}:
             return None
@@ -147,7 +145,7 @@ def _kinematics(function: str) -> Make:
     return make
 
 
-def _euler(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+def _euler(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
     rotation = arguments.need(1)[0]
     for option in ("x", "y", "z"):
         if set(arguments.options) == {option}:
@@ -155,7 +153,7 @@ def _euler(arguments: Arguments, expressions: Expressions) -> ir.Expression | No
     return None
 
 
-def _def_frame(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+def _def_frame(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
     points = [ir.Field(point, "trans") for point in arguments.need(3)]
     if set(arguments.options) - {"origin"}:
         return None
@@ -163,7 +161,7 @@ def _def_frame(arguments: Arguments, expressions: Expressions) -> ir.Expression 
     return ir.Builtin("frame_from_points", (*points, origin) if origin is not None else tuple(points))
 
 
-def _present(arguments: Arguments, expressions: Expressions) -> ir.Expression | None:
+def _present(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
     match arguments.need(1)[0]:
         case ir.Name(id=name):
             return ir.Present(name)

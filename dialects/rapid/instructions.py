@@ -9,7 +9,8 @@ from __future__ import annotations
 from rpl import ir
 from rpl.source import Origin
 
-from .expressions import Arguments, Expressions, as_bool, truth_of
+from .arguments import Arguments
+from .expressions import Expressions, as_bool, truth_of
 from .functions import bit_mask
 from .motion import MOTION, Made, Make
 

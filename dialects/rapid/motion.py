@@ -11,7 +11,8 @@ from collections.abc import Callable
 from rpl import ir
 from rpl.source import Origin
 
-from .expressions import Arguments, Expressions, as_bool
+from .arguments import Arguments
+from .expressions import Expressions, as_bool
 
 Made = ir.Statement | tuple[ir.Statement, ...] | None
 Make = Callable[[Arguments, Expressions, Origin], Made]

@@ -14,7 +14,8 @@ from rpl.reading.pieces import Attribute, Close, Element, Middle, Open
 from rpl.reading.shapes import Slot, SyntaxTree
 from rpl.source import Origin
 
-from .expressions import Arguments, Children, Expressions, Values, leaf, word_of
+from .arguments import Arguments
+from .expressions import Children, Expressions, Values, leaf, word_of
 from .instructions import INSTRUCTIONS
 from .project import Project
 from .vendor import EFFECTS
