@@ -124,7 +124,7 @@ def split(source: Source) -> Iterator[Piece]:
     """The pieces of one listing."""
     text = source.text
     german = is_german(text)
-    sections = {match[1]: match for match in reversed(list(_SECTION.finditer(text)))}
+    sections = _sections(text)
     head = _HEAD.search(text)
     begin = sections["MN"].end() if "MN" in sections else (head.end() if head else 0)
     start = head.start() if head and head.start() < begin else 0
@@ -141,6 +141,18 @@ def split(source: Source) -> Iterator[Piece]:
     yield Piece(STATEMENT, tail, max(end, tail), END)
     if text[end:].strip():
         yield Piece(COMMENT, end, len(text), text[end:].strip())
+
+
+def _sections(text: str) -> dict[str, re.Match[str]]:
+    """The first mark of each section that stands behind the one before it."""
+    marks = list(_SECTION.finditer(text))
+    found: dict[str, re.Match[str]] = {}
+    at = 0
+    for name in ("MN", "POS", "END"):
+        mark = next((mark for mark in marks if mark[1] == name and mark.start() >= at), None)
+        if mark is not None:
+            found[name], at = mark, mark.end()
+    return found
 
 
 def _positions(text: str, begin: int, end: int) -> Iterator[Piece]:

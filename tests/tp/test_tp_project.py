@@ -202,10 +202,11 @@ def test_a_damaged_position_costs_itself_alone() -> None:
     ("text", "expected"),
     [
         ("lost line\n/PROG  A\n/MN\n   1:  R[1]=1 ;\n/POS\n/END\n", "unreadable-statement"),
+        ("/PROG  A\n/MN\n   1:  R[1]=1 ;\n/END\n   2:  R[1]=2 ;\n/POS\n", "tp-instruction"),
         ("/ATTR\n/MN\n   1:  R[1]=1 ;\n/PROG  A\n   2:  R[1]=2 ;\n/POS\n/END\n", "tp-instruction"),
     ],
 )
-def test_text_in_front_of_the_head_is_reported(text: str, expected: str) -> None:
+def test_a_section_out_of_its_place_is_reported(text: str, expected: str) -> None:
     _, diagnostics = read(text)
     found = [item.code.name for item in diagnostics]
     assert expected in found
