@@ -15,6 +15,7 @@ CAPABILITIES = Capabilities(
         (
             *("Assign", "CallRoutine", "If", "Switch", "For", "Label", "Goto", "Return", "Halt", "Wait", "WaitUntil"),
             *("Pulse", "Message", "Clock", "TaskControl", "Vendor", "Opaque", "Nothing", "Move", "Search"),
+            *("DeclareInterrupt", "ControlInterrupt"),
         )
     ),
     functions=frozenset(
@@ -93,6 +94,8 @@ CAPABILITIES = Capabilities(
     move_functions=frozenset((":", "compose", "element_sum", "displaced_in_tool", "joints_to_target", "pose_of")),
     blends=frozenset(("BlendStop", "BlendPercent", "BlendDistance")),
     numbered_groups=True,
+    watched_interrupts=True,
+    pulse_levels=False,
     static_locals=True,
 )
 

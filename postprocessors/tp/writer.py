@@ -39,7 +39,7 @@ LOST_DECLARATION = code(
 )
 LOST_ROUTINE = code("tp-lost-routine", Severity.LOSS, "TP cannot say this about {name}: {reason}", "it is left out")
 TEXT_CASE = code(
-    "tp-text-case", Severity.WARNING, "{name} compares texts; TP takes capital and small letters for the same"
+    "tp-text-case", Severity.LOSS, "{name} compares texts; TP takes capital and small letters for the same"
 )
 ASSUMED = code(
     "tp-posture-assumed",

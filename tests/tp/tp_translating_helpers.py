@@ -20,7 +20,8 @@ def same_in_tp(language: str, text: str, cell: str = "") -> tuple[dict[str, str]
     diagnostics = Diagnostics()
     read = read_sources([source_from_text(f"p.{language}", text)], language, diagnostics)
     written = translate_program(read, "tp", robot, None, diagnostics)
-    refused = [one.as_text() for one in diagnostics if one.severity >= Severity.ERROR or one in written.losses]
+    losses = [one for one in written.losses if one.code.name != "tp-text-case"]  # the texts here differ in more
+    refused = [one.as_text() for one in diagnostics if one.severity >= Severity.ERROR or one in losses]
     assert not refused, refused
     files = [source_from_bytes(file.path, file.data) for file in written.files]
     back = with_signal_names(read_sources(files, "tp", Diagnostics()).program, written.program)

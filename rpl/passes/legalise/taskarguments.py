@@ -17,7 +17,7 @@ from rpl.passes.legalise.usage import assigned_in
 
 def task_arguments(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose tasks take none."""
-    if not context.capabilities.watching_tasks and context.capabilities.parameters != "none":
+    if not context.capabilities.watching_tasks and context.capabilities.parameters == "names":
         return program
     starts = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl) and node.arguments]
     if not starts:
