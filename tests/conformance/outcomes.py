@@ -40,6 +40,7 @@ _HARMLESS = frozenset(("signal-number-chosen", "skipped-file"))
 @dataclass(frozen=True)
 class Outcome:
     """One sample in one target. status: exact, noted (equal, with notes), refused (guarded stops, named), different.
+    `refused`: code and words of each.
     `constructs`: word of a construct -> the worst that happened to it. `why`: the first difference."""
 
     status: str
@@ -73,7 +74,7 @@ def outcome_of(
     to_entry = translation.renamed.get(entry, entry) if entry else None
     named = with_signal_names(back.program, translation.program)
     result = prove_programs(read.program, named, robot, robot, cell, entry=entry, to_entry=to_entry)  # type: ignore[arg-type]
-    refused = sorted({item.code.name for item in diagnostics.of(Severity.LOSS)})
+    refused = sorted({f"{item.code.name}: {item.message}" for item in diagnostics.of(Severity.LOSS)})
     notes = sorted({item.code.name for item in diagnostics.of(Severity.WARNING)} - _HARMLESS)
     if refused:
         status = REFUSED
@@ -255,12 +256,18 @@ def _refusals(outcomes: dict[str, dict[str, dict[str, object]]]) -> list[str]:
     lines = ["| sample | target | what is refused |", "|---|---|---|"]
     for sample, found in sorted(outcomes.items()):
         for target, outcome in sorted(found.items()):
-            codes = ", ".join(f"`{name}`" for name in outcome["refused"])  # type: ignore[attr-defined]
+            told = "; ".join(_told(refusal) for refusal in outcome["refused"])  # type: ignore[attr-defined]
             if outcome["status"] == DIFFERENT:
-                codes = str(outcome.get("reason", "differs"))
-            if codes:
-                lines.append(f"| {sample} | {target} | {codes} |")
+                told = "differs: " + str(outcome.get("reason", "no reason is known"))
+            if told:
+                lines.append(f"| {sample} | {target} | {told} |")
     return lines
+
+
+def _told(refusal: str) -> str:
+    """`code: words` as the page shows it."""
+    code, _, words = refusal.partition(": ")
+    return f"{words.replace('|', chr(92) + '|')} (`{code}`)"
 
 
 _SIGNS = {EXACT: "yes", NOTED: "note", REFUSED: "stop", DIFFERENT: "-"}
@@ -304,12 +311,12 @@ def results(name: str, targets: list[str]) -> dict[str, Outcome]:
 
 
 def main(only: list[str]) -> None:
-    """Run every sample in every target and write file and page. Words: only samples whose name holds one of them;
-    `to:NAME`: only these targets (the rest stays as it was recorded)."""
+    """Run every sample in every target and write file and page. With words nothing is written: only samples whose
+    name holds one of them are shown; `to:NAME`: only these targets."""
     sys.path.insert(0, str(HERE))
     import test_conformance_samples as samples
 
-    outcomes = recorded() if FILE.exists() and only else {}
+    outcomes: dict[str, dict[str, dict[str, object]]] = {}
     targets = [word.removeprefix("to:") for word in only if word.startswith("to:")] or samples.TARGETS
     words = [word for word in only if not word.startswith("to:")]
     chosen = {samples.name_of(sample): sample for sample in samples.SAMPLES}
@@ -319,9 +326,11 @@ def main(only: list[str]) -> None:
             for target, outcome in found.items():
                 reason = samples.expected(chosen[name]).divergence(target)
                 outcomes.setdefault(name, {})[target] = outcome.as_json() | ({"reason": reason} if reason else {})
-                print(f"{name} -> {target}: {outcome.status} {', '.join(outcome.refused)}", flush=True)
+                print(f"{name} -> {target}: {outcome.status}", *outcome.refused, sep="\n    ", flush=True)
                 if outcome.status == DIFFERENT:
                     print("   ", outcome.why.replace("\n", "\n    "), flush=True)
+    if only:
+        return
     FILE.write_text(json.dumps(dict(sorted(outcomes.items())), indent=1) + "\n", "utf-8")
     PAGE.write_text(page(outcomes), "utf-8")
 
