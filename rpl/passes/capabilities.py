@@ -77,8 +77,9 @@ class Capabilities:
     bank. points: taught points that live in a routine. records, arrays (False only with banks: consecutive numbers),
     texts: whether there are any. longest_message: characters of a message's line (0: any).
     computed_messages: a message may show computed text (else it names the registers of its values). text_case:
-    comparisons of texts tell capital letters from small ones. text_find_from: text_find begins at any position. text_parts:
-    without numbered storage as well, helpers read numbers from texts and search them by cutting and comparing parts.
+    comparisons of texts tell capital letters from small ones. text_find_from: text_find begins at any position.
+    text_parts: without numbered storage as well, helpers read numbers from texts and search them by cutting and
+    comparing parts.
     truth: `minus_one` when TRUE is the number -1 and there is no type of truth values.
     index_base: where arrays start; None: anywhere. expressions: `steps` when an assignment has one operator or function
     of constants and variables. calculated_places: moves, signals, waits take any expression. conditions: `comparisons`

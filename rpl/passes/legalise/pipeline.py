@@ -78,8 +78,8 @@ from rpl.passes.legalise.structure import labels_to_structure
 from rpl.passes.legalise.subscripts import joined_subscripts
 from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
-from rpl.passes.legalise.threepoints import three_point_arcs
 from rpl.passes.legalise.taskarguments import task_arguments
+from rpl.passes.legalise.threepoints import three_point_arcs
 from rpl.passes.legalise.timers import timers_to_clocks
 from rpl.passes.legalise.tooldata import tool_data
 from rpl.passes.legalise.triggers import triggers
