@@ -95,6 +95,7 @@ CAPABILITIES = Capabilities(
     blends=frozenset(("BlendStop", "BlendPercent", "BlendDistance")),
     numbered_groups=True,
     watched_interrupts=True,
+    place_components=False,
     pulse_levels=False,
     static_locals=True,
 )

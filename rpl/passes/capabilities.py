@@ -23,11 +23,13 @@ class NameRules:
 
 @dataclass(frozen=True, slots=True)
 class Bank:
-    """Numbered storage of a controller: elements `first`..`last` under one name (`R[1]`..`R[200]`)."""
+    """Numbered storage of a controller: elements `first`..`last` under one name (`R[1]`..`R[200]`). `holds`: what else
+    has these numbers, a kind of signal or a system variable (flags, timers)."""
 
     name: str
     first: int
     last: int
+    holds: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +95,7 @@ class Capabilities:
     places know only the tool in use and the robot's base. no_tool, no_frame: the target's
     own tool and work object data without any offset; then moves name such data, and no plain poses. arcs_by_angle: an
     arc may go on for an angle (else it ends at a computed point). paths_to_joints: a straight move may go to joint
-    values.
+    values. place_components: the components of taught points and of the robot's place can be read.
 
     move_triggers: a move says the actions on its path itself (Move.triggers), and only so.
     watching_tasks: path events, searches and interrupts stand in `statements` although moves and the controller have
@@ -178,6 +180,7 @@ class Capabilities:
     calculated_places: bool = True
     arcs_by_angle: bool = False
     paths_to_joints: bool = True
+    place_components: bool = True
     conditions: str = "any"
     functions_alone: bool = False
     move_settings: frozenset[str] = frozenset()

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
 from rpl.passes.capabilities import Bank
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
@@ -147,6 +148,26 @@ class Numbers:
             last=bank.last,
             name=one.key,
         )
+
+
+def held(program: ir.Program, banks: Iterable[Bank]) -> dict[str, set[int]]:
+    """Numbers of banks (by name) that signals and system variables of the program have. Where one is chosen at run time,
+    the upper quarter of the bank is left for variables."""
+    found: dict[str, set[int]] = {}
+    by_use = {bank.holds: bank for bank in banks if bank.holds}
+    for node in walk(*program.modules):
+        match node:
+            case ir.Signal(kind=use, index=index, name=None) if use in by_use and index is not None:
+                number: ir.Expression = index
+            case ir.System(name=name, indices=(index,)) if name.partition("_")[0] in by_use:
+                use, number = name.partition("_")[0], index
+            case _:
+                continue
+        bank = by_use[use]
+        most = bank.last - (bank.last - bank.first + 1) // 4
+        numbers = {number.value} if isinstance(number, ir.IntLiteral) else set(range(bank.first, most + 1))
+        found.setdefault(bank.name, set()).update(numbers)
+    return found
 
 
 def own_number(name: str, bank: Bank) -> int | None:

@@ -13,7 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.capabilities import Bank
 from rpl.passes.fold import Unchanged, constant, literal
-from rpl.passes.legalise.banks import MIXED, NO_BANK, Numbers, Wanted, fits, main_types, sizes_of
+from rpl.passes.legalise.banks import MIXED, NO_BANK, Numbers, Wanted, fits, held, main_types, sizes_of
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.operands import is_operand
 from rpl.passes.legalise.parameters import ARGUMENTS
@@ -68,7 +68,7 @@ class _Numbered(Rewriter):
         super().__init__(program, context)
         self.unchanged: Unchanged = unchanged_in(program)
         self.facts = _facts(program, self.scopes)
-        self.numbers = Numbers(context)
+        self.numbers = Numbers(context, held(program, context.capabilities.banks.values()))
         self.points = Points(context, self.unchanged)
         self.places: dict[int, Place] = {}
         self.declared: list[ir.Declaration] = []

@@ -14,6 +14,7 @@ from rpl.passes.legalise.background import background_tasks
 from rpl.passes.legalise.bitgroups import groups_to_bits, shared_groups_to_bits
 from rpl.passes.legalise.calls import rewrite_calls
 from rpl.passes.legalise.circles import circle_rules
+from rpl.passes.legalise.components import read_components
 from rpl.passes.legalise.composition import compositions
 from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.context import Context, Pass, names_in
@@ -179,6 +180,7 @@ PASSES: tuple[Pass, ...] = (
     functions_to_procedures,
     fit_arguments,
     fit_loops,
+    read_components,
     steps,
     variables_of_routines,
     nest_branches,

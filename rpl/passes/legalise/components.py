@@ -1,0 +1,44 @@
+"""Components of places, for targets that read them from variables only: of a taught point that nothing changes the
+value is written, and where the robot stands goes into a variable first."""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.passes.fold import Unchanged, constant_number
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines
+from rpl.passes.legalise.usage import base_name
+from rpl.passes.legalise.walk import unchanged_in
+from rpl.passes.values import real
+
+_PLACES = (ir.PoseType, ir.TargetType, ir.JointsType)
+
+
+def read_components(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets that say so."""
+    if context.capabilities.place_components:
+        return program
+    known = unchanged_in(program)
+
+    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        return edit_bodies(routine, Hoister(editor, lambda one: _read(one, editor, known)).body)
+
+    return edit_routines(program, context, work)
+
+
+def _read(expression: ir.Expression, editor: Editor, known: Unchanged) -> Lowered | None:
+    """A component in another form; None: it stays."""
+    if not isinstance(expression, ir.Field):
+        return None
+    type = editor.type_of(expression.base)
+    if not isinstance(type, _PLACES):
+        return None
+    if isinstance(expression.base, ir.System):
+        place = editor.temporary("place", type)
+        return (ir.Assign(place, expression.base),), ir.Field(place, expression.name, origin=expression.origin)
+    name = base_name(expression.base)
+    value = None if name is None or name in known.assigned else constant_number(expression, editor.scope, known)
+    return None if value is None else ((), real(value))
+
+
+__all__ = ["read_components"]

@@ -1,0 +1,31 @@
+"""Variables never get the number of a flag or timer that the program itself uses."""
+
+import pytest
+from tp_translating_helpers import same_in_tp
+
+FLAGS = """&ACCESS RVP
+DEF P( )
+DECL BOOL A[6]
+DECL BOOL B
+DECL INT I
+FOR I=1 TO 6
+  A[I]=TRUE
+ENDFOR
+B=TRUE
+$FLAG[{place}]=FALSE
+$OUT[1]=A[1] AND A[6] AND B AND NOT $FLAG[{place}]
+$FLAG[{place}]=TRUE
+$OUT[2]=A[1] AND $FLAG[{place}]
+A[2]=FALSE
+B=FALSE
+$OUT[3]=$FLAG[{place}] AND NOT B
+END
+"""
+
+
+@pytest.mark.parametrize("place", ["1", "2", "7", "I"])
+def test_flags_keep_their_numbers(place: str) -> None:
+    shown, _ = same_in_tp("krl", FLAGS.format(place=place))
+    listing = "".join(shown.values())
+    if place != "I":
+        assert f"F[{place}]=ON" in listing.replace(" ", "").replace("(", "").replace(")", "")
