@@ -151,8 +151,8 @@ class Numbers:
 
 
 def held(program: ir.Program, banks: Iterable[Bank]) -> dict[str, set[int]]:
-    """Numbers of banks (by name) that signals and system variables of the program have. Where one is chosen at run time,
-    the upper quarter of the bank is left for variables."""
+    """Numbers of banks (by name) that signals and system variables of the program have. Where one is chosen at run
+    time, the upper quarter of the bank is left for variables."""
     found: dict[str, set[int]] = {}
     by_use = {bank.holds: bank for bank in banks if bank.holds}
     for node in walk(*program.modules):
