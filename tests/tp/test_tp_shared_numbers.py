@@ -29,3 +29,22 @@ def test_flags_keep_their_numbers(place: str) -> None:
     listing = "".join(shown.values())
     if place != "I":
         assert f"F[{place}]=ON" in listing.replace(" ", "").replace("(", "").replace(")", "")
+
+GROUP = """&ACCESS RVP
+DEF P( )
+SIGNAL RECIPE $OUT[41] TO $OUT[44]
+DECL INT I
+RECIPE=11
+$OUT[3]=$OUT[41] AND $OUT[42] AND NOT $OUT[43] AND $OUT[44] AND (RECIPE==11)
+I=RECIPE-6
+RECIPE=I
+$OUT[4]=(RECIPE==5)
+END
+"""
+
+
+def test_a_declared_group_is_written_bit_by_bit() -> None:
+    shown, _ = same_in_tp("krl", GROUP)
+    listing = "".join(shown.values())
+    assert "DO[41]=ON" in listing
+    assert "DO[43]=OFF" in listing

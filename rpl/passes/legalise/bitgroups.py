@@ -94,7 +94,15 @@ class _Bits(Hoister):
 
     def bits(self, expression: ir.Expression) -> list[ir.Signal]:
         """The signals of a group that is taken apart."""
-        return _bits(expression)
+        return _bits(self.signal(expression))
+
+    def signal(self, expression: ir.Expression) -> ir.Expression:
+        """The signal that a declared name stands for."""
+        if isinstance(expression, ir.Name):
+            symbol = self.editor.scope.value(expression.id)
+            if symbol is not None and isinstance(symbol.declaration, ir.SignalDeclaration):
+                return replace(symbol.declaration.signal, origin=expression.origin)
+        return expression
 
     def ruled(self, expression: ir.Expression) -> Lowered | None:
         """The group's number, added up beforehand."""
@@ -142,11 +150,7 @@ class _Shared(_Bits):
         self.apart = apart
 
     def bits(self, expression: ir.Expression) -> list[ir.Signal]:
-        signal = expression
-        if isinstance(expression, ir.Name):
-            symbol = self.editor.scope.value(expression.id)
-            if symbol is not None and isinstance(symbol.declaration, ir.SignalDeclaration):
-                signal = replace(symbol.declaration.signal, origin=expression.origin)
+        signal = self.signal(expression)
         return _bits(signal) if isinstance(signal, ir.Signal) and _group(signal) in self.apart else []
 
     def ruled(self, expression: ir.Expression) -> Lowered | None:
