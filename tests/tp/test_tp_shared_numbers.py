@@ -30,6 +30,7 @@ def test_flags_keep_their_numbers(place: str) -> None:
     if place != "I":
         assert f"F[{place}]=ON" in listing.replace(" ", "").replace("(", "").replace(")", "")
 
+
 GROUP = """&ACCESS RVP
 DEF P( )
 SIGNAL RECIPE $OUT[41] TO $OUT[44]
