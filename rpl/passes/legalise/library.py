@@ -158,6 +158,11 @@ def _pose(library: Library) -> Made:
 
 def _current(library: Library) -> Made:
     """The target that the robot stands at, seen with another tool and in another frame than the modal ones."""
+    return _otherwise(library, ir.System("actual_pose"))
+
+
+def _otherwise(library: Library, place: ir.Expression, *parameters: ir.Parameter) -> Made:
+    """A place that is known with the modal tool and frame, as it is with others."""
     product = composed(
         function("inverse", ir.Name("reference")),
         ir.System("base"),
@@ -166,13 +171,13 @@ def _current(library: Library) -> Made:
         ir.Name("tcp"),
     )
     body: ir.Body = (
-        _set("p", ir.System("actual_pose")),
+        _set("p", place),
         _set("f", product),
         *_copy("p", "f", COMPONENTS),
         ir.Return(ir.Name("p")),
     )
-    parameters = (ir.Parameter("tcp", _POSE), ir.Parameter("reference", _POSE))
-    return parameters, library.target, (*_local("p", library.target), *_local("f", _POSE)), body
+    every = (*parameters, ir.Parameter("tcp", _POSE), ir.Parameter("reference", _POSE))
+    return every, library.target, (*_local("p", library.target), *_local("f", _POSE)), body
 
 
 def _joints(library: Library) -> Made:
@@ -223,21 +228,8 @@ def _into(library: Library) -> Made:
 
 def _seen(library: Library) -> Made:
     """Where another tool is in another frame at given joints."""
-    product = composed(
-        function("inverse", ir.Name("reference")),
-        ir.System("base"),
-        ir.Name("p"),
-        function("inverse", ir.System("tool")),
-        ir.Name("tcp"),
-    )
-    body: ir.Body = (
-        _set("p", call(library.name("target_of_joints"), ir.Name("q"))),
-        _set("f", product),
-        *_copy("p", "f", COMPONENTS),
-        ir.Return(ir.Name("p")),
-    )
-    parameters = (ir.Parameter("q", _JOINTS), ir.Parameter("tcp", _POSE), ir.Parameter("reference", _POSE))
-    return parameters, library.target, (*_local("p", library.target), *_local("f", _POSE)), body
+    place = call(library.name("target_of_joints"), ir.Name("q"))
+    return _otherwise(library, place, ir.Parameter("q", _JOINTS))
 
 
 def _quaternion(library: Library) -> Made:

@@ -16,6 +16,7 @@ from rpl.passes.legalise.editing import edit_bodies, map_body
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.support import with_support
 from rpl.passes.legalise.usage import called_names, exposed
+from rpl.passes.legalise.watching import key_of, number_of
 
 DROPS = code(
     "reaction-drops-motion",
@@ -35,7 +36,7 @@ def reactions(program: ir.Program, context: Context) -> ir.Program:
     drops = not context.capabilities.stopping_reactions
     if not any(one.identity is not None or one.once or (one.stops and drops) for one in declared):
         return program
-    if any(_number(one.priority) is None or _number(_identity(one)) is None for one in declared):
+    if any(number_of(one.priority) is None or key_of(one) is None for one in declared):
         return program  # the writer names what it cannot say
     worker = _Reactions(context)
     worker.number(declared)
@@ -53,15 +54,6 @@ def _identity(one: ir.DeclareInterrupt) -> ir.Expression:
     return one.identity if one.identity is not None else one.priority
 
 
-def _number(value: ir.Expression | None) -> int | None:
-    match value:
-        case ir.IntLiteral(value=number):
-            return number
-        case ir.RealLiteral(value=real) if real.is_integer():
-            return int(real)
-    return None
-
-
 @dataclass(slots=True)
 class _Reactions:
     context: Context
@@ -71,7 +63,7 @@ class _Reactions:
     def number(self, declared: list[ir.DeclareInterrupt]) -> None:
         urgency: dict[int, int] = {}
         for one in declared:
-            identity, priority = _number(_identity(one)), _number(one.priority)
+            identity, priority = key_of(one), number_of(one.priority)
             assert identity is not None and priority is not None  # the caller has looked
             urgency[identity] = min(priority, urgency.get(identity, priority))
         for place, identity in enumerate(sorted(urgency, key=lambda key: urgency[key])):
@@ -83,12 +75,12 @@ class _Reactions:
     def statement(self, statement: ir.Statement) -> ir.Body:
         match statement:
             case ir.DeclareInterrupt():
-                own = ir.IntLiteral(self.numbers[_number(_identity(statement)) or 0])
+                own = ir.IntLiteral(self.numbers[number_of(_identity(statement)) or 0])
                 action = self.action(statement, own)
                 stops = statement.stops and self.context.capabilities.stopping_reactions
                 return (replace(statement, priority=own, identity=None, once=False, stops=stops, action=action),)
-            case ir.ControlInterrupt(op=op, handle=handle) if op != "mask" and _number(handle) in self.numbers:
-                own = ir.IntLiteral(self.numbers[_number(handle) or 0])
+            case ir.ControlInterrupt(op=op, handle=handle) if op != "mask" and number_of(handle) in self.numbers:
+                own = ir.IntLiteral(self.numbers[number_of(handle) or 0])
                 return (replace(statement, handle=own, op="off" if op == "delete" else op),)
         return (inside(statement, self.body),)
 
