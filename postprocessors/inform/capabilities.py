@@ -69,6 +69,7 @@ CAPABILITIES = Capabilities(
     speeds=frozenset(("joint", "path", "rotation")),
     blends=frozenset(("BlendStop", "BlendDistance", "BlendLevel")),
     static_locals=True,
+    path_points=tables.TAGS["CR"][0],
     watched_interrupts=True,
     pulse_levels=False,
     poll_s=tables.WATCH_STEP_S,

@@ -97,6 +97,9 @@ class Capabilities:
     arc may go on for an angle (else it ends at a computed point). paths_to_joints: a straight move may go to joint
     values. place_components: the components of taught points and of the robot's place can be read.
 
+    path_points: the smallest corner (mm) of a point that the writer cuts a straight move at for an action on its path;
+    where the ends of the move are computed, a pass does it (0: moves are not cut).
+
     move_triggers: a move says the actions on its path itself (Move.triggers), and only so.
     watching_tasks: path events, searches and interrupts stand in `statements` although moves and the controller have
     none: the passes make tasks of them that watch beside the move (pathevents, watching). watched_interrupts: only
@@ -181,6 +184,7 @@ class Capabilities:
     arcs_by_angle: bool = False
     paths_to_joints: bool = True
     place_components: bool = True
+    path_points: float = 0.0
     conditions: str = "any"
     functions_alone: bool = False
     move_settings: frozenset[str] = frozenset()

@@ -339,6 +339,46 @@ def test_an_action_whose_place_is_not_known_is_refused_by_name() -> None:
     assert codes(diagnostics, Severity.LOSS) == {"inform-path-event-lost"}
 
 
+COMPUTED = """DEF one()
+DECL FRAME F
+DECL REAL way
+way = 30
+PTP {A1 0, A2 -90, A3 90, A4 0, A5 60, A6 0}
+$VEL.CP = 0.1
+LIN {X 450, Y 0, Z 600, A 0, B 90, C 0}
+F = $POS_ACT
+F.Y = F.Y + 80
+TRIGGER WHEN DISTANCE=1 DELAY=-400 DO $OUT[6]=TRUE
+TRIGGER WHEN PATH=-20 DELAY=0 DO $OUT[1]=TRUE
+LIN F C_DIS
+F.X = F.X - 60
+TRIGGER WHEN PATH=-15 DELAY=-100 DO $OUT[3]=TRUE
+LIN F
+F.Y = F.Y - 70
+F.C = F.C + 20
+TRIGGER WHEN PATH=-25 DELAY=0 DO count()
+LIN F
+F.Y = F.Y + 70
+TRIGGER WHEN PATH=-way DELAY=0 DO $OUT[2]=TRUE
+LIN F
+F.Z = F.Z + 1
+TRIGGER WHEN PATH=-5 DELAY=0 DO $OUT[5]=TRUE
+LIN F
+END
+DEF count()
+$OUT[4]=TRUE
+END
+"""
+
+
+def test_actions_on_a_path_with_a_computed_end_stand_behind_computed_points() -> None:
+    """Also where its turning tool, a corner before it, a computed distance or a move that is too short is meant."""
+    _, diagnostics, on = jobs_of("krl", COMPUTED, "kuka_kr6r900sixx", "ONE")
+    assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    assert on == {1, 2, 3, 4, 5, 6}
+    assert "path-event-point" in codes(diagnostics, Severity.WARNING)
+
+
 def test_where_the_robot_is_with_a_tool_of_its_data() -> None:
     text = """MODULE one
 PERS tooldata tPen:=[TRUE,[[0,0,100],[1,0,0,0]],[0.5,[0,0,50],[1,0,0,0],0,0,0]];
@@ -452,9 +492,11 @@ def test_calls_and_branches_that_do_not_move_leave_the_robot_where_it_is() -> No
     """So the place of an action on the next move stays known."""
     _, diagnostics, on = jobs_of("krl", STAYS, "kuka_kr6r900sixx", "ONE")
     assert not diagnostics.of(Severity.LOSS) and on == {1, 2}
+    assert "path-event-point" not in codes(diagnostics, Severity.WARNING)
     moving = STAYS.replace("$OUT[2] = TRUE", "LIN_REL {Z 10}")
-    _, diagnostics, _ = jobs_of("krl", moving, "kuka_kr6r900sixx", "ONE")
-    assert codes(diagnostics, Severity.LOSS) == {"inform-path-event-lost"}
+    _, diagnostics, on = jobs_of("krl", moving, "kuka_kr6r900sixx", "ONE")
+    assert not diagnostics.of(Severity.LOSS) and on == {1}
+    assert "path-event-point" in codes(diagnostics, Severity.WARNING)
 
 
 PULSES = """MODULE One

@@ -53,6 +53,7 @@ from rpl.passes.legalise.onemove import settings_of_one_move
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.parameters import fit_arguments
 from rpl.passes.legalise.pathevents import path_events
+from rpl.passes.legalise.pathpoints import path_points
 from rpl.passes.legalise.polling import poll_waits
 from rpl.passes.legalise.prelude import link_prelude
 from rpl.passes.legalise.pulselevels import pulse_levels
@@ -168,6 +169,7 @@ PASSES: tuple[Pass, ...] = (
     explicit_to_modal,
     settings_at_moves,
     stand_first,
+    path_points,
     seen_places,
     posed_places,
     aggregates,
