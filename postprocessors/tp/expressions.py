@@ -22,7 +22,7 @@ from .texts import ascii_text, comment, number
 _ELEMENT = re.compile(r"(?P<bank>R|PR|SR|F|AR|P|TIMER)\[?(?P<number>\d+)\]?", re.IGNORECASE)
 _NAMED = re.compile(r"(?P<kind>[A-Z]{1,3})\[?(?P<number>\d+)\]?", re.IGNORECASE)
 _LAST = 99999
-_ACTIVE = {"UFRAME_NUM": "$MNUFRAMENUM[1]", "UTOOL_NUM": "$MNUTOOLNUM[1]"}
+ACTIVE = {"UFRAME_NUM": "$MNUFRAMENUM[1]", "UTOOL_NUM": "$MNUTOOLNUM[1]"}
 
 
 @dataclass(slots=True)
@@ -64,7 +64,7 @@ class Expressions:
             case ir.Name(id=name) if name.startswith("$"):
                 return name
             case ir.Name(id="UFRAME_NUM" | "UTOOL_NUM" as name):
-                return _ACTIVE[name]
+                return ACTIVE[name]
             case ir.VendorValue(dialect="tp", text=text):
                 return text
             case ir.Name(id=name):

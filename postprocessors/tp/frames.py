@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import Bank
 from rpl.passes.fold import constant
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import pose_of
@@ -66,6 +67,8 @@ class Frames:
     tools: Numbers = field(default_factory=lambda: Numbers("UTOOL", tables.MOST_TOOLS))
     frames: Numbers = field(default_factory=lambda: Numbers("UFRAME", tables.MOST_FRAMES))
     kept: Mapping[int, tuple[float, ...]] = field(default_factory=dict)  # registers that hold one value all the time
+    free: list[int] = field(default_factory=list)  # number registers that nothing has, the next one first
+    saved: dict[str, int] = field(default_factory=dict)  # the register that keeps the number in force: UTOOL, UFRAME
     selected: dict[str, set[str]] = field(default_factory=lambda: {"UTOOL": set(), "UFRAME": set()})
 
     def select(self, kind: str, value: ir.Expression, expressions: Expressions) -> tuple[list[Line], str]:
@@ -85,6 +88,25 @@ class Frames:
             return self._line(numbers, "0"), "0"
         number = str(numbers.of_constant(pose))
         return self._line(numbers, number), number
+
+    def is_kept(self, register: str) -> bool:
+        """Does the position register hold one value all the time?"""
+        digits = register[3:-1].partition(":")[0]
+        return digits.isdigit() and int(digits) in self.kept
+
+    def apart(self, kind: str, register: str) -> tuple[list[Line], str]:
+        """The lines that select what a position register holds now under a number that no move has."""
+        numbers = self.tools if kind == "UTOOL" else self.frames
+        number = str(numbers.of_register(f"{register} seen"))
+        return [Line(f"  {kind}[{number}]={register}"), Line(f"  {kind}_NUM={number}")], number
+
+    def keeper(self, kind: str) -> str:
+        """The register for the number that is in force where nobody knows it."""
+        if kind not in self.saved:
+            if not self.free:
+                raise CannotSayError("no register is free for the number of the tool or frame in force")
+            self.saved[kind] = self.free.pop(0)
+        return f"R[{self.saved[kind]}:{kind} in use]"
 
     def _line(self, numbers: Numbers, number: str) -> list[Line]:
         self.selected[numbers.word].add(number)
@@ -182,27 +204,21 @@ def _kept(value: ir.Expression, points: Mapping[str, ir.Expression | None], scop
         return None
 
 
-def highest_free_registers(program: ir.Program) -> tuple[int, int]:
-    """Two position registers that no constant number names, from the top."""
-    from rpl.passes.rewrite import rewrite_parts
-
-    used: set[int] = set()
-
-    def expression(one: ir.Expression) -> ir.Expression:
-        match one:
-            case ir.Index(base=ir.Name(id=name), indices=(ir.IntLiteral(value=number),)) if name.upper() == "PR":
-                used.add(number)
-            case ir.Name(id=name) if name.upper().startswith("PR") and name[2:].isdigit():
-                used.add(int(name[2:]))
-        return rewrite_parts(one, expression)
-
-    def body(statements: ir.Body) -> ir.Body:
-        for statement in statements:
-            rewrite_parts(statement, expression, body)
-        return statements
-
-    for module in program.modules:
-        for routine in module.routines:
-            body(routine.body)
-    free = [n for n in range(tables.PR.last, 0, -1) if n not in used]
+def highest_free_registers(program: ir.Program, names: Mapping[tuple[str, int], str]) -> tuple[int, int]:
+    """Two position registers that nothing has, from the top."""
+    free = free_numbers(program, names, tables.PR)
     return (free[0], free[1]) if len(free) > 1 else (tables.PR.last, tables.PR.last - 1)
+
+
+def free_numbers(program: ir.Program, names: Mapping[tuple[str, int], str], bank: Bank) -> list[int]:
+    """Numbers of a bank that no statement and no name (of data that is chosen at run time) has, from the top."""
+    used = {number for kind, number in names if kind == bank.name}
+    for node in walk(program):
+        match node:
+            case ir.Index(base=ir.Name(id=name), indices=(ir.IntLiteral(value=number),)) if name.upper() == bank.name:
+                used.add(number)
+            case ir.Name(id=name) | ir.For(counter=name) | ir.Variable(name=name):
+                prefix, digits = name[: len(bank.name)], name[len(bank.name) :]
+                if prefix.upper() == bank.name and digits.isdigit():
+                    used.add(int(digits))
+    return [number for number in range(bank.last, bank.first - 1, -1) if number not in used]

@@ -200,9 +200,10 @@ class Idioms:
         word = "DOWNTO" if down else "TO"
         self.printer.line(f"FOR {operand(counter)}={operand(start)} {word} {operand(stop)}", first.origin)
         self.printer.ledger.written(first)
-        self.printer.forget()
+        selects = self.printer.selects(body)
+        self.printer.crossing(selects)
         self.printer.inner(body)
-        self.printer.forget()
+        self.printer.crossing(selects)
         self.printer.line("ENDFOR")
 
     def finish_loop(self, loop: ir.While) -> None:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from rpl import ir
 from rpl.diagnostics import Code, Diagnostics, Severity, code
@@ -39,10 +40,24 @@ STOPPED = code(
 )
 
 
+_NUMBER = re.compile(r"PR\[(\d+)")
+
+
 class Action(Protocol):
     """How an assignment or a call is written behind a trigger."""
 
     def __call__(self, action: ir.Assign | ir.CallRoutine) -> str: ...
+
+
+class State(NamedTuple):
+    """What is known at a place of the program; see Motion."""
+
+    frame: str
+    tool: str
+    last: Position | None
+    place: str
+    stands: bool
+    handed: frozenset[str]
 
 
 @dataclass(slots=True)
@@ -63,19 +78,44 @@ class Motion:
     stands: bool = False  # the move before ended with FINE
     rounded_last: bool = False  # the move above in the text did not
     last: Position | None = None  # where the move before ended, in the frame in force
+    handed: frozenset[str] = frozenset()  # registers unchanged since their value became a frame or tool
 
     @property
-    def state(self) -> tuple[str, str, Position | None, str, bool]:
-        return self.frame, self.tool, self.last, self.place, self.stands
+    def state(self) -> State:
+        return State(self.frame, self.tool, self.last, self.place, self.stands, self.handed)
 
     @state.setter
-    def state(self, state: tuple[str, str, Position | None, str, bool]) -> None:
-        self.frame, self.tool, self.last, self.place, self.stands = state
+    def state(self, state: State) -> None:
+        self.frame, self.tool, self.last, self.place, self.stands, self.handed = state
 
     def forget(self) -> None:
         """Neither frame, tool nor place are known from here on."""
         self.frame = self.tool = ""
+        self.handed = frozenset()
+        self.moved()
+
+    def moved(self) -> None:
+        """The place is not known from here on; frame and tool are as they were."""
         self.last, self.stands, self.place = None, False, ""
+
+    def stored(self, lines: list[Line]) -> None:
+        """What these lines put into position registers is no longer what was moved to or handed over."""
+        for line in lines:
+            if not line.first.startswith("  PR["):
+                continue
+            number = register_number(line.first.strip())
+            self.place = ""
+            self.handed = frozenset(one for one in self.handed if number and register_number(one) != number)
+
+    def join(self, other: State) -> None:
+        """What holds on both ways."""
+        if self.frame != other.frame:
+            self.frame = ""
+        if self.tool != other.tool:
+            self.tool = ""
+        self.handed &= other.handed
+        if (self.last, self.place, self.stands) != (other.last, other.place, other.stands):
+            self.moved()
 
     def report_once(self, about: Code, origin: Origin, key: str = "", **arguments: object) -> None:
         if (about, key) not in self.reported:
@@ -371,6 +411,12 @@ class Motion:
         if delay is None:
             raise CannotSayError("an action by time comes at a constant time")
         return f"{'TA' if delay > 0 else 'TB'} {number_text(abs(float(delay)), 2, tables.NUMBERS)}sec,{action}"
+
+
+def register_number(place: str) -> str:
+    """`PR[3:name]`, `PR[3,1]` -> `3`; nothing for a number that is computed."""
+    found = _NUMBER.match(place)
+    return found[1] if found else ""
 
 
 def path_length(kind: str, start: Position | None, via: Position | None, goal: Position | None) -> float | None:

@@ -10,6 +10,7 @@ import re
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.legalise.usage import doing
 from rpl.source import Origin
 
 WAIT_LIMIT = "$WAITTMOUT"
@@ -104,27 +105,35 @@ def monitors_of(program: ir.Program) -> dict[int, tuple[str, int]]:
     return found
 
 
-def quiet_routines(program: ir.Program) -> frozenset[str]:
-    """Routines that neither move the robot nor select a tool or frame, nor call one that does; folded names."""
-    calls: dict[str, set[str]] = {}
-    loud: set[str] = set()
-    for module in program.modules:
-        for routine in module.routines:
-            name = routine.name.lower()
-            called = calls.setdefault(name, set())
-            for node in walk(routine):
-                match node:
-                    case ir.Move() | ir.Vendor() | ir.Opaque() | ir.Assign(target=ir.System()):
-                        loud.add(name)
-                    case ir.CallRoutine(dynamic=None, name=other) | ir.Call(name=other):
-                        called.add(other.lower())
-                    case ir.CallRoutine():
-                        loud.add(name)
-    size = -1
-    while size != len(loud):
-        size = len(loud)
-        loud |= {name for name, called in calls.items() if any(one in loud or one not in calls for one in called)}
-    return frozenset(set(calls) - loud)
+def quiet_routines(program: ir.Program) -> tuple[frozenset[str], frozenset[str]]:
+    """Routines that neither move the robot nor select a tool or frame, nor call one that does; and those that may move
+    but select nothing. Folded names."""
+    names = {routine.name.lower() for module in program.modules for routine in module.routines}
+
+    def unknown(node: object) -> bool:
+        match node:
+            case ir.CallRoutine(name=name, dynamic=dynamic):
+                return dynamic is not None or name.lower() not in names
+            case ir.Vendor() | ir.Opaque():
+                return True
+        return False
+
+    def selects(node: object) -> bool:
+        return unknown(node) or selects_frame(node)
+
+    choosing = doing(program, selects)
+    moving = doing(program, lambda node: isinstance(node, ir.Move))
+    return frozenset(names - choosing - moving), frozenset(names - choosing)
+
+
+def selects_frame(node: object) -> bool:
+    """Does this one statement select a tool or a frame?"""
+    match node:
+        case ir.Assign(target=ir.System(name=name)):
+            return name in _TABLES
+        case ir.Move(tool=tool, frame=frame):
+            return tool is not None or frame is not None
+    return False
 
 
 def steps_in(body: ir.Body) -> set[str]:

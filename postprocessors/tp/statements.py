@@ -6,19 +6,20 @@ from collections.abc import Mapping
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.walk import walk
 from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError, StatementPrinter
 
 from . import tables
 from .assignments import Assignments, set_output
-from .expressions import Expressions, constant, measured
+from .expressions import ACTIVE, Expressions, constant, measured
 from .flow import If, Labels, choice
 from .frames import Frames
 from .idioms import Idioms
 from .lines import Line
 from .motion import Motion
-from .own import from_listing, is_own_limit, modal_condition
+from .own import from_listing, is_own_limit, modal_condition, selects_frame
 from .positions import Points
 from .texts import ascii_text, number, remarks
 
@@ -34,6 +35,7 @@ SPLIT_MESSAGE = code(
 )
 
 _CLOCKS = {"start": "START", "stop": "STOP", "reset": "RESET"}
+_JUMPS = (ir.Label, ir.Goto)
 _HALTS = {"stop": "PAUSE", "exit": "ABORT"}
 
 
@@ -55,6 +57,8 @@ class Printer(StatementPrinter[Line]):
         self.expressions, self.points, self.frames, self.labels = expressions, points, frames, labels
         self.monitors: Mapping[int, tuple[str, int]] = {}
         self.quiet: frozenset[str] = frozenset()  # programs that neither move nor select a frame, folded
+        self.steady: frozenset[str] = frozenset()  # programs that may move, but select none
+        self.at_jumps = True  # is a tool or frame selected among the labels of this program?
         self.motion = Motion(
             expressions, points, diagnostics, self.action, scratch=frames.scratch, second=frames.second
         )
@@ -107,6 +111,33 @@ class Printer(StatementPrinter[Line]):
         else:
             self.motion.frame = number if number.isdigit() else ""
 
+    def begin(self, body: ir.Body) -> None:
+        """The body of the program itself."""
+        head = next((at for at, one in enumerate(body) if any(isinstance(n, _JUMPS) for n in walk(one))), len(body))
+        self.at_jumps = self.selects(body[head:])
+        self.body(body)
+
+    def selects(self, body: ir.Body) -> bool:
+        """Is another tool or frame in force at some place of these statements?"""
+        for node in walk(*body):
+            match node:
+                case ir.CallRoutine(name=name, dynamic=dynamic):
+                    if dynamic is not None or name.lower() not in self.steady:
+                        return True
+                case ir.Vendor() | ir.Opaque():
+                    return True
+            if selects_frame(node):
+                return True
+        return False
+
+    def crossing(self, selects: bool) -> None:
+        """A place with several ways to it; `selects`: a tool or frame may have been selected on one of them."""
+        if selects:
+            self.forget()
+        else:
+            self.motion.moved()
+            self.motion.handed = frozenset()
+
     def guarded_behind(self, statement: ir.Statement) -> None:
         if not _leaves_frames(statement):
             self.forget()
@@ -134,7 +165,7 @@ class Printer(StatementPrinter[Line]):
             case ir.For():
                 self.counting(statement)
             case ir.Label(name=name):
-                self.forget()
+                self.crossing(self.at_jumps)
                 self.line(f"LBL[{self.labels.text(name)}]", origin)
             case ir.Goto(label=name):
                 self.line(f"JMP LBL[{self.labels.number(name)}]", origin)
@@ -146,8 +177,7 @@ class Printer(StatementPrinter[Line]):
             case ir.Assign():
                 lines = self.assignments.lines(statement)
                 self.put(lines, origin)
-                if any(line.first.startswith("  PR[") for line in lines):
-                    self.motion.place = ""
+                self.motion.stored(lines)
             case ir.Move():
                 self.move(statement)
             case ir.WaitUntil(timeout=limit) if limit is not None:
@@ -163,10 +193,13 @@ class Printer(StatementPrinter[Line]):
 
     def called(self, call: ir.CallRoutine) -> None:
         """What is known of the motion behind a call."""
-        if call.dynamic is not None or call.name.lower() not in self.quiet:
+        if call.dynamic is not None or call.name.lower() not in self.steady:
             self.forget()
+        elif call.name.lower() not in self.quiet:
+            self.motion.moved()
         elif self.motion.place.startswith("PR["):
             self.motion.place = ""
+        self.motion.handed = frozenset()
 
     def simple(self, statement: ir.Statement) -> str:
         match statement:
@@ -257,8 +290,7 @@ class Printer(StatementPrinter[Line]):
         if statement.otherwise:
             self.line("ELSE")
             self.inner(statement.otherwise)
-        if self.motion.state != after:
-            self.forget()
+        self.motion.join(after)
         self.line("ENDIF")
 
     def counting(self, loop: ir.For) -> None:
@@ -272,9 +304,10 @@ class Printer(StatementPrinter[Line]):
             raise CannotSayError("a FOR counts in a register")
         first, last = self.expressions.operand(loop.start), self.expressions.operand(loop.stop)
         self.line(f"FOR {counter}={first} {'TO' if step == 1 else 'DOWNTO'} {last}", loop.origin)
-        self.forget()
+        selects = self.selects(loop.body)
+        self.crossing(selects)
         self.inner(loop.body)
-        self.forget()
+        self.crossing(selects)
         self.line("ENDFOR")
 
     def switch(self, statement: ir.Switch) -> None:
@@ -299,15 +332,18 @@ class Printer(StatementPrinter[Line]):
         jumps_behind = f"JMP LBL[{behind}]"
         if places and any(deed.startswith("CALL") for _, deed in rows):
             self.line(jumps_behind)
+        begin = self.motion.state
+        selects = self.selects((*(one for case in statement.cases for one in case.body), *otherwise))
         for number_of, body in places:
-            self.forget()
+            self.motion.state = begin
             self.line(f"LBL[{number_of}]")
             self.body(body)
             if not _leaves(body) and number_of != places[-1][0]:
                 self.line(jumps_behind)
         if any(line.first.endswith(jumps_behind) for line in self.lines):
             self.line(f"LBL[{self.labels.shown(behind)}]")
-        self.forget()
+        self.motion.state = begin
+        self.crossing(selects)
 
     def deed(self, body: ir.Body, behind: int, places: list[tuple[int, ir.Body]]) -> str:
         """What a row of a SELECT does."""
@@ -332,6 +368,8 @@ class Printer(StatementPrinter[Line]):
         lines, chosen = self.frames.select(kind, value, self.expressions)
         self.put(lines, origin)
         self.in_force(kind, chosen)
+        if len(lines) > 1:
+            self.motion.handed |= {lines[0].first.partition("=")[2]}
 
     def seen_with(self, tool: ir.Expression, frame: ir.Expression, target: ir.Expression) -> list[Line]:
         """Where the robot stands, seen with a tool and in a frame: LPOS is what is in force, so these are selected for
@@ -340,12 +378,19 @@ class Printer(StatementPrinter[Line]):
         behind: list[Line] = []
         for kind, value, known in (("UFRAME", frame, self.motion.frame), ("UTOOL", tool, self.motion.tool)):
             lines, chosen = self.frames.select(kind, value, self.expressions)
-            if chosen.isdigit() and chosen == known:
+            register = lines[0].first.partition("=")[2] if len(lines) > 1 else ""
+            same = not register or register in self.motion.handed or self.frames.is_kept(register)
+            if chosen.isdigit() and chosen == known and same:
                 continue
-            if not known:
-                raise CannotSayError("where the robot stands with another tool or frame than the one in force here")
+            if register:
+                lines, _ = self.frames.apart(kind, register)
+            if known:
+                behind.append(Line(f"  {kind}_NUM={known}"))
+            else:
+                keeper = self.frames.keeper(kind)
+                before.append(Line(f"  {keeper}={ACTIVE[f'{kind}_NUM']}"))
+                behind.append(Line(f"  {kind}_NUM={keeper}"))
             before.extend(lines)
-            behind.append(Line(f"  {kind}_NUM={known}"))
         return [*before, Line(f"  {self.expressions.place(target)}=LPOS"), *behind]
 
     def move(self, move: ir.Move) -> None:

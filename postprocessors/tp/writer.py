@@ -21,7 +21,7 @@ from .assignments import Assignments
 from .dumps import dump_files
 from .expressions import Expressions
 from .flow import Labels
-from .frames import Frames, highest_free_registers, kept_registers
+from .frames import Frames, free_numbers, highest_free_registers, kept_registers
 from .lines import Line
 from .own import monitors_of, quiet_routines, steps_in
 from .positions import Points, point_number
@@ -96,11 +96,15 @@ class _Writer:
         self.program, self.context, self.ledger = program, context, ledger
         self.diagnostics = context.diagnostics
         self.scopes = ProgramScope(program)
-        self.frames = Frames(*highest_free_registers(program), kept=kept_registers(program))
         self.names = {**_labels_of_registers(program), **context.register_names}
+        self.frames = Frames(
+            *highest_free_registers(program, self.names),
+            kept=kept_registers(program),
+            free=free_numbers(program, self.names, tables.R),
+        )
         self.entries = _entries(program)
         self.monitors = monitors_of(program)
-        self.quiet = quiet_routines(program)
+        self.quiet, self.steady = quiet_routines(program)
         self.taken: set[str] = set()
         self.start: list[tuple[ir.Assign, Scope]] = []  # values of data before the program
         self.from_listings: set[str] = set()  # their points have postures of their own
@@ -144,8 +148,9 @@ class _Writer:
         points = Points()
         expressions = Expressions(scope, self.names, limited="PROG" not in dict(module.attributes))
         printer = Printer(expressions, points, self.frames, Labels.of(routine.body), self.ledger, self.diagnostics)
-        printer.monitors, printer.quiet = self.monitors, self.quiet
-        printer.motion.stands = routine.name.lower() in self.entries and "PROG" not in dict(module.attributes)
+        printer.monitors, printer.quiet, printer.steady = self.monitors, self.quiet, self.steady
+        if routine.name.lower() in self.entries and "PROG" not in dict(module.attributes):
+            printer.motion.stands, printer.motion.frame = True, "0"  # see standard_frames
         self.ledger.written(routine)
         printer.comments_only(routine.origin)
         named: dict[str, str] = {}
@@ -153,7 +158,7 @@ class _Writer:
         for declaration in routine.declarations:
             self.declaration(declaration, printer, named, steps)
         expressions.points = named
-        printer.body(routine.body)
+        printer.begin(routine.body)
         if expressions.texts_compared:
             self.diagnostics.report(TEXT_CASE, routine.origin, name=routine.name)
         self.lost_parts(routine)
@@ -263,15 +268,19 @@ class _Writer:
 
 
 def _moves_before(listing: Listing, listings: list[Listing], word: str) -> bool:
-    """Does the program move, itself or by a call, before it selects a number of this kind?"""
-    moving = {one.name for one in listings if any(line.first.startswith((*_MOTION, "  CALL")) for line in one.lines)}
+    """Does the program move or look where the robot is, itself or by a call, before it selects such a number?"""
+    moving = {one.name for one in listings if any(_needs_frames(line) or "  CALL" in line.first for line in one.lines)}
     for line in listing.lines:
         if line.first.startswith(f"  {word}_NUM="):
             return False
         called = line.first.partition("CALL ")[2].partition("(")[0].strip()
-        if line.first.startswith(_MOTION) or (called and called in moving):
+        if _needs_frames(line) or (called and called in moving):
             return True
     return False
+
+
+def _needs_frames(line: Line) -> bool:
+    return line.first.startswith(_MOTION) or line.first.endswith("=LPOS")
 
 
 def _repeat(listing: Listing) -> None:

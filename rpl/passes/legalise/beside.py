@@ -11,7 +11,7 @@ from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor
-from rpl.passes.legalise.usage import Usage, usage_of
+from rpl.passes.legalise.usage import Usage, doing, usage_of
 from rpl.source import Origin
 
 _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.ResumeLevel)
@@ -43,24 +43,7 @@ def moves_or_waits(statement: object, routines: frozenset[str]) -> bool:
 
 def closure(program: ir.Program, kinds: tuple[type, ...]) -> frozenset[str]:
     """The routines (folded) that do one of these statements, themselves or by what they call."""
-    found: set[str] = set()
-    calls: dict[str, set[str]] = {}
-    for module in program.modules:
-        for routine in module.routines:
-            name = routine.name.lower()
-            called = calls.setdefault(name, set())
-            for node in walk(*routine.body, *(one for handler in routine.handlers for one in handler.body)):
-                match node:
-                    case ir.CallRoutine(name=other) | ir.Call(name=other):
-                        called.add(other.lower())
-                if isinstance(node, kinds):
-                    found.add(name)
-    grown = True
-    while grown:
-        more = {name for name, called in calls.items() if name not in found and called & found}
-        found |= more
-        grown = bool(more)
-    return frozenset(found)
+    return doing(program, lambda node: isinstance(node, kinds))
 
 
 @dataclass(slots=True)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.datalists import never_called
-from rpl.passes.legalise.usage import Usage, each_expression, usage_of
+from rpl.passes.legalise.usage import Usage, doing, each_expression, usage_of
 from rpl.passes.scope import ProgramScope, Scope
 
 SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distance", "blend_joint"))
@@ -290,22 +290,15 @@ def _beside(program: ir.Program) -> set[str]:
     return names
 
 
-def _setting_routines(program: ir.Program) -> set[str]:
+def _setting_routines(program: ir.Program) -> frozenset[str]:
     """Routines that change a setting, themselves or by what they call: behind all others it is as it was before."""
-    calls: dict[str, set[str]] = {}
-    found: set[str] = set()
-    for module in program.modules:
-        for routine in module.routines:
-            name = routine.name.lower()
-            called = calls.setdefault(name, set())
-            for node in walk(routine):
-                match node:
-                    case ir.Assign(target=ir.System(name=setting)) if setting in _FOLLOWED:
-                        found.add(name)
-                    case ir.CallRoutine(name=other, dynamic=None) | ir.Call(name=other):
-                        called.add(other.lower())
-                    case ir.CallRoutine():
-                        found.add(name)
-    while more := {name for name, called in calls.items() if name not in found and called & found}:
-        found |= more
-    return found
+
+    def sets(node: object) -> bool:
+        match node:
+            case ir.Assign(target=ir.System(name=setting)):
+                return setting in _FOLLOWED
+            case ir.CallRoutine(dynamic=dynamic):
+                return dynamic is not None
+        return False
+
+    return doing(program, sets)

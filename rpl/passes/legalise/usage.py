@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.passes.rewrite import rewrite_parts
 
 
@@ -171,6 +172,25 @@ def _close(sets: dict[str, set[str]], calls: dict[str, set[str]]) -> None:
             for callee in callees:
                 sets[key] |= sets.get(callee, set())
             changed = changed or len(sets[key]) != before
+
+
+def doing(program: ir.Program, does: Callable[[object], bool]) -> frozenset[str]:
+    """The routines (folded names) with a node for which `does` holds, in themselves or in what they call by name."""
+    calls: dict[str, set[str]] = {}
+    found: set[str] = set()
+    for module in program.modules:
+        for routine in module.routines:
+            name = routine.name.lower()
+            called = calls.setdefault(name, set())
+            for node in walk(routine):
+                match node:
+                    case ir.CallRoutine(name=other, dynamic=None) | ir.Call(name=other):
+                        called.add(other.lower())
+                if does(node):
+                    found.add(name)
+    while more := {name for name, called in calls.items() if name not in found and called & found}:
+        found |= more
+    return frozenset(found)
 
 
 def exposed(program: ir.Program, names: set[str]) -> ir.Program:
