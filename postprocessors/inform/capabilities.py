@@ -47,6 +47,7 @@ CAPABILITIES = Capabilities(
     call_depth=tables.DEEPEST_CALL,
     search_results=frozenset(("found", "hit")),
     task_operations=frozenset(("start", "join")),
+    moving_tasks=False,
     banks={
         "IntType": tables.D,
         "RealType": tables.R,

@@ -53,5 +53,6 @@ CAPABILITIES = Capabilities(
     data_lists=True,
     declared_groups=True,
     background_tasks="shared",
+    moving_tasks=False,
     kinematics=("INVERSE", "FORWARD"),
 )

@@ -51,6 +51,7 @@ CAPABILITIES = Capabilities(
     wait_timeout=True,
     dynamic_calls=True,
     background_tasks="separate",
+    moving_tasks=False,
     no_tool="tool0",
     no_frame="wobj0",
     switch_types=frozenset(("IntType", "RealType", "StringType", "BoolType")),

@@ -69,6 +69,7 @@ CAPABILITIES = Capabilities(
     call_depth=tables.DEEPEST_CALL,
     search_results=frozenset(("found", "hit")),
     task_operations=frozenset(("start",)),
+    moving_tasks=False,
     banks={
         "RealType": tables.R,
         "BoolType": tables.F,

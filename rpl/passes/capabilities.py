@@ -64,7 +64,8 @@ class Capabilities:
     otherwise it is attached to the next move. search_results: what a search move gives, `found` (the place) and `hit`
     (whether). task_operations: ops of TaskControl, where that is in `statements`; without it, background_tasks: the
     controller runs background programs that see the data of the others (`shared`), or modules of their own that share
-    persistent data by name (`separate`). stopping_reactions: an interrupt can
+    persistent data by name (`separate`). moving_tasks: a task that the program starts may move the robot.
+    stopping_reactions: an interrupt can
     brake the robot and drop its move (DeclareInterrupt `stops`), and the program goes on behind that.
 
     Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
@@ -167,6 +168,7 @@ class Capabilities:
     stopping_reactions: bool = False
     task_operations: frozenset[str] = frozenset(("start", "stop", "pause", "resume", "join"))
     background_tasks: str = ""
+    moving_tasks: bool = True
     banks: Mapping[str, Bank] = field(default_factory=dict)
     points: Bank | None = None
     records: bool = True

@@ -12,6 +12,7 @@ from rpl.passes.legalise.arithmetic import arithmetic
 from rpl.passes.legalise.arrays import array_bases, array_sizes
 from rpl.passes.legalise.background import background_tasks
 from rpl.passes.legalise.bitgroups import groups_to_bits, shared_groups_to_bits
+from rpl.passes.legalise.calledtasks import called_tasks
 from rpl.passes.legalise.calls import rewrite_calls
 from rpl.passes.legalise.circles import circle_rules
 from rpl.passes.legalise.components import read_components
@@ -34,6 +35,7 @@ from rpl.passes.legalise.flatrecords import flat_records
 from rpl.passes.legalise.functions import functions_to_procedures
 from rpl.passes.legalise.geometry import geometry
 from rpl.passes.legalise.groups import name_groups
+from rpl.passes.legalise.handles import known_handles
 from rpl.passes.legalise.interrupts import interrupts
 from rpl.passes.legalise.joins import joins
 from rpl.passes.legalise.jointgoals import joint_goals
@@ -106,6 +108,8 @@ PASSES: tuple[Pass, ...] = (
     rotation_vectors,
     levels_to_distances,
     elementwise,
+    known_handles,
+    called_tasks,
     searches,
     reaction_searches,
     search_parts,
