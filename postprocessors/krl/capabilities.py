@@ -50,6 +50,7 @@ CAPABILITIES = Capabilities(
     relative_moves=True,
     arcs_by_angle=True,
     partial_targets=True,
+    flags_by_sign=True,
     data_lists=True,
     declared_groups=True,
     background_tasks="shared",

@@ -41,6 +41,7 @@ class Capabilities:
     operators: operators printed as they are. modal_motion: tool, frame, speed and blend are modal (KRL); otherwise each
     move names them (RAPID). for_at_least_once / for_scoped / for_automatic: the target's FOR has exactly that rule.
     postures: `flags` of the notation in a target, or `joints` that a joint move solves near to (targets have none).
+    flags_by_sign: a target's flags name the sign of every axis, so they hold for its very place only.
     notation: arm configuration notation; rotation: `zyx` (a, b, c) or `quaternion` (rot) components.
     types: names of type classes that can be declared. signal_prefixes: empty when signals have numbers (KRL); otherwise
     signals have names (RAPID), and a number 5 of a kind is called prefix + 5. named_aggregates: members are named (else
@@ -148,6 +149,7 @@ class Capabilities:
     carries_rules: bool = False
     relative_moves: bool = False
     partial_targets: bool = False
+    flags_by_sign: bool = False
     data_lists: bool = False
     aliases: bool = False
     else_if: bool = True

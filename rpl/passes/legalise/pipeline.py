@@ -14,6 +14,7 @@ from rpl.passes.legalise.background import background_tasks
 from rpl.passes.legalise.bitgroups import groups_to_bits, shared_groups_to_bits
 from rpl.passes.legalise.calledtasks import called_tasks
 from rpl.passes.legalise.calls import rewrite_calls
+from rpl.passes.legalise.changedplaces import changed_places
 from rpl.passes.legalise.circles import circle_rules
 from rpl.passes.legalise.components import read_components
 from rpl.passes.legalise.composition import compositions
@@ -107,6 +108,7 @@ PASSES: tuple[Pass, ...] = (
     fold_pulses,
     rotation_vectors,
     levels_to_distances,
+    changed_places,
     elementwise,
     known_handles,
     called_tasks,
