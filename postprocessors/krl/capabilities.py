@@ -45,6 +45,7 @@ CAPABILITIES = Capabilities(
     text_results=False,
     format_state=NamedType("STATE_T"),
     named_aggregates=True,
+    list_arguments=False,
     partial_aggregates=True,
     constant_aggregates=True,
     relative_moves=True,

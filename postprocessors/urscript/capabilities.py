@@ -58,4 +58,5 @@ CAPABILITIES = Capabilities(
     poll_s=0.002,
     search_results=frozenset(("found", "hit")),
     reference_parameters=False,
+    list_results=True,
 )

@@ -73,4 +73,5 @@ CAPABILITIES = Capabilities(
     postures="joints",
     static_locals=True,
     arrays_by_value=False,
+    list_arguments=False,
 )

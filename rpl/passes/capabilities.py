@@ -73,6 +73,8 @@ class Capabilities:
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
     reference_parameters: a routine may write its parameters (else copies go in, and out by variables).
     arrays_by_value: an array can be an argument by value (else the routine gets the caller's own).
+    list_arguments: a list that is written out can be an argument (else it is stored in a variable first).
+    list_results: functions may return arrays (else they write a parameter).
     locals: a routine has variables of its own; static_locals: also some that keep their values from call to call.
     recursion: a routine may be active twice, each time with variables of its own (else they are kept on a stack
     around calls that lead back). call_depth: how deep calls nest (0: not said).
@@ -163,6 +165,8 @@ class Capabilities:
     locals: bool = True
     static_locals: bool = False
     arrays_by_value: bool = True
+    list_arguments: bool = True
+    list_results: bool = False
     recursion: bool = True
     call_depth: int = 0
     next_move_settings: bool = False

@@ -45,8 +45,20 @@ def test_only_what_changes_is_copied() -> None:
     assert "values_given[]" in text and ".PROGRAM read_only(values[])" in text
 
 
-def test_sizes_that_differ_are_reported() -> None:
-    text = PROGRAM.replace("  n = emptied(list)", "  more = [1, 2]\n  n = emptied(more)\n  n = emptied(list)")
+MORE = PROGRAM.replace("  n = emptied(list)", "  more = [1, 2]\n  n = emptied(more)\n  n = emptied(list)")
+
+
+def test_of_sizes_that_differ_as_much_is_copied_as_there_is() -> None:
+    diagnostics = Diagnostics()
+    written = translate_program(read(MORE, "urscript"), "vplus", None, None, diagnostics)
+    assert not [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], "vplus", Diagnostics())
+    assert [value for _, _, value in run_program(back.program, entry="main").outputs] == [True]
+
+
+def test_a_copy_of_no_known_size_that_is_handed_on_is_reported() -> None:
+    text = MORE.replace("return values[1]", "return read_only(values)").replace("n == 8", "n == 0")
+    text = text.replace("  def emptied", "  def read_only(values):\n    return values[0]\n  end\n  def emptied", 1)
     diagnostics = Diagnostics()
     translate_program(read(text, "urscript"), "vplus", None, None, diagnostics)
     assert [item.code.name for item in diagnostics.of(Severity.LOSS)] == ["array-shared"]

@@ -165,10 +165,19 @@ class _Sized(Rewriter):
         for _, place, number in self.of(routine):
             value = arguments[place].value if place < len(arguments) else None
             found = self.size(value.id, number) if isinstance(value, ir.Name) else None
-            if found is None and value is not None:
+            if isinstance(value, ir.Aggregate):
+                found = _count(value, number)
+            elif found is None and value is not None:
                 found = ir.Builtin("dimension", (value, ir.IntLiteral(number)))
             made.append(ir.Argument(found if found is not None else ir.IntLiteral(0)))
         return made
+
+
+def _count(value: ir.Expression, number: int) -> ir.Expression | None:
+    """How many elements a list that is written out has in one of its dimensions."""
+    for _ in range(number - 1):
+        value = value.entries[0][1] if isinstance(value, ir.Aggregate) and value.entries else value
+    return ir.IntLiteral(len(value.entries)) if isinstance(value, ir.Aggregate) else None
 
 
 __all__ = ["array_bases", "array_sizes"]

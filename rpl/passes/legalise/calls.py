@@ -15,7 +15,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, Lowered, edit_bodies, edit_routines, expansion
 from rpl.passes.legalise.effects import Effects, is_constant
 from rpl.passes.legalise.helpers import Helpers
-from rpl.passes.legalise.results import results_as_parameters
+from rpl.passes.legalise.results import text_results
 from rpl.passes.legalise.textparts import PUT
 from rpl.passes.legalise.texts import TextHoister
 from rpl.passes.scope import ProgramScope
@@ -42,7 +42,7 @@ def rewrite_calls(program: ir.Program, context: Context) -> ir.Program:
     """The program with only the functions, procedures, operators and conversions of the target."""
     helpers = Helpers(context)
     if not context.capabilities.text_results:
-        program = results_as_parameters(program, context)
+        program = text_results(program, context)
     effects = Effects(program)
     scopes = ProgramScope(program)
 
@@ -394,9 +394,11 @@ def _equal(calls: _Calls, given: Arguments) -> ir.Expression | None:
     if not isinstance(ignore, ir.BoolLiteral) or not calls.capabilities.text_results:
         return None
     left, right = given[0], given[1]
-    if ignore.value and calls.capabilities.text_case:
-        left, right = (_upper(calls, side) for side in (left, right))
-    return ir.Binary("=", left, right)
+    if not ignore.value:
+        return ir.Binary("=", left, right)
+    if not calls.capabilities.text_case:
+        return ir.Builtin("text_equal", (left, right, ignore))  # the target compares so by itself
+    return ir.Binary("=", *(_upper(calls, side) for side in (left, right)))
 
 
 def _upper(calls: _Calls, text: ir.Expression) -> ir.Expression:

@@ -15,6 +15,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.effects import children, everything, is_constant, statements_in
 from rpl.passes.legalise.jumps import goes_on, inside
+from rpl.passes.legalise.lists import sized
 from rpl.passes.legalise.support import with_support
 from rpl.passes.legalise.usage import base_name, bodies
 from rpl.passes.rewrite import rewrite_parts
@@ -83,7 +84,7 @@ def _plan(routine: ir.Routine, scope: Scope, context: Context, sizes: ArraySizes
             plan.numbers[key] = len(plan.numbers) + 1
             continue
         name = context.fresh(f"{routine.name}_{parameter.name}")
-        known = sizes.known(routine, parameter)
+        known = sizes.largest(routine, parameter)
         if isinstance(known, ir.ArrayType) and None in known.dimensions:
             reason = f"the size of {parameter.name} differs between calls"
             context.diagnostics.report(NOT_PASSED, routine.origin, name=routine.name, reason=reason)
@@ -113,10 +114,15 @@ class ArraySizes:
         if routine is None:
             return
         for parameter, argument in zip(routine.parameters, arguments, strict=False):
-            if isinstance(parameter.type, ir.ArrayType) and isinstance(argument.value, ir.Name):
+            if not isinstance(parameter.type, ir.ArrayType):
+                continue
+            found = self.found.setdefault((id(routine), parameter.name.lower()), set())
+            if isinstance(argument.value, ir.Name):
                 symbol = scope.value(argument.value.id)
                 if symbol is not None:
-                    self.found.setdefault((id(routine), parameter.name.lower()), set()).add(symbol.type)
+                    found.add(symbol.type)
+            elif isinstance(argument.value, ir.Aggregate):
+                found.add(sized(parameter.type, argument.value))
 
     def known(self, routine: ir.Routine, parameter: ir.Parameter) -> ir.Type:
         type = parameter.type
@@ -124,6 +130,16 @@ class ArraySizes:
             return type
         passed = self.found.get((id(routine), parameter.name.lower()), set())
         return next(iter(passed)) if len(passed) == 1 else type
+
+    def largest(self, routine: ir.Routine, parameter: ir.Parameter) -> ir.Type:
+        """With room for each list that is passed, all of them having one dimension and a size known as a number."""
+        type = self.known(routine, parameter)
+        if not isinstance(type, ir.ArrayType) or type.dimensions != (None,):
+            return type
+        passed = self.found.get((id(routine), parameter.name.lower()), set())
+        bounds = [one.dimensions[0] for one in passed if isinstance(one, ir.ArrayType) and one.base == type.base]
+        known = [bound.value for bound in bounds if isinstance(bound, ir.IntLiteral)]
+        return replace(type, dimensions=(ir.IntLiteral(max(known)),)) if 0 < len(passed) == len(known) else type
 
 
 class _Mentions:

@@ -42,6 +42,7 @@ from rpl.passes.legalise.joins import joins
 from rpl.passes.legalise.jointgoals import joint_goals
 from rpl.passes.legalise.labels import structure_to_labels
 from rpl.passes.legalise.levels import levels_to_distances
+from rpl.passes.legalise.lists import lists_in_variables
 from rpl.passes.legalise.locals import variables_of_routines
 from rpl.passes.legalise.logic import decide_logic
 from rpl.passes.legalise.lookahead import stop_blends
@@ -65,6 +66,7 @@ from rpl.passes.legalise.reactions import reactions
 from rpl.passes.legalise.reactionsearches import reaction_searches
 from rpl.passes.legalise.references import references_as_copies
 from rpl.passes.legalise.refusals import refuse
+from rpl.passes.legalise.results import list_results
 from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.rotationvectors import rotation_vectors
 from rpl.passes.legalise.searches import searches
@@ -119,6 +121,8 @@ PASSES: tuple[Pass, ...] = (
     labels_to_structure,
     settings_of_next_move,
     error_routines,
+    list_results,
+    lists_in_variables,
     joined_subscripts,
     array_bases,
     joint_goals,

@@ -1,4 +1,5 @@
-"""Functions that give a text, for targets whose functions cannot: procedures that write their first parameter."""
+"""Functions that give a text or a list, for targets whose functions cannot: procedures that write their first
+parameter."""
 
 from __future__ import annotations
 
@@ -11,29 +12,41 @@ from rpl.passes.legalise.effects import blocks, children, everything
 from rpl.passes.rewrite import rewrite_parts
 
 
-def results_as_parameters(program: ir.Program, context: Context) -> ir.Program:
+def list_results(program: ir.Program, context: Context) -> ir.Program:
+    """The program with no function that gives a list of known size, where the target has none."""
+    return program if context.capabilities.list_results else _as_parameters(program, context, ir.ArrayType, "list")
+
+
+def text_results(program: ir.Program, context: Context) -> ir.Program:
     """The program with no function that gives a text."""
-    names: dict[str, str] = {}
+    return _as_parameters(program, context, ir.StringType, "text")
+
+
+def _as_parameters(program: ir.Program, context: Context, kind: type[ir.Type], stem: str) -> ir.Program:
+    results: dict[str, tuple[str, ir.Type]] = {}
     for module in program.modules:
         for routine in module.routines:
-            if routine.kind == "function" and isinstance(routine.returns, ir.StringType):
-                names[routine.name.lower()] = context.fresh("result")
-    if not names:
+            type = routine.returns
+            open_size = isinstance(type, ir.ArrayType) and None in type.dimensions
+            if routine.kind == "function" and isinstance(type, kind) and type is not None and not open_size:
+                results[routine.name.lower()] = (context.fresh("result"), type)
+    if not results:
         return program
+    names = frozenset(results)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         def rule(expression: ir.Expression) -> Lowered | None:
             if not isinstance(expression, ir.Call) or expression.name.lower() not in names:
                 return None
-            text = editor.temporary("text", ir.StringType())
-            arguments = (ir.Argument(text), *expression.arguments)
-            return (ir.CallRoutine(expression.name, arguments),), text
+            kept = editor.temporary(stem, results[expression.name.lower()][1])
+            arguments = (ir.Argument(kept), *expression.arguments)
+            return (ir.CallRoutine(expression.name, arguments),), kept
 
-        done = edit_bodies(routine, _Direct(editor, rule, frozenset(names)).body)
-        result = names.get(routine.name.lower())
-        if result is None or routine.kind != "function":
+        done = edit_bodies(routine, _Direct(editor, rule, names).body)
+        if routine.name.lower() not in names or routine.kind != "function":
             return done
-        parameter = ir.Parameter(result, ir.StringType(), "reference")
+        result, type = results[routine.name.lower()]
+        parameter = ir.Parameter(result, type, "reference")
         done = edit_bodies(done, lambda body: _assigned(body, result))
         return replace(done, kind="procedure", returns=None, parameters=(parameter, *done.parameters))
 

@@ -1,7 +1,8 @@
 """Arrays that are passed by value, for targets that hand over the array itself.
 
 A routine that changes such an array works with a copy: the parameter gets another name, and a variable of the old name
-is filled from it. An array whose size differs between the calls cannot be copied so and is reported.
+is filled from it. Of an array whose size differs between the calls as many elements are copied as there are; one that
+such a routine hands on as a whole, or whose size nobody knows, is reported.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.parameters import ArraySizes
 from rpl.passes.legalise.usage import assigned_in, bodies
@@ -38,13 +39,19 @@ def copy_value_arrays(program: ir.Program, context: Context) -> ir.Program:
 
 def _with_copies(routine: ir.Routine, sizes: ArraySizes, context: Context) -> ir.Routine:
     changed = {name for body in bodies(routine) for name in assigned_in(body)}
-    parameters, copies, steps = [], [], []
+    parameters: list[ir.Parameter] = []
+    copies: list[ir.Variable] = []
+    steps: list[ir.Statement] = []
+    by_size: dict[str, str] = {}
     for parameter in routine.parameters:
         mine = parameter.mode != "reference" and isinstance(parameter.type, ir.ArrayType)
         if not mine or parameter.name.lower() not in changed:
             parameters.append(parameter)
             continue
         type = sizes.known(routine, parameter)
+        differs = isinstance(type, ir.ArrayType) and None in type.dimensions and _only_by_element(routine, parameter)
+        if differs:
+            type = sizes.largest(routine, parameter)
         if not isinstance(type, ir.ArrayType) or None in type.dimensions:
             context.diagnostics.report(SHARED, routine.origin, name=routine.name, parameter=parameter.name)
             parameters.append(parameter)
@@ -52,15 +59,53 @@ def _with_copies(routine: ir.Routine, sizes: ArraySizes, context: Context) -> ir
         given = context.fresh(f"{parameter.name}_given")
         parameters.append(replace(parameter, name=given))
         copies.append(ir.Variable(parameter.name, type, scope="routine"))
-        steps.append(ir.Assign(ir.Name(parameter.name), ir.Name(given), origin=_first_origin(routine)))
+        if differs:
+            by_size[parameter.name.lower()] = given
+            counter = ir.Variable(context.fresh("element"), ir.IntType(), scope="routine")
+            copies.append(counter)
+            steps.append(_elements(ir.Name(parameter.name), ir.Name(given), counter.name, _first_origin(routine)))
+        else:
+            steps.append(ir.Assign(ir.Name(parameter.name), ir.Name(given), origin=_first_origin(routine)))
     if not copies:
         return routine
+    done = rewrite(routine, lambda node: _asked(node, by_size)) if by_size else routine
     return replace(
-        routine,
+        done,
         parameters=tuple(parameters),
-        declarations=(*routine.declarations, *copies),
-        body=(*steps, *routine.body),
+        declarations=(*done.declarations, *copies),
+        body=(*steps, *done.body),
     )
+
+
+def _elements(copy: ir.Name, given: ir.Name, counter: str, origin: Origin) -> ir.Statement:
+    """As many elements as the caller's array has."""
+    place = (ir.Name(counter),)
+    size = ir.Builtin("dimension", (given, ir.IntLiteral(1)))
+    one = ir.Assign(ir.Index(copy, place), ir.Index(given, place), origin=origin)
+    return ir.For(counter, ir.IntLiteral(1), size, None, (one,), origin=origin)
+
+
+def _asked(node: object, given: dict[str, str]) -> object:
+    """The size of a copy is that of what was given."""
+    match node:
+        case ir.Builtin(function="dimension" | "length", arguments=(ir.Name(id=name), *rest)) if name.lower() in given:
+            return replace(node, arguments=(ir.Name(given[name.lower()]), *rest))
+    return node
+
+
+def _only_by_element(routine: ir.Routine, parameter: ir.Parameter) -> bool:
+    """Is the parameter used element by element only, besides asking for its size?"""
+    name, used, known = parameter.name.lower(), 0, 0
+    for body in bodies(routine):
+        for node in walk(body):
+            match node:
+                case ir.Name(id=one) if one.lower() == name:
+                    used += 1
+                case ir.Index(base=ir.Name(id=one)) if one.lower() == name:
+                    known += 1
+                case ir.Builtin(function="dimension" | "length", arguments=(ir.Name(id=one), *_)):
+                    known += one.lower() == name
+    return used == known
 
 
 def _first_origin(routine: ir.Routine) -> Origin:
