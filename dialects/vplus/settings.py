@@ -197,7 +197,8 @@ class Settings(Motion):
         return ir.Vendor("vplus", code_of(given.origin.text), "unknown", origin=given.origin)
 
     def react(self, given: Instruction) -> Lowered:
-        """REACT signal, program, priority: the edge of the signal calls the program. REACTI stops the robot as well."""
+        """REACT signal, program, priority: the edge of the signal calls the program. REACTI stops the robot as well.
+        It belongs to the task: also when the program that switched it on has returned."""
         origin = given.origin
         number = self.needed(given, 0, "a signal")
         tree = given.operands[1] if len(given.operands) > 1 else None
@@ -209,6 +210,7 @@ class Settings(Motion):
             signals.reading([number], self.facts, origin),
             ir.CallRoutine(self.routine_named(tree), origin=origin),
             identity=number,
+            everywhere=True,
             stops=given.word == "reacti",
             origin=origin,
         )

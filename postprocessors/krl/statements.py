@@ -243,8 +243,9 @@ class Printer(StatementPrinter[str]):
     def interrupt(self, statement: ir.DeclareInterrupt | ir.ControlInterrupt) -> str:
         text = self.expressions.text
         if isinstance(statement, ir.ControlInterrupt):
-            if statement.op == "delete":
-                raise CannotSayError("an interrupt cannot be deleted")
+            if statement.op in ("delete", "mask"):
+                done = "deleted" if statement.op == "delete" else "masked by its urgency"
+                raise CannotSayError(f"an interrupt cannot be {done}")
             priority = f" {text(statement.handle)}" if statement.handle is not None else ""
             return f"INTERRUPT {statement.op.upper()}{priority}"
         everywhere = "GLOBAL " if statement.everywhere else ""

@@ -121,6 +121,8 @@ class Instructions:
             case ir.OrderInterrupt():
                 return self.order(statement)
             case ir.ControlInterrupt(op=op, handle=handle):
+                if op not in _CONTROL:
+                    raise CannotSayError("no urgency of interrupts can be masked")
                 if (handle is None) != (op in ("enable", "disable")):
                     raise CannotSayError("IEnable and IDisable work on all interrupts, the others on one")
                 return f"{_CONTROL[op]}{'' if handle is None else ' ' + self.print(handle)};"

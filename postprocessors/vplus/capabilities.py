@@ -60,6 +60,7 @@ CAPABILITIES = Capabilities(
     next_move_settings=True,
     text_parts=True,
     stopping_reactions=True,
+    interrupt_masks=True,
     places_in_base=True,
     task_operations=frozenset(("start", "stop")),
     records=False,

@@ -58,7 +58,7 @@ class Reactions:
         handle = statement.handle
         match statement.op:
             case "mask":
-                return [f"LOCK {expressions.text(_lifted(handle)) if handle is not None else '0'}"]
+                return [f"LOCK {expressions.text(_lifted(handle, 0)) if handle is not None else '0'}"]
             case "disable" | "enable" if handle is None:
                 return ["LOCK 0" if statement.op == "enable" else f"LOCK {tables.PRIORITY_TOP - 1}"]
             case "on":
@@ -141,11 +141,11 @@ def _key(declared: ir.DeclareInterrupt) -> str:
     return repr(declared.identity if declared.identity is not None else declared.priority)
 
 
-def _lifted(priority: ir.Expression) -> ir.Expression:
-    """V+ priorities grow with their urgency."""
+def _lifted(priority: ir.Expression, least: int = 1) -> ir.Expression:
+    """V+ priorities grow with their urgency; reactions have one from 1, LOCK 0 locks none of them."""
     match priority:
         case ir.IntLiteral(value=value) | ir.RealLiteral(value=value):
-            return ir.IntLiteral(max(1, min(tables.PRIORITY_TOP - 1, tables.PRIORITY_TOP - int(value))))
+            return ir.IntLiteral(max(least, min(tables.PRIORITY_TOP - 1, tables.PRIORITY_TOP - int(value))))
         case ir.Binary(op="-", left=ir.IntLiteral(value=tables.PRIORITY_TOP), right=right):
             return right
     return ir.Binary("-", ir.IntLiteral(tables.PRIORITY_TOP), priority)

@@ -67,7 +67,8 @@ class Capabilities:
     controller runs background programs that see the data of the others (`shared`), or modules of their own that share
     persistent data by name (`separate`). moving_tasks: a task that the program starts may move the robot.
     stopping_reactions: an interrupt can
-    brake the robot and drop its move (DeclareInterrupt `stops`), and the program goes on behind that.
+    brake the robot and drop its move (DeclareInterrupt `stops`), and the program goes on behind that. interrupt_masks:
+    the less urgent interrupts can be made to wait (ControlInterrupt `mask`).
 
     Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
@@ -172,6 +173,7 @@ class Capabilities:
     next_move_settings: bool = False
     search_results: frozenset[str] = frozenset(("found",))
     stopping_reactions: bool = False
+    interrupt_masks: bool = False
     task_operations: frozenset[str] = frozenset(("start", "stop", "pause", "resume", "join"))
     background_tasks: str = ""
     moving_tasks: bool = True

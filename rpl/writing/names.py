@@ -86,7 +86,9 @@ class _Collector:
             match statement:
                 case ir.CallRoutine(name=name, dynamic=None) | ir.Label(name=name) | ir.Goto(label=name):
                     self.add(name)
-                case ir.For(counter=name) | ir.ConnectInterrupt(routine=name):
+                case ir.For(counter=name) | ir.ConnectInterrupt(routine=name) | ir.TaskControl(task=name):
+                    self.add(name)
+                case ir.OnError(routine=str() as name):
                     self.add(name)
             rewrite_parts(statement, self.expression, self.body)
         return body
@@ -210,6 +212,8 @@ class _Renamer:
             case ir.For(counter=name):
                 return replace(done, counter=self.new(name))
             case ir.ConnectInterrupt(routine=name):
+                return replace(done, routine=self.new(name))
+            case ir.OnError(routine=str() as name):
                 return replace(done, routine=self.new(name))
             case ir.TaskControl(task=name):
                 return replace(done, task=self.new(name))

@@ -219,3 +219,10 @@ def test_an_array_is_refused_beyond_its_foreseen_size() -> None:
 
 def test_an_undefined_variable_is_a_fault() -> None:
     assert run("n = m+1").status == "fault"
+
+
+def test_a_reaction_belongs_to_the_task_and_can_switch_itself_on_again() -> None:
+    cell = inputs((1.0, 1001, True), (1.5, 1001, False), (2.0, 1001, True))
+    more = ".PROGRAM begin()\nREACT 1001, seen\n.END\n.PROGRAM seen()\nn = n+1\nREACT 1001, seen\n.END"
+    text = "n = 0\nCALL begin()\nWAIT.EVENT , 3\nIF n == 2 THEN\nSIGNAL 1\nEND"
+    assert outputs(run(text, more, cell=cell)) == [("1", True)]

@@ -1,7 +1,8 @@
 """Interrupts known by a number of their own (V+ REACT of a signal), for targets where the priority is that number.
 
 Each gets a priority of its own, in the order of the source's priorities. What stops the motion at once becomes a
-routine that brakes first; what comes once only becomes one that switches the interrupt off first.
+routine that brakes first; what comes once only becomes one that switches the interrupt off first. Where no urgency can
+be masked (V+ LOCK), the interrupts that wait are disabled, all of them at once or one by one.
 """
 
 from __future__ import annotations
@@ -24,6 +25,17 @@ DROPS = code(
     "{name} stops the robot and drops its move; on the target that leaves the routines below the declaration",
     "on the controller, put the watched moves into a routine of their own",
 )
+MASKED = code(
+    "interrupt-mask-lost",
+    Severity.LOSS,
+    "some interrupts are to wait until others may act; the target can only let all of them wait",
+    "lock all reactions, or switch the single ones off",
+)
+QUEUED = code(
+    "waiting-interrupts-in-turn",
+    Severity.WARNING,
+    "interrupts that have waited act in the order in which they came; in the source the most urgent acts first",
+)
 _FIRST_PRIORITY = 10  # as passes.interrupts numbers them
 
 
@@ -40,6 +52,7 @@ def reactions(program: ir.Program, context: Context) -> ir.Program:
         return program  # the writer names what it cannot say
     worker = _Reactions(context)
     worker.number(declared)
+    worker.masks(program)
     modules = tuple(
         replace(module, routines=tuple(edit_bodies(routine, worker.body) for routine in module.routines))
         for module in program.modules
@@ -58,6 +71,8 @@ def _identity(one: ir.DeclareInterrupt) -> ir.Expression:
 class _Reactions:
     context: Context
     numbers: dict[int, int] = field(default_factory=dict)  # identity -> priority in the target
+    urgency: dict[int, int] = field(default_factory=dict)  # priority in the target -> the source's
+    partial: bool = False  # some mask lets only a part of the interrupts wait
     routines: list[ir.Routine] = field(default_factory=list)
 
     def number(self, declared: list[ir.DeclareInterrupt]) -> None:
@@ -68,6 +83,36 @@ class _Reactions:
             urgency[identity] = min(priority, urgency.get(identity, priority))
         for place, identity in enumerate(sorted(urgency, key=lambda key: urgency[key])):
             self.numbers[identity] = _FIRST_PRIORITY + place
+            self.urgency[_FIRST_PRIORITY + place] = urgency[identity]
+
+    def masks(self, program: ir.Program) -> None:
+        for node in walk(*program.modules):
+            if isinstance(node, ir.ControlInterrupt) and node.op == "mask":
+                self.partial = self.partial or 0 < len(self.waiting(node)) < len(self.urgency)
+
+    def waiting(self, mask: ir.ControlInterrupt) -> list[int]:
+        """The interrupts that wait behind the mask, by their priorities in the target."""
+        level = number_of(mask.handle)
+        return [] if level is None else [own for own, urgency in self.urgency.items() if urgency >= level]
+
+    def mask(self, mask: ir.ControlInterrupt) -> ir.Body:
+        """What lets the less urgent interrupts wait from here on, the others no longer."""
+        can, waiting = self.context.capabilities, self.waiting(mask)
+        if mask.handle is not None and number_of(mask.handle) is None:
+            return (mask,)  # the writer names what it cannot say
+        if can.interrupt_masks:
+            return (replace(mask, handle=ir.IntLiteral(min(waiting)) if waiting else None),)
+        if 0 < len(waiting) < len(self.urgency) and "DeclareInterrupt" not in can.statements:
+            self.context.diagnostics.report(MASKED, mask.origin)
+            return (mask,)
+        if len(waiting) > 1 and "DeclareInterrupt" not in can.statements:
+            self.context.diagnostics.report(QUEUED, mask.origin)
+        all_of_them = ir.ControlInterrupt("disable" if len(waiting) == len(self.urgency) else "enable")
+        single = self.partial and "DeclareInterrupt" in can.statements and all_of_them.op == "enable"
+        steps = [*((("disable" if own in waiting else "enable"), own) for own in sorted(self.urgency) if single)]
+        each = [ir.ControlInterrupt(op, ir.IntLiteral(own)) for op, own in steps]
+        first, *rest = (*each, all_of_them)
+        return (replace(first, origin=mask.origin), *rest)
 
     def body(self, body: ir.Body) -> ir.Body:
         return map_body(body, self.statement)
@@ -78,8 +123,13 @@ class _Reactions:
                 own = ir.IntLiteral(self.numbers[number_of(_identity(statement)) or 0])
                 action = self.action(statement, own)
                 stops = statement.stops and self.context.capabilities.stopping_reactions
-                return (replace(statement, priority=own, identity=None, once=False, stops=stops, action=action),)
-            case ir.ControlInterrupt(op=op, handle=handle) if op != "mask" and number_of(handle) in self.numbers:
+                # What drops the motion leaves down to the level that declared it.
+                everywhere = statement.everywhere and (stops or not statement.stops)
+                done = replace(statement, priority=own, identity=None, once=False, stops=stops, action=action)
+                return (replace(done, everywhere=everywhere),)
+            case ir.ControlInterrupt(op="mask"):
+                return self.mask(statement)
+            case ir.ControlInterrupt(op=op, handle=handle) if number_of(handle) in self.numbers:
                 own = ir.IntLiteral(self.numbers[number_of(handle) or 0])
                 return (replace(statement, handle=own, op="off" if op == "delete" else op),)
         return (inside(statement, self.body),)
