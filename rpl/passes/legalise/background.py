@@ -36,7 +36,7 @@ MADE = code(
 
 _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.WaitForMotion, ir.StopMotion, ir.StartMotion, ir.ClearMotion)
 _OTHER = (ir.DeclareInterrupt, ir.ConnectInterrupt, ir.OnError, ir.Critical, ir.TaskControl)
-_SIMPLE = (ir.IntType, ir.RealType, ir.BoolType, ir.StringType)
+_SIMPLE = (ir.IntType, ir.RealType, ir.BoolType, ir.StringType, ir.PoseType, ir.TargetType, ir.JointsType)
 _NOT_SHARED = (ir.ClockType, ir.InterruptType, ir.TriggerType)
 _WAITS = (ir.Wait, ir.WaitUntil, ir.Pulse)
 _FALSE, _TRUE = ir.BoolLiteral(False), ir.BoolLiteral(True)
@@ -145,7 +145,7 @@ class _Maker:
         found = []
         for one in routine.parameters:
             if one.mode != "value" or one.optional or not isinstance(one.type, _SIMPLE):
-                raise _UnfitError(f"its parameter {one.name} is not a number, text or BOOL given by value")
+                raise _UnfitError(f"its parameter {one.name} is not a number, text, BOOL or place given by value")
             name = self.context.fresh(f"{routine.name}_{one.name}")
             found.append(ir.Variable(name, one.type, storage="persistent", scope="global"))
         return tuple(found)

@@ -86,6 +86,7 @@ from rpl.passes.legalise.subscripts import joined_subscripts
 from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
 from rpl.passes.legalise.taskarguments import task_arguments
+from rpl.passes.legalise.taskreferences import task_references
 from rpl.passes.legalise.threepoints import three_point_arcs
 from rpl.passes.legalise.timers import timers_to_clocks
 from rpl.passes.legalise.tooldata import tool_data
@@ -138,6 +139,7 @@ PASSES: tuple[Pass, ...] = (
     resumes,
     interrupts,
     static_variables,
+    task_references,
     background_tasks,
     stopped_tasks,
     joins,

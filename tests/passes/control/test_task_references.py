@@ -1,0 +1,70 @@
+"""Arguments of V+ tasks, which are references: in every other language the task sees the same data."""
+
+from __future__ import annotations
+
+import pytest
+
+from rpl.diagnostics import Diagnostics, Severity
+from rpl.project import read_sources
+from rpl.proof.wiring import with_signal_names
+from rpl.simulation import run_program
+from rpl.source import source_from_bytes, source_from_text
+from rpl.translation import translate_program
+
+ROBOT = "adept_viper_s650"
+PROGRAM = """.PROGRAM main()
+        AUTO REAL most
+        AUTO LOC a
+        beats = 0
+        total = 0
+        most = 3
+        SET a = TRANS(1,2,3)
+        EXECUTE 2 beat(most, beats, a)
+        WAIT beats == 3
+        SIGNAL 1
+        IF ABS(dz.seen-3) < 0.001 THEN
+            SIGNAL 2
+        END
+        EXECUTE 3 adder({count}, total)
+        WAIT total == 10
+        SIGNAL 3
+.END
+.PROGRAM beat(count, b, place)
+        AUTO REAL i
+        FOR i = 1 TO count
+            WAIT.EVENT , 0.2
+            dz.seen = DZ(place)
+            b = b+1
+        END
+.END
+.PROGRAM adder(count, b)
+        AUTO REAL i
+        FOR i = 1 TO count
+            WAIT.EVENT , 0.1
+            b = b+i
+        END
+.END
+"""
+
+
+@pytest.mark.parametrize("target", ["krl", "rapid", "tp", "inform", "urscript"])
+@pytest.mark.parametrize("count", ["4", "(most+1)"])
+def test_the_task_sees_what_it_is_given(count: str, target: str) -> None:
+    diagnostics = Diagnostics()
+    text = PROGRAM.replace("{count}", count)
+    read = read_sources([source_from_text("main.v2", text)], "vplus", diagnostics)
+    assert not diagnostics.has_errors, [item.as_text() for item in diagnostics]
+    translation = translate_program(read, target, ROBOT, None, diagnostics)
+    assert not diagnostics.of(Severity.LOSS)
+    files = [source_from_bytes(f.path, f.data) for f in translation.files if not f.path.endswith(".csv")]
+    back = with_signal_names(read_sources(files, target, Diagnostics()).program, translation.program)
+    run = run_program(back, ROBOT, None, translation.renamed.get("main", "main"), 20.0)
+    assert (run.status, len(run.outputs)) == ("finished", 3)
+
+
+def test_what_is_changed_from_outside_is_named() -> None:
+    diagnostics = Diagnostics()
+    text = PROGRAM.replace("{count}", "4").replace("WAIT total == 10", "most = 4\n        WAIT total == 10")
+    read = read_sources([source_from_text("main.v2", text)], "vplus", diagnostics)
+    translate_program(read, "krl", ROBOT, None, diagnostics)
+    assert "background-task-lost" in {item.code.name for item in diagnostics.of(Severity.LOSS)}
