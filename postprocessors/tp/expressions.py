@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 from rpl.writing.precedence import ExpressionPrinter, Printed
@@ -90,7 +91,7 @@ class Expressions:
         if value is None:
             return f"{bank}[{self.index(index)}]"
         limits = tables.BANKS[bank]
-        last = limits.last if self.limited else _LAST
+        last = max(limits.last, limits.most) if self.limited else _LAST
         if value != int(value) or not limits.first <= value <= last:
             raise CannotSayError(f"{bank}[{value:g}] is outside of {limits.first}..{last}")
         name = comment(self.names.get((bank, int(value)), ""))
@@ -207,7 +208,7 @@ class Expressions:
             case "text_find", (text, start, wanted_text) if constant(start) == 1:
                 whole, part = _any_case(text), _any_case(wanted_text)
                 if whole is text or part is wanted_text:
-                    self.texts_compared = True
+                    self.note_texts(text, wanted_text)
                 return f"FINDSTR {self.operand(whole)},{self.operand(part)}"
             case ("value_text", (shown,)) | ("number_text", (shown, ir.IntLiteral(value=0))):
                 known = constant(shown)
@@ -237,7 +238,18 @@ class Expressions:
 
     def mixed(self, expression: ir.Expression) -> str:
         """Mixed logic without its outer brackets."""
+        for node in walk(expression):
+            match node:
+                case ir.Binary(op=op, left=left, right=right) if op in tables.COMPARISONS:
+                    self.note_texts(left, right)
         return self.printer.text(expression)
+
+    def note_texts(self, *sides: ir.Expression) -> None:
+        """Texts are compared; that capital and small letters are the same matters where both sides may have some."""
+        texts = all(isinstance(self.type(side), ir.StringType | ir.CharType) for side in sides)
+        letters = [side.value for side in sides if isinstance(side, ir.TextLiteral)]
+        if texts and all(text.upper() != text.lower() for text in letters):
+            self.texts_compared = True
 
     def _mixed(self, expression: ir.Expression, printer: ExpressionPrinter) -> str | Printed:
         value = constant(expression)
@@ -258,8 +270,6 @@ class Expressions:
                 return printer.printed(operand)
             case ir.Convert(how="truth", operand=operand):
                 return printer.printed(ir.Binary("<>", operand, ir.IntLiteral(0)))
-            case ir.TextLiteral():
-                self.texts_compared = True
         return self.operand(expression)
 
     # ---- conditions
@@ -292,8 +302,7 @@ class Expressions:
             case ir.Binary(op=op, left=left, right=right) if op in tables.COMPARISONS:
                 if constant(left) is not None or not self.is_place(left):
                     return None
-                if isinstance(right, ir.TextLiteral) or isinstance(self.type(left), ir.StringType):
-                    self.texts_compared = True
+                self.note_texts(left, right)
                 first, second = self.simple(left), self.simple(right)
                 if first is None or second is None:
                     return None

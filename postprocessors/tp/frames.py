@@ -211,7 +211,8 @@ def highest_free_registers(program: ir.Program, names: Mapping[tuple[str, int], 
 
 
 def free_numbers(program: ir.Program, names: Mapping[tuple[str, int], str], bank: Bank) -> list[int]:
-    """Numbers of a bank that no statement and no name (of data that is chosen at run time) has, from the top."""
+    """Numbers of a bank that no statement and no name (of data that is chosen at run time) has, from the top; those
+    behind it where it is full, as for a program that needs a larger bank."""
     used = {number for kind, number in names if kind == bank.name}
     for node in walk(program):
         match node:
@@ -221,4 +222,8 @@ def free_numbers(program: ir.Program, names: Mapping[tuple[str, int], str], bank
                 prefix, digits = name[: len(bank.name)], name[len(bank.name) :]
                 if prefix.upper() == bank.name and digits.isdigit():
                     used.add(int(digits))
-    return [number for number in range(bank.last, bank.first - 1, -1) if number not in used]
+    free = [number for number in range(bank.last, bank.first - 1, -1) if number not in used]
+    highest = max(used, default=0)
+    if len(free) > 1 or highest <= bank.last:
+        return free
+    return [*free, highest + 1, highest + 2]

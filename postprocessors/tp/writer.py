@@ -53,6 +53,7 @@ SAME_NAME = code(
 _NO_DATE = "DATE 00-01-01  TIME 00:00:00"  # the same text for the same program
 # Variables that stand for what the controller has without any declaration, in programs read from listings.
 _CONTROLLERS_OWN = ("UTOOL", "UFRAME", "UTOOL_NUM", "UFRAME_NUM", "WAIT_TIMED_OUT", "SKIP_HIT")
+_COMPUTED = "?"  # stands for a program whose name a register holds
 _MOTION = ("J ", "L ", "C ", "A ")
 
 
@@ -269,14 +270,22 @@ class _Writer:
 
 def _moves_before(listing: Listing, listings: list[Listing], word: str) -> bool:
     """Does the program move or look where the robot is, itself or by a call, before it selects such a number?"""
-    moving = {one.name for one in listings if any(_needs_frames(line) or "  CALL" in line.first for line in one.lines)}
+    moving = {one.name for one in listings if any(map(_needs_frames, one.lines))}
+    calls = {one.name: {_called(line) for line in one.lines} for one in listings}
+    while more := {name for name, called in calls.items() if name not in moving and called & (moving | {_COMPUTED})}:
+        moving |= more
     for line in listing.lines:
         if line.first.startswith(f"  {word}_NUM="):
             return False
-        called = line.first.partition("CALL ")[2].partition("(")[0].strip()
-        if _needs_frames(line) or (called and called in moving):
+        if _needs_frames(line) or _called(line) in moving | {_COMPUTED}:
             return True
     return False
+
+
+def _called(line: Line) -> str:
+    """The program that a line calls, if it does."""
+    name = line.first.partition("CALL ")[2].partition("(")[0].strip()
+    return _COMPUTED if "[" in name else name
 
 
 def _needs_frames(line: Line) -> bool:

@@ -156,6 +156,7 @@ class Calls:
         name = self.compiler.value(statement.dynamic)
         scope, linked = self.compiler.scope, self.linker.linked
         plans: dict[str, Plan] = {}
+        seen = dict(self.compiler.places)  # what the arguments see: a loop's own counter is gone behind the loop
 
         def plan_for(text: str) -> Plan:
             found = plans.get(text)
@@ -163,7 +164,9 @@ class Calls:
                 routine = linked.routine(scope, text.rpartition(":")[2])
                 if routine is None:
                     raise ProgramError("unknown_routine", f"there is no routine {text!r}")
+                later, self.compiler.places = self.compiler.places, seen
                 found = plans[text] = self.plan(routine, statement.arguments, statement.origin)
+                self.compiler.places = later
             return found
 
         def make(here: int, next: int) -> Instruction:

@@ -276,3 +276,56 @@ NUMBERS_IN_TEXTS = """.PROGRAM main()
 def test_numbers_in_constant_texts() -> None:
     files, _ = same_in_tp("vplus", NUMBERS_IN_TEXTS)
     assert "=128 ;" in files["MAIN.LS"]
+
+
+LATE_BINDING = """MODULE m
+  VAR string s:="";
+  VAR string u:="ab";
+  PROC main()
+    IF s="" Set do1;
+    s:="12";
+    IF s="12" OR s="" Set do2;
+    %"Work"+s% 5;
+    s:="x";
+    %u+"X"% s;
+    IF s="y" Set do5;
+    %"abx"% s;
+  ENDPROC
+  PROC Work12(num n)
+    IF n=5 Set do3;
+  ENDPROC
+  PROC abx(INOUT string n)
+    n:="y";
+    Set do4;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_routines_by_name_that_take_more_than_argument_registers_are_chosen_by_comparison() -> None:
+    files, codes = same_in_tp("rapid", LATE_BINDING)
+    main = files["MAIN.LS"]
+    assert "IF (SR[4:called]='Work12') THEN" in main and "CALL SR[" not in main
+    assert main.count("CALL ABX") == 2
+    assert codes.count("tp-text-case") == 1  # only the comparison with a letter
+
+
+BY_VALUE = """MODULE m
+  PROC main()
+    FOR i FROM 1 TO 2 DO
+      %"Work"+ValToStr(i)% i;
+    ENDFOR
+  ENDPROC
+  PROC Work1(num n)
+    IF n=1 Set do1;
+  ENDPROC
+  PROC Work2(num n)
+    IF n=2 Set do2;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_routines_by_name_with_argument_registers() -> None:
+    files, _ = same_in_tp("rapid", BY_VALUE)
+    assert "CALL SR[" in files["MAIN.LS"]

@@ -26,6 +26,9 @@ NO_CANDIDATE = code(
 )
 
 
+_BY_VALUE = (ir.IntType, ir.RealType, ir.StringType, ir.CharType)
+
+
 @dataclass(slots=True)
 class _Facts:
     """What calls leave out and what routines ask, by folded routine and parameter name."""
@@ -37,7 +40,7 @@ class _Facts:
 
 def fit_parameters(program: ir.Program, context: Context) -> ir.Program:
     """The program with parameters, arguments and calls by name as the target has them."""
-    if not context.capabilities.dynamic_calls:
+    if not context.capabilities.dynamic_calls or context.capabilities.parameters != "names":
         program = edit_routines(program, context, lambda editor, routine: edit_bodies(routine, _Dynamic(editor).body))
     facts = _facts(program)
     if facts.left_out:
@@ -321,10 +324,12 @@ class _Calls:
 
 
 class _Dynamic:
-    """A choice between the procedures that the text can name."""
+    """A choice between the procedures that the text can name. A target that calls by name itself, with numbered
+    arguments, does so where the procedures take only what is passed by value."""
 
     def __init__(self, editor: Editor) -> None:
         self.editor = editor
+        self.itself = editor.capabilities.dynamic_calls
 
     def body(self, body: ir.Body) -> ir.Body:
         return map_body(body, self.statement)
@@ -339,6 +344,8 @@ class _Dynamic:
 
     def chosen(self, statement: ir.CallRoutine, name: ir.Expression) -> ir.Body:
         candidates = self.candidates(statement, name)
+        if self.itself and not isinstance(name, ir.TextLiteral) and self.all_by_value(len(statement.arguments)):
+            return (statement,)
         if not candidates:
             self.editor.context.diagnostics.report(NO_CANDIDATE, statement.origin)
             return (statement,)
@@ -355,6 +362,16 @@ class _Dynamic:
             branches.append((same, (replace(statement, name=candidate, dynamic=None),)))
         missing = self.missing(statement)
         return expansion(statement.origin, (*before, ir.If(tuple(branches), missing)))
+
+    def all_by_value(self, count: int) -> bool:
+        """Do all routines that take so many arguments take numbers and texts by value?"""
+        return not any(
+            one.mode == "reference" or one.optional or not isinstance(self.editor.scope.resolve(one.type), _BY_VALUE)
+            for module in self.editor.scope.program.program.modules
+            for routine in module.routines
+            if len(routine.parameters) == count
+            for one in routine.parameters
+        )
 
     def missing(self, statement: ir.CallRoutine) -> ir.Body:
         """No procedure of that name: an error of the program."""

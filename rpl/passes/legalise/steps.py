@@ -121,6 +121,8 @@ class _Steps(Hoister):
             return self.can.constant_aggregates and not self.can.calculated_places and is_computed(value)
         if isinstance(value, ir.Quantity):
             return False
+        if isinstance(value, ir.Builtin) and value.function == "text_equal":
+            return self.by_steps  # a comparison
         joined = self.can.functions_alone and isinstance(value, ir.Binary) and value.op == "&"
         return self.by_steps or joined or isinstance(value, ir.Call | ir.Builtin | ir.Convert)
 
