@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity
 from rpl.emulator.model import RobotModel, load_robot
+from rpl.passes.given import with_given
 from rpl.passes.legalise import Context, legalise
 from rpl.project import ReadProgram
 from rpl.writing.names import rename
@@ -35,13 +36,15 @@ def translate_program(
     diagnostics: Diagnostics | None = None,
     registers: Mapping[tuple[str, int], str] | None = None,
     options: Mapping[str, str] | None = None,
+    given: Mapping[str, object] | None = None,
 ) -> Translation:
     """Write a program that was read in another language (or anew in its own).
 
     robot: the arm the source was written for; to_robot: the arm that will run the result (default: the same). Raises
     UsageError for unknown names. `registers`: numbers that an earlier translation gave (Translation.registers).
-    `options`: the target's own, by name (Target.options). What the target cannot say is written as a guarded stop and
-    listed in `losses`.
+    `options`: the target's own, by name (Target.options). `given`: values of data that the controller keeps and the
+    program does not set, by name (the variables of a cell file); what is written for another controller sets them.
+    What the target cannot say is written as a guarded stop and listed in `losses`.
     """
     collector = diagnostics if diagnostics is not None else Diagnostics()
     target = registry.target(target_name)
@@ -52,13 +55,14 @@ def translate_program(
     context = Context(source, target_name, capabilities, collector, first, second)
     context.registers = registers or {}
     before = len(collector)
-    program = legalise(read.program, context)
+    whole = with_given(read.program, given) if given and source != target_name else read.program
+    program = legalise(whole, context)
     renamed: dict[str, str] = {}
     if source != target_name:
         program, renamed = rename(program, capabilities.names)
     legalised = len(collector)
-    given = WriteContext(collector, second, options or {}, context.register_names, context.foreign)
-    files = target.write(program, given)
+    asked = WriteContext(collector, second, options or {}, context.register_names, context.foreign)
+    files = target.write(program, asked)
     collector.drop_repeated(before, legalised)
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
     named = _with_signals(program, context)

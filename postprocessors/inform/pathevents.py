@@ -33,6 +33,11 @@ IN_CORNER = code(
     Severity.WARNING,
     "an action in the corner between two moves is done where the corner begins",
 )
+SMALLER = code(
+    "inform-smaller-corner",
+    Severity.WARNING,
+    "an action on the path is {rest:.1f} mm before a corner of {corner:.1f} mm, which is cut to half of that way",
+)
 LOST = code(
     "inform-path-event-lost",
     Severity.LOSS,
@@ -134,6 +139,9 @@ def _cut(move: ir.Move, triggers: Sequence[ir.Trigger], motion: Motion, done: Pa
         piece = replace(way.piece(move, before, point), blend=ir.BlendDistance(ir.RealLiteral(_CORNER_MM)))
         done.cuts.append((replace(piece, origin=replace(move.origin, comments=())), [action]))
         before = point
+    size = constant(move.blend.distance) if isinstance(move.blend, ir.BlendDistance) else None
+    if done.cuts and size is not None and way.length - before < 2 * size:
+        motion.diagnostics.report(SMALLER, move.origin, rest=way.length - before, corner=size)
     if done.cuts and move.kind == "circular":
         done.last = way.piece(move, before, way.length)
 

@@ -45,7 +45,7 @@ OK, NO, GUARDED = 0, 1, 3
     "-o", "--output", type=click.Path(file_okay=False, path_type=Path), metavar="DIR", help="Folder to write."
 )
 @click.option("--prove", "proving", is_flag=True, help="Run both programs and compare what they do.")
-@click.option("--cell", metavar="F.toml", help="Surroundings for the proof: inputs, parts, answers of the operator.")
+@click.option("--cell", metavar="F.toml", help="Values of data that the controller keeps; surroundings for the proof.")
 @click.option(
     "--registers",
     type=click.Path(exists=True, dir_okay=False, path_type=Path),
@@ -78,6 +78,7 @@ def command(
     What the target cannot say becomes a comment and the target's own stop, is listed, and gives exit status 3. Without
     -o a single file is printed.
     """
+    from rpl.cell import read_cell
     from rpl.project import read_program
     from rpl.translation import translate_program
     from rpl.writing.registers import read_registers
@@ -94,7 +95,8 @@ def command(
     before = len(diagnostics)
     with waiting("writing"):
         kept = read_registers(registers) if registers is not None else None
-        translation = translate_program(read, target, robot, to_robot, diagnostics, kept, own)
+        given = read_cell(cell).variables if cell is not None else None
+        translation = translate_program(read, target, robot, to_robot, diagnostics, kept, own, given)
     if strict:
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:

@@ -357,6 +357,11 @@ def _geometric(function: str, values: list[Value], numbers: list[float]) -> Valu
             return _from_points(one, two, three, int(numbers[0]) if numbers else 1)
         case (("offset" | "tool_offset"), [rigid.Pose() | Target() as one, *_]) if len(numbers) == len(values) - 1:
             return moved(function, one, numbers)
+        case (("displaced" | "displaced_in_tool"), [Target() as one, other]):
+            shift = pose_of(other)
+            if shift is None:
+                return None
+            return replace(one, pose=shift.then(one.pose) if function == "displaced" else one.pose.then(shift))
     return None
 
 

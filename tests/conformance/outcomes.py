@@ -17,6 +17,7 @@ from pathlib import Path
 from loading import objections
 
 from rpl import ir, registry
+from rpl.cell import Cell
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity
 from rpl.errors import RplError
 from rpl.ir.walk import walk
@@ -59,11 +60,12 @@ class Outcome:
 
 
 def outcome_of(
-    read: ReadProgram, target: str, robot: str, cell: object, entry: str | None
+    read: ReadProgram, target: str, robot: str, cell: Cell | None, entry: str | None
 ) -> tuple[Outcome, Diagnostics]:
     """Write the program in the target, read it back, run both, and say what came of it."""
     diagnostics = Diagnostics()
-    translation = translate_program(read, target, robot, None, diagnostics)
+    given = cell.variables if cell is not None else None
+    translation = translate_program(read, target, robot, None, diagnostics, given=given)
     again = Diagnostics()
     sources = [source_from_bytes(file.path, file.data) for file in translation.files]
     back = read_sources(sources, target, again)
@@ -73,7 +75,7 @@ def outcome_of(
     entry = entry_name(read.program, entry)
     to_entry = translation.renamed.get(entry, entry) if entry else None
     named = with_signal_names(back.program, translation.program)
-    result = prove_programs(read.program, named, robot, robot, cell, entry=entry, to_entry=to_entry)  # type: ignore[arg-type]
+    result = prove_programs(read.program, named, robot, robot, cell, entry=entry, to_entry=to_entry)
     refused = sorted({f"{item.code.name}: {item.message}" for item in diagnostics.of(Severity.LOSS)})
     notes = sorted({item.code.name for item in diagnostics.of(Severity.WARNING)} - _HARMLESS)
     if refused:

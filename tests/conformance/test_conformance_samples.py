@@ -94,7 +94,8 @@ def proof_of(sample: Path, target: str, to_robot: str | None = None) -> tuple[Pr
     """Write the sample in the target, read it back, run both."""
     wanted, program = expected(sample), programs_of(sample)
     diagnostics = Diagnostics()
-    translation = translate_program(program, target, wanted.robot, to_robot, diagnostics)
+    given = wanted.cell.variables if wanted.cell is not None else None
+    translation = translate_program(program, target, wanted.robot, to_robot, diagnostics, given=given)
     sources = [source_from_bytes(file.path, file.data) for file in translation.files]
     again = Diagnostics()
     back = read_sources(sources, target, again)

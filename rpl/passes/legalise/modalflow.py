@@ -265,6 +265,8 @@ class _Follower:
                 return value if self.stable(inner) is not None else None
             case ir.Field(base=base):
                 return value if self.stable(base) is not None else None
+            case ir.Index(base=base, indices=indices):
+                return value if all(self.stable(one) is not None for one in (base, *indices)) else None
             case ir.Binary(left=left, right=right):
                 return value if self.stable(left) is not None and self.stable(right) is not None else None
             case ir.Aggregate(entries=entries):

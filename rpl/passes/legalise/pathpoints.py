@@ -30,6 +30,11 @@ COMPUTED = code(
     Severity.WARNING,
     "an action on the path stands behind a point of the move that the program computes from its ends{order}",
 )
+SMALLER = code(
+    "path-event-corner",
+    Severity.WARNING,
+    "an action on the path is {rest:.1f} mm before a corner of {corner:.1f} mm, which may be cut to half of that way",
+)
 _ORDER = "; what is counted from its start is done before what is counted from its end"
 _NEAR_MM = 0.5  # an action that near to an end of the move is at the end
 _SAME_TURN = 1.0 - 1e-12  # product of two quaternions
@@ -124,8 +129,17 @@ class _Points:
         ending = [one for one in rest if one.reference != "start"]
         mixed = len({one.from_end for one in apart}) > 1
         self.context.diagnostics.report(COMPUTED, given[0].origin, order=_ORDER if mixed else "")
+        self.look_at_corner(move, apart[-1])
         pieces = self.pieces(replace(move, triggers=()), apart)
         return (*starting, *pieces, *ending, replace(move, triggers=(), origin=tidy(move.origin)))
+
+    def look_at_corner(self, move: ir.Move, last: _Event) -> None:
+        """A corner takes at most half of the way between two points."""
+        if not isinstance(move.blend, ir.BlendDistance) or move.blend.distance is None or not last.from_end:
+            return
+        size = constant_number(move.blend.distance, self.editor.scope, self.unchanged)
+        if size is not None and last.known is not None and last.known - self.corner < 2 * size:
+            self.context.diagnostics.report(SMALLER, move.origin, rest=last.known - self.corner, corner=size)
 
     def event(self, trigger: ir.Trigger, move: ir.Move) -> _Event | None:
         """None: it comes at an end of the move."""
