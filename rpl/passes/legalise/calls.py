@@ -414,7 +414,28 @@ def _fraction(calls: _Calls, given: Arguments) -> ir.Expression | None:
     return ir.Binary("-", given[0], ir.Convert("real", calls.truncated(given[0])))
 
 
+def _code(calls: _Calls, given: Arguments) -> ir.Expression | None:
+    """The code of a text's first character, where the target tells that of a text of one character."""
+    if "code" not in calls.capabilities.conversions or not calls.capabilities.text_results:
+        return None
+    match given[0]:
+        case ir.TextLiteral(value=text) if text:
+            return ir.IntLiteral(ord(text[0]))
+        case ir.Builtin(function="text_part", arguments=(_, _, ir.IntLiteral(value=1))):
+            return ir.Convert("code", given[0])
+    first = ir.Builtin("text_part", (given[0], ir.IntLiteral(1), ir.IntLiteral(1)))
+    return ir.Convert("code", first) if calls.can("text_part") else None
+
+
+def _from_code(calls: _Calls, given: Arguments) -> ir.Expression | None:
+    if "char" not in calls.capabilities.conversions or not calls.capabilities.text_results:
+        return None
+    return calls.text_function(ir.Builtin("from_code", given)) or ir.Convert("char", given[0])
+
+
 _FUNCTIONS: dict[str, Callable[[_Calls, Arguments], ir.Expression | None]] = {
+    "character_code": _code,
+    "from_code": _from_code,
     "round": _round,
     "trunc": _trunc,
     "min": _least("rpl_min"),

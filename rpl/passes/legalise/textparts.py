@@ -19,6 +19,8 @@ FUNCTIONS: Final = {
     "text_upper": "rpl_text_upper",
     "text_lower": "rpl_text_lower",
     "text_map": "rpl_text_map",
+    "from_code": "rpl_from_code",
+    "character_code": "rpl_character_code",
 }
 NUMBER_TEXT, PUT = "rpl_number_text", "rpl_text_put"
 PARSE_REAL, PARSE_WHOLE = "rpl_parse_number", "rpl_parse_whole"
@@ -44,7 +46,58 @@ END FUNCTION
 """
 
 
+# Characters in the order of their codes, without those that a text of a listing may not hold; what is none of them
+# stops the program.
+_SIGNS, _FIRST_SIGN = "()*+,-./0123456789:", ord("(")
+_CAPITALS, _FIRST_CAPITAL = "<=>?@ABCDEFGHIJKLMNOPQRSTUVWXYZ", ord("<")
+_SMALL, _FIRST_SMALL = _LOWER, ord("a")
+_ALONE = " #_"
+
+
+def _from_code() -> str:
+    alone = "".join(f'    IF code = {ord(sign)} THEN RETURN "{sign}"\n' for sign in _ALONE)
+    ranges = "".join(
+        f"""    IF code >= {first} AND code <= {first + len(signs) - 1} THEN
+        sign = text_part("{signs}", code - {first - 1}, 1)
+        RETURN sign
+    END IF
+"""
+        for signs, first in ((_SIGNS, _FIRST_SIGN), (_CAPITALS, _FIRST_CAPITAL), (_SMALL, _FIRST_SMALL))
+    )
+    return f"""
+FUNCTION rpl_from_code(code: INT): STRING
+    VAR sign: STRING
+{alone}{ranges}    MESSAGE "no such character"
+    HALT
+    sign = ""
+    RETURN sign
+END FUNCTION
+"""
+
+
+def _character_code() -> str:
+    alone = "".join(f'    IF sign = "{sign}" THEN RETURN {ord(sign)}\n' for sign in _ALONE)
+    ranges = "".join(
+        f"""    found = rpl_text_find("{signs}", 1, sign)
+    IF found > 0 THEN RETURN found + {first - 1}
+"""
+        for signs, first in ((_CAPITALS, _FIRST_CAPITAL), (_SIGNS, _FIRST_SIGN), (_SMALL, _FIRST_SMALL))
+    )
+    return f"""
+FUNCTION rpl_character_code(t: STRING): INT
+    VAR sign: STRING
+    VAR found: INT
+    sign = text_part(t, 1, 1)
+{ranges}{alone}    MESSAGE "no such character"
+    HALT
+    RETURN 0
+END FUNCTION
+"""
+
+
 TEXTS: Final[dict[str, str]] = {
+    "rpl_from_code": _from_code(),
+    "rpl_character_code": _character_code(),
     "rpl_text_find": """
 FUNCTION rpl_text_find(t: STRING, first: INT, wanted: STRING): INT
     VAR i: INT
