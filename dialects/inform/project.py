@@ -21,6 +21,7 @@ from .jobs import Job, JobReader, Point, commands
 from .kinds import JOINTS, Kind, Project, kind_of_point, settle
 from .operands import TYPES, Shared, Used, plain_bank
 from .points import external_value, value_of_point
+from .pulsebanks import without_pulse_banks
 from .signals import DIRECT_INPUTS
 from .split import SHAPE, SLOTS, split
 from .syntax import Numbered, build, lower
@@ -177,7 +178,7 @@ class _Lowering:
         modules = tuple(self.modules)
         if declarations:
             modules = (ir.Module(REGISTERS, "inform", tuple(declarations)), *modules)
-        return ir.Program(modules)
+        return without_pulse_banks(ir.Program(modules))
 
     def direct_inputs(self) -> list[ir.Declaration]:
         """Names RIN1 ... of the direct inputs in use, so that a cell file can name them."""

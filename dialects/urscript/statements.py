@@ -152,7 +152,7 @@ class Statements(Calls):
             return self.vendor(f"{shown(target)} = {shown(value)}", "unknown")
         place = self.value(base)
         if kind.word == "struct" or (kind.word == "list" and not self.as_joints_kept(base)):
-            stored = self.value(value, self.kind(target))
+            stored = self.array(value) if self.as_joints_kept(value) else self.value(value, self.kind(target))
             part = self.at(target, None)
             if isinstance(part, ir.VendorValue):
                 return self.vendor(f"{shown(target)} = {shown(value)}", "unknown")

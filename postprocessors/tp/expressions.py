@@ -91,7 +91,9 @@ class Expressions:
         if value is None:
             return f"{bank}[{self.index(index)}]"
         limits = tables.BANKS[bank]
-        last = max(limits.last, limits.most) if self.limited else _LAST
+        last = limits.last if self.limited else _LAST
+        if value > last and any(kind == bank and number > last for kind, number in self.names):
+            last = limits.most  # the program needs a larger bank, which has been said
         if value != int(value) or not limits.first <= value <= last:
             raise CannotSayError(f"{bank}[{value:g}] is outside of {limits.first}..{last}")
         name = comment(self.names.get((bank, int(value)), ""))

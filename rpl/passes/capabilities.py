@@ -24,12 +24,14 @@ class NameRules:
 @dataclass(frozen=True, slots=True)
 class Bank:
     """Numbered storage of a controller: elements `first`..`last` under one name (`R[1]`..`R[200]`). `holds`: what else
-    has these numbers, a kind of signal or a system variable (flags, timers)."""
+    has these numbers, a kind of signal or a system variable (flags, timers). `most`: the last number there can be when
+    the controller is set up for more (0: there are never more)."""
 
     name: str
     first: int
     last: int
     holds: str = ""
+    most: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +92,8 @@ class Capabilities:
     truth: `minus_one` when TRUE is the number -1 and there is no type of truth values.
     index_base: where arrays start; None: anywhere. expressions: `steps` when an assignment has one operator or function
     of constants and variables. calculated_places: moves, signals, waits take any expression. conditions: `comparisons`
-    of two simple operands, joined by and/or. functions_alone: a function only as the whole right side of an assignment.
+    of two simple operands, joined by and/or.
+    condition_terms: how many comparisons such a condition has at most, spelled out without brackets (0: any). functions_alone: a function only as the whole right side of an assignment.
 
     Motion: move_settings: which of `tool`, `frame`, `speed`, `blend` a move says itself, the rest being modal (System
     tool, base, and modal_motion set); empty: all or none of them, in data of the types of RAPID or KRL. Only then:
@@ -196,6 +199,7 @@ class Capabilities:
     place_components: bool = True
     path_points: float = 0.0
     conditions: str = "any"
+    condition_terms: int = 0
     functions_alone: bool = False
     move_settings: frozenset[str] = frozenset()
     speeds: frozenset[str] = frozenset()

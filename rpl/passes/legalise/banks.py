@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
@@ -26,6 +26,12 @@ FULL = code(
     Severity.ERROR,
     "the program needs {needed} numbers of {bank}, which has {count} ({first} to {last}); {name} gets none",
 )
+MORE = code(
+    "registers-set-up",
+    Severity.WARNING,
+    "the program needs {needed} numbers of {bank}; a controller as it is delivered has {count}",
+    "set the number of {bank} to {last} or more when you set the controller up, before you load the program",
+)
 MIXED = code(
     "registers-mixed",
     Severity.LOSS,
@@ -34,6 +40,7 @@ MIXED = code(
 NO_BANK = code("no-register", Severity.LOSS, "{name}: the target has no numbered storage for this type")
 
 
+_SPARE, _STEP = 20, 50  # numbers kept for what later passes and the writer need; set-ups are made in round figures
 _CHOSEN = 100_000  # an array whose element is chosen at run time decides the type of its bank
 
 
@@ -148,6 +155,23 @@ class Numbers:
             last=bank.last,
             name=one.key,
         )
+
+
+def enlarged(wanted: Sequence[Wanted], context: Context) -> dict[str, Bank]:
+    """Banks that are too small as delivered, with as many numbers as the controller has to be set up for; by name."""
+    needed: Counter[str] = Counter()
+    for one in wanted:
+        needed[one.bank.name] += one.count
+    made: dict[str, Bank] = {}
+    for one in wanted:
+        bank, count = one.bank, needed[one.bank.name]
+        delivered = bank.last - bank.first + 1
+        if bank.name in made or count <= delivered or bank.first - 1 + count > bank.most:
+            continue
+        last = min(bank.most, -(-(bank.first - 1 + count + _SPARE) // _STEP) * _STEP)
+        made[bank.name] = replace(bank, last=last)
+        context.diagnostics.report(MORE, one.origin, needed=count, bank=bank.name, count=delivered, last=last)
+    return made
 
 
 def held(program: ir.Program, banks: Iterable[Bank]) -> dict[str, set[int]]:

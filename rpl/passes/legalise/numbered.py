@@ -13,7 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.capabilities import Bank
 from rpl.passes.fold import Unchanged, constant, literal
-from rpl.passes.legalise.banks import MIXED, NO_BANK, Numbers, Wanted, fits, held, main_types, sizes_of
+from rpl.passes.legalise.banks import MIXED, NO_BANK, Numbers, Wanted, enlarged, fits, held, main_types, sizes_of
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.operands import is_operand
 from rpl.passes.legalise.parameters import ARGUMENTS
@@ -76,6 +76,7 @@ class _Numbered(Rewriter):
         self.first: list[ir.Statement] = []
         self.helpers: list[ir.Expression] = []
         self.helpers_in_use = 0
+        self.larger: dict[str, Bank] = {}
         self.planned()
 
     # ---- the plan
@@ -83,6 +84,9 @@ class _Numbered(Rewriter):
     def planned(self) -> None:
         wanted = [*self.all_wanted()]
         wanted.sort(key=lambda one: one.origin is NOWHERE)
+        self.larger = enlarged(wanted, self.context)
+        for one in wanted:
+            one.bank = self.larger.get(one.bank.name, one.bank)
         main = main_types(wanted)
         kept = []
         for one in wanted:
@@ -408,6 +412,7 @@ class _Numbered(Rewriter):
             banks = self.context.capabilities.banks
             kind = ir.IntType() if "IntType" in banks else ir.RealType()
             bank = banks[kind.__class__.__name__]
+            bank = self.larger.get(bank.name, bank)
             routine = self.scope.routine_here
             key = f"{routine.name if routine else 'data'}.element{len(self.helpers) + 1 if self.helpers else ''}"
             wanted = Wanted(key, (), bank, kind, (), 0, ir.Variable(key, kind))
