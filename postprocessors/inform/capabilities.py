@@ -63,6 +63,7 @@ CAPABILITIES = Capabilities(
     expressions="steps",
     calculated_places=False,
     conditions="comparisons",
+    condition_terms=tables.SURE_TERMS,
     functions_alone=True,
     index_base=None,
     longest_message=tables.LONGEST_MESSAGE,

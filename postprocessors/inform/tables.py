@@ -82,6 +82,7 @@ SIGNALS: Final[Mapping[str, str]] = {
 LAST_SIGNAL: Final[Mapping[str, int]] = {"IN": 4096, "OT": 4096, "AI": 40, "AO": 40}
 DIRECT_INPUTS: Final = 9000  # direct inputs follow behind all others in the neutral numbering
 MOST_TERMS: Final = 8  # M: comparisons in one condition
+SURE_TERMS: Final = 6  # that many fit on a line
 LONGEST_REMARK: Final = 32
 LONGEST_LABEL: Final = 8
 LONGEST_TEXT: Final = 32  # M: 16 before the DX200

@@ -93,7 +93,8 @@ class Capabilities:
     index_base: where arrays start; None: anywhere. expressions: `steps` when an assignment has one operator or function
     of constants and variables. calculated_places: moves, signals, waits take any expression. conditions: `comparisons`
     of two simple operands, joined by and/or.
-    condition_terms: how many comparisons such a condition has at most, spelled out without brackets (0: any). functions_alone: a function only as the whole right side of an assignment.
+    condition_terms: how many comparisons such a condition has at most, spelled out without brackets (0: any).
+    functions_alone: a function only as the whole right side of an assignment.
 
     Motion: move_settings: which of `tool`, `frame`, `speed`, `blend` a move says itself, the rest being modal (System
     tool, base, and modal_motion set); empty: all or none of them, in data of the types of RAPID or KRL. Only then:

@@ -339,6 +339,42 @@ def test_an_action_whose_place_is_not_known_is_refused_by_name() -> None:
     assert codes(diagnostics, Severity.LOSS) == {"inform-path-event-lost"}
 
 
+MANY = """DEF one()
+DECL INT n,k
+n=0
+k=0
+IF (($IN[1] OR $IN[2]) AND ($IN[3] OR $IN[4]) AND ($IN[5] OR $IN[6])) OR (n==0) THEN
+$OUT[1]=TRUE
+ENDIF
+WHILE (n<10) AND ((k==0) OR (k==1) OR (k==2) OR (k==3) OR (k==4) OR (k==5) OR (k==6) OR (k==7) OR (k==8) OR (k==9))
+n=n+1
+IF n>4 THEN
+k=20
+ENDIF
+ENDWHILE
+$OUT[2]=n==5
+IF OTHERS THEN
+$OUT[3]=TRUE
+ENDIF
+k=5
+$OUT[4]=NOT ((k==1) OR (k==2) OR (k==3) OR (k==4) OR (k==15) OR (k==6) OR (k==7) OR (k==8) OR (k==9) OR (k==10))
+WAIT FOR (($IN[1] OR $IN[2]) AND ($IN[3] OR $IN[4]) AND ($IN[5] OR $IN[6])) OR (n==5)
+$OUT[5]=TRUE
+END
+"""
+
+
+OTHERS = " AND ".join(f"(n<>{number})" for number in range(20) if number != 5)
+
+
+def test_conditions_of_many_comparisons_are_found_out_in_parts() -> None:
+    """Also those that only spelling them out without brackets makes long; no line is longer than a controller's."""
+    jobs, diagnostics, on = jobs_of("krl", MANY.replace("OTHERS", OTHERS), "kuka_kr6r900sixx")
+    assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    assert on == {1, 2, 3, 4, 5}
+    assert max(len(line) for line in jobs["ONE"]) <= 128
+
+
 COMPUTED = """DEF one()
 DECL FRAME F
 DECL REAL way
