@@ -114,8 +114,19 @@ class ShapeParser:
             for token in tree.scan_values(lambda value: isinstance(value, Token))
             if self._terminals.get(token.type) == token
         ]
-        order = {id(token): index for index, token in enumerate(sorted(tokens, key=lambda token: token.start_pos or 0))}
+        places = self._places(text)
+        order = {id(token): places[token.start_pos] for token in tokens if token.start_pos in places}
         return _with_slots(tree, order)
+
+    def _places(self, text: str) -> dict[int | None, int]:
+        """Where in the shape each piece stood that was taken out: offset -> index. A terminal may hold some of them."""
+        found: dict[int | None, int] = {}
+        shift = 0
+        for match in self._numbers.finditer(text):
+            if match.lastgroup is not None:
+                found[match.start() + shift] = len(found)
+                shift += len(self._stand_ins[match.lastgroup]) - len(match.group())
+        return found
 
 
 def _with_slots(tree: Tree[Token], order: dict[int, int]) -> SyntaxTree:

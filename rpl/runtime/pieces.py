@@ -286,6 +286,9 @@ def time_of_trigger(piece: Piece, trigger: TriggerOrder) -> float | None:
         if trigger.delay < 0.0 and piece.ahead is not None:
             middle = piece.end_s + piece.ahead.t_middle_s * min((place - end) / max(1.0 - end, 1e-12), 1.0)
             return middle + trigger.delay
+        if trigger.delay < 0.0 and piece.open_end and end > begin:  # the corner to come is taken as fast as the move
+            speed = float(piece.plan.law.speed_at(piece.plan.duration_s)) * (end - begin)
+            return piece.end_s + (place - end) / speed + trigger.delay if speed > 0.0 else None
         return None
     if place < begin:
         return piece.start_s + trigger.delay

@@ -58,9 +58,11 @@ def test_more_than_one_turn_is_written_in_parts(target: str, angle: int) -> None
     assert "arc-in-parts" in told
 
 
-def test_parts_turn_the_tool_where_the_target_follows_another_rule() -> None:
-    """Seen from the tangent, the tool keeps its rotation over 270 degrees by turning the shorter way."""
-    result, told = translated(f"{VIA},{{X 0,Y 0,Z 0,A 0,B 0,C 180}}, CA 270", "urscript")
+@pytest.mark.parametrize("angle", [200, 206, 240, 270])
+def test_parts_turn_the_tool_where_the_target_follows_another_rule(angle: int) -> None:
+    """Seen from the tangent, the tool keeps its rotation by turning the shorter way: once around, and never by half a
+    turn in one part."""
+    result, told = translated(f"{VIA},{{X 0,Y 0,Z 0,A 0,B 0,C 180}}, CA {angle}", "urscript")
     assert "arc-in-parts" in told
     assert result.equal, result.as_text()
 

@@ -204,3 +204,12 @@ def test_a_frame_that_is_certainly_another_is_reported() -> None:
     assert not reports(read(listing("UFRAME_NUM=1\nCALL MAIN\nL P[2] 100mm/sec FINE"))[1])
     both = "IF (DI[1]) THEN\nUFRAME_NUM=1\nELSE\nUFRAME_NUM=0\nENDIF\nL P[2] 100mm/sec FINE"
     assert not reports(read(listing(both))[1])
+
+
+def test_a_time_before_a_corner_counts_before_the_corner_is_known() -> None:
+    """The next move is read where the corner begins; an action 0.1 s before its middle comes earlier than that. At an
+    even speed that is where the same way before the point lies."""
+    lines = "J P[1] 100% FINE\nL P[2] 100mm/sec CNT50 {},DO[1]=ON\nL P[1] 100mm/sec FINE"
+    by_time, by_way = (run(listing(lines.format(when))).outputs for when in ("TB    .10sec", "DB   10.0mm"))
+    assert by_time[0][1:] == by_way[0][1:]
+    assert by_time[0][0] == pytest.approx(by_way[0][0], abs=0.004)

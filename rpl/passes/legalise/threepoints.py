@@ -45,6 +45,7 @@ TURNS_OTHERWISE = code(
 )
 CORNER_MM = 1.0
 _NOTICED_DEG = 0.01
+_MOST_TURN_DEG = 150.0  # in one part: at half a turn either way around is the shortest
 _FLAT = 1e-9
 _PLACES = 9  # of mm and degrees: a millionth of what any controller keeps
 _COUNTS = (1, 2, 3, 4, 6, 8, 12)
@@ -210,9 +211,10 @@ class _Arcs:
         angle = circle.angle(end.position)
         rotations = circle.rotations(angle, start.rotation, end.rotation, ours == "path")
         splits = bool(ours) and not move.triggers and move.search is None
+        apart = 0.0
         for count in _COUNTS if splits else (1,):
             apart = _apart(circle, angle / count, start.rotation, rotations(1.0 / count))
-            if apart <= _NOTICED_DEG:
+            if apart <= _NOTICED_DEG and _turn(start.rotation, rotations(1.0 / count)) <= _MOST_TURN_DEG:
                 break
         else:
             self.context.diagnostics.report(TURNS_OTHERWISE, move.origin, how=f"by {apart:.3g} degrees between")
@@ -288,11 +290,16 @@ def _written(place: rigid.Vector, rotation: rigid.Rotation, notation: str) -> ir
     return ir.Aggregate(entries, type_name=type_word(ir.TargetType(notation)))
 
 
+def _turn(one: rigid.Rotation, other: rigid.Rotation) -> float:
+    """The shortest turn from one rotation to the other, in degrees."""
+    return 2.0 * math.degrees(math.acos(min(1.0, abs(one.inverse.then(other).quaternion[0]))))
+
+
 def _apart(circle: Circle, angle: float, begin: rigid.Rotation, end: rigid.Rotation) -> float:
     """The angle in degrees, in the middle of an arc, between a tool that turns as seen from the base and one that turns
     as seen from the tangent."""
     base, path = (circle.rotations(angle, begin, end, turns)(0.5) for turns in (False, True))
-    return 2.0 * math.degrees(math.acos(min(1.0, abs(base.inverse.then(path).quaternion[0]))))
+    return _turn(base, path)
 
 
 def _between(one: rigid.Rotation, other: rigid.Rotation, fraction: float) -> rigid.Rotation:
