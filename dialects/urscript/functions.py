@@ -175,20 +175,21 @@ _MEANT = """
 
 # What only this controller has, by effect and result.
 _VENDOR = """
-    none: set_gravity set_tool_voltage set_tool_communication set_analog_inputrange set_analog_outputdomain
+    tuning: set_gravity set_tool_voltage set_tool_communication set_analog_inputrange set_analog_outputdomain
         set_standard_analog_input_domain set_tool_analog_input_domain set_input_actions_to_default
         set_standard_digital_input_action set_configurable_digital_input_action set_tool_digital_input_action
         set_gp_boolean_input_action set_runstate_configurable_digital_output_to_value
         set_runstate_standard_digital_output_to_value set_runstate_standard_analog_output_to_value
         set_runstate_tool_digital_output_to_value set_runstate_gp_boolean_output_to_value
-        set_tool_output_mode set_tool_digital_output_mode set_safety_mode_transition_hardness set_conveyor_tick_count
-        modbus_add_signal modbus_delete_signal modbus_set_signal_update_frequency modbus_set_signal_watchdog
+        set_tool_output_mode set_tool_digital_output_mode set_safety_mode_transition_hardness
+        position_deviation_warning set_friction_coefficients collision_detection_reset set_base_acceleration
+        modbus_set_signal_update_frequency set_joint_velocity_mode
+    none: set_conveyor_tick_count modbus_add_signal modbus_delete_signal modbus_set_signal_watchdog
         modbus_set_runstate_dependent_choice modbus_set_digital_input_action modbus_add_rtu_signal
         enable_external_ft_sensor ft_rtde_input_enable zero_ftsensor set_tcp_offset reset_revolution_counter
-        socket_close rtde_set_watchdog position_deviation_warning set_friction_coefficients
-        encoder_enable_pulse_decode encoder_enable_set_tick_count set_world_model_attr set_joint_velocity_mode
+        socket_close rtde_set_watchdog
+        encoder_enable_pulse_decode encoder_enable_set_tick_count set_world_model_attr
         path_offset_set_alpha_filter path_offset_set_max_offset path_offset_enable path_offset_disable
-        collision_detection_reset set_base_acceleration
         force_mode_set_damping force_mode_set_gain_scaling end_screwdriving
     message: socket_send_string socket_send_line socket_send_int socket_send_byte socket_set_var write_serial
     unknown: force_mode end_force_mode freedrive_mode end_freedrive_mode teach_mode end_teach_mode direct_torque

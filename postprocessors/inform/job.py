@@ -32,6 +32,14 @@ JOINT_ANGLE = code(
 _DATE = "2000/01/01 00:00"  # the same text for the same program
 
 
+def winding(robot: RobotModel | None) -> bool:
+    """Can an axis whose turns no RCONF shows (L, U, B) make more than one turn? A pose then does not say the joints."""
+    if robot is None:
+        return False
+    axes = [axis for axis in tables.UNTURNED if axis < robot.axes and robot.revolute[axis]]
+    return any(float(robot.limits[axis][1] - robot.limits[axis][0]) > tables.TURN_DEG for axis in axes)
+
+
 @dataclass(slots=True)
 class Job:
     """Header data and lines of one job. `tool`: that of positions that name none."""
@@ -84,9 +92,16 @@ class Job:
         counts = self.robot.pulse_scale if self.counting else self.robot.pulses_per_degree
         return None if counts is None else [float(one) for one in counts]
 
+    @property
+    def taught_scale(self) -> list[float] | None:
+        """The pulses per degree of taught points: the arm's own, and a neutral scale only where a posture says too
+        little."""
+        own = None if self.robot is None else self.robot.pulses_per_degree
+        return None if own is None and not winding(self.robot) else self.scale
+
     def sayable(self, position: Position, tool: int, taught: bool = False) -> Position:
         """The position as a controller can keep it: joints as pulses where they can be counted, else as a pose. Taught
-        points are poses as well where pulses would be counted by a neutral scale."""
+        points are poses as well where pulses would be counted by a neutral scale, and a posture says enough."""
         if any(position.external):
             raise CannotSayError("positions of external axes are in pulses, which are not known here")
         if position.kind != "joints":
@@ -95,7 +110,7 @@ class Job:
             raise CannotSayError("joint values need the arm (--robot): jobs have pulses, or poses with a posture")
         if len(position.values) < self.robot.axes:
             raise CannotSayError(f"{self.robot.name} has {self.robot.axes} axes")
-        if (self.robot.pulses_per_degree if taught else self.scale) is not None:
+        if (self.taught_scale if taught else self.scale) is not None:
             return position
         return pose_of_joints(position, self.robot, self.cell.value_of_tool(tool))
 

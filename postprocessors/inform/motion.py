@@ -72,6 +72,7 @@ class Motion:
     last: Goal | None = None
     line_of_last: int | None = None
     stands: bool = False  # the move before ended in a stop
+    running: bool = False  # the move before has NWAIT
     before: Goal | None = None  # where the move before the last one went, when that was an arc
     reported: set[tuple[Code, str]] = field(default_factory=set)
 
@@ -111,7 +112,7 @@ class Motion:
         self.lines.append(" ".join(part for part in (shown, *speed, *blend, *ending) if part))
         self.before = self.last if self.last is not None and self.last.arc else None
         goal.arc = move.kind == "circular"
-        self.last, self.stands = goal, blend == ["PL=0"] and not move.concurrent
+        self.last, self.stands, self.running = goal, blend == ["PL=0"] and not move.concurrent, move.concurrent
         self.line_of_last = len(done) + len(self.lines) - 1
         self.positions.job.moves = True
         if move.search is not None or move.relative is not None:
@@ -167,8 +168,7 @@ class Motion:
         if known is not None and (base is not None or known.kind == "joints"):
             number = 0 if base is None else job.cell.frame(base.values)
             wanted = self.names.get(target.id) if isinstance(target, ir.Name) else None
-            pulses = job.robot is not None and job.robot.pulses_per_degree is not None
-            if known.kind == "joints" and not pulses and job.cell.value_of_tool(tool) is None:
+            if known.kind == "joints" and job.taught_scale is None and job.cell.value_of_tool(tool) is None:
                 return Goal(self.with_computed_tool(known, tool), tool, 0, None)
             return Goal(job.point_of(known, tool, number, wanted), tool, number, known)
         if self.is_joints(target):

@@ -93,3 +93,6 @@ LONGEST_LINE: Final = 128  # M
 WATCH_STEP_S: Final = 0.01  # the shortest TIMER
 MOST_SUBTASKS: Final = 5  # M
 RESERVED: Final = frozenset(("all", "end", "nop"))
+# L, U and B: axes (from 0) whose whole turns no RCONF shows, and a turn of them in degrees.
+UNTURNED: Final = (1, 2, 4)
+TURN_DEG: Final = 360.5

@@ -19,7 +19,7 @@ from . import tables
 from .assignments import Assignments
 from .cell import Cell
 from .flags import with_flags_in_bytes
-from .job import Job
+from .job import Job, winding
 from .labels import Labels
 from .motion import Motion
 from .operands import Registers, element, numbered
@@ -77,8 +77,8 @@ class _Writer:
         self.choose_tools()
         self.beside = _beside(program)
         self.moving = closure(program, (ir.Move, ir.MoveExternal, ir.Spline, ir.Vendor, ir.Opaque))
-        self.counting = _counts_joints(program)
         robot = context.robot
+        self.counting = _counts_joints(program) or (winding(robot) and _goes_to_joints(program, self.constants))
         if self.counting and robot is not None and robot.pulses_per_degree is None and robot.pulse_scale is not None:
             assumed(robot, self.diagnostics)
 
@@ -280,6 +280,17 @@ def _counts_joints(program: ir.Program) -> bool:
                 return True
             case ir.System(name="actual_joint") | ir.Move(kind="joint", relative=str()) | ir.Move(relative="joints"):
                 return True
+    return False
+
+
+def _goes_to_joints(program: ir.Program, constants: Constants) -> bool:
+    """Has a move joints as its target?"""
+    for module in program.modules:
+        for routine in module.routines:
+            within = constants.routine(routine)
+            for node in walk(routine.body):
+                if isinstance(node, ir.Move) and within.is_joints(node.target):
+                    return True
     return False
 
 

@@ -32,7 +32,7 @@ CAPABILITIES = Capabilities(
                 "message_text",
             ),
             *("text_upper", "text_lower", "text_map"),
-            *("is_uninitialised", "bit_shift_left", "target_to_joints_near", "power"),
+            *("is_uninitialised", "bit_shift_left", "power"),
         )
     ),
     procedures=tables.words("increment decrement clear text_append text_copy text_clear"),

@@ -89,7 +89,7 @@ def test_process_moves_and_circles() -> None:
 SETTINGS = [
     ("set_tcp(p[0,0,0.1,0,0,0])", "Assign"),
     ("set_payload(1.5, [0, 0, 0.05])", "Assign"),
-    ("set_gravity([0, 0, 9.82])", "none"),
+    ("set_gravity([0, 0, 9.82])", "tuning"),
     ('modbus_add_signal("10.0.0.2", 255, 1, 1, "door")', "none"),
     ('socket_send_string("go", "s")', "message"),
     ("force_mode(p[0,0,0,0,0,0], [0,0,1,0,0,0], [0,0,10,0,0,0], 2, [1,1,1,1,1,1])", "unknown"),

@@ -50,6 +50,7 @@ from rpl.passes.legalise.loops import fit_loops
 from rpl.passes.legalise.messages import split_messages
 from rpl.passes.legalise.modal import modal_to_explicit
 from rpl.passes.legalise.movesettings import settings_at_moves
+from rpl.passes.legalise.nearjoints import near_joints
 from rpl.passes.legalise.nextmove import settings_of_next_move
 from rpl.passes.legalise.numbered import number_data
 from rpl.passes.legalise.numbers import numbers
@@ -126,6 +127,7 @@ PASSES: tuple[Pass, ...] = (
     lists_in_variables,
     joined_subscripts,
     array_bases,
+    near_joints,
     joint_goals,
     three_point_arcs,
     circle_rules,

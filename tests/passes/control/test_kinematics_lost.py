@@ -12,6 +12,7 @@ from rpl.translation import translate_program
 URSCRIPT = """def main():
   home = [0, -1.5, 1.5, -1.5, -1.5, 0]
   q = get_inverse_kin(p[0.3, 0.2, 0.3, 3.14, 0, 0], home)
+  q[5] = 0
   movej(q)
   if get_inverse_kin_has_solution(p[0.3, 0.2, 0.3, 3.14, 0, 0], home):
     set_standard_digital_out(0, True)
