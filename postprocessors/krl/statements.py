@@ -100,7 +100,7 @@ class Printer(StatementPrinter[str]):
 
     def written(self, statement: ir.Statement) -> None:
         match statement:
-            case ir.Nothing(origin=origin):
+            case ir.Nothing(origin=origin) | ir.Message(kind="clear", origin=origin):  # the window scrolls by itself
                 self.comments_only(origin)
             case ir.If() | ir.Switch() | ir.For() | ir.While() | ir.Repeat() | ir.Loop() | ir.Spline():
                 self.block(statement)

@@ -95,8 +95,8 @@ def _changed(program: ir.Program) -> frozenset[str]:
                 match node:
                     case ir.Assign(target=ir.Field(name=name, base=base)) if name in _PARTS:
                         found.add(base_name(base) or "")
-                    case ir.Assign(target=target, value=value) if (name := base_name(target)) is not None:
-                        pairs.append((name, value))
+                    case ir.Assign(target=target, value=value) if base_name(target) is not None:
+                        pairs.append((base_name(target) or "", value))
                     case ir.Return(value=value) if value is not None:
                         pairs.append((routine.name.lower(), value))
                     case ir.CallRoutine(name=name, arguments=given) | ir.Call(name=name, arguments=given):

@@ -56,6 +56,7 @@ from rpl.passes.legalise.numbered import number_data
 from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.onemove import settings_of_one_move
 from rpl.passes.legalise.optional import fit_parameters
+from rpl.passes.legalise.overrides import full_override
 from rpl.passes.legalise.parameters import fit_arguments
 from rpl.passes.legalise.pathevents import path_events
 from rpl.passes.legalise.pathpoints import path_points
@@ -146,6 +147,7 @@ PASSES: tuple[Pass, ...] = (
     stopped_tasks,
     joins,
     task_arguments,
+    full_override,
     refuse,
     whole_targets,
     set_data_at_start,
