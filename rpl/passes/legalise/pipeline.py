@@ -61,6 +61,7 @@ from rpl.passes.legalise.parameters import fit_arguments
 from rpl.passes.legalise.pathevents import path_events
 from rpl.passes.legalise.pathpoints import path_points
 from rpl.passes.legalise.polling import poll_waits
+from rpl.passes.legalise.possiblecases import possible_cases
 from rpl.passes.legalise.prelude import link_prelude
 from rpl.passes.legalise.pulselevels import pulse_levels
 from rpl.passes.legalise.pulses import fold_pulses
@@ -94,6 +95,7 @@ from rpl.passes.legalise.timers import timers_to_clocks
 from rpl.passes.legalise.tooldata import tool_data
 from rpl.passes.legalise.triggers import triggers
 from rpl.passes.legalise.truths import truths_to_numbers
+from rpl.passes.legalise.undefined import asked_values
 from rpl.passes.legalise.unused import drop_untyped, drop_unused
 from rpl.passes.legalise.valuearrays import copy_value_arrays
 from rpl.passes.legalise.waits import fit_waits
@@ -121,6 +123,7 @@ PASSES: tuple[Pass, ...] = (
     reaction_searches,
     search_parts,
     link_prelude,
+    possible_cases,
     labels_to_structure,
     settings_of_next_move,
     error_routines,
@@ -161,6 +164,7 @@ PASSES: tuple[Pass, ...] = (
     numbers,
     starting_values,
     fit_parameters,
+    asked_values,
     copy_value_arrays,
     array_sizes,
     check_errors,
