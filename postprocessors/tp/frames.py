@@ -68,7 +68,7 @@ class Frames:
     frames: Numbers = field(default_factory=lambda: Numbers("UFRAME", tables.MOST_FRAMES))
     kept: Mapping[int, tuple[float, ...]] = field(default_factory=dict)  # registers that hold one value all the time
     free: list[int] = field(default_factory=list)  # number registers that nothing has, the next one first
-    saved: dict[str, int] = field(default_factory=dict)  # the register that keeps the number in force: UTOOL, UFRAME
+    saved: dict[str, int] = field(default_factory=dict)  # registers of the writer's own, by their comments
     selected: dict[str, set[str]] = field(default_factory=lambda: {"UTOOL": set(), "UFRAME": set()})
 
     def select(self, kind: str, value: ir.Expression, expressions: Expressions) -> tuple[list[Line], str]:
@@ -100,13 +100,13 @@ class Frames:
         number = str(numbers.of_register(f"{register} seen"))
         return [Line(f"  {kind}[{number}]={register}"), Line(f"  {kind}_NUM={number}")], number
 
-    def keeper(self, kind: str) -> str:
-        """The register for the number that is in force where nobody knows it."""
-        if kind not in self.saved:
+    def keeper(self, label: str) -> str:
+        """A register of the writer's own."""
+        if label not in self.saved:
             if not self.free:
-                raise CannotSayError("no register is free for the number of the tool or frame in force")
-            self.saved[kind] = self.free.pop(0)
-        return f"R[{self.saved[kind]}:{kind} in use]"
+                raise CannotSayError(f"no register is free for the {label}")
+            self.saved[label] = self.free.pop(0)
+        return f"R[{self.saved[label]}:{label}]"
 
     def _line(self, numbers: Numbers, number: str) -> list[Line]:
         self.selected[numbers.word].add(number)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
@@ -68,6 +69,7 @@ class Motion:
     points: Points
     diagnostics: Diagnostics
     action: Action
+    keeper: Callable[[str], str]  # a register of the writer's own, by its comment
     reported: set[tuple[Code, str]] = field(default_factory=set)
     frame: str = ""
     tool: str = ""
@@ -133,7 +135,9 @@ class Motion:
         target, offsets = self.in_tool(move) if move.relative == "tool" else self.target(move, move.target)
         speed, term = self.speed(move), self.blend(move)
         goal = self.reached(move, target, offsets)
-        length = path_length(move.kind, self.last, self.reached(move, via, via_offsets), goal)
+        length = self.step_length(move)
+        if length is None:
+            length = path_length(move.kind, self.last, self.reached(move, via, via_offsets), goal)
         options = offsets + self.options(move, length) + skip
         self.last, self.stands = goal, term == "FINE"
         self.rounded_last = not self.stands
@@ -180,6 +184,16 @@ class Motion:
             return None
         found = self.points.found.get(int(inner))
         return found if found is not None and found.kind == "pose" else None
+
+    def step_length(self, move: ir.Move) -> float | None:
+        """The length of a constant straight step, mm."""
+        if move.relative not in ("base", "tool") or move.kind != "linear":
+            return None
+        try:
+            step = step_of(move.target, turned=True)
+        except CannotSayError:
+            return None
+        return math.hypot(*step.values[:3]) if step.kind == "pose" else None
 
     def refuse(self, move: ir.Move) -> None:
         for what, found in (
@@ -349,7 +363,7 @@ class Motion:
             inner = distance.value if isinstance(distance, ir.Quantity) and distance.unit == "mm" else distance
             return f"CR {self.expressions.index(inner)}"  # M: a register, as with CNT
         if value is None:
-            raise CannotSayError("a corner distance of a joint move is a constant")
+            return self.joint_corner(move, distance)
         if value == 0:
             return "FINE"
         if move.kind == "joint":
@@ -359,6 +373,16 @@ class Motion:
         if shown != value:
             self.rounded(move, "the corner distance", float(value), str(shown))
         return f"CR{shown}"
+
+    def joint_corner(self, move: ir.Move, distance: ir.Expression) -> str:
+        """A computed corner distance as CNT: the register is within its range."""
+        self.report_once(JOINT_CORNER, move.origin, factor=tables.MM_PER_CNT)
+        inner = distance.value if isinstance(distance, ir.Quantity) and distance.unit == "mm" else distance
+        register = self.keeper("corner")
+        value = number_text(tables.MM_PER_CNT, style=tables.NUMBERS)
+        self.before.append(Line(f"  {register}={self.expressions.index(inner)}/{value}"))
+        self.before.append(Line(f"  IF ({register}>100),{register}=(100)"))
+        return f"CNT {register}"
 
     # ---- options
 
@@ -375,11 +399,31 @@ class Motion:
         elif move.relative not in (None, "tool"):
             raise CannotSayError(f"a move relative to the {move.relative}")
         triggers = _pulses(move.triggers)
+        if length is None and not (self.rounded_last and not self.stands):
+            first = [one for one in triggers if _at_beginning(one[0])]
+            triggers = [one for one in triggers if one not in first]
+            self.at_beginning(move, first)
         if len(triggers) > tables.MOST_TRIGGERS:
             raise CannotSayError(f"a move has at most {tables.MOST_TRIGGERS} actions on its path")
         for trigger, pulse in triggers:
             shown += f" {self.trigger(trigger, pulse, length)}"
         return shown
+
+    def at_beginning(self, move: ir.Move, triggers: list[tuple[ir.Expression | ir.Trigger, float | None]]) -> None:
+        """Actions at the beginning of a way of unknown length: in front of the move, where the robot stands."""
+        if triggers and not self.stands:
+            self.report_once(STOPPED, move.origin)
+            self.before.append(self.standstill())
+        for trigger, pulse in triggers:
+            if isinstance(trigger, ir.Trigger):
+                self.before.append(Line(f"  {self.deed(trigger, pulse)}"))
+
+    def deed(self, trigger: ir.Trigger, pulse: float | None) -> str:
+        """What an action on the path does."""
+        if pulse is not None and isinstance(trigger.action, ir.Assign):
+            signal = self.expressions.place(trigger.action.target)
+            return f"{signal}=PULSE,{number_text(pulse, style=tables.NUMBERS)}sec"
+        return self.action(trigger.action)
 
     def trigger(
         self, trigger: ir.Expression | ir.Trigger, pulse: float | None = None, length: float | None = None
@@ -388,11 +432,7 @@ class Motion:
         counted from the end where the `length` of the way is known (mm)."""
         if not isinstance(trigger, ir.Trigger):
             raise CannotSayError("stored actions on the path")
-        if pulse is not None and isinstance(trigger.action, ir.Assign):
-            signal = self.expressions.place(trigger.action.target)
-            action = f"{signal}=PULSE,{number_text(pulse, style=tables.NUMBERS)}sec"
-        else:
-            action = self.action(trigger.action)
+        action = self.deed(trigger, pulse)
         timed = trigger.delay is not None and constant(trigger.delay) != 0
         distance = measured(trigger.distance, "mm") if trigger.distance is not None else 0
         if distance is None:
@@ -463,6 +503,14 @@ def _pulses(triggers: tuple[ir.Expression | ir.Trigger, ...]) -> list[tuple[ir.E
                     continue
         done.append((trigger, None))
     return done
+
+
+def _at_beginning(trigger: ir.Expression | ir.Trigger) -> bool:
+    """Does an action come where the way begins?"""
+    if not isinstance(trigger, ir.Trigger) or trigger.reference != "start":
+        return False
+    given = [measured(one, unit) for one, unit in ((trigger.distance, "mm"), (trigger.delay, "s")) if one is not None]
+    return not any(one is None or one != 0 for one in given)
 
 
 def _same_place(one: ir.Trigger, other: ir.Trigger) -> bool:

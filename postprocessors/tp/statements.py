@@ -60,7 +60,9 @@ class Printer(StatementPrinter[Line]):
         self.steady: frozenset[str] = frozenset()  # programs that may move, but select none
         self.at_jumps = True  # is a tool or frame selected among the labels of this program?
         self.motion = Motion(
-            expressions, points, diagnostics, self.action, scratch=frames.scratch, second=frames.second
+            *(expressions, points, diagnostics, self.action, frames.keeper),
+            scratch=frames.scratch,
+            second=frames.second,
         )
         self.assignments = Assignments(expressions, points, frames.scratch)
         self.idioms = Idioms(self)
@@ -387,7 +389,7 @@ class Printer(StatementPrinter[Line]):
             if known:
                 behind.append(Line(f"  {kind}_NUM={known}"))
             else:
-                keeper = self.frames.keeper(kind)
+                keeper = self.frames.keeper(f"{kind} in use")
                 before.append(Line(f"  {keeper}={ACTIVE[f'{kind}_NUM']}"))
                 behind.append(Line(f"  {kind}_NUM={keeper}"))
             before.extend(lines)

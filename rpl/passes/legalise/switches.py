@@ -48,8 +48,9 @@ class _Switches(Hoister):
     def _kind(self, expression: ir.Expression) -> str:
         type = self.editor.type_of(expression)
         if isinstance(type, ir.NamedType):
-            enumeration = isinstance(self.editor.scope.type(type.name), ir.EnumDeclaration)
-            return "NamedType" if enumeration else "RecordDeclaration"
+            if not isinstance(self.editor.scope.type(type.name), ir.EnumDeclaration):
+                return "RecordDeclaration"
+            return "NamedType" if self.editor.capabilities.enums else "IntType"  # its members become whole numbers
         return type.__class__.__name__
 
     def _chain(self, statement: ir.Switch) -> ir.Body:

@@ -1,0 +1,56 @@
+"""Joint corners whose distance is computed, and actions at the beginning of a way."""
+
+from __future__ import annotations
+
+from tp_translating_helpers import ROBOTS, same_in_tp
+
+from rpl.diagnostics import Diagnostics
+from rpl.project import read_sources
+from rpl.source import source_from_text
+from rpl.translation import translate_program
+
+CORNER = """DEF corner( )
+DECL REAL WIDE
+WIDE = 20.0
+PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0}
+$APO.CPTP = 0
+$APO.CDIS = WIDE
+PTP {A1 20,A2 -90,A3 90,A4 0,A5 0,A6 0} C_DIS
+PTP {A1 20,A2 -80,A3 90,A4 0,A5 0,A6 0}
+$OUT[1] = TRUE
+END
+"""
+
+
+def test_the_corner_of_a_joint_move_is_a_register_within_its_range() -> None:
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("p.src", CORNER)], "krl", diagnostics)
+    written = translate_program(read, "tp", ROBOTS["krl"], None, diagnostics)
+    codes = [item.code.name for item in diagnostics]
+    text = next(file.data.decode() for file in written.files if file.path == "CORNER.LS")
+    assert not written.losses and "R[200:corner]=" in text
+    assert "IF (R[200:corner]>100),R[200:corner]=(100) ;" in text and "CNT R[200:corner]" in text
+    assert "tp-joint-corner" in codes
+
+
+START = """DEF start( )
+DECL FRAME THERE
+PTP {A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}
+THERE = $POS_ACT
+THERE.Z = THERE.Z + 40
+TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[1]=TRUE
+LIN THERE
+TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[2]=TRUE
+LIN_REL {Z -30}
+$OUT[3] = TRUE
+END
+"""
+
+
+def test_actions_where_a_way_begins() -> None:
+    files, _ = same_in_tp("krl", START)
+    text = files["START.LS"]
+    lines = [line.partition(":")[2].strip() for line in text.splitlines()]
+    at = next(n for n, line in enumerate(lines) if line.startswith("DO[1]=ON"))
+    assert lines[at + 1].startswith("L PR[")  # the length of this way is not known: in front of the move
+    assert "DB 30mm,DO[2]=ON" in text
