@@ -1,0 +1,72 @@
+"""Whether a variable has a value yet, in targets that cannot ask: a BOOL beside it, where the answer is not certain."""
+
+from __future__ import annotations
+
+import pytest
+
+from rpl.diagnostics import Diagnostics, Severity
+from rpl.project import ReadProgram, read_sources
+from rpl.simulation import run_program
+from rpl.source import source_from_bytes, source_from_text
+from rpl.translation import translate_program
+
+ROUTINES = {
+    "may": ".PROGRAM may(a, b)\n IF b == 1 THEN\n a = 3\n END\n.END\n",
+    "passed": ".PROGRAM passed(a, b)\n CALL may(a, b)\n.END\n",
+    "count": ".PROGRAM count()\n IF NOT DEFINED(total) THEN\n total = 0\n END\n total = total+1\n.END\n",
+    "given": ".PROGRAM given(a, done)\n done = DEFINED(a)\n.END\n",
+}
+# Statements, and what holds behind them.
+CASES = {
+    "never": ("", "NOT DEFINED(n)"),
+    "assigned": ("n = 1", "DEFINED(n)"),
+    "in a branch": ("FOR i = 1 TO 2\nIF i == 2 THEN\nIF NOT DEFINED(n) THEN\nn = 1\nEND\nEND\nEND", "DEFINED(n)"),
+    "in a branch not taken": ("i = 1\nIF i == 2 THEN\nn = 1\nEND", "NOT DEFINED(n)"),
+    "in every branch": ("i = 1\nIF i == 2 THEN\nn = 1\nELSE\nn = 2\nEND", "DEFINED(n)"),
+    "behind a jump": ("i = 1\nIF i == 1 GOTO 10\nn = 1\n10 i = 2", "NOT DEFINED(n)"),
+    "in the second pass": ("m = 0\nFOR i = 1 TO 2\nIF DEFINED(n) THEN\nm = m+1\nEND\nn = 1\nEND", "m == 1"),
+    "counter": ("FOR i = 1 TO 0\nEND", "DEFINED(i)"),
+    "text": ('IF NOT DEFINED($t) THEN\n$t = "x"\nEND', "DEFINED($t)"),
+    "place": ("IF NOT DEFINED(p) THEN\nSET p = TRANS(1,2,3,0,0,0)\nEND", "DEFINED(p)"),
+    "not by the routine": ("CALL may(n, 0)", "NOT DEFINED(n)"),
+    "by the routine": ("CALL may(n, 1)", "DEFINED(n)"),
+    "by a routine of the routine": ("CALL passed(m, 0)\nCALL passed(n, 1)", "DEFINED(n) AND NOT DEFINED(m)"),
+    "of the project": ("CALL count()\nCALL count()", "total == 2"),
+    "of a parameter": ("m = 5\nCALL given(m, i)\nCALL given(n, q)", "i AND NOT q"),
+}
+
+
+def read(text: str) -> ReadProgram:
+    return read_sources([source_from_text("p.v2", text)], "vplus", Diagnostics())
+
+
+def program(statements: str, holds: str) -> str:
+    used = {name for name in ROUTINES if f"CALL {name}(" in statements}
+    more = "".join(text for name, text in ROUTINES.items() if name in used or (name == "may" and "passed" in used))
+    lines = f"AUTO n, m, i, q, $t\n{statements}\nIF {holds} THEN\nSIGNAL 1\nEND"
+    return f".PROGRAM main()\n{lines}\n.END\n{more}"
+
+
+@pytest.mark.parametrize("target", ["rapid", "krl", "tp", "inform", "urscript", "rpl"])
+@pytest.mark.parametrize("name", CASES)
+def test_the_answer_is_the_same(name: str, target: str) -> None:
+    own = read(program(*CASES[name]))
+    assert [value for _, _, value in run_program(own.program, entry="main").outputs] == [True]
+    diagnostics = Diagnostics()
+    written = translate_program(own, target, None, None, diagnostics)
+    assert not [item.as_text() for item in diagnostics.of(Severity.LOSS) if item.code.name != "tp-text-case"]
+    back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
+    entry = written.renamed.get("main", "main")
+    assert [value for _, _, value in run_program(back.program, entry=entry).outputs] == [True]
+
+
+def test_what_is_certain_needs_no_flag() -> None:
+    written = translate_program(read(program(*CASES["in every branch"])), "rapid", None, None, Diagnostics())
+    assert "n_set" not in "".join(file.data.decode() for file in written.files)
+
+
+def test_elements_of_lists_are_refused_by_name() -> None:
+    diagnostics = Diagnostics()
+    text = program("LOCAL a[3]\na[1] = 1\na[2] = 2", "DEFINED(a[2])")
+    translate_program(read(text), "rapid", None, None, diagnostics)
+    assert ["is_uninitialised" in item.message for item in diagnostics.of(Severity.LOSS)] == [True]
