@@ -11,6 +11,7 @@ from rpl.passes.legalise.usage import base_name
 from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.values import real
 
+_ARM = 6  # joints of the arm; further ones are external axes
 _PLACES = (ir.PoseType, ir.TargetType, ir.JointsType)
 
 
@@ -28,6 +29,13 @@ def read_components(program: ir.Program, context: Context) -> ir.Program:
 
 def _read(expression: ir.Expression, editor: Editor, known: Unchanged) -> Lowered | None:
     """A component in another form; None: it stays."""
+    match expression:
+        case ir.System(name="actual_joint", indices=(ir.IntLiteral(value=axis),)):
+            if "actual_joint" in editor.capabilities.system_variables:
+                return None
+            joints = editor.temporary("place", ir.JointsType())
+            name = f"j{axis}" if axis <= _ARM else f"e{axis - _ARM}"
+            return (ir.Assign(joints, ir.System("actual_joints")),), ir.Field(joints, name, origin=expression.origin)
     if not isinstance(expression, ir.Field):
         return None
     type = editor.type_of(expression.base)
@@ -36,8 +44,8 @@ def _read(expression: ir.Expression, editor: Editor, known: Unchanged) -> Lowere
     if isinstance(expression.base, ir.System):
         place = editor.temporary("place", type)
         return (ir.Assign(place, expression.base),), ir.Field(place, expression.name, origin=expression.origin)
-    name = base_name(expression.base)
-    value = None if name is None or name in known.assigned else constant_number(expression, editor.scope, known)
+    base = base_name(expression.base)
+    value = None if base is None or base in known.assigned else constant_number(expression, editor.scope, known)
     return None if value is None else ((), real(value))
 
 
