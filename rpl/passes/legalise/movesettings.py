@@ -7,10 +7,12 @@ is set already goes away.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Code
+from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.modal import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, ZONE_MM_PER_PERCENT, says
 from rpl.passes.legalise.modalflow import SETTINGS, Flow, State
@@ -29,6 +31,12 @@ _PARTS = {
 }
 
 
+def _tools(program: ir.Program) -> Iterator[ir.Expression]:
+    for node in walk(*program.modules):
+        if isinstance(node, ir.Assign) and node.target == ir.System("tool"):
+            yield node.value
+
+
 def settings_at_moves(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose moves say some settings and keep the rest modal."""
     if not context.capabilities.move_settings:
@@ -44,8 +52,10 @@ class _Settings:
     here: State = field(default_factory=dict)
     variables: dict[str, str] = field(default_factory=dict)
     reported: set[tuple[Code, str]] = field(default_factory=set)
+    several: bool = False  # does the program set different tools?
 
     def __post_init__(self) -> None:
+        self.several = len({repr(value) for value in _tools(self.source)}) > 1
         self.flow = Flow.of(self.source, dict(rules_of(self.context.source).system_defaults))
 
     def says(self, name: str) -> bool:
@@ -136,7 +146,22 @@ class _Settings:
         if isinstance(expression, ir.System) and expression.name in SETTINGS and self.says(expression.name):
             return self.variable(expression.name)
         done = rewrite_parts(expression, self.expression)
+        if self.several and self.says("tool"):
+            done = self.with_tool(done)
         return self.in_base(done) if "frame" in self.context.capabilities.move_settings else done
+
+    def with_tool(self, seen: ir.Expression) -> ir.Expression:
+        """What depends on the modal tool, told: a target that sets none may take another one."""
+        given: tuple[ir.Expression, ...]
+        match seen:
+            case ir.System(name="actual_pose") | ir.Builtin(function="current_target", arguments=()):
+                name, given = "current_target", ()
+            case ir.Builtin(function="joints_to_target" | "target_to_joints" as name, arguments=(one,)):
+                given = (one,)
+            case _:
+                return seen
+        base = self.value("base", self.here, {}) if self.says("base") else ir.System("null_frame")
+        return ir.Builtin(name, (*given, self.value("tool", self.here, {}), base), origin=seen.origin)
 
     def in_base(self, expression: ir.Expression) -> ir.Expression:
         """What depends on the modal frame, for a target that knows poses in the robot's base only."""
