@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.ir.walk import is_statement
+from rpl.ir.walk import is_expression, is_statement
 from rpl.reading.pieces import Attribute, Block, Close, Element, Item, Middle, ModulePart, Open, Section
 from rpl.reading.shapes import StatementError, SyntaxTree
 
@@ -16,7 +16,7 @@ from .motion import ALL_STATEMENTS, spline_head
 
 MISPLACED = code("misplaced-part", Severity.ERROR, "{what} cannot stand here")
 
-_DECLARED = (
+DECLARED = (
     ir.Variable,
     ir.RecordDeclaration,
     ir.EnumDeclaration,
@@ -107,6 +107,18 @@ def _for_head(tree: SyntaxTree, at: Reading) -> ir.For:
     )
 
 
+def _value(data: object) -> ir.Expression:
+    """The condition or selector that a statement brings to its block; a promise of our own lowering."""
+    assert is_expression(data)
+    return data
+
+
+def _values(data: object) -> tuple[ir.Expression, ...]:
+    """The values of a CASE, the errors of a handler; a promise of our own lowering."""
+    assert isinstance(data, tuple)
+    return tuple(map(_value, data))
+
+
 @dataclass(frozen=True, slots=True)
 class Builder:
     """Builds closed blocks. What stands at the wrong place is reported and kept as text; a routine or module inside
@@ -139,16 +151,16 @@ class Builder:
             case "loop", _:
                 return ir.Loop(body, origin=origin)
             case "repeat", _:
-                until = block.close.data if block.close else ir.BoolLiteral(True)
-                return ir.Repeat(until, body, origin=origin)  # type: ignore[arg-type]
-        return ir.While(data, body, origin=origin)  # type: ignore[arg-type]
+                until = _value(block.close.data) if block.close else ir.BoolLiteral(True)
+                return ir.Repeat(until, body, origin=origin)
+        return ir.While(_value(data), body, origin=origin)
 
     def body(self, section: Section, outward: list[Item]) -> ir.Body:
         """The statements of a section."""
         body: list[ir.Statement] = []
         for item in section.items:
             if is_statement(item):
-                body.append(item)  # type: ignore[arg-type]
+                body.append(item)
             elif isinstance(item, ir.Routine | ModulePart):
                 outward.append(item)
             else:
@@ -174,7 +186,7 @@ class Builder:
                 continue
             if section.head is not None:
                 condition = section.head.data
-            branches.append((condition, body))  # type: ignore[arg-type]
+            branches.append((_value(condition), body))
         return ir.If(tuple(branches), otherwise, origin=block.open.origin)
 
     def _switch(self, block: Block, outward: list[Item]) -> ir.Statement:
@@ -190,12 +202,12 @@ class Builder:
             elif section.head.data == "default":
                 default = body if default is None else (*default, self._misplaced(section.head), *body)
             else:
-                cases.append(ir.Case(section.head.data, body, origin=section.head.origin))  # type: ignore[arg-type]
+                cases.append(ir.Case(_values(section.head.data), body, origin=section.head.origin))
         comments = tuple(comment for item in lead for comment in item.origin.comments)
         origin = block.open.origin
         if comments:
             origin = replace(origin, comments=(*origin.comments, *comments))
-        return ir.Switch(block.open.data, tuple(cases), default, origin=origin)  # type: ignore[arg-type]
+        return ir.Switch(_value(block.open.data), tuple(cases), default, origin=origin)
 
     def _spline_body(
         self, body: ir.Body
@@ -225,7 +237,7 @@ class Builder:
                     backward = (*backward, *self.body(section, outward))
                 case codes:
                     origin = section.head.origin if section.head else block.open.origin
-                    handlers.append(ir.Handler(codes, self.body(section, outward), origin=origin))  # type: ignore[arg-type]
+                    handlers.append(ir.Handler(_values(codes), self.body(section, outward), origin=origin))
         if not isinstance(head, ir.Routine):
             return tuple(outward)
         done = replace(
@@ -243,12 +255,12 @@ class Builder:
         """Take the declarations from the front of a routine; what is left is its body. Comments that stand for
         themselves between declarations are declarations too."""
         items = section.items
-        last = max((at for at, item in enumerate(items) if isinstance(item, _DECLARED)), default=-1)
+        last = max((at for at, item in enumerate(items) if isinstance(item, DECLARED)), default=-1)
         last = len(items) - 1 if begun else last
         for at, item in enumerate(items[: last + 1]):
             if isinstance(item, ir.Nothing):
                 declarations.append(ir.Unread("", origin=item.origin))
-            elif isinstance(item, _DECLARED):
+            elif isinstance(item, DECLARED):
                 declarations.append(scoped(item, "routine"))
             else:
                 # The first statement begins the body; a declaration behind it is refused there.
@@ -272,7 +284,7 @@ class Builder:
                 outward.append(item)
             elif isinstance(item, ir.Nothing):
                 declarations.append(ir.Unread("", origin=item.origin))
-            elif isinstance(item, _DECLARED):
+            elif isinstance(item, DECLARED):
                 declarations.append(scoped(item, "module"))
             elif isinstance(item, ir.Opaque):
                 declarations.append(ir.Unread(item.text, origin=item.origin))

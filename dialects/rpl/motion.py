@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 from rpl import ir
 from rpl.ir import words
@@ -11,6 +12,8 @@ from rpl.reading.shapes import Slot, StatementError, SyntaxTree
 
 from .expressions import Reading, expression, first, lvalue, names, tokens, trees, wording
 from .statements import STATEMENTS, Lowering, action, options
+
+Value = TypeVar("Value")
 
 # Clause -> field of ir.Move; the rest of the valued clauses go into the speed or the blend.
 _MOVE_FIELDS = {
@@ -41,9 +44,13 @@ _MODES = {
 
 @dataclass(slots=True)
 class Settings:
-    """The clauses of one motion statement, sorted by what they set."""
+    """The clauses of one motion statement, sorted by what they set: values, words and switches of the move."""
 
-    fields: dict[str, object] = field(default_factory=dict)
+    values: dict[str, ir.Expression] = field(default_factory=dict)
+    modes: dict[str, str] = field(default_factory=dict)
+    switches: dict[str, bool] = field(default_factory=dict)
+    group: dict[str, int] = field(default_factory=dict)
+    search: dict[str, ir.Search] = field(default_factory=dict)
     speed: dict[str, ir.Expression] = field(default_factory=dict)
     blend: dict[str, ir.Expression | None] = field(default_factory=dict)
     path_blend: dict[str, ir.Expression | None] = field(default_factory=dict)
@@ -116,12 +123,12 @@ def _setting(part: SyntaxTree, found: Settings, at: Reading) -> None:
             place = found.path_blend if word.startswith("path") else found.blend
             _once(place, "modal blend", None)
         case "mode":
-            _once(found.fields, _MODES[wording(next(tokens(part, "MODE")))], names(part)[0])
+            _once(found.modes, _MODES[wording(next(tokens(part, "MODE")))], names(part)[0])
         case "switch":
             _switch(wording(next(tokens(part, "MOVE_FLAG"))), found)
         case "group":
             number = next(child for child in part.children if isinstance(child, Slot))
-            _once(found.fields, "group", at.integer(number))
+            _once(found.group, "group", at.integer(number))
         case "with_":
             found.bindings.extend(_binding(binding, at) for binding in trees(part))
         case "stored_trigger":
@@ -129,18 +136,18 @@ def _setting(part: SyntaxTree, found: Settings, at: Reading) -> None:
         case "trigger":
             found.triggers.append(trigger(part, at))
         case "search":
-            _once(found.fields, "search", _search(part, at))
+            _once(found.search, "search", _search(part, at))
 
 
-def _once(place: dict[str, object] | dict[str, ir.Expression | None], key: str, value: object) -> None:
+def _once(place: dict[str, Value], key: str, value: Value) -> None:
     if key in place:
         raise StatementError(f"{key.replace('_', ' ').upper()} is given twice", 0)
-    place[key] = value  # type: ignore[assignment]
+    place[key] = value
 
 
 def _valued(word: str, value: ir.Expression, found: Settings) -> None:
     if word in _MOVE_FIELDS:
-        _once(found.fields, _MOVE_FIELDS[word], value)
+        _once(found.values, _MOVE_FIELDS[word], value)
     elif word in _SPEED_FIELDS:
         if _SPEED_FIELDS[word] in found.speed:
             raise StatementError(f"{word.upper()} is given twice", 0)
@@ -157,7 +164,7 @@ def _switch(word: str, found: Settings) -> None:
     elif word == "default speed":
         found.default_speed = True
     else:
-        _once(found.fields, word.replace(" ", "_"), True)
+        _once(found.switches, word.replace(" ", "_"), True)
 
 
 def _binding(tree: SyntaxTree, at: Reading) -> tuple[ir.Expression, ir.Expression]:
@@ -242,15 +249,28 @@ def _move(tree: SyntaxTree, at: Reading) -> ir.Statement:
         blend=found.blend_node(),
         triggers=tuple(found.triggers),
         settings=tuple(found.bindings),
+        swept=found.values.get("swept"),
+        tool=found.values.get("tool"),
+        frame=found.values.get("frame"),
+        load=found.values.get("load"),
+        acceleration=found.values.get("acceleration"),
+        identity=found.values.get("identity"),
+        orientation=found.modes.get("orientation"),
+        circle_orientation=found.modes.get("circle_orientation"),
+        configuration=found.modes.get("configuration"),
+        motion_class=found.modes.get("motion_class", "classic"),
+        concurrent=found.switches.get("concurrent", False),
+        without_offsets=found.switches.get("without_offsets", False),
+        group=found.group.get("group", 1),
+        search=found.search.get("search"),
         origin=at.origin,
-        **found.fields,  # type: ignore[arg-type]
     )
 
 
 def _only(found: Settings, *allowed: str) -> None:
     """Refuse clauses that the statement has no place for."""
     given = {
-        **dict.fromkeys(found.fields, True),
+        **dict.fromkeys((*found.values, *found.modes, *found.switches, *found.group, *found.search), True),
         **({"triggers": True} if found.triggers else {}),
         **({"with": True} if found.bindings else {}),
         **({"speed": True} if found.speed or found.default_speed else {}),

@@ -17,7 +17,7 @@ from rpl.registry import ReadResult
 from rpl.source import Comment, Origin, Source
 
 from .affixment import Affixment, affix
-from .blocks import Builder, lower, scoped
+from .blocks import DECLARED, Builder, lower, scoped
 from .expressions import Reading
 from .splitter import NUMBERS, split
 
@@ -98,9 +98,9 @@ class _File:
             elif isinstance(item, Attribute):
                 attributes.append((item.name, item.value))
             elif is_statement(item):
-                body.append(item)  # type: ignore[arg-type]
-            elif not isinstance(item, ModulePart):
-                declarations.append(scoped(item, "module"))  # type: ignore[arg-type]
+                body.append(item)
+            elif isinstance(item, DECLARED):
+                declarations.append(scoped(item, "module"))
         origin = Origin(self.source, 0, 0, tuple(self.comments))
         if body:
             if all(isinstance(item, ir.Nothing) for item in body):

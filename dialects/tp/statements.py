@@ -13,6 +13,7 @@ from lark import Token, Tree
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import is_statement
 from rpl.reading.pieces import Close, Element, Middle, Open
 from rpl.reading.shapes import StatementError, SyntaxTree
 from rpl.source import Origin
@@ -80,10 +81,10 @@ class Statements(Expressions):
 
     def as_statements(self, lowered: Lowered) -> Many:
         items = lowered if isinstance(lowered, tuple) else (lowered,)
-        for item in items:
-            if isinstance(item, Open | Middle | Close | ir.Variable):
-                raise StatementError("a computed number cannot stand here", 0)
-        return items  # type: ignore[return-value]  # what is left are statements
+        statements = tuple(item for item in items if is_statement(item))
+        if len(statements) < len(items):
+            raise StatementError("a computed number cannot stand here", 0)
+        return statements
 
     def origin_line(self) -> str:
         """The statement's own text without its number and its end."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Iterable, Iterator
-from typing import TypeVar, cast, get_args
+from typing import TypeGuard, TypeVar, cast, get_args
 
 from rpl.ir.expressions import Expression
 from rpl.ir.statements import Statement
@@ -103,11 +103,11 @@ def statements(*roots: object) -> Iterator[Statement]:
     return (cast(Statement, node) for node in walk(*roots) if node.__class__ in _STATEMENTS)
 
 
-def is_expression(node: object) -> bool:
+def is_expression(node: object) -> TypeGuard[Expression]:
     return node.__class__ in _EXPRESSIONS
 
 
-def is_statement(node: object) -> bool:
+def is_statement(node: object) -> TypeGuard[Statement]:
     return node.__class__ in _STATEMENTS
 
 
