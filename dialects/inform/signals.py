@@ -19,6 +19,7 @@ GROUPS: dict[str, tuple[str, int]] = {
 DIRECT_INPUTS = 9000
 # Signals that have a place of their own in the controller: specific inputs and outputs, auxiliary relays.
 NAMED: dict[str, str] = {
+    "RIN": "digital_in",
     "SIN": "digital_in",
     "SOUT": "digital_out",
     "EXIN": "digital_in",
@@ -36,7 +37,7 @@ def numbered(word: str, number: ir.Expression, origin: Origin) -> ir.Signal | No
     if word in GROUPS:
         kind, bits = GROUPS[word]
         return ir.Signal(kind, _line(number, bits, 1 - bits), _line(number, bits, 0), origin=origin)
-    if word == "RIN":
+    if word == "RIN" and not isinstance(number, ir.IntLiteral):
         return ir.Signal("digital_in", _line(number, 1, DIRECT_INPUTS), origin=origin)
     if word in NAMED and isinstance(number, ir.IntLiteral):
         return ir.Signal(NAMED[word], name=f"{word}{number.value}", origin=origin)

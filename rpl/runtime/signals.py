@@ -81,4 +81,6 @@ def keys_named(text: str, alias: SignalRef | None) -> frozenset[Key]:
         usual = usual_key(text)
         if usual is not None:
             keys.add(usual)
+        elif match := _NUMBERED.fullmatch(text.strip()):
+            keys.add(f"{match[1]}{match[2]}".lower())  # RI[1], SIN#(2): signals kept by the name RI1, SIN2
     return frozenset(keys)
