@@ -75,4 +75,5 @@ CAPABILITIES = Capabilities(
     static_locals=True,
     arrays_by_value=False,
     list_arguments=False,
+    write_only=frozenset(("analog_out",)),
 )

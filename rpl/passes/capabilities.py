@@ -118,7 +118,8 @@ class Capabilities:
     declared_groups: a group of signals exists only by a declaration with a name (KRL SIGNAL). signal_groups: a group
     can be named by its first and last signal, or a pass or the writer finds a name for it. Where signals have names
     (signal_prefixes), a group has one of its own; groups of which a part is used otherwise are written bit by bit.
-    numbered_groups: groups have numbers of their own beside those of their bits (GO[2]).
+    numbered_groups: groups have numbers of their own beside those of their bits (GO[2]). write_only: kinds of outputs
+    that programs set and cannot read back.
     """
 
     statements: frozenset[str]
@@ -212,6 +213,7 @@ class Capabilities:
     declared_groups: bool = False
     signal_groups: bool = True
     numbered_groups: bool = False
+    write_only: frozenset[str] = frozenset()
     postures: str = "flags"
     move_functions: frozenset[str] = frozenset()
     places_in_base: bool = False

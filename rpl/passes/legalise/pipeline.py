@@ -96,12 +96,12 @@ from rpl.passes.legalise.tooldata import tool_data
 from rpl.passes.legalise.triggers import triggers
 from rpl.passes.legalise.truths import truths_to_numbers
 from rpl.passes.legalise.undefined import asked_values
-from rpl.passes.legalise.undefined import asked_values
 from rpl.passes.legalise.unused import drop_untyped, drop_unused
 from rpl.passes.legalise.valuearrays import copy_value_arrays
 from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.legalise.watches import counted_watches
 from rpl.passes.legalise.watching import watching
+from rpl.passes.legalise.writeonly import kept_outputs
 from rpl.passes.typing import normalise
 
 # First what asks for the source language's own rules (its prelude, its look-ahead), then signals and control (each may
@@ -162,10 +162,10 @@ PASSES: tuple[Pass, ...] = (
     number_signals,
     name_groups,
     groups_to_bits,
+    kept_outputs,
     numbers,
     starting_values,
     fit_parameters,
-    asked_values,
     asked_values,
     copy_value_arrays,
     array_sizes,
