@@ -160,7 +160,10 @@ class Printer(StatementPrinter[str]):
             case ir.Goto(label=name):
                 self.line(f"JUMP *{self.labels.name(name)}", origin)
             case ir.Assign():
-                self.put(self.assignments.assign(statement), origin)
+                lines = self.assignments.assign(statement)
+                if any(line.startswith("IFTHENEXP") for line in lines):
+                    self.motion.line_of_last = None  # the points of an arc stand in a row
+                self.put(lines, origin)
             case ir.Move():
                 self.move(statement)
             case ir.WaitUntil():
@@ -184,6 +187,9 @@ class Printer(StatementPrinter[str]):
                 return "RET"
             case ir.Halt(kind=kind) if kind in _HALTS:
                 return _HALTS[kind]
+            case ir.WaitForMotion() if self.motion.running:
+                self.motion.running = False
+                return "CWAIT"
             case ir.WaitForMotion():
                 # not a move: it waits for the moves before it
                 return f"TIMER T={_POLL_S:.2f}"
@@ -361,10 +367,10 @@ class Printer(StatementPrinter[str]):
             first = []
         for cut, actions in (*parts.cuts, (parts.last or replace(move, triggers=()), parts.ended)):
             lines = self.motion.move(cut, self.lines)
-            if first or parts.later:
+            self.going = bool(first or parts.later) and not cut.concurrent
+            if self.going:
                 lines[-1] += " NWAIT"
             self.put(lines)
-            self.going = bool(first or parts.later)
             self.actions(first)
             self.timed(parts.later, move.origin)
             if actions:

@@ -20,6 +20,7 @@ from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.movesettings import plain
 from rpl.passes.legalise.pathevents import in_base
+from rpl.passes.legalise.pathwatches import watched
 from rpl.passes.legalise.rotationvectors import rotation_vectors
 from rpl.passes.legalise.usage import base_name, usage_of
 from rpl.passes.typing import type_of
@@ -86,12 +87,12 @@ class _Points:
         done: list[ir.Statement] = []
         waiting: list[ir.Trigger] = []
         outer, self.last = self.last, None
-        for statement in body:
+        for at, statement in enumerate(body):
             match statement:
                 case ir.Trigger():
                     waiting.append(statement)
                 case ir.Move():
-                    done.extend(self.move(statement, waiting))
+                    done.extend(self.move(statement, waiting, _goes_on(body[at + 1 :])))
                     waiting, self.last = [], statement
                 case ir.Assign(target=target):
                     done.append(statement)
@@ -111,16 +112,21 @@ class _Points:
         same = len(done) == len(body) and all(new is old for new, old in zip(done, body, strict=True))
         return body if same else tuple(done)
 
-    def move(self, move: ir.Move, before: list[ir.Trigger]) -> ir.Body:
-        """The move in pieces, or as it is."""
+    def move(self, move: ir.Move, before: list[ir.Trigger], goes_on: bool) -> ir.Body:
+        """The move in pieces, looked at on its way, or as it is. `goes_on`: the next move follows at once."""
         own = [one for one in move.triggers if isinstance(one, ir.Trigger)]
         given = [*before, *own]
         plain_move = move.kind == "linear" and not move.relative and move.search is None and not move.concurrent
-        if not given or not plain_move or len(own) != len(move.triggers):
+        if not given or len(own) != len(move.triggers):
             return (*before, move)
+        if not plain_move:
+            known = move.kind == "circular" and self.is_known(move, [])
+            looked = None if known else watched(move, given, goes_on, self.editor, self.unchanged, self.temporary)
+            return (*before, move) if looked is None else looked
         events = [self.event(one, move) for one in given]
         apart = sorted((one for one in events if one is not None), key=lambda one: one.order)
-        timed = all(_by_time(one.trigger) for one in apart)
+        unmeasured = any(_delayed(one) for one in given) and (move.speed is None or move.speed.path is None)
+        timed = unmeasured or all(_by_time(one.trigger) for one in apart)
         unordered = len(apart) > 1 and any(one.known is None for one in apart)
         if not apart or timed or unordered or self.is_known(move, apart):
             return (*before, move)
@@ -226,6 +232,20 @@ class _Points:
         return abs(sum(a * b for a, b in pairs)) > _SAME_TURN
 
 
+def _goes_on(behind: ir.Body) -> bool:
+    """Does the next move follow without anything that is seen or takes time?"""
+    for one in behind:
+        match one:
+            case ir.Move():
+                return True
+            case ir.Nothing() | ir.LookAhead() | ir.Trigger():
+                continue
+            case ir.Assign(target=target) if base_name(target) is not None:
+                continue
+        return False
+    return False
+
+
 def _is(node: object, name: str | None) -> bool:
     return isinstance(node, ir.Name) and node.id.lower() == name
 
@@ -237,6 +257,10 @@ def _opposite(way: ir.Expression) -> ir.Expression:
 def _by_time(trigger: ir.Trigger) -> bool:
     """Does it come some time behind the start of the move, which a writer can count?"""
     return trigger.reference == "start" and trigger.distance in (None, ir.IntLiteral(0), ir.RealLiteral(0.0))
+
+
+def _delayed(trigger: ir.Trigger) -> bool:
+    return trigger.delay is not None and plain(trigger.delay) not in (ir.IntLiteral(0), ir.RealLiteral(0.0))
 
 
 def _pose(target: ir.Expression) -> ir.Expression:

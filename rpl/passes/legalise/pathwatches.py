@@ -1,0 +1,150 @@
+"""Actions on the way of a joint move, or of an arc with computed points: the program looks where the tool is while the
+robot moves, and acts there.
+
+For targets whose moves can leave the program running (NWAIT) and that cut only straight moves at a place. A time before
+the end is told from how far the tool has come since the last look, as if it braked evenly from there on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.passes.fold import Unchanged, constant_number
+from rpl.passes.legalise.beside import tidy
+from rpl.passes.legalise.editing import Editor
+from rpl.passes.legalise.movesettings import plain
+from rpl.passes.typing import type_of
+
+WATCHED = code(
+    "path-event-looked-for",
+    Severity.WARNING,
+    "an action on the path is done by the program, which looks every {seconds:g} s how far the tool is from the end;"
+    " a time before the end is estimated from its speed",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Watched:
+    """An action that comes where the tool is `way` mm from the end, or `time` s before it, or that long behind."""
+
+    trigger: ir.Trigger
+    way: float
+    time: float
+
+    @property
+    def order(self) -> tuple[float, float]:
+        return self.time, -self.way
+
+
+def watched(
+    move: ir.Move,
+    given: list[ir.Trigger],
+    goes_on: bool,
+    editor: Editor,
+    unchanged: Unchanged,
+    temporary: Callable[[str, ir.Type], ir.Name],
+) -> ir.Body | None:
+    """The move with the looking behind it; None where that cannot be."""
+    can_be = move.kind in ("joint", "circular") and move.relative is None and move.swept is None
+    if not can_be or move.search is not None or move.concurrent:
+        return None
+    size = _corner(move, editor, unchanged)
+    events = [_event(one, editor, unchanged) for one in given]
+    if size is None or any(one is None for one in events):
+        return None
+    found = [one for one in events if one is not None]
+    apart = sorted((one for one in found if one.way or one.time), key=lambda one: one.order)
+    both = any(one.way for one in apart) and any(one.time for one in apart)
+    if not apart or (both and len(apart) > 1):
+        return None
+    poll = editor.capabilities.poll_s
+    editor.context.diagnostics.report(WATCHED, given[0].origin, seconds=poll)
+    names = temporary("to", ir.PoseType()), temporary("was", ir.RealType()), temporary("left", ir.RealType())
+    started = [one.trigger for one in found if one.trigger.reference == "start"]
+    ended = [one.trigger.action for one in found if one not in apart and one.trigger.reference != "start"]
+    done: list[ir.Statement] = [
+        *started,
+        ir.Assign(names[0], _end(move, editor), origin=tidy(move.origin)),
+        replace(move, triggers=(), concurrent=True),
+    ]
+    for one in apart:
+        seconds = max(-one.time, 0.0) * (0.5 if not size else 1.0)  # in a corner it does not brake
+        done.extend(_until(move, one.way, seconds, names, poll, size))
+        done.extend([_pause(one.time)] if one.time > 0.0 else [])
+        done.append(replace(one.trigger.action, origin=one.trigger.origin))
+    if not size:
+        done.append(ir.WaitForMotion(origin=tidy(move.origin)))
+    elif ended or not goes_on:
+        done.extend(_until(move, size, 0.0, names, poll, 0.0))
+    return (*done, *ended)
+
+
+def _corner(move: ir.Move, editor: Editor, unchanged: Unchanged) -> float | None:
+    """How far (mm) from its end the move goes over into the next one; 0: it stops there; None: it is computed."""
+    match move.blend:
+        case None | ir.BlendStop():
+            return 0.0
+        case ir.BlendDistance(distance=distance) if distance is not None:
+            return constant_number(distance, editor.scope, unchanged)
+    return None
+
+
+def _event(trigger: ir.Trigger, editor: Editor, unchanged: Unchanged) -> Watched | None:
+    """None where its place is not known before, or counted from the start."""
+    given = [plain(one) for one in (trigger.distance, trigger.delay) if one is not None]
+    numbers = [constant_number(one, editor.scope, unchanged) for one in given]
+    if None in numbers:
+        return None
+    distance = 0.0 if trigger.distance is None else numbers[0] or 0.0
+    delay = 0.0 if trigger.delay is None else numbers[-1] or 0.0
+    if distance > 0.0 or (trigger.reference == "start" and (distance or delay)) or (delay > 0.0 and not distance):
+        return None
+    return Watched(trigger, -distance, delay)
+
+
+def _tool(move: ir.Move) -> ir.Expression:
+    return move.tool if move.tool is not None else ir.System("tool")
+
+
+def _end(move: ir.Move, editor: Editor) -> ir.Expression:
+    """The end of the move as a pose in the robot's base."""
+    target = move.target
+    if isinstance(target, ir.Builtin) and target.function == "target_to_joints_near":
+        target = target.arguments[0]
+    elif isinstance(type_of(target, editor.scope), ir.JointsType):
+        return ir.Builtin("joints_to_target", (target, _tool(move), ir.System("null_frame")))
+    pose = ir.Builtin("pose_of", (target,))
+    return pose if move.frame is None else ir.Binary(":", move.frame, pose)
+
+
+def _until(
+    move: ir.Move, way: float, time: float, names: tuple[ir.Name, ir.Name, ir.Name], poll: float, size: float
+) -> list[ir.Statement]:
+    """Looks until the tool is so far from the end, or would come there in that time by its speed, at the latest where
+    the corner begins."""
+    end, was, left = names
+    here = ir.Builtin("current_target", (_tool(move), ir.System("null_frame")))
+    distance = ir.Builtin("distance", (ir.Field(here, "trans"), ir.Field(end, "trans")))
+    near: ir.Expression = ir.RealLiteral(max(way, size))
+    if time:
+        near = ir.Binary("*", ir.Binary("-", was, left), ir.RealLiteral(float(f"{time / poll:.9g}")))
+        near = ir.Binary("+", near, ir.RealLiteral(way)) if way else near
+    comes: ir.Expression = ir.Binary("<=", left, near)
+    if time and size:
+        comes = ir.Binary("cor", comes, ir.Binary("<=", left, ir.RealLiteral(size)))
+    leave = ir.If(((comes, (ir.ExitLoop(),)),))
+    again: tuple[ir.Statement, ...] = (ir.Assign(was, left),) if time else ()
+    first: tuple[ir.Statement, ...] = (ir.Assign(was, distance),) if time else ()
+    looking: tuple[ir.Statement, ...] = (_pause(poll), ir.Assign(left, distance), leave, *again)
+    origin = tidy(move.origin)
+    return [replace(one, origin=origin) for one in (*first, ir.Loop(looking))]
+
+
+def _pause(seconds: float) -> ir.Statement:
+    return ir.Wait(ir.Quantity(ir.RealLiteral(seconds), "s"))
+
+
+__all__ = ["Watched", "watched"]
