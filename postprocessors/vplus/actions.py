@@ -242,7 +242,8 @@ class Actions:
 
     def call(self, statement: ir.CallRoutine) -> str:
         if statement.dynamic is not None:
-            raise CannotSayError("there is no call by a computed name")
+            name = self.expressions.text(statement.dynamic)
+            return f"CALLS {name}{self.arguments(statement.name, statement.arguments)}"
         return f"CALL {statement.name.lower()}{self.arguments(statement.name, statement.arguments)}"
 
     def arguments(self, name: str, given: tuple[ir.Argument, ...]) -> str:

@@ -6,6 +6,11 @@ import pytest
 from vplus_helpers import as_rpl, program_of, read, reported, steps, variable
 
 from rpl import ir, registry
+from rpl.diagnostics import Diagnostics
+from rpl.project import read_sources
+from rpl.simulation import run_program
+from rpl.source import source_from_bytes, source_from_text
+from rpl.translation import translate_program
 
 REAL, POSE, TEXT, BOOL = ir.RealType(), ir.PoseType(), ir.StringType(), ir.BoolType()
 
@@ -216,3 +221,27 @@ RECOGNISED = [
 @pytest.mark.parametrize(("text", "wanted"), RECOGNISED)
 def test_recognition_by_content(text: str, wanted: bool) -> None:
     assert (registry.dialect("vplus").recognise("x.txt", text) >= 30) is wanted
+
+
+@pytest.mark.parametrize("target", ["krl", "rapid", "tp", "inform"])
+def test_a_lasting_counter_keeps_its_name_in_its_loop(target: str) -> None:
+    """LOCAL data that become data of the module take the counters of loops along."""
+    text = ".PROGRAM main()\nAUTO i\ni = 5\nCALL beat()\nIF i == 5 THEN\nSIGNAL 1\nEND\n.END\n"
+    text += ".PROGRAM beat()\nLOCAL i\nFOR i = 1 TO 3\nSIGNAL 2\nEND\n.END\n"
+    source = read_sources([source_from_text("main.v2", text)], "vplus", Diagnostics())
+    translation = translate_program(source, target, "adept_viper_s650", None, Diagnostics())
+    back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, Diagnostics())
+    result = run_program(back.program, "adept_viper_s650", None, translation.renamed.get("main", "main"))
+    assert result.status == "finished" and len(result.outputs) == 2
+
+
+@pytest.mark.parametrize("target", ["krl", "rapid", "tp", "inform", "urscript", "vplus"])
+def test_a_called_name_that_the_target_does_not_have(target: str) -> None:
+    """`job.7` gets another name in most languages, so a text cannot name it there."""
+    text = '.PROGRAM main()\n$name = "job."+$MID("78", 1, 1)\nCALLS $name()\n.END\n'
+    text += ".PROGRAM job.7()\nSIGNAL 1\n.END\n.PROGRAM job.8()\nSIGNAL 2\n.END\n"
+    source = read_sources([source_from_text("main.v2", text)], "vplus", Diagnostics())
+    translation = translate_program(source, target, "adept_viper_s650", None, Diagnostics())
+    back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, Diagnostics())
+    result = run_program(back.program, "adept_viper_s650", None, translation.renamed.get("main", "main"))
+    assert result.status == "finished" and len(result.outputs) == 1

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.errornames import spelled_among
+from rpl.passes.capabilities import NameRules
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
 from rpl.passes.legalise.effects import blocks, children, everything, statements_in
@@ -38,9 +39,22 @@ class _Facts:
     given: dict[tuple[str, str], str] = field(default_factory=dict)
 
 
+def names_stay(program: ir.Program, rules: NameRules) -> bool:
+    """Can the procedures keep their names, so that a text names them in the target as well?"""
+    for module in program.modules:
+        for routine in module.routines:
+            name = routine.name.lower()
+            fits = name[:1] in rules.first and all(sign in rules.further for sign in name[1:])
+            longest = rules.longest_routine or rules.longest
+            if routine.kind == "procedure" and (not fits or name in rules.reserved or len(name) > longest):
+                return False
+    return True
+
+
 def fit_parameters(program: ir.Program, context: Context) -> ir.Program:
     """The program with parameters, arguments and calls by name as the target has them."""
-    if not context.capabilities.dynamic_calls or context.capabilities.parameters != "names":
+    can = context.capabilities
+    if not can.dynamic_calls or can.parameters != "names" or not names_stay(program, can.names):
         program = edit_routines(program, context, lambda editor, routine: edit_bodies(routine, _Dynamic(editor).body))
     facts = _facts(program)
     if facts.left_out:
@@ -329,7 +343,8 @@ class _Dynamic:
 
     def __init__(self, editor: Editor) -> None:
         self.editor = editor
-        self.itself = editor.capabilities.dynamic_calls
+        can = editor.capabilities
+        self.itself = can.dynamic_calls and names_stay(editor.scope.program.program, can.names)
 
     def body(self, body: ir.Body) -> ir.Body:
         return map_body(body, self.statement)

@@ -56,6 +56,8 @@ def _without(
     def renamed(node: object) -> object:
         if isinstance(node, ir.Name) and fold(node.id) in names:
             return replace(node, id=names[fold(node.id)])
+        if isinstance(node, ir.For) and fold(node.counter) in names:
+            return replace(node, counter=names[fold(node.counter)])
         return node
 
     return rewrite(replace(routine, declarations=tuple(kept)), renamed)
