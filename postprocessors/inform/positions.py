@@ -167,6 +167,9 @@ class Positions:
             return self.kept(Position("pose", product(inverse(own), known.values)))
         kept = next((place for place, number in job.cell.by_variable.items() if number == job.tool), "")
         wanted = self.as_variable(tool)
+        if kept and self.in_tools.get(job.tool) != kept:  # the variable was changed since the last move
+            self.lines.append(f"SETTOOL TL#({job.tool}) {kept}")
+            self.in_tools[job.tool] = kept
         if wanted == kept:
             return ""
         if own is None and not kept:
