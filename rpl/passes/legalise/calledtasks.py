@@ -3,7 +3,8 @@ moves it: the roles are turned around. The task's routine is called where it was
 meanwhile to end it becomes an interrupt that brakes and leaves the routine.
 
 What the program did in between stays behind the call, where the task has ended: a loop that waits finds the condition
-that came. Only where that is known for all starts of a task; the others are named by the passes that follow.
+that came. Work that does not end the task becomes a task of its own, which the program joins. Only where that is known
+for all starts of a task; the others are named by the passes that follow.
 """
 
 from __future__ import annotations
@@ -68,8 +69,10 @@ class _Called:
     name: str
     task: WatchedTask = field(init=False)
     routines: list[ir.Routine] = field(default_factory=list)
+    made: list[ir.Routine] = field(default_factory=list)
     data: list[ir.Variable] = field(default_factory=list)
     controls: int = 0
+    outermost: ir.Body | None = None  # the body of a routine that nobody calls
 
     def __post_init__(self) -> None:
         found = [r for m in self.program.modules for r in m.routines if r.name.lower() == self.name]
@@ -91,18 +94,21 @@ class _Called:
         left = [n for n in walk(*modules) if isinstance(n, ir.TaskControl) and n.task.lower() == self.name]
         if left:
             raise UnfitError("the program ends it, or waits for it, where it was not started")
-        if self.routines:
+        if self.routines or self.made:
             done = self.ending(done)
-        how = "is done behind it" if not self.routines else "to end it is an interrupt"
+        how = "is done by a task beside it" if self.made else "is done behind it"
+        how = how if not self.routines else "to end it is an interrupt"
         self.context.diagnostics.report(CALLED, asked[0].origin, name=self.task.routine.name, how=how)
-        done = exposed(done, called_names(self.routines))
-        return with_support(done, self.context, self.data, self.routines, modules[0].task)
+        made = (*self.routines, *self.made)
+        done = exposed(done, called_names(made))
+        return with_support(done, self.context, self.data, made, modules[0].task)
 
     def nodes(self) -> Iterator[ir.TaskControl]:
         return (node for node in walk(*self.program.modules) if isinstance(node, ir.TaskControl))
 
     def ending(self, program: ir.Program) -> ir.Program:
-        """The routine ends when the robot stands, so that the interrupt is armed until then."""
+        """The routine ends when the robot stands, so that the interrupt is armed until then; what it says to others on
+        its way it says where the robot is."""
         stands = ir.WaitForMotion()
         source, target = (rules_of(one).advance.runs_ahead_of for one in (self.context.source, self.context.target))
         waits = source == "fly_by" and target == "all"
@@ -132,6 +138,8 @@ class _Called:
         if routine.name.lower() == self.name:
             raise UnfitError("it controls itself")
         self.task.hidden = local_names(routine)
+        called = called_names(r for m in self.program.modules for r in m.routines)
+        self.outermost = None if routine.name.lower() in called else routine.body
         return edit_bodies(routine, self.body)
 
     def body(self, body: ir.Body) -> ir.Body:
@@ -145,8 +153,11 @@ class _Called:
                 and statement.op == "start"
             ):
                 last = self.task.last_word(body, at)
-                done.extend(self.region(statement, body[at + 1 : last + 1]))
-                at = last + 1
+                if last is None and self.outermost is not body:
+                    raise UnfitError("the program does not wait for its end")
+                rest = body[at + 1 : len(body) if last is None else last + 1]
+                done.extend(self.work_beside(statement, rest) if last is None else self.region(statement, rest))
+                at += 1 + len(rest)
                 continue
             done.append(inside(statement, self.body))
             at += 1
@@ -154,10 +165,24 @@ class _Called:
 
     def region(self, start: ir.TaskControl, region: ir.Body) -> ir.Body:
         """What stands from the start of the task to its end: up to the waiting, the call, and the rest."""
-        before, events, after = self.task.parted(region)
+        try:
+            before, events, after = self.task.parted(region)
+        except UnfitError:
+            if self.task.ends(region):
+                raise
+            return self.work_beside(start, region)
         call = ir.CallRoutine(start.task, start.arguments)
         way = expansion(start.origin, self.guarded(call, events) if events else (call,))
         return (*before, *way, *after) if not before else (*_first(before, start), *_rest(way), *after)
+
+    def work_beside(self, start: ir.TaskControl, region: ir.Body) -> ir.Body:
+        """The call, and what the program does until the task has ended as a task of its own."""
+        if not region:
+            return expansion(start.origin, (ir.CallRoutine(start.task, start.arguments),))
+        work = self.context.fresh(f"rpl_beside_{self.name}")
+        self.made.append(ir.Routine(work, body=self.task.alone(region), scope="global"))
+        call = ir.CallRoutine(start.task, start.arguments)
+        return expansion(start.origin, (ir.TaskControl("start", work), call, ir.TaskControl("join", work)))
 
     def guarded(self, call: ir.CallRoutine, events: list[Event]) -> ir.Body:
         """The call with interrupts for what ends it; where that is so already there is no motion."""

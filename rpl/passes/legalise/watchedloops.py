@@ -78,8 +78,9 @@ class WatchedTask:
     def is_control(self, statement: ir.Statement, op: str) -> bool:
         return isinstance(statement, ir.TaskControl) and statement.op == op and self.controls(statement)
 
-    def last_word(self, body: ir.Body, start: int) -> int:
-        """The last statement of the body that concerns the task, or waits for what it says at its end."""
+    def last_word(self, body: ir.Body, start: int) -> int | None:
+        """The last statement of the body that concerns the task, or waits for what it says at its end; None when the
+        program never does."""
         last = -1
         for at in range(start + 1, len(body)):
             statement = body[at]
@@ -89,7 +90,7 @@ class WatchedTask:
             if self.controls(statement) or waits:
                 last = at
         if last < 0:
-            raise UnfitError("the program does not wait for its end")
+            return None
         while last + 1 < len(body) and isinstance(body[last + 1], _STOPPING):
             last += 1
         return last
@@ -126,6 +127,24 @@ class WatchedTask:
             case _:
                 raise UnfitError("what the program does meanwhile takes time")
         return before, self.events, self.quiet((*done, *after))
+
+    def ends(self, region: ir.Body) -> bool:
+        """Does the program end the task there?"""
+        return any(
+            isinstance(node, ir.TaskControl) and node.op == "stop" and self.controls(node) for node in walk(*region)
+        )
+
+    def alone(self, region: ir.Body) -> ir.Body:
+        """The region as the work of a task of its own."""
+        for node in walk(*region):
+            if isinstance(node, _LEAVING):
+                raise UnfitError("the program leaves the place from where it looks at it")
+            calls = isinstance(node, ir.CallRoutine | ir.Call) and node.name.lower() in self.driving
+            if calls or isinstance(node, (*_STOPPING, ir.Move, ir.MoveExternal, ir.Spline)):
+                raise UnfitError("the program moves the robot too")
+            if isinstance(node, ir.Name) and node.id.lower() in self.hidden:
+                raise UnfitError(f"{node.id} is a variable of the routine that works meanwhile")
+        return self.quiet(region)
 
     def quiet(self, body: ir.Body) -> ir.Body:
         """The statements with nothing that concerns the task, which has ended."""

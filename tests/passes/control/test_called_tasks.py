@@ -110,8 +110,19 @@ REGIONS = {
         "flag == 2 and not touched",
     ),
 }
+WORK = {
+    "in a loop": (
+        "h = run approach()\n  while flag < 2:\n    count = count + 1\n    sleep(0.5)\n  end",
+        "count > 8 and count < 13",
+    ),
+    "in a row": (
+        "h = run approach()\n  sleep(1)\n  set_standard_digital_out(6, True)\n  sleep(0.5)\n  count = 7\n  join h",
+        "count == 7 and flag == 2",
+    ),
+}
 UNFIT = {
-    "other work": "h = run approach()\n  while flag < 2:\n    count = count + 1\n    sleep(0.1)\n  end",
+    "other work": "h = run approach()\n  while flag < 2:\n    count = count + 1\n    sleep(0.5)\n    if count > 5:\n"
+    "      kill h\n      stopl(2)\n      flag = 2\n    end\n  end",
     "never awaited": "run approach()\n  sleep(7)",
     "time": "h = run approach()\n  sleep(2)\n  kill h\n  stopl(2)",
 }
@@ -164,6 +175,29 @@ def test_the_programs_say_what_they_expect(case: str) -> None:
 @pytest.mark.parametrize("target", TARGETS)
 def test_the_thread_is_called(case: str, target: str) -> None:
     assert outcome(project(*REGIONS[case]), target) == (set(), {1, 2, 3}, "finished")
+
+
+@pytest.mark.parametrize("case", WORK)
+@pytest.mark.parametrize("target", TARGETS)
+def test_other_work_becomes_a_task_beside_it(case: str, target: str) -> None:
+    region, expected = WORK[case]
+    losses, on, end = outcome(project(region, ONE_MOVE, "norm(now[1]) < 0.0001", expected), target)
+    assert (losses, on - {7}, end) == (set(), {1, 2, 3}, "finished")
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_a_program_that_only_watches(target: str) -> None:
+    """The thread has the whole motion and is never waited for; the program looks at inputs for ever."""
+    watch = (
+        "run motion()\n  while True:\n    if get_standard_digital_in(0):\n      set_standard_digital_out(3, True)\n"
+        "    end\n    sync()\n  end\nend\n"
+    )
+    head, _, home = HEAD.partition("  movej([")
+    text = head.replace("{body}", ONE_MOVE) + "  thread motion():\n  movej([" + home
+    text += f"    {ONE_MOVE}\n    set_standard_digital_out(2, True)\n  end\n  {watch}"
+    read = read_sources([source_from_text("tending.script", text)], "urscript", Diagnostics())
+    losses, on, end = outcome(read, target)
+    assert (losses, on, end) == (set(), {3, 4}, "limit")
 
 
 @pytest.mark.parametrize("case", UNFIT)
