@@ -25,6 +25,7 @@ class Assignments:
     expressions: Expressions
     points: Points
     scratch: int = tables.PR.last  # position register for values that have none
+    moved_to: frozenset[int] = frozenset()  # position registers that only moves look at
 
     def lines(self, assign: ir.Assign) -> list[Line]:
         target, value = assign.target, assign.value
@@ -89,16 +90,27 @@ class Assignments:
             case ir.Builtin(function="offset", arguments=(base, *shift)):
                 first = [] if self.same(place, base) else self.position(place, base)
                 return [*first, *self.shifted(place, shift)]
-            case ir.Builtin(function="pose_of" | "joints_to_target" | "target_to_joints", arguments=(base,)):
+            case ir.Builtin(function="pose_of", arguments=(base,)):
+                return self.position(place, base)
+            case ir.Builtin(function="joints_to_target" | "target_to_joints", arguments=(base,)):
+                if self.expressions.limited and self.number(place) not in self.moved_to:
+                    raise CannotSayError("the place of joint values and the joints of a place are not calculated")
                 return self.position(place, base)
             case ir.System(name="null_frame" | "world"):
                 zero = {name: ir.RealLiteral(0.0) for name in ("x", "y", "z", "a", "b", "c")}
                 return self.taught(place, ir.Aggregate(tuple(zero.items())))
             case ir.Aggregate():
                 return self.aggregate(place, value)
+            case ir.Index(base=ir.Name(id="UFRAME" | "UTOOL")) if (shown := self.expressions.element(value)) is not None:
+                return [f"{place}={shown}"]
             case ir.Index() | ir.Name():
                 return [f"{place}={self.register(value)}"]
         raise CannotSayError("TP does not calculate with positions like this")
+
+    def number(self, place: str) -> int:
+        """Of a position register; 0 where it is computed."""
+        digits = place.partition("[")[2].partition(":")[0].rstrip("]")
+        return int(digits) if digits.isdigit() else 0
 
     def same(self, place: str, base: ir.Expression) -> bool:
         return isinstance(base, ir.Index | ir.Name) and self.expressions.element(base) == place
