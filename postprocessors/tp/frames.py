@@ -67,6 +67,7 @@ class Frames:
     tools: Numbers = field(default_factory=lambda: Numbers("UTOOL", tables.MOST_TOOLS))
     frames: Numbers = field(default_factory=lambda: Numbers("UFRAME", tables.MOST_FRAMES))
     kept: Mapping[int, tuple[float, ...]] = field(default_factory=dict)  # registers that hold one value all the time
+    moved_to: frozenset[int] = frozenset()  # position registers that only moves look at
     free: list[int] = field(default_factory=list)  # number registers that nothing has, the next one first
     saved: dict[str, int] = field(default_factory=dict)  # registers of the writer's own, by their comments
     selected: dict[str, set[str]] = field(default_factory=lambda: {"UTOOL": set(), "UFRAME": set()})

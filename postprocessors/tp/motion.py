@@ -40,6 +40,11 @@ STOPPED = code(
     "the place that this move starts from is known only when the robot stands; it stops before the move",
 )
 
+CORNER_STOPPED = code(
+    "tp-corner-stopped",
+    Severity.WARNING,
+    "the place that this move starts from is known only when the robot stands; the corner before it becomes a stop",
+)
 
 _NUMBER = re.compile(r"PR\[(\d+)")
 
@@ -159,10 +164,8 @@ class Motion:
         Tool_Offset."""
         start = self.place
         if not start:
-            if not self.stands and self.rounded_last:
-                raise CannotSayError("a move along the tool from a corner whose place is not known")
             if not self.stands:
-                self.report_once(STOPPED, move.origin)
+                self.report_once(CORNER_STOPPED if self.rounded_last else STOPPED, move.origin)
                 self.before.append(self.standstill())
             start = f"PR[{self.second}]"
             self.before.append(Line(f"  {start}=LPOS"))

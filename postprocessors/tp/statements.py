@@ -64,7 +64,7 @@ class Printer(StatementPrinter[Line]):
             scratch=frames.scratch,
             second=frames.second,
         )
-        self.assignments = Assignments(expressions, points, frames.scratch)
+        self.assignments = Assignments(expressions, points, frames.scratch, frames.moved_to)
         self.idioms = Idioms(self)
 
     # ---- lines and comments
@@ -306,10 +306,11 @@ class Printer(StatementPrinter[Line]):
             raise CannotSayError("a FOR counts in a register")
         first, last = self.expressions.operand(loop.start), self.expressions.operand(loop.stop)
         self.line(f"FOR {counter}={first} {'TO' if step == 1 else 'DOWNTO'} {last}", loop.origin)
-        selects = self.selects(loop.body)
-        self.crossing(selects)
+        before = self.motion.state
+        self.crossing(self.selects(loop.body))
         self.inner(loop.body)
-        self.crossing(selects)
+        if not _runs(loop, step):
+            self.motion.join(before)
         self.line("ENDFOR")
 
     def switch(self, statement: ir.Switch) -> None:
@@ -515,6 +516,12 @@ class Printer(StatementPrinter[Line]):
         if bank not in tables.SHOWN:
             raise CannotSayError("a message shows constant text, and this value has no register that it can name")
         return bank + inner.partition(":")[0].rstrip("]")
+
+
+def _runs(loop: ir.For, step: float) -> bool:
+    """Does a loop surely run once?"""
+    first, last = constant(loop.start), constant(loop.stop)
+    return first is not None and last is not None and (last - first) * step >= 0
 
 
 def _leaves(body: ir.Body) -> bool:

@@ -28,6 +28,7 @@ from .positions import Points, point_number
 from .posture import assumed_postures, choose_postures
 from .statements import Printer
 from .texts import comment
+from .wholes import moved_to_only
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -101,6 +102,7 @@ class _Writer:
         self.frames = Frames(
             *highest_free_registers(program, self.names),
             kept=kept_registers(program),
+            moved_to=moved_to_only(program),
             free=free_numbers(program, self.names, tables.R),
         )
         self.entries = _entries(program)

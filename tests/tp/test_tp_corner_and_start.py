@@ -54,3 +54,21 @@ def test_actions_where_a_way_begins() -> None:
     at = next(n for n, line in enumerate(lines) if line.startswith("DO[1]=ON"))
     assert lines[at + 1].startswith("L PR[")  # the length of this way is not known: in front of the move
     assert "DB 30mm,DO[2]=ON" in text
+
+
+JOINTS_AS_PLACES = """CONST ready: JOINTS = {{j1: 0, j2: -90, j3: 90, j4: 0, j5: 60, j6: 0}}
+PROCEDURE main()
+    VAR t: TARGET
+    t = joints_to_target(ready)
+    MOVE TO t JOINT SPEED 30 %
+    {then}
+END PROCEDURE
+"""
+
+
+def test_registers_with_joints_in_place_of_a_pose_are_only_moved_to() -> None:
+    for then, losses in (("SET do[1] TO TRUE", 0), ("SET do[1] TO t.x > 100", 1)):  # an element would be a joint
+        diagnostics = Diagnostics()
+        read = read_sources([source_from_text("p.rpl", JOINTS_AS_PLACES.format(then=then))], "rpl", diagnostics)
+        written = translate_program(read, "tp", ROBOTS["krl"], None, diagnostics)
+        assert len(written.losses) == losses

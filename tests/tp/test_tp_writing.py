@@ -262,9 +262,9 @@ def test_a_way_along_the_tool_goes_from_the_point_before() -> None:
 
 
 def test_a_way_along_the_tool_from_a_place_that_is_not_known() -> None:
-    """The robot may stand already, or it comes to rest first; a corner that would be lost is refused."""
+    """The robot may stand already, or it comes to rest first; a corner that is lost by that is said."""
     away = "MOVE LINEAR BY {z: -80} IN TOOL SPEED 100 mm/s"
     text, codes = listing(f"MOVE LINEAR TO P1 SPEED 100 mm/s FINE\nLABEL here\n{away}\nIF di[1] THEN GOTO here")
     assert codes == ["tp-stop-before"]
     assert numbered(text)[2:5] == ["L P[3] 100mm/sec FINE INC", "PR[99]=LPOS", "PR[100]=P[4]"]
-    assert listing(f"MOVE LINEAR TO P1 SPEED 100 mm/s BLEND 5 mm\nLABEL here\n{away}")[1] == ["tp-guarded-stop"]
+    assert listing(f"MOVE LINEAR TO P1 SPEED 100 mm/s BLEND 5 mm\nLABEL here\n{away}")[1] == ["tp-corner-stopped"]
