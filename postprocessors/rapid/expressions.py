@@ -141,6 +141,11 @@ class Expressions:
     def operation(self, expression: ir.Binary) -> str:
         left, right = expression.left, expression.right
         functions = {"band": "BitAnd", "bor": "BitOr", "bxor": "BitXOr", "**": "Pow"}
+        match expression:
+            case ir.Binary("band", ir.Builtin("bit_shift_left", (value, places)), ir.IntLiteral(value=255)):
+                return f"BitLSh({self.text(value)},{self.text(places)})"
+            case ir.Binary(op="band", right=ir.Unary(op="bnot", operand=mask)):  # of a byte, as BitClear makes it
+                return f"BitAnd({self.text(left)},BitNeg({self.text(mask)}))"
         if expression.op in functions:
             return f"{functions[expression.op]}({self.text(left)},{self.text(right)})"
         if expression.op == ":":

@@ -22,6 +22,7 @@ FUNCTIONS: dict[str, dict[int, str]] = {
     "trunc": {1: "Trunc({0})", 2: "Trunc({0}\\Dec:={1})"},
     "min": {2: "Min({0},{1})"},
     "max": {2: "Max({0},{1})"},
+    "bit_shift_left": {2: "BitLSh({0},{1})"},  # of a byte: RAPID's own bit masks, by a computed position
     "bit_shift_right": {2: "BitRSh({0},{1})"},
     "dimension": {2: "Dim({0},{1})"},
     "offset": {4: "Offs({0},{1},{2},{3})"},

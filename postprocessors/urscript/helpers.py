@@ -88,11 +88,27 @@ _TEXTS: dict[str, str] = {
     """,
     "rpl_and": """
         def rpl_and(one, other):
-          # bits of two whole numbers that are not negative
-          local result = 0
-          local bit = 1
+          # bits of two whole numbers; those of a negative one are the opposite of those of -1 - number
           local left = one
           local right = other
+          if one < 0:
+            left = -1 - one
+          end
+          if other < 0:
+            right = -1 - other
+          end
+          local result = 0
+          if one < 0 and other < 0:
+            result = -1 - left - right
+          elif one < 0:
+            result = other
+          elif other < 0:
+            result = one
+          end
+          local bit = 1
+          if (one < 0) xor (other < 0):
+            bit = -1
+          end
           while left > 0 and right > 0:
             if rpl_mod(left, 2) == 1 and rpl_mod(right, 2) == 1:
               result = result + bit

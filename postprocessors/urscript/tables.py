@@ -12,7 +12,7 @@ def words(text: str) -> frozenset[str]:
 
 KEYWORDS = words(
     """and break continue def elif else end enter_critical exit_critical False global goto halt if in join kill local
-    not or return run sec struct sync thread True while xor p"""
+    not or pass return run sec struct sync thread True while xor p"""
 )
 # Names of the controller's own functions: a variable of that name would hide them.
 SCRIPT_FUNCTIONS = words(

@@ -56,7 +56,7 @@ class LinkedProgram:
         self._preludes: dict[str, ir.Module] = {}
         self._predefined: dict[str, dict[str, ir.Variable]] = {}
         self._notations: dict[str, Notation | None] = {}
-        self._initialise: dict[tuple[int, str], list[ir.Assign]] = {}
+        self._initialise: dict[str, list[tuple[ir.Module, ir.Assign]]] = {}
         self._aliases: dict[str, SignalRef] = {}
         self._names_of: dict[Key, list[str]] = {}
         self.watched = frozenset(_watched_names(program))
@@ -75,7 +75,7 @@ class LinkedProgram:
                 case ir.Initialise(assign=assign):
                     root = _root(assign.target)
                     if root is not None:
-                        self._initialise.setdefault((id(module), fold(root)), []).append(assign)
+                        self._initialise.setdefault(fold(root), []).append((module, assign))
                 case ir.SignalDeclaration():
                     self.declare_signal(declaration)
 
@@ -155,9 +155,19 @@ class LinkedProgram:
         link_initial(self, module, declaration, entry)
         return number
 
-    def initial_assigns(self, module: ir.Module, name: str) -> list[ir.Assign]:
-        """Assignments of a data list to a variable and its parts."""
-        return self._initialise.get((id(module), name), [])
+    def initial_assigns(self, module: ir.Module, declaration: ir.Variable) -> list[tuple[ir.Module, ir.Assign]]:
+        """Assignments of data lists to a variable and its parts: of its own module first, then of those that see it
+        (a project's own list gives values to what the prelude declares)."""
+        name = self.scopes.module(module).fold(declaration.name)
+        found = self._initialise.get(name, [])
+        own = [(home, assign) for home, assign in found if home is module]
+        for home, assign in found:
+            symbol = None if home is module else self.scopes.module(home).value(name)
+            if symbol is None or not isinstance(symbol.declaration, ir.Variable):
+                continue
+            if self.home_of(symbol.declaration, symbol.module, home.dialect)[0] is declaration:
+                own.append((home, assign))
+        return own
 
     def initialise(self, values: Values, machine: Machine) -> None:
         """Give first values to the global data that has none yet."""

@@ -198,8 +198,10 @@ def link_initial(linked: LinkedProgram, module: ir.Module, declaration: ir.Varia
     scope = linked.scopes.module(module)
     compiler = _Tracking(linked, scope)
     slot.initial = first_value(compiler, declaration)
-    for assign in linked.initial_assigns(module, scope.fold(declaration.name)):
-        slot.assigns.append(_initial_assign(compiler, assign))
+    for home, assign in linked.initial_assigns(module, declaration):
+        there = compiler if home is module else _Tracking(linked, linked.scopes.module(home))
+        slot.assigns.append(_initial_assign(there, assign))
+        compiler.used |= there.used
     slot.needs = compiler.used - {own}
 
 

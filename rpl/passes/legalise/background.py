@@ -169,7 +169,9 @@ class _Maker:
             match node:
                 case ir.Builtin(function=function) if self.separate and function.startswith("current_"):
                     raise _UnfitError("it asks where the robot is")
-                case ir.System(name=name) if self.separate or not name.startswith(("timer", "flag", "actual_")):
+                case ir.System(name="flag"):
+                    continue  # flags belong to the whole controller
+                case ir.System(name=name) if self.separate or not name.startswith(("timer", "actual_")):
                     raise _UnfitError(f"it uses {name.replace('_', ' ')}, which belongs to the task that moves")
             if isinstance(node, _MOTION):
                 raise _UnfitError("it moves the robot or waits for it")

@@ -58,7 +58,7 @@ class Context:
     will run the result; either may be None (then what needs it is reported). `taken` are all names in use, folded.
     `register_names`: (bank, number) -> source name for data that has got a number, filled by the passes (types beside);
     `registers`: the numbers that an earlier translation gave, to be honoured. `signal_groups`: groups of signals that
-    had a name and are written by their numbers."""
+    had a name and are written by their numbers, and signals of a number that are written by their names."""
 
     source: str
     target: str

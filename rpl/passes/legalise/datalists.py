@@ -24,44 +24,31 @@ def set_data_at_start(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose data cannot be set outside of routines."""
     if context.capabilities.data_lists:
         return program
-    assigns: list[ir.Statement] = []
-    modules = []
+    modules: list[ir.Module] = []
+    calls: list[ir.Statement] = []
     for module in program.modules:
-        kept = []
-        for declaration in module.declarations:
-            if isinstance(declaration, ir.Initialise):
-                assigns.append(declaration.assign)
-            else:
-                kept.append(_reachable(declaration) if any(_is_data(d) for d in module.declarations) else declaration)
-        modules.append(replace(module, declarations=tuple(kept)))
-    if not assigns:
+        assigns = tuple(one.assign for one in module.declarations if isinstance(one, ir.Initialise))
+        if not assigns:
+            modules.append(module)
+            continue
+        name = context.fresh("rpl_initialise")  # beside its data, which may be local to the module
+        context.diagnostics.report(SET_AT_START, NOWHERE, name=name)
+        calls.append(ir.CallRoutine(name))
+        kept = tuple(one for one in module.declarations if not isinstance(one, ir.Initialise))
+        routine = ir.Routine(name, body=assigns, scope="global")
+        modules.append(replace(module, declarations=kept, routines=(*module.routines, routine)))
+    if not calls:
         return program
-    name = context.fresh("rpl_initialise")
-    context.diagnostics.report(SET_AT_START, NOWHERE, name=name)
     entries, beside = moving_entries(program), _background(program)
-    call = ir.CallRoutine(name)
     for at, module in enumerate(modules):
         if module.name in beside:
             continue
         routines = tuple(
-            replace(routine, body=(call, *routine.body)) if routine.name.lower() in entries else routine
+            replace(routine, body=(*calls, *routine.body)) if routine.name.lower() in entries else routine
             for routine in module.routines
         )
         modules[at] = replace(module, routines=routines)
-    routine = ir.Routine(name, body=tuple(assigns), scope="global")
-    home = ir.Module(context.fresh("rpl_data"), modules[0].dialect, (), (routine,), task=modules[0].task)
-    return replace(program, modules=(*modules, home))
-
-
-def _is_data(declaration: ir.Declaration) -> bool:
-    return isinstance(declaration, ir.Initialise)
-
-
-def _reachable(declaration: ir.Declaration) -> ir.Declaration:
-    """What the generated routine sets must be visible to it."""
-    if isinstance(declaration, ir.Variable) and declaration.scope == "module":
-        return replace(declaration, scope="task")
-    return declaration
+    return replace(program, modules=tuple(modules))
 
 
 def never_called(program: ir.Program) -> set[str]:

@@ -136,13 +136,30 @@ def _keys(declaration: ir.Declaration) -> list[str]:
     return [declaration.name.lower()]
 
 
+def _spot(target: ir.Expression) -> tuple[object, ...]:
+    """The part of a variable that an assignment of a data list sets, to be compared."""
+    match target:
+        case ir.Name(id=name):
+            return (name.lower(),)
+        case ir.Index(base=base, indices=indices):
+            numbers = (one.value if isinstance(one, ir.IntLiteral) else one for one in indices)
+            return (*_spot(base), *numbers)
+        case ir.Field(base=base, name=name):
+            return (*_spot(base), name.lower())
+    return (target,)
+
+
 def _used_part(prelude: ir.Module, modules: list[ir.Module], context: Context) -> ir.Module | None:
     uses = _Uses()
     own: set[str] = set()
+    given: set[tuple[object, ...]] = set()  # parts of the prelude's data that the project's data lists set
     for module in modules:
         for declaration in module.declarations:
             uses.declaration(declaration)
-            own.update(_keys(declaration))
+            if isinstance(declaration, ir.Initialise):
+                given.add(_spot(declaration.assign.target))
+            else:
+                own.update(_keys(declaration))
         for routine in module.routines:
             uses.routine(routine)
             own.add(routine.name.lower())
@@ -165,7 +182,11 @@ def _used_part(prelude: ir.Module, modules: list[ir.Module], context: Context) -
     return replace(
         prelude,
         name=context.fresh(f"{prelude.dialect}_base"),
-        declarations=tuple(_shared(d) for d in prelude.declarations if id(d) in kept),
+        declarations=tuple(
+            _shared(d)
+            for d in prelude.declarations
+            if id(d) in kept and not (isinstance(d, ir.Initialise) and _spot(d.assign.target) in given)
+        ),
         routines=tuple(replace(r, scope="global") for r in prelude.routines if id(r) in kept),
     )
 

@@ -84,6 +84,7 @@ class _Named:
         self.context = context
         self.prefixes = context.capabilities.signal_prefixes
         self.aliases: dict[tuple[str, int], str] = {}
+        self.declared: dict[str, ir.Signal] = {}  # by folded name; the first of that name keeps it
         self.highest: dict[str, int] = {}
         self.dynamic: dict[str, str] = {}
         self.flags: str | None = None
@@ -104,6 +105,9 @@ class _Named:
                 if isinstance(declaration, ir.SignalDeclaration):
                     signal = declaration.signal
                     look(signal)
+                    if self.declared.setdefault(declaration.name.lower(), signal) != signal:
+                        continue
+                    self.context.signal_groups.setdefault(declaration.name, signal)
                     if isinstance(signal.index, ir.IntLiteral) and signal.last is None:
                         self.aliases.setdefault((signal.kind, signal.index.value), declaration.name)
             for routine in module.routines:
@@ -131,7 +135,7 @@ class _Named:
                 symbol = self.scope.value(name)
                 if symbol is not None and isinstance(symbol.declaration, ir.SignalDeclaration):
                     signal = symbol.declaration.signal
-                    if signal.last is not None:
+                    if signal.last is not None and self.declared.get(name.lower()) == signal:
                         kind = signal.kind.replace("digital", "group")
                         return ir.Signal(kind, name=symbol.declaration.name, origin=expression.origin)
                     return self.expression(replace(signal, origin=expression.origin))
