@@ -55,6 +55,8 @@ _KNOWN = re.compile(
     |(?:SKIP|OFFSET|TOOL_OFFSET)\s+CONDITION\b|\$
     """
 )
+# `PR[41:place,1]`: the component behind the comment; a controller itself prints `PR[41,1:place]`.
+_COMPONENT = re.compile(r"\s*,\s*(?:[1-9]|A?R\[[^\[\],]*\])\s*\Z")
 # Body-shop calls with bare words as arguments are no calls of a program.
 _NAMED_ARGUMENTS = re.compile(r"CALL\s+VW_\w+\s*\(", re.IGNORECASE)
 
@@ -87,6 +89,14 @@ def without_notes(text: str) -> tuple[str, tuple[Note, ...]]:
         end = _closing(text, colon)
         parts.append(text[at:colon])
         bank = re.search(r"([A-Za-z_]+)\s*\Z", text[: match.start()])
+        if bank and bank[1].upper() == "PR" and "," not in inner:
+            component = _COMPONENT.search(text[:end], colon)
+            if component is not None:
+                parts.append(component[0])
+                if inner.isdigit():
+                    found.append(Note("PR", int(inner), text[colon + 1 : component.start()].strip()))
+                at = end
+                continue
         number = re.search(r"\d+\Z", inner)
         if bank and number:
             found.append(Note(bank[1].upper(), int(number[0]), text[colon + 1 : end].strip()))

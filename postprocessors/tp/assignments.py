@@ -101,8 +101,10 @@ class Assignments:
                 return self.taught(place, ir.Aggregate(tuple(zero.items())))
             case ir.Aggregate():
                 return self.aggregate(place, value)
-            case ir.Index(base=ir.Name(id="UFRAME" | "UTOOL")) if (shown := self.expressions.element(value)) is not None:
-                return [f"{place}={shown}"]
+            case ir.Index(base=ir.Name(id="UFRAME" | "UTOOL" as table), indices=(ir.IntLiteral(value=number),)):
+                return [f"{place}={table}[{number}]"]
+            case ir.Index(base=ir.Name(id="UFRAME" | "UTOOL" as table), indices=(index,)):
+                return [f"{place}={table}[{self.expressions.index(index)}]"]
             case ir.Index() | ir.Name():
                 return [f"{place}={self.register(value)}"]
         raise CannotSayError("TP does not calculate with positions like this")

@@ -66,6 +66,10 @@ PROJECTS = {
     "tp_forms": Project(FANUC, 10, "CELLMAIN"),
     "rpl_logic": Project(KUKA, 20),
     "rpl_cell": Project(KUKA, 19),
+    "tp_more_frames": Project(FANUC, 20, "FRAMES"),
+    "tp_more_backup": Project(FANUC, 18, "FOLGE1"),
+    "inform_more_frames": Project(YASKAWA, 19),
+    "inform_more_backup": Project("motoman_mh24", 17, "MASTER"),
 }
 TARGETS = list(registry.target_names())
 
