@@ -6,28 +6,63 @@ it, a FOR that counts in an element of the register array, a move to `P[R[1]]` a
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from rpl import ir
+from rpl.source import Origin
+from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 
-from .flow import single_jump
+from .assignments import Assignments
+from .expressions import Expressions
+from .flow import Labels, single_jump
 from .lines import Line
 from .own import alarm_number, raw_text, table_change, table_select, without_trunc
 
-if TYPE_CHECKING:
-    from .statements import Printer
-
 _MOTION = ("J ", "L ", "C ", "A ", "S ")
+
+
+class Printing(Protocol):
+    """What writes the lines of a program (see statements.Printer)."""
+
+    lines: list[Line]
+    depth: int
+    ledger: EmissionLedger
+    expressions: Expressions
+    assignments: Assignments
+    labels: Labels
+    monitors: Mapping[int, tuple[str, int]]
+
+    def line(self, text: str, origin: Origin | None = None) -> None: ...
+
+    def put(self, lines: list[Line], origin: Origin | None = None) -> None: ...
+
+    def comments_only(self, origin: Origin) -> None: ...
+
+    def inner(self, body: ir.Body) -> None: ...
+
+    def in_force(self, word: str, number: str) -> None: ...
+
+    def selects(self, body: ir.Body) -> bool: ...
+
+    def crossing(self, selects: bool) -> None: ...
+
+    def move(self, move: ir.Move) -> None: ...
+
+    def searching(self, move: ir.Move, label: int, flag: str = "", word: str = "Skip") -> None: ...
+
+    def limited(self, wait: ir.WaitUntil, label: int, before: str = "") -> None: ...
+
+    def call(self, call: ir.CallRoutine) -> str: ...
 
 
 @dataclass(slots=True)
 class Idioms:
     """Finds idioms at the beginning of a list of statements."""
 
-    printer: Printer
+    printer: Printing
 
     def take(self, body: ir.Body) -> int:
         """How many statements were written together; 0: there is no idiom here."""
