@@ -6,7 +6,7 @@ from rpl import ir
 from rpl.writing.statements import CannotSayError
 
 from .expressions import Expressions
-from .settings import grouped
+from .settings import assignment, grouped
 
 _WORDS = {
     ("joint", "classic"): "PTP",
@@ -96,8 +96,6 @@ class Motion:
             raise CannotSayError("a blend whose size is not the modal one")
 
     def settings(self, settings: tuple[tuple[ir.Expression, ir.Expression], ...]) -> str:
-        from .statements import assignment
-
         if not settings:
             return ""
         shown = []

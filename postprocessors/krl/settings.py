@@ -1,12 +1,14 @@
-"""Settings that KRL writes as one: a whole structure ($VEL, $ACC, $APO), the axes of a spline move."""
+"""Assignments, and settings that KRL writes as one: a whole structure ($VEL, $ACC, $APO), the axes of a spline move."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 from rpl import ir
+from rpl.writing.statements import CannotSayError
 
 from . import tables
+from .expressions import Expressions
 
 Pair = tuple[ir.Expression, ir.Expression]
 _AXES = 6
@@ -58,3 +60,30 @@ def grouped(pairs: Sequence[Pair]) -> list[tuple[str, ir.Expression] | Pair]:
             done.append(pairs[at])
             at += _AXES if all_axes(rest) else 1
     return done
+
+
+def assignment(statement: ir.Assign, expressions: Expressions) -> str:
+    """An assignment; modal variables take their value in KRL's unit, modes their own member."""
+    target, value = statement.target, statement.value
+    match target:
+        case ir.System(name=name):
+            return f"{expressions.system(target, _own_unit(name))}={setting(name, value, expressions)}"
+        case ir.Signal():
+            return f"{expressions.signal(target)}={expressions.text(value)}"
+        case ir.Name() | ir.Index() | ir.Field():
+            known = expressions.type(target) is not None
+            return f"{expressions.place(target)}={expressions.stored(value) if known else expressions.text(value)}"
+    raise CannotSayError("this cannot be assigned to")
+
+
+def _own_unit(name: str) -> str:
+    return tables.SYSTEM.get(name, ("", ""))[1]
+
+
+def setting(name: str, value: ir.Expression, expressions: Expressions) -> str:
+    """The value of a modal variable as KRL writes it."""
+    if isinstance(value, ir.EnumLiteral) and name in tables.MODES:
+        return f"#{tables.MODES[name].get(value.member, value.member)}"
+    if isinstance(value, ir.Aggregate):
+        return expressions.stored(value)
+    return expressions.measured(value, _own_unit(name))

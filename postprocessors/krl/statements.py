@@ -15,7 +15,7 @@ from . import tables
 from .declarations import constant, elements
 from .expressions import Expressions
 from .motion import Motion
-from .settings import whole_structure
+from .settings import assignment, whole_structure
 
 GUARDED = code(
     "krl-guarded-stop",
@@ -321,33 +321,6 @@ class Printer(StatementPrinter[str]):
 
 def _one_line(text: str) -> str:
     return " ".join(text.splitlines())
-
-
-def assignment(statement: ir.Assign, expressions: Expressions) -> str:
-    """An assignment; modal variables take their value in KRL's unit, modes their own member."""
-    target, value = statement.target, statement.value
-    match target:
-        case ir.System(name=name):
-            return f"{expressions.system(target, _own_unit(name))}={setting(name, value, expressions)}"
-        case ir.Signal():
-            return f"{expressions.signal(target)}={expressions.text(value)}"
-        case ir.Name() | ir.Index() | ir.Field():
-            known = expressions.type(target) is not None
-            return f"{expressions.place(target)}={expressions.stored(value) if known else expressions.text(value)}"
-    raise CannotSayError("this cannot be assigned to")
-
-
-def _own_unit(name: str) -> str:
-    return tables.SYSTEM.get(name, ("", ""))[1]
-
-
-def setting(name: str, value: ir.Expression, expressions: Expressions) -> str:
-    """The value of a modal variable as KRL writes it."""
-    if isinstance(value, ir.EnumLiteral) and name in tables.MODES:
-        return f"#{tables.MODES[name].get(value.member, value.member)}"
-    if isinstance(value, ir.Aggregate):
-        return expressions.stored(value)
-    return expressions.measured(value, _own_unit(name))
 
 
 def call(statement: ir.CallRoutine, expressions: Expressions) -> str:

@@ -16,7 +16,8 @@ from rpl.writing.target import OutputFile, WriteContext
 
 from . import tables
 from .declarations import enum_line, first_values, header_line, parameter_line, record_line, signal_line, variable_line
-from .statements import Printer, assignment
+from .settings import assignment
+from .statements import Printer
 
 if TYPE_CHECKING:
     from jinja2 import Environment
