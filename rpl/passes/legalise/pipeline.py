@@ -48,6 +48,7 @@ from rpl.passes.legalise.logic import decide_logic
 from rpl.passes.legalise.lookahead import stop_blends
 from rpl.passes.legalise.loops import fit_loops
 from rpl.passes.legalise.messages import split_messages
+from rpl.passes.legalise.mixedspeeds import mixed_speeds
 from rpl.passes.legalise.modal import modal_to_explicit
 from rpl.passes.legalise.movesettings import settings_at_moves
 from rpl.passes.legalise.nearjoints import near_joints
@@ -90,6 +91,7 @@ from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
 from rpl.passes.legalise.taskarguments import task_arguments
 from rpl.passes.legalise.taskreferences import task_references
+from rpl.passes.legalise.tasknames import task_names
 from rpl.passes.legalise.threepoints import three_point_arcs
 from rpl.passes.legalise.timers import timers_to_clocks
 from rpl.passes.legalise.tooldata import tool_data
@@ -113,6 +115,7 @@ from rpl.passes.typing import normalise
 # name to add.
 PASSES: tuple[Pass, ...] = (
     drop_untyped,
+    task_names,
     fold_pulses,
     rotation_vectors,
     levels_to_distances,
@@ -188,6 +191,7 @@ PASSES: tuple[Pass, ...] = (
     settings_of_one_move,
     modal_to_explicit,
     tool_data,
+    mixed_speeds,
     explicit_to_modal,
     settings_at_moves,
     stand_first,
