@@ -26,6 +26,7 @@ from rpl.passes.legalise.defaults import starting_values
 from rpl.passes.legalise.destinations import destinations
 from rpl.passes.legalise.elementwise import elementwise
 from rpl.passes.legalise.elseif import nest_branches
+from rpl.passes.legalise.emptyreactions import without_empty_reactions
 from rpl.passes.legalise.enums import enums_to_constants
 from rpl.passes.legalise.errorcodes import name_errors
 from rpl.passes.legalise.errorroutines import error_routines
@@ -126,6 +127,7 @@ PASSES: tuple[Pass, ...] = (
     searches,
     reaction_searches,
     search_parts,
+    without_empty_reactions,
     link_prelude,
     possible_cases,
     labels_to_structure,
