@@ -284,6 +284,9 @@ class Printer(StatementPrinter[Line]):
                 self.ledger.merged(inner)
             self.line(short)
             return
+        if self.depth >= tables.DEEPEST_BLOCK:
+            self.flat_choice(statement, condition, body)
+            return
         self.line(f"IF ({self.expressions.mixed(condition)}) THEN", statement.origin)
         before = self.motion.state
         self.inner(body)
@@ -294,6 +297,23 @@ class Printer(StatementPrinter[Line]):
             self.inner(statement.otherwise)
         self.motion.join(after)
         self.line("ENDIF")
+
+    def flat_choice(self, statement: ir.If, condition: ir.Expression, body: ir.Body) -> None:
+        """An IF where blocks are as deep as they can be: jumps over its bodies."""
+        opposite = ir.Unary("not", condition)
+        otherwise = self.labels.fresh("else")
+        self.line(f"IF ({self.expressions.mixed(opposite)}),JMP LBL[{otherwise}]", statement.origin)
+        before = self.motion.state
+        self.body(body)
+        after, self.motion.state = self.motion.state, before
+        behind = self.labels.fresh("endif") if statement.otherwise else 0
+        if behind:
+            self.line(f"JMP LBL[{behind}]")
+        self.line(f"LBL[{self.labels.shown(otherwise)}]")
+        self.body(statement.otherwise)
+        self.motion.join(after)
+        if behind:
+            self.line(f"LBL[{self.labels.shown(behind)}]")
 
     def counting(self, loop: ir.For) -> None:
         if loop.scoped or loop.automatic or loop.at_least_once:
