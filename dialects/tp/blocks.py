@@ -85,11 +85,12 @@ class Builder:
         bound = stop
         made: list[Item] = [ir.Assign(counter, start, origin=origin)]
         within, last = (">=", "<=") if down else ("<=", ">=")
-        leave = ir.If(((ir.Binary(last, counter, bound, origin=origin), (ir.ExitLoop(origin=origin),)),), origin=origin)
-        step = ir.Binary("-" if down else "+", counter, ir.IntLiteral(1), origin=origin)
-        again = ir.Assign(counter, step, origin=origin)
-        condition = ir.Binary(within, counter, bound, origin=origin)
-        made.append(ir.While(condition, (*body, leave, again), origin=origin))
+        bare = replace(origin, comments=())  # the remarks above stand before the first statement only
+        leave = ir.If(((ir.Binary(last, counter, bound, origin=bare), (ir.ExitLoop(origin=bare),)),), origin=bare)
+        step = ir.Binary("-" if down else "+", counter, ir.IntLiteral(1), origin=bare)
+        again = ir.Assign(counter, step, origin=bare)
+        condition = ir.Binary(within, counter, bound, origin=bare)
+        made.append(ir.While(condition, (*body, leave, again), origin=bare))
         return tuple(made)
 
     def point_logic(self, block: Block) -> Item:
