@@ -76,7 +76,7 @@ def test_registers_with_joints_in_place_of_a_pose_are_only_moved_to() -> None:
 
 def test_blocks_deeper_than_ten_are_jumps() -> None:
     deep = "".join(f"IF $IN[{n}]==FALSE THEN\n" for n in range(1, 13))
-    back = "".join("ELSE\nK = %d\nENDIF\n" % n if n % 2 else "ENDIF\n" for n in range(12, 0, -1))
+    back = "".join(f"ELSE\nK = {n}\nENDIF\n" if n % 2 else "ENDIF\n" for n in range(12, 0, -1))
     files, _ = same_in_tp("krl", f"DEF deep( )\nINT K\n{deep}K = 1\n{back}$OUT[1]=(K==1)\nEND\n")
     text = files["DEEP.LS"]
     assert text.count(") THEN ;") == 10 and "IF (!(DI[11]=OFF)),JMP LBL[1] ;" in text and "LBL[1:else] ;" in text
