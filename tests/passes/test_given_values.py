@@ -1,4 +1,4 @@
-"""Data that only a controller keeps, with the values of a cell file: what is written for another one begins with them."""
+"""Data that only a controller keeps, with the values of a cell file: other controllers begin with them."""
 
 from __future__ import annotations
 
