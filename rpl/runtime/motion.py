@@ -494,12 +494,13 @@ class MotionQueue(RobotState):
         self._drive(pieces.taken_up(piece, self.machine.now))
         self._after_corner(piece.drive)
 
-    def interrupt_ended(self) -> None:
-        """A motion braked in an interrupt goes on when that ends without leaving its level."""
-        if self.set_aside:
+    def interrupt_ended(self, goes_on: bool) -> None:
+        """`goes_on`: a motion braked in an interrupt goes on when that ends without leaving its level. What was
+        commanded behind a dropped move is driven now in any case."""
+        if goes_on and self.set_aside:
             self.set_aside = False
             self.restore()
-        if self.stopped:
+        if goes_on and self.stopped:
             self.start()
         if self.piece is None or not self.piece.halting:
             self._again()

@@ -130,8 +130,8 @@ class Task:
             return SWITCHED
         self.interrupt_number = 0
         self.aside -= 1
-        if frame.level is not None and self.robot is not None:
-            self.robot.interrupt_ended()
+        if frame.kind == "interrupt" and self.robot is not None:
+            self.robot.interrupt_ended(goes_on=frame.level is not None)
         wait = frame.wait
         if isinstance(wait, Wait):
             self.wait = wait
