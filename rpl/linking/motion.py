@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from rpl import ir
@@ -209,17 +210,7 @@ class MotionStatements:
                     last = item is moves[-1]
                     blend = spline.blend if last else None
                     kind = "joint" if spline.kind == "joint" else "linear" if item.kind == "spline" else item.kind
-                    segment = ir.Move(
-                        kind,
-                        item.target,
-                        via=item.via,
-                        swept=item.swept,
-                        relative=item.relative,
-                        blend=blend,
-                        settings=item.settings,
-                        motion_class="spline",
-                        origin=item.origin,
-                    )
+                    segment = replace(item, kind=kind, blend=blend, motion_class="spline")
                     outer = self.linker.assembler.begin(item.origin)
                     emit(self.move(segment, spline.settings))
                     self.linker.assembler.end(outer)

@@ -82,6 +82,7 @@ from rpl.passes.legalise.shown import values_beside_messages
 from rpl.passes.legalise.signals import name_signals, number_signals
 from rpl.passes.legalise.speeds import fit_speeds
 from rpl.passes.legalise.spelling import one_spelling
+from rpl.passes.legalise.splines import straight_splines
 from rpl.passes.legalise.standing import stand_first
 from rpl.passes.legalise.statics import static_variables
 from rpl.passes.legalise.steps import steps
@@ -117,6 +118,7 @@ from rpl.passes.typing import normalise
 PASSES: tuple[Pass, ...] = (
     drop_untyped,
     task_names,
+    straight_splines,
     fold_pulses,
     rotation_vectors,
     levels_to_distances,

@@ -1,0 +1,100 @@
+"""Spline blocks in languages that have none: straight moves through the points, as a run drives them."""
+
+import pytest
+
+from rpl.diagnostics import Diagnostics
+from rpl.project import read_sources
+from rpl.proof.prove import ProofResult, prove_programs
+from rpl.proof.wiring import with_signal_names
+from rpl.source import source_from_bytes, source_from_text
+from rpl.translation import translate_program
+
+ARM = "kuka_kr6r900sixx"
+SPLINES = """DEF way( )
+  $BASE={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}
+  $TOOL={X 0.0,Y 0.0,Z 100.0,A 0.0,B 0.0,C 0.0}
+  $VEL.CP=0.3
+  PTP {A1 0,A2 -90,A3 90,A4 0,A5 90,A6 0}
+  PTP {X 500.0,Y 0.0,Z 400.0,A 180.0,B 0.0,C 180.0,S 2,T 2}
+  ; through four points
+  SPLINE WITH $VEL.CP=0.2
+    SPL {X 500.0,Y 40.0,Z 420.0,A 180.0,B 0.0,C 180.0}
+    TRIGGER WHEN PATH=0 ONSTART DELAY=0 DO $OUT[3]=TRUE
+    SPL {X 500.0,Y 80.0,Z 400.0,A 180.0,B 0.0,C 180.0}
+    SLIN {X 500.0,Y 120.0,Z 400.0,A 180.0,B 0.0,C 180.0} WITH $VEL.CP=0.1
+    SCIRC {X 505.858,Y 134.142,Z 400.0,A 180.0,B 0.0,C 180.0},{X 520.0,Y 140.0,Z 400.0,A 180.0,B 0.0,C 180.0}
+  ENDSPLINE
+  WAIT SEC 0
+  IF (ABS($POS_ACT.X-520)<0.5) AND (ABS($POS_ACT.Y-140)<0.5) THEN
+    $OUT[1]=TRUE
+  ENDIF
+  SLIN {X 500.0,Y 120.0,Z 400.0,A 180.0,B 0.0,C 180.0} WITH $VEL.CP=0.1
+  PTP_SPLINE
+    SPTP {X 500.0,Y 0.0,Z 400.0,A 180.0,B 0.0,C 180.0,S 2,T 2}
+    SPTP {A1 0,A2 -90,A3 90,A4 0,A5 90,A6 10}
+  ENDSPLINE
+  WAIT SEC 0
+  IF ABS($AXIS_ACT.A6-10)<0.1 THEN
+    $OUT[2]=TRUE
+  ENDIF
+END
+"""
+JOB = """/JOB
+//NAME WAY
+//POS
+///NPOS 4,0,0,0,0,0
+///TOOL 0
+///POSTYPE ROBOT
+///RECTAN
+///RCONF 0,0,0,0,0,0,0,0
+C00000=500.000,0.000,400.000,180.0000,0.0000,0.0000
+C00001=500.000,40.000,400.000,180.0000,0.0000,0.0000
+C00002=500.000,80.000,420.000,180.0000,0.0000,0.0000
+C00003=500.000,120.000,400.000,180.0000,0.0000,0.0000
+//INST
+///DATE 2024/01/01 00:00
+///ATTR SC,RW
+///GROUP1 RB1
+NOP
+MOVJ C00000 VJ=20.00
+MOVS C00001 V=100.0
+MOVS C00002 V=100.0
+MOVS C00003 V=50.0
+DOUT OT#(1) ON
+END
+"""
+
+
+def translated(path: str, text: str, language: str, target: str, arm: str) -> tuple[ProofResult, list[str], str]:
+    read = read_sources([source_from_text(path, text)], language, Diagnostics())
+    diagnostics = Diagnostics()
+    written = translate_program(read, target, arm, None, diagnostics)
+    back = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, Diagnostics())
+    named = with_signal_names(back.program, written.program)
+    result = prove_programs(
+        read.program, named, arm, arm, None, entry="way", to_entry=written.renamed.get("way", "way")
+    )
+    told = [item.code.name for item in diagnostics if item.severity.word in ("warning", "loss", "error")]
+    return result, told, "\n".join(file.data.decode("latin-1") for file in written.files)
+
+
+@pytest.mark.parametrize("target", ["rapid", "tp", "urscript", "vplus", "inform"])
+def test_a_block_is_driven_through_its_points(target: str) -> None:
+    result, told, _ = translated("way.src", SPLINES, "krl", target, ARM)
+    assert result.equal, result.as_text()
+    assert told.count("spline-as-lines") == 2
+    assert not [one for one in told if "guarded" in one or "lost" in one]
+
+
+def test_each_point_has_its_own_speed() -> None:
+    text = translated("way.src", SPLINES, "krl", "urscript", ARM)[2]
+    speeds = [line.rpartition("v=")[2] for line in text.splitlines() if "movel" in line or "movec" in line]
+    assert speeds == ["0.2)", "0.2)", "0.1)", "0.2)", "0.1)"]
+
+
+@pytest.mark.parametrize("target", ["rapid", "tp", "urscript", "vplus", "krl"])
+def test_points_of_a_spline_in_a_job(target: str) -> None:
+    """The way to the first point is straight, the others make a block; each says its own speed."""
+    result, told, _ = translated("WAY.JBI", JOB, "inform", target, "motoman_gp7")
+    assert result.equal, result.as_text()
+    assert "spline-as-lines" in told
