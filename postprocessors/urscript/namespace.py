@@ -23,10 +23,9 @@ def programs(program: ir.Program) -> list[ir.Routine]:
         found = [one for one in routines if name and one.name.lower() == name.lower() and _starts(one)]
         if found:
             return found[:1]
-    called = called_names(program)
     busy = {task.entry.lower() for task in program.tasks}
     startable = [one for one in routines if _starts(one) and not _is_empty(one) and one.name.lower() not in busy]
-    uncalled = [one for one in startable if one.name.lower() not in called]
+    uncalled = [one for one in startable if one.name.lower() not in called_names(program, one)]
     named = [one for module in program.modules for one in module.routines if _like_its_file(module, one)]
     named = [one for one in named if any(one is other for other in startable)]
     for group in (named, [one for one in named if any(one is other for other in uncalled)], uncalled):
@@ -35,18 +34,32 @@ def programs(program: ir.Program) -> list[ir.Routine]:
     return uncalled or startable
 
 
-def called_names(program: ir.Program) -> set[str]:
-    """Routines that others call, start or are interrupted by, folded."""
+def called_names(program: ir.Program, besides: ir.Routine | None = None) -> set[str]:
+    """Routines that others call, start or are interrupted by, folded. `besides`: a routine whose own calls do not
+    count."""
+    routines = [routine for module in program.modules for routine in module.routines]
+    return {name for routine in routines if routine is not besides for name in names_called_in(routine)}
+
+
+def names_called_in(routine: ir.Routine) -> set[str]:
+    """Routines that this one calls, starts or is interrupted by, folded."""
     names: set[str] = set()
-    for module in program.modules:
-        for routine in module.routines:
-            for node in walk(routine):
-                match node:
-                    case ir.CallRoutine(name=name) | ir.Call(name=name) | ir.ConnectInterrupt(routine=name):
-                        names.add(name.lower())
-                    case ir.TaskControl(task=name):
-                        names.add(name.lower())
+    for node in walk(routine):
+        match node:
+            case ir.CallRoutine(name=name) | ir.Call(name=name) | ir.ConnectInterrupt(routine=name):
+                names.add(name.lower())
+            case ir.TaskControl(task=name):
+                names.add(name.lower())
     return names
+
+
+def not_reached(program: ir.Program, others: list[ir.Routine]) -> list[ir.Routine]:
+    """Those of these routines, which can be started, that nothing besides them leads to."""
+    routines = [routine for module in program.modules for routine in module.routines]
+    kept = [one for one in routines if not any(one is other for other in others)]
+    named = {name for one in kept for name in names_called_in(one)}
+    more = [one for one in others if one.name.lower() in named]
+    return not_reached(program, [one for one in others if not any(one is found for found in more)]) if more else others
 
 
 def _starts(routine: ir.Routine) -> bool:

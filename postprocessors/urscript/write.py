@@ -16,7 +16,7 @@ from rpl.writing.target import OutputFile, WriteContext
 
 from .declarations import gathered, header, variable_line
 from .helpers import HELPERS, with_needed
-from .namespace import called_names, names_of, one_namespace, programs
+from .namespace import called_names, names_of, not_reached, one_namespace, programs
 from .readings import clean_readings
 from .statements import INDENT, Output, Printer
 
@@ -55,18 +55,19 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
         context.diagnostics.report(SEVERAL, program.modules[0].origin, count=len(starts))
     files = []
     for start in starts:
-        others = {id(one) for one in starts if one is not start and one is not None}
+        others = not_reached(program, [one for one in starts if one is not start and one is not None])
         files.append(_Script(program, start, others, context).file())
     return files
 
 
 class _Script:
-    """One script. `others`: routines that are scripts of their own."""
+    """One script. `others`: routines that only other scripts need."""
 
-    def __init__(self, program: ir.Program, start: ir.Routine | None, others: set[int], context: WriteContext) -> None:
+    def __init__(
+        self, program: ir.Program, start: ir.Routine | None, others: list[ir.Routine], context: WriteContext
+    ) -> None:
         self.ledger = EmissionLedger()
-        skipped = [routine for module in program.modules for routine in module.routines if id(routine) in others]
-        self.program, self.start = one_namespace(gathered(_without(program, skipped)), start)
+        self.program, self.start = one_namespace(gathered(_without(program, others)), start)
         self.program, self.start = self.cleaned()
         self.scopes = ProgramScope(self.program)
         self.diagnostics = context.diagnostics

@@ -52,7 +52,20 @@ def set_data_at_start(program: ir.Program, context: Context) -> ir.Program:
 
 
 def never_called(program: ir.Program) -> set[str]:
-    """Procedures without parameters that nothing calls: any of them may be where a program starts."""
+    """Procedures without parameters that no other routine calls: any of them may be where a program starts."""
+    calls = calls_of(program)
+    found = {
+        routine.name.lower()
+        for module in program.modules
+        for routine in module.routines
+        if routine.kind == "procedure" and not routine.parameters and routine.scope != "module"
+    }
+    return {name for name in found if not any(name in named for caller, named in calls.items() if caller != name)}
+
+
+def calls_of(program: ir.Program) -> dict[str, set[str]]:
+    """For each routine (folded) those that it calls, connects to interrupts or gives to triggers."""
+    found: dict[str, set[str]] = {}
     called: set[str] = set()
 
     def look(statement: ir.Statement) -> None:
@@ -67,14 +80,22 @@ def never_called(program: ir.Program) -> set[str]:
         if isinstance(expression, ir.Call):
             called.add(expression.name.lower())
 
-    found = []
     for module in program.modules:
         for routine in module.routines:
-            if routine.kind == "procedure" and not routine.parameters and routine.scope != "module":
-                found.append(routine.name.lower())
+            called = found.setdefault(routine.name.lower(), set())
             for body in bodies(routine):
                 each_statement(body, look)
-    return {name for name in found if name not in called}
+    return found
+
+
+def reached(start: str, calls: dict[str, set[str]]) -> set[str]:
+    """The routine and all that its calls lead to, folded."""
+    found, open_names = {start}, [start]
+    while open_names:
+        new = calls.get(open_names.pop(), set()) - found
+        found |= new
+        open_names.extend(new)
+    return found
 
 
 def started_tasks(program: ir.Program) -> set[str]:

@@ -13,8 +13,10 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.errornames import spelled_among
+from rpl.ir.walk import walk
 from rpl.passes.capabilities import NameRules
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.datalists import calls_of, never_called, reached
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
 from rpl.passes.legalise.effects import blocks, children, everything, statements_in
 from rpl.passes.legalise.support import default_value
@@ -55,7 +57,8 @@ def fit_parameters(program: ir.Program, context: Context) -> ir.Program:
     """The program with parameters, arguments and calls by name as the target has them."""
     can = context.capabilities
     if not can.dynamic_calls or can.parameters != "names" or not names_stay(program, can.names):
-        program = edit_routines(program, context, lambda editor, routine: edit_bodies(routine, _Dynamic(editor).body))
+        chosen = edit_routines(program, context, lambda editor, routine: edit_bodies(routine, _Dynamic(editor).body))
+        program = _with_entry(program, chosen)
     facts = _facts(program)
     if facts.left_out:
         program = _asking_presence(program, facts)
@@ -77,6 +80,25 @@ def fit_parameters(program: ir.Program, context: Context) -> ir.Program:
         for module in program.modules
     )
     return replace(program, modules=modules)
+
+
+def _with_entry(program: ir.Program, chosen: ir.Program) -> ir.Program:
+    """The program with choices. Where a choice may call the routine that the program starts with, nobody could tell
+    any more which one that is: it is named, being the only one that nobody calls and that leads to a call by name."""
+    if program.entry or any(task.kind == "motion" for task in program.tasks):
+        return chosen
+    before, after, calls = never_called(program), never_called(chosen), calls_of(program)
+    by_name = {
+        routine.name.lower()
+        for module in program.modules
+        for routine in module.routines
+        if any(isinstance(node, ir.CallRoutine) and node.dynamic is not None for node in walk(routine))
+    }
+    starts = [name for name in sorted(before) if reached(name, calls) & by_name]
+    if len(starts) != 1 or starts[0] in after:
+        return chosen
+    spelled = (routine.name for module in program.modules for routine in module.routines)
+    return replace(chosen, entry=next(name for name in spelled if name.lower() == starts[0]))
 
 
 def _slots(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rpl import ir
+from rpl.passes.legalise.datalists import never_called
 from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.logic import decide_logic
 from rpl.passes.legalise.optional import fit_parameters
@@ -127,3 +128,36 @@ def test_arguments_left_out_between_commas() -> None:
     assert given == [[(None, 1), ("c", 3)], [(None, 1), ("b", 2)], [(None, 1), ("b", 2), ("c", 3)]]
     plain = same_run(program, PLAIN, fit_parameters)
     assert all(all(a.value is not None for a in call.arguments) for call in plain.modules[0].routines[0].body)  # type: ignore[union-attr]
+
+
+# The routine that a program starts with takes no arguments either, so a call by a computed name may mean it.
+_MENU = """MODULE m
+  PROC lift()
+    Set do1;
+  ENDPROC
+  PROC start_here()
+    VAR string name;
+    name:="li";
+    %s
+  ENDPROC
+  %s
+ENDMODULE
+"""
+_CHOOSER = """PROC chooser(string name)
+    %name+"ft"%;
+  ENDPROC"""
+
+
+@pytest.mark.parametrize(
+    ("body", "more", "entry"),
+    [
+        ('%name+"ft"%;', "", ""),  # its own call does not count: nobody else calls it
+        ("chooser name;", _CHOOSER, "start_here"),  # the chooser may call it now
+        ("lift;", "", ""),
+    ],
+)
+def test_a_program_that_may_be_called_by_name_stays_the_first(body: str, more: str, entry: str) -> None:
+    program = read("rapid", _MENU % (body, more))
+    after, _ = legalised(program, PLAIN, fit_parameters)
+    assert after.entry == entry
+    assert ("start_here" in never_called(after)) == (not entry)
