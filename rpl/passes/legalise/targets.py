@@ -67,8 +67,10 @@ class _Whole:
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
         for statement in body:
-            if isinstance(statement, ir.Move) and self.needs_work(statement):
-                done.extend(self.whole(statement, done))
+            if isinstance(statement, ir.Move) and (self.needs_work(statement) or self.via_needs_work(statement)):
+                first, arc = self.whole_via(statement, done)
+                moved = self.whole(arc, done) if self.needs_work(arc) else [arc]
+                done.extend([*first, *moved])
             else:
                 done.append(rewrite_parts(statement, lambda expression: expression, self.body))
         return tuple(done)
@@ -77,6 +79,28 @@ class _Whole:
         if move.relative is not None:
             return not self.context.capabilities.relative_moves
         return not self.context.capabilities.partial_targets and self.missing(move.target)
+
+    def via_needs_work(self, move: ir.Move) -> bool:
+        """Has the point on the way of an arc components missing, or is it counted from the start?"""
+        if move.via is None or isinstance(self.type_of(move.via), ir.JointsType):
+            return False
+        if move.relative is not None:
+            return not self.context.capabilities.relative_moves and isinstance(move.via, ir.Aggregate)
+        return not self.context.capabilities.partial_targets and self.missing(move.via)
+
+    def whole_via(self, move: ir.Move, done: list[ir.Statement]) -> tuple[list[ir.Statement], ir.Move]:
+        """What the point on the way of an arc needs first, and the arc with this point in full."""
+        if not self.via_needs_work(move):
+            return [], move
+        assert isinstance(move.via, ir.Aggregate)
+        aim = replace(move, target=move.via, via=None, kind="linear")
+        if move.relative is not None:
+            found = self.offset(aim, move.via, done)
+        else:
+            found = self.from_here(aim, move.via, ir.TargetType(self.scope.rules.name), done)
+        whole = found[-1]
+        assert isinstance(whole, ir.Move)
+        return found[:-1], replace(move, via=whole.target, origin=whole.origin)
 
     def missing(self, target: ir.Expression) -> bool:
         """Is it written with some of its components only? Flags and external axes may always be left out."""
