@@ -68,6 +68,7 @@ CAPABILITIES = Capabilities(
     truth="minus_one",
     index_base=0,
     named_aggregates=True,
+    whole_places=True,
     move_settings=frozenset(("frame", "speed", "blend")),
     speeds=frozenset(("joint", "path", "duration")),
     blends=tables.words("BlendDistance BlendPercent BlendSpeed BlendZone"),

@@ -105,3 +105,19 @@ def test_one_joint_is_changed_in_a_step_of_its_own() -> None:
     lines, difference = proved(text, "p.script", "urscript", "ur5e", "prog")
     assert "SET #q = #PPOINT(part2[0], part2[1], part2[2], part2[3], part2[4], part2[5])" in lines
     assert not difference
+
+
+def test_registers_that_are_filled_in_parts_begin_somewhere() -> None:
+    rows = ("PR[2,3]=5", "R[1]=PR[2,3]", "R[2]=3", "PR[R[2],1]=4", "R[3]=PR[3,1]", "DO[1]=(R[1]=5 AND R[3]=4)")
+    body = "".join(f"{at:4}:  {row} ;\n" for at, row in enumerate(rows, 1))
+    text = f"/PROG  PROG\n/ATTR\n/MN\n{body}/POS\n/END\n"
+    lines, difference = proved(text, "prog.ls", "tp", "fanuc_lrmate200id", "prog")
+    assert "pr[3] 0 0 0 0 0 0" in lines
+    assert not difference
+
+
+def test_joints_that_are_filled_in_parts_begin_somewhere() -> None:
+    text = "DEF prog( )\nDECL E6AXIS J\nDECL FRAME F\nJ.A2=-90\nF.A=20\n$OUT[1]=J.A2==-90 AND F.A>19\nEND\n"
+    lines, difference = proved(text, "prog.src", "krl", KUKA, "prog")
+    assert "SET #j = #PPOINT(0, 0, 0, 0, 0, 0)" in lines
+    assert not difference

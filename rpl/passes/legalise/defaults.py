@@ -1,19 +1,25 @@
 """Starting values of data that the source language sets to zero by itself and the target leaves undefined.
 
 Data of modules gets its value in the declaration; a routine's own only where something else than a plain assignment may
-come first. Runs before the passes that write aggregates in the target's form.
+come first. Between languages whose data starts undefined only places that get their components one by one need a value,
+and only where the target makes a new place of the old one. Runs before the passes that write aggregates in the target's
+form.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TypeGuard
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.support import default_value
+from rpl.passes.legalise.usage import base_name
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import Scope
 from rpl.passes.typewords import component_names, component_type, type_word
 
 # An array of more elements is filled by a loop where it can be.
@@ -30,10 +36,13 @@ _NUMBERS: dict[type, tuple[str, ...]] = {
 
 
 def starting_values(program: ir.Program, context: Context) -> ir.Program:
-    """Only from languages whose data starts at zero to those whose data starts undefined, or as it was left."""
+    """From languages whose data starts at zero to those whose data starts undefined, or as it was left; else of places
+    that are filled component by component."""
     can = context.capabilities
+    if rules_of(context.source).undefined:
+        return _InParts(program, context).program() if can.whole_places else program
     left_over = rules_of(context.target).undefined or bool(can.banks) or not can.locals
-    if rules_of(context.source).undefined or not left_over:
+    if not left_over:
         return program
     return _Defaults(program, context).program()
 
@@ -112,6 +121,73 @@ class _Defaults(Rewriter):
         if names is not None:
             return ir.Aggregate(tuple((name, _ZERO) for name in names), type_name=type_word(type))
         return default_value(type)
+
+
+class _InParts(_Defaults):
+    """Only what is set in parts: by component, here or in a routine that it is handed to, and never asked about."""
+
+    def __init__(self, program: ir.Program, context: Context) -> None:
+        super().__init__(program, context)
+        self.elements: dict[int, set[int] | None] = {}  # by declaration; numbers of an array's, None: any or no array
+        self.asked: set[int] = set()
+        for module, routine in self.scopes.routines():
+            self.look(self.scopes.routine(module, routine), routine)
+
+    def look(self, scope: Scope, routine: ir.Routine) -> None:
+        for node in walk(routine):
+            match node:
+                case ir.Assign(target=ir.Field(base=base)):
+                    self.part(base, scope)
+                case ir.CallRoutine(name=name, arguments=arguments) | ir.Call(name=name, arguments=arguments):
+                    called = scope.routine(name)
+                    for filled, argument in zip(_filled_parameters(called), arguments, strict=False):
+                        if filled and argument.value is not None:
+                            self.part(argument.value, scope)
+                case ir.Builtin(function="is_uninitialised", arguments=(asked, *_)):
+                    symbol = scope.value(base_name(asked) or "")
+                    if symbol is not None:
+                        self.asked.add(id(symbol.declaration))
+
+    def part(self, place: ir.Expression, scope: Scope) -> None:
+        """A component of the place is set."""
+        symbol = scope.value(base_name(place) or "")
+        if symbol is None:
+            return
+        key = id(symbol.declaration)
+        number = constant(place.indices[0], scope) if _numbered(place) else None
+        known = self.elements.setdefault(key, set())
+        self.elements[key] = known | {number} if isinstance(number, int) and known is not None else None
+
+    def declaration(self, declaration: ir.Declaration) -> list[ir.Declaration]:
+        if id(declaration) not in self.elements or id(declaration) in self.asked:
+            return [declaration]
+        numbers = self.elements[id(declaration)]
+        if numbers is None or not isinstance(declaration, ir.Variable) or declaration.initial is not None:
+            return super().declaration(declaration)
+        type = self.scope.resolve(declaration.type)
+        value = self.value(self.scope.resolve(type.element)) if isinstance(type, ir.ArrayType) else None
+        if value is None or self.scope.routine_here is not None:
+            return super().declaration(declaration)
+        place = ir.Name(declaration.name)
+        firsts = [ir.Assign(ir.Index(place, (ir.IntLiteral(number),)), value) for number in sorted(numbers)]
+        return [declaration, *map(ir.Initialise, firsts)]
+
+
+def _numbered(place: ir.Expression) -> TypeGuard[ir.Index]:
+    """An element of a list of one dimension."""
+    return isinstance(place, ir.Index) and isinstance(place.base, ir.Name) and len(place.indices) == 1
+
+
+def _filled_parameters(routine: ir.Routine | None) -> list[bool]:
+    """For each parameter whether a component of it is set for the caller."""
+    if routine is None:
+        return []
+    set_here = {
+        (base_name(node.target) or "").lower()
+        for node in walk(routine)
+        if isinstance(node, ir.Assign) and isinstance(node.target, ir.Field)
+    }
+    return [one.mode == "reference" and one.name.lower() in set_here for one in routine.parameters]
 
 
 def _set_first(body: ir.Body, name: str) -> bool:

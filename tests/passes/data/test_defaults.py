@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
+
 from rpl import ir
 from rpl.passes.legalise.defaults import starting_values
 from rpl.passes.legalise.prelude import link_prelude
@@ -71,3 +73,54 @@ def test_the_unused_part_of_a_prelude_goes() -> None:
     done = drop_unused(replace(linked, modules=(quiet, *linked.modules[1:])), surroundings)
     names = [d.name for m in done.modules[1:] for d in m.declarations if isinstance(d, ir.Variable)]
     assert names == ["v100"]
+
+
+_PARTS = """DEF t()
+DECL FRAME own
+DECL FRAME whole
+DECL POS handed
+DECL E6AXIS bent
+DECL FRAME asked
+own.x = 1
+whole = own
+whole.y = 2
+fill(handed)
+bent.a1 = 3
+IF VARSTATE("asked") == #INITIALIZED THEN
+asked.z = 4
+ENDIF
+END
+DEF fill(place:OUT)
+POS place
+place.x = 5
+END
+"""
+
+
+def _begun(text: str) -> ir.Program:
+    """The program for a target that makes new places of old ones."""
+    program = read(text, "krl")
+    usual = context(program, "krl")
+    assert starting_values(program, usual) is program
+    whole = replace(usual, capabilities=replace(usual.capabilities, whole_places=True))
+    return starting_values(program, whole)
+
+
+def test_places_that_are_filled_in_parts_begin_somewhere() -> None:
+    done = _begun(_PARTS)
+    given = {name: variable(done, name).initial is not None for name in ("own", "whole", "handed", "bent", "asked")}
+    assert given == {"own": True, "whole": False, "handed": True, "bent": True, "asked": False}
+
+
+@pytest.mark.parametrize(
+    ("numbers", "begun"), [(("2",), ["row[2]"]), (("2", "n"), [f"row[{number}]" for number in range(1, 5)])]
+)
+def test_elements_that_are_filled_in_parts_begin_somewhere(numbers: tuple[str, ...], begun: list[str]) -> None:
+    body = "".join(f"row[{number}].z = 5\n" for number in numbers)
+    done = _begun(f"DEF t()\nINT n\nn = 3\n{body}END\n====\nDEFDAT t\nDECL FRAME row[4]\nENDDAT\n")
+    declared = [one for module in done.modules for one in module.declarations]
+    places = [show(one.assign.target) for one in declared if isinstance(one, ir.Initialise)]
+    row = variable(done, "row").initial
+    if isinstance(row, ir.Aggregate):
+        places = [f"row[{at}]" for at in range(1, len(row.entries) + 1)]
+    assert places == begun
