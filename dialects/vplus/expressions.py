@@ -149,7 +149,11 @@ class Expressions:
                 reading = "x == (a AND b)".replace("AND", operator)
                 self.diagnostics.report(LOOSE_LOGIC, self.origin, operator=operator, reading=reading)
         relation = RELATIONS[str(tree.children[1])]
-        return ir.Binary(relation, self.expression(left), self.expression(right), origin=self.origin)
+        one, other = self.expression(left), self.expression(right)
+        runs = _executing(one, other)
+        if runs is not None and relation in ("=", "<>"):
+            return runs if relation == "=" else ir.Unary("not", runs, origin=self.origin)
+        return ir.Binary(relation, one, other, origin=self.origin)
 
     def reference(self, tree: SyntaxTree) -> ir.Expression:
         """A variable or an element; `name[]` is the whole array. Constants and functions without arguments have names
@@ -199,6 +203,25 @@ class Expressions:
     def call(self, tree: SyntaxTree) -> ir.Expression:
         """A built-in function; V+ knows no others."""
         raise NotImplementedError
+
+
+def _executing(state: ir.Expression, number: ir.Expression) -> ir.Expression | None:
+    """What `TASK(1, n) == 4` asks: whether the task runs."""
+    match state, number:
+        case ir.Binary(op="*", left=ir.IntLiteral(value=tables.TASK_EXECUTING), right=ir.Convert(operand=runs)), (
+            ir.IntLiteral(value=tables.TASK_EXECUTING)
+        ):
+            return runs if _asks(runs) else None
+    return None
+
+
+def _asks(runs: ir.Expression) -> bool:
+    match runs:
+        case ir.Builtin(function="task_runs"):
+            return True
+        case ir.Binary(op="or", left=left, right=right):
+            return _asks(left) and _asks(right)
+    return False
 
 
 def subtree(child: object) -> SyntaxTree:

@@ -14,7 +14,7 @@ from rpl.reading.shapes import StatementError, SyntaxTree
 from rpl.source import NOWHERE, Origin
 
 from . import formats, signals, tables
-from .expressions import Expressions, subtree
+from .expressions import Expressions, root_name, subtree
 from .formats import Item
 
 UNKNOWN_FUNCTION = code(
@@ -164,7 +164,23 @@ class Functions(Expressions):
                 return ir.Unary("not", self.built("is_uninitialised", variable), origin=origin)
             case "random", []:
                 return self.built("random")
+            case "task", [ir.IntLiteral(value=tables.TASK_STATE), number]:
+                return self.task_state(number)
         return None
+
+    def task_state(self, number: ir.Expression) -> ir.Expression | None:
+        """TASK(1, n): whether the programs that are executed in task n run; None when the project does not tell."""
+        key = str(number.value) if isinstance(number, ir.IntLiteral) else (root_name(number) or "").lower()
+        programs = sorted(self.facts.executed.get(key, frozenset()))
+        elsewhere = {name.lower() for task, names in self.facts.executed.items() if task != key for name in names}
+        if not programs or elsewhere & {name.lower() for name in programs}:
+            return None
+        runs = [self.built("task_runs", ir.TextLiteral(self.name(name))) for name in programs]
+        one: ir.Expression = runs[0]
+        for other in runs[1:]:
+            one = ir.Binary("or", one, other, origin=self.origin)
+        executing = ir.IntLiteral(tables.TASK_EXECUTING)
+        return ir.Binary("*", executing, ir.Convert("bit", one, origin=self.origin), origin=self.origin)
 
     # ---- texts
 

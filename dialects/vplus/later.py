@@ -58,12 +58,14 @@ def _calculated(*steps: ir.Statement) -> bool:
 
 
 def _used_otherwise(modules: tuple[ir.Module, ...]) -> Iterable[str]:
-    """Programs that are called, controlled otherwise than started, or mentioned by a reaction."""
+    """Programs that are called, controlled otherwise than started, asked for their state, or mentioned by a reaction."""
     for node in walk(modules):
         match node:
             case ir.CallRoutine(name=name):
                 yield significant(name)
             case ir.TaskControl(op=op, task=name, arguments=arguments) if op != "start" or arguments:
+                yield significant(name)
+            case ir.Builtin(function="task_runs", arguments=(ir.TextLiteral(value=name),)):
                 yield significant(name)
             case ir.OnError(routine=str() as name):
                 yield significant(name)

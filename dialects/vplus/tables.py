@@ -69,6 +69,10 @@ FUNCTIONS: dict[str, tuple[str, int]] = {
     "#phere": ("current_joints", 0),
 }
 
+# TASK(1, n) gives this while task n executes (drivers that watch their tasks ask for it). M: 0 when it does not; which
+# other numbers say how it has ended is not imitated.
+TASK_STATE, TASK_EXECUTING = 1, 4
+
 # Functions whose value only the controller knows; a run stops there unless the cell file gives the value.
 CONTROLLER_VALUES: dict[str, ir.Type] = {
     **dict.fromkeys(

@@ -32,7 +32,7 @@ CAPABILITIES = Capabilities(
                 "message_text",
             ),
             *("text_upper", "text_lower", "text_map"),
-            *("is_uninitialised", "bit_shift_left", "power"),
+            *("is_uninitialised", "bit_shift_left", "power", "task_runs"),
         )
     ),
     procedures=tables.words("increment decrement clear text_append text_copy text_clear"),

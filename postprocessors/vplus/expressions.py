@@ -6,7 +6,7 @@ A value that only a step of its own can give (the numbers of a location) asks fo
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
@@ -31,6 +31,7 @@ class Notes:
     steps: bool = True  # can steps stand in front?
     taken: set[str] = field(default_factory=set)
     own: set[str] = field(default_factory=set)  # names made here
+    tasks: Mapping[str, int] = field(default_factory=dict)  # numbers of the programs that are executed beside
 
     def temporary(self, stem: str) -> str:
         """A new variable of the program's own (with its sign)."""
@@ -304,6 +305,14 @@ class Expressions:
     def undefined(self, values: tuple[ir.Expression, ...]) -> Printed:
         return Printed(f"NOT DEFINED({self.text(values[0])})", tables.SIGN)
 
+    def executing(self, values: tuple[ir.Expression, ...]) -> Printed:
+        """Whether a task runs: 4 is the state of one that executes."""
+        name = values[0].value.lower() if isinstance(values[0], ir.TextLiteral) else ""
+        number = self.notes.tasks.get(name)
+        if number is None:
+            raise CannotSayError(f"the state of a task that is not executed here ({name or 'computed'})")
+        return Printed(f"TASK(1, {number}) == 4", tables.RELATION)
+
     def raised(self, base: ir.Expression, exponent: ir.Expression) -> str:
         """Any whole power, by a program that comes along."""
         name = self.notes.temporary("t")
@@ -344,6 +353,7 @@ _SPECIAL: dict[str, _Special] = {
     "power": Expressions.power,
     "bit_shift_left": Expressions.shifted,
     "is_uninitialised": Expressions.undefined,
+    "task_runs": Expressions.executing,
     "dimension": Expressions.dimension,
     "length": Expressions.dimension,
 }

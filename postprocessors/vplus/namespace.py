@@ -88,6 +88,9 @@ def _exchanged(node: Node, changes: dict[str, str]) -> Node:
                 return replace(one, counter=found)
             case ir.TaskControl(task=name) if (found := new(name)) is not None:
                 return replace(one, task=found)
+            case ir.Builtin(function="task_runs", arguments=(ir.TextLiteral(value=name),)):
+                found = new(name)
+                return one if found is None else replace(one, arguments=(ir.TextLiteral(found),))
             case ir.OnError(routine=name) if (found := new(name)) is not None:
                 return replace(one, routine=found)
             case (

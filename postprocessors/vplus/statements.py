@@ -71,7 +71,7 @@ class Printer(StatementPrinter[str]):
         super().__init__(output.ledger, output.diagnostics)
         self.scope, self.output = scope, output
         self.labels = labels or {}
-        self.notes = Notes(taken=output.taken, helpers=output.helpers)
+        self.notes = Notes(taken=output.taken, helpers=output.helpers, tasks=output.tasks)
         self.expressions = Expressions(scope, self.notes)
         self.motion = Motion(self.expressions, output.facts)
         self.actions = Actions(self)

@@ -128,6 +128,7 @@ FUNCTIONS: dict[str, Function] = _table(
     pose_difference | pp      | p | what added to the second gives the first: positions subtracted, second^-1 . first
     target_to_joints_near | pjx?x? | j | joints of a target nearest to given ones; flags choose first (tool, frame)
     is_reachable   | pjx?x?   | b | is there a solution for the target, starting from the given joints (tool, frame)
+    task_runs      | t        | b | has the task of this routine been started, and has it not ended
     """
 )
 

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from rpl.passes import rigid
-from rpl.runtime import arcs, axes, geometry, reaching, texts
+from rpl.runtime import arcs, axes, geometry, reaching, tasks, texts
 from rpl.runtime.chain import convention_of, filled, frames_of, joints_of, joints_value, matrix_of
 from rpl.runtime.faults import ProgramError, name_of
 from rpl.runtime.geometry import as_pose
@@ -321,6 +321,7 @@ OF_TASK: dict[str, Callable[..., Value]] = {
     "time_text": _time_text,
     "date_text": _date_text,
     "random": lambda task: task.machine.random.random(),
+    "task_runs": lambda task, name: tasks.runs(task, str(name)),
     "error_text": lambda task, number: name_of(number, task.frame.code.rules.errors),
 }
 # Compiled by linking itself, because they need the place or the type of their argument, not its value.

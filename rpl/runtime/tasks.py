@@ -71,6 +71,13 @@ def join(asking: Task, name: str, here: int, next: int) -> int:
     return asking.block(Wait("task", here, next, asking.machine.token(), asking.machine.now, move=found.index))
 
 
+def runs(asking: Task, name: str) -> bool:
+    """Has a task been started, and has it not ended?"""
+    asking.looked = True
+    found = named(asking.machine, name)
+    return found is not None and found.state != ENDED
+
+
 def critical(task: Task, enter: bool) -> None:
     """Begin or end a section in which no other task runs."""
     task.machine.critical = task.index if enter else None

@@ -94,6 +94,7 @@ from rpl.passes.legalise.targets import whole_targets
 from rpl.passes.legalise.taskarguments import task_arguments
 from rpl.passes.legalise.taskreferences import task_references
 from rpl.passes.legalise.tasknames import task_names
+from rpl.passes.legalise.taskstates import task_states
 from rpl.passes.legalise.threepoints import three_point_arcs
 from rpl.passes.legalise.timers import timers_to_clocks
 from rpl.passes.legalise.tooldata import tool_data
@@ -118,6 +119,7 @@ from rpl.passes.typing import normalise
 PASSES: tuple[Pass, ...] = (
     drop_untyped,
     task_names,
+    task_states,
     straight_splines,
     fold_pulses,
     rotation_vectors,
