@@ -7,7 +7,7 @@ of AND, OR or EXOR next to a comparison is certainly no BOOL, the C-like reading
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from lark import Token, Tree
 
@@ -38,6 +38,7 @@ OPERATORS = {
 _LARGEST_REAL = 3.5e38  # single precision, with room for rounding
 _INT_DIGITS = 10
 _LOGIC = ("and", "or", "xor")
+_NUMBERS = (ir.IntLiteral, ir.RealLiteral)
 _TRUE, _FALSE = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
 
@@ -487,7 +488,16 @@ def related(relation: str, left: ir.Expression, right: ir.Expression, origin: Or
                 return asked
     elif isinstance(left, ir.EnumLiteral) and isinstance(right, ir.System | ir.Call):
         return related(relation, right, left, origin)
+    elif isinstance(right, _NUMBERS):
+        left = as_number(left)
     return ir.Binary(relation, left, right, origin=origin)
+
+
+def as_number(value: ir.Expression) -> ir.Expression:
+    """StrAdd's result where a number is wanted: the length that the text has then."""
+    if isinstance(value, ir.Builtin) and value.function in tables.TEXT_LENGTHS:
+        return replace(value, function=tables.TEXT_LENGTHS[value.function])
+    return value
 
 
 def mode_member(variable: str, literal: ir.EnumLiteral) -> ir.EnumLiteral:

@@ -16,7 +16,7 @@ from rpl.source import Origin
 from . import tables
 from .calls import procedure_call
 from .declarations import Declarations
-from .expressions import Make, Pieces, mode_member
+from .expressions import Make, Pieces, as_number, mode_member
 
 Lowered = Element | tuple[Element, ...]
 Build = Callable[[Pieces, Origin], Lowered]
@@ -80,7 +80,20 @@ class Statements(Declarations):
 
             return several
         place = self.reference(target)
-        return lambda pieces, origin: ir.Assign(place(pieces, origin), value(pieces, origin), origin=origin)
+
+        def one(pieces: Pieces, origin: Origin) -> Lowered:
+            written, given = place(pieces, origin), value(pieces, origin)
+            if isinstance(given, ir.Builtin) and self.is_number(written):
+                given = as_number(given)
+            return ir.Assign(written, given, origin=origin)
+
+        return one
+
+    def is_number(self, place: ir.Expression) -> bool:
+        """Is it a variable that is declared as a number somewhere in the project?"""
+        while isinstance(place, ir.Index):
+            place = place.base
+        return isinstance(place, ir.Name) and self.facts.types.get(place.id.lower()) in ("int", "real")
 
     def settings(self, target: SyntaxTree, value_tree: SyntaxTree) -> Pairs | None:
         """The neutral settings that assigning to a modal `$` variable stands for; None for any other target."""

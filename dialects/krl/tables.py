@@ -120,6 +120,8 @@ TEXT_PROCEDURES: dict[str, str] = {
     "swrite": "format_into",
     "sread": "scan_from",
 }
+# M: StrAdd is an INT in KSS 8: the new length, 0 when it does not fit. Programs also ask it like a BOOL.
+TEXT_LENGTHS = {"text_append": "text_append_length"}
 MESSAGES = {"msgnotify": "notify", "msgstate": "state", "msgquit": "quit", "msgloop": "quit"}  # MsgLoop: M
 
 # Calls into technology packages, by how the routine's name begins. Effect: what a run must know of it.

@@ -126,6 +126,7 @@ FUNCTIONS = {
 PARSERS = {IntType: "StrToInt", RealType: "StrToReal", BoolType: "StrToBool"}
 PROCEDURES = {
     "text_append": "StrAdd",
+    "text_append_length": "StrAdd",
     "text_copy": "StrCopy",
     "text_clear": "StrClear",
     "parse_number": "StrToReal",

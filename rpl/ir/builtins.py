@@ -135,6 +135,7 @@ FUNCTIONS: dict[str, Function] = _table(
 PROCEDURES: dict[str, Function] = _table(
     """
     text_append    | lt       | b | append; gives FALSE where the capacity does not suffice
+    text_append_length | lt   | i | append; gives the new length, 0 where the capacity does not suffice
     text_copy      | lt       | b | copy
     text_clear     | l        | b | make empty
     parse_number   | tl       | b | text to number; FALSE when it is none

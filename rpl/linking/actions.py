@@ -126,9 +126,10 @@ def _wait(statement: ir.Wait, linker: RoutineLinker) -> Make:
     return make
 
 
-def depends_on_time(condition: ir.Expression) -> bool:
-    """Can the condition become true without anybody doing anything?"""
+def depends_on_time(condition: ir.Expression, linker: RoutineLinker) -> bool:
+    """Can the condition become true without anybody doing anything? A cyclic flag is what the program gives it."""
     stack: list[object] = [condition]
+    bound = False
     while stack:
         node = stack.pop()
         match node:
@@ -136,6 +137,9 @@ def depends_on_time(condition: ir.Expression) -> bool:
                 return True
             case ir.Builtin(function=function) if function in functions.TIME_DEPENDENT:
                 return True
+            case ir.System(name="cyclic_flag") if not bound:
+                bound = True
+                stack.extend(linker.linked.cyclic)
         stack.extend(children(node))
     return False
 
@@ -148,7 +152,7 @@ def timed_out(statement: ir.WaitUntil, linker: RoutineLinker) -> Write | None:
 
 
 def _wait_until(statement: ir.WaitUntil, linker: RoutineLinker) -> Make:
-    condition, polls = linker.compiler.value(statement.condition), depends_on_time(statement.condition)
+    condition, polls = linker.compiler.value(statement.condition), depends_on_time(statement.condition, linker)
     timeout = linker.compiler.value(statement.timeout) if statement.timeout is not None else None
     late, error, in_position = timed_out(statement, linker), statement.error, statement.in_position
     subject = statement.origin.text.strip()[:80]

@@ -37,7 +37,7 @@ def _declare(statement: ir.DeclareInterrupt, linker: RoutineLinker) -> Make:
     priority = linker.compiler.value(statement.priority)
     identity = linker.compiler.value(statement.identity if statement.identity is not None else statement.priority)
     once, stops = statement.once, statement.stops
-    condition, polls = linker.compiler.value(statement.condition), depends_on_time(statement.condition)
+    condition, polls = linker.compiler.value(statement.condition), depends_on_time(statement.condition, linker)
     code = linker.action(statement.action, "interrupt")
     everywhere = statement.everywhere
 
@@ -86,7 +86,7 @@ def _order(statement: ir.OrderInterrupt, linker: RoutineLinker) -> Make:
     compiler = linker.compiler
     handle = compiler.value(statement.handle)
     condition = compiler.value(statement.condition) if statement.condition is not None else None
-    polls = statement.condition is not None and depends_on_time(statement.condition)
+    polls = statement.condition is not None and depends_on_time(statement.condition, linker)
     time = compiler.value(statement.time) if statement.time is not None else None
     event, once = statement.event, statement.once
 

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.errors import InternalError
-from rpl.linking.expressions import Compiler, Place, unknown
+from rpl.ir.walk import walk
+from rpl.linking.expressions import HIDDEN, Compiler, Place, unknown
 from rpl.runtime import procedures, system
 from rpl.runtime.code import (
     AnyRef,
@@ -270,6 +271,8 @@ def _reference_to_element(compiler: Compiler, array: Read, index: Read, target: 
 def assignment(compiler: Compiler, statement: ir.Assign) -> Make:
     """The instruction of an assignment."""
     target = statement.target
+    if isinstance(target, ir.System) and target.name == "cyclic_flag" and target.indices:
+        return _binding(compiler, target.indices[0], statement.value)
     if isinstance(target, ir.Magnitude):  # a unit on the written side goes to the value
         moved = ir.Quantity(statement.value, target.unit, origin=statement.value.origin)
         return assignment(compiler, ir.Assign(target.value, moved, origin=statement.origin))
@@ -289,6 +292,25 @@ def assignment(compiler: Compiler, statement: ir.Assign) -> Make:
             return next
 
         return assign
+
+    return make
+
+
+def _binding(compiler: Compiler, number: ir.Expression, value: ir.Expression) -> Make:
+    """A cyclic flag keeps the expression, not its value: who reads the flag evaluates it in this routine's frame."""
+    index, read = compiler.value(number), compiler.value(value)
+    called = any(isinstance(node, ir.Name) and node.id.startswith(HIDDEN) for node in walk(value))
+
+    def make(here: int, next: int) -> Instruction:
+        def bind(f: Values) -> int:
+            if called:
+                raise ProgramError("wrong_kind", "a cyclic flag cannot call a routine of the program")
+            task = f[0]
+            task.machine.cyclic[whole(index(f))] = (f, read)
+            task.machine.changed()
+            return next if not task.interrupts.pending and not task.triggers else task.attention(next)
+
+        return bind
 
     return make
 

@@ -60,6 +60,7 @@ class LinkedProgram:
         self._aliases: dict[str, SignalRef] = {}
         self._names_of: dict[Key, list[str]] = {}
         self.watched = frozenset(_watched_names(program))
+        self.cyclic = tuple(_cyclic_values(program))
         for module in program.modules:
             self._enter(module)
 
@@ -304,9 +305,21 @@ def _watched_names(program: ir.Program) -> Iterator[str]:
                         conditions.append(condition)
                     case ir.Move(search=ir.Search(condition=condition)):
                         conditions.append(condition)
+                    case ir.Assign(target=ir.System(name="cyclic_flag"), value=value):
+                        conditions.append(value)
                 for condition in conditions:
                     if condition is not None:
                         yield from (n.id.lower() for n in _names(condition))
+
+
+def _cyclic_values(program: ir.Program) -> Iterator[ir.Expression]:
+    """What the program gives cyclic flags to evaluate."""
+    for module in program.modules:
+        for routine in module.routines:
+            for statement in _statements([routine.body, *(handler.body for handler in routine.handlers), routine.undo]):
+                match statement:
+                    case ir.Assign(target=ir.System(name="cyclic_flag"), value=value):
+                        yield value
 
 
 def _statements(bodies: list[Any]) -> Iterator[ir.Statement]:

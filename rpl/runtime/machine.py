@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from rpl.errors import RunError
 from rpl.runtime import searching, tasks
-from rpl.runtime.code import Code, Values, Write
+from rpl.runtime.code import Code, Read, Values, Write
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.interrupts import Interrupt
 from rpl.runtime.motion import MotionQueue
@@ -76,6 +76,8 @@ class Machine:
         self.critical: int | None = None
         self.held: list[int] = []
         self.timers: dict[int, StopWatch] = {}
+        self.cyclic: dict[int, tuple[Values, Read]] = {}  # flag -> frame and expression
+        self.evaluating: list[int] = []  # cyclic flags that are being read
         self.random = random.Random(cell.seed)
         self.reactions = [(keys_named(r.when, linked.alias(r.when)), r) for r in cell.reactions]
         for given in cell.inputs:

@@ -40,6 +40,10 @@ def _append(places: list[Place], target: AnyRef, text: str) -> bool:
     return True
 
 
+def _append_length(places: list[Place], target: AnyRef, text: str) -> int:
+    return len(_text(target.get())) if _append(places, target, text) else 0
+
+
 def _copy(places: list[Place], target: AnyRef, text: str) -> bool:
     if not _fits(text, places[0]):
         return False
@@ -125,6 +129,7 @@ def _clear(places: list[Place], target: AnyRef) -> int:
 
 PROCEDURES: dict[str, Callable[..., Value]] = {
     "text_append": _append,
+    "text_append_length": _append_length,
     "text_copy": _copy,
     "text_clear": _clear_text,
     "parse_number": _parse_number,

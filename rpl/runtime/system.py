@@ -118,6 +118,30 @@ def _write_flag(kind: str) -> Write:
     return write
 
 
+def _read_cyclic(task: Task, index: int) -> Value:
+    """The expression that the flag was given, as it is now; FALSE before it was given one."""
+    task.looked = True
+    machine = task.machine
+    if index not in machine.cyclic:
+        return False
+    if index in machine.evaluating:
+        raise ProgramError("wrong_kind", f"cyclic flag {index} is defined by its own value")
+    values, read = machine.cyclic[index]
+    machine.evaluating.append(index)
+    try:
+        value = bool(read(values))
+    finally:
+        machine.evaluating.remove(index)
+    task.looked_at_time = task.looked_at_time or values[0].looked_at_time
+    return value
+
+
+def _write_cyclic(task: Task, index: int, value: Value) -> None:
+    """A value that is no expression any more (from the action of a trigger or an interrupt)."""
+    task.machine.cyclic[index] = ([task], lambda values: value)
+    task.machine.changed()
+
+
 def _time(task: Task, index: int) -> Value:
     task.looked = task.looked_at_time = True
     return task.machine.now
@@ -150,7 +174,7 @@ _SPECIAL: dict[str, Read] = {
     "timer_stopped": lambda task, index: not _timer(task, index).running,
     "timer_positive": lambda task, index: _read_timer(task, index) > 0.0,
     "flag": _read_flag("flag"),
-    "cyclic_flag": _read_flag("cyclic_flag"),
+    "cyclic_flag": _read_cyclic,
     "error_number": lambda task, index: task.error_number,
     "interrupt_number": lambda task, index: task.interrupt_number,
     "mode": lambda task, index: Member("automatic"),
@@ -163,7 +187,7 @@ SPECIAL_WRITE: dict[str, Write] = {
     "timer": _write_timer,
     "timer_stopped": _write_timer_stopped,
     "flag": _write_flag("flag"),
-    "cyclic_flag": _write_flag("cyclic_flag"),
+    "cyclic_flag": _write_cyclic,
 }
 # A condition that reads one of these is looked at again and again.
 TIME_DEPENDENT = frozenset(

@@ -166,11 +166,20 @@ class _Calls(TextHoister):
         has = name in self.capabilities.procedures
         if name in self.capabilities.functions or (has and self.builds):
             return None
+        if name == "text_append_length":
+            return self.length_behind(expression)
         call = ir.Do(name, expression.arguments)
         done = (call,) if has else self.procedure(call)
         if done is None or name not in _ALWAYS_WORK:
             return None
         return tuple(inner for one in done for inner in super(_Calls, self).statement(one)), ir.BoolLiteral(True)
+
+    def length_behind(self, expression: ir.Builtin) -> Lowered | None:
+        """The length of a text behind appending to it; there is room enough in texts."""
+        statements = self.statement(ir.Do("text_append", expression.arguments, origin=expression.origin))
+        length = ir.Builtin("text_length", expression.arguments[:1], origin=expression.origin)
+        first, value = self.ruled(length) or ((), length)
+        return (*statements, *first), value
 
     def whole(self, *expressions: ir.Expression) -> bool:
         return all(isinstance(self.editor.type_of(one), ir.IntType) for one in expressions)

@@ -21,6 +21,7 @@ from rpl.passes.legalise.composition import compositions
 from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.context import Context, Pass, names_in
 from rpl.passes.legalise.corners import corners
+from rpl.passes.legalise.cyclicflags import cyclic_flags
 from rpl.passes.legalise.datalists import set_data_at_start
 from rpl.passes.legalise.defaults import starting_values
 from rpl.passes.legalise.destinations import destinations
@@ -118,6 +119,7 @@ from rpl.passes.typing import normalise
 # name to add.
 PASSES: tuple[Pass, ...] = (
     drop_untyped,
+    cyclic_flags,
     task_names,
     task_states,
     straight_splines,
