@@ -60,6 +60,9 @@ class Goal:
     seen: Seen | None = None
     arc: bool = False  # it was the end of an arc
 
+# Instructions that calculate a point: they do not part the points of an arc.
+_PLACE_WORDS = ("MULMAT ", "INVMAT ", "SET ")
+
 
 @dataclass(slots=True)
 class Motion:
@@ -297,7 +300,7 @@ class Motion:
             raise CannotSayError("a circle needs its point on the way")
         via = self.goal(move.via, move.frame, tool)
         retaught = True
-        if self.line_of_last is not None and not self.lines:
+        if self.line_of_last is not None and all(line.startswith(_PLACE_WORDS) for line in self.lines):
             line = done[self.line_of_last]
             if line.startswith("MOVC "):
                 done[self.line_of_last] = f"{line} FPT"

@@ -86,7 +86,7 @@ class Assignments:
                 return [f"{place}=JPOS"]
             case ir.Builtin(function="element_sum" | "element_difference" as how, arguments=(one, other)):
                 sign = "+" if how == "element_sum" else "-"
-                return [f"{place}={self.sum_of_registers(one)}{sign}{self.register(other)}"]
+                return [f"{place}={self.sum_of_registers(one)}{sign}{self.operand(other)}"]
             case ir.Builtin(function="offset", arguments=(base, *shift)):
                 first = [] if self.same(place, base) else self.position(place, base)
                 return [*first, *self.shifted(place, shift)]
@@ -118,12 +118,21 @@ class Assignments:
         return isinstance(base, ir.Index | ir.Name) and self.expressions.element(base) == place
 
     def sum_of_registers(self, value: ir.Expression) -> str:
-        """`PR[1]+PR[2]-PR[3]`, from left to right."""
+        """`PR[1]+PR[2]-PR[3]`, from left to right; `LPOS-LPOS` is how a register is cleared."""
         match value:
             case ir.Builtin(function="element_sum", arguments=(one, other)):
-                return f"{self.sum_of_registers(one)}+{self.register(other)}"
+                return f"{self.sum_of_registers(one)}+{self.operand(other)}"
             case ir.Builtin(function="element_difference", arguments=(one, other)):
-                return f"{self.sum_of_registers(one)}-{self.register(other)}"
+                return f"{self.sum_of_registers(one)}-{self.operand(other)}"
+        return self.operand(value)
+
+    def operand(self, value: ir.Expression) -> str:
+        """A position register, a taught point, or where the robot stands."""
+        match value:
+            case ir.System(name="actual_pose") | ir.Builtin(function="current_target", arguments=()):
+                return "LPOS"
+            case ir.System(name="actual_joints") | ir.Builtin(function="current_joints", arguments=()):
+                return "JPOS"
         return self.register(value)
 
     def register(self, value: ir.Expression) -> str:
