@@ -15,6 +15,7 @@ from rpl.reading.shapes import Slot, SyntaxTree
 from .arguments import Arguments
 from .functions import FUNCTIONS
 from .project import Project
+from .rules import SYSTEM_RECORDS
 
 Values = tuple[str, ...]
 Children = list[SyntaxTree | Token | Slot]
@@ -110,7 +111,20 @@ class Expressions:
         return ir.Name(name)
 
     def component(self, children: Children, values: Values) -> ir.Expression:
-        return ir.Field(self.lower(children[0], values), leaf(children[1], values))
+        made = ir.Field(self.lower(children[0], values), leaf(children[1], values))
+        return self.of_system_record(made) or made
+
+    def of_system_record(self, component: ir.Field) -> ir.Expression | None:
+        """A component of the controller's own records that is a modal setting."""
+        match component:
+            case ir.Field(ir.Field(ir.Name(id=record), inner), name):
+                path = f"{inner}.{name}"
+            case ir.Field(ir.Name(id=record), path):
+                pass
+            case _:
+                return None
+        neutral = SYSTEM_RECORDS.get((record.upper(), path.lower()))
+        return None if neutral is None or record.lower() in self.project.declared else ir.System(neutral)
 
     def index(self, children: Children, values: Values) -> ir.Expression:
         indices = tuple([self.lower(child, values) for child in children[1:]])

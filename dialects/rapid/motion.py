@@ -288,6 +288,43 @@ def _grip_load(arguments: Arguments, expressions: Expressions, origin: Origin) -
     return _assign("load", arguments.need(1)[0], origin)
 
 
+_DISPLACEMENT = ir.System("displacement")
+
+
+def _displace(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
+    """PDispSet pose: from now on between work object and targets."""
+    return None if arguments.options else _assign("displacement", arguments.need(1)[0], origin)
+
+
+def _displace_off(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
+    arguments.need(0)
+    return _assign("displacement", ir.System("null_frame"), origin)
+
+
+def _displace_on(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
+    r"""PDispOn [\Rot] [\ExeP] point, tool [\WObj]: the point comes to lie where ExeP is (the present place when left
+    out), without \Rot moved only. Several of them add up: ExeP is read in the displacement that is in force."""
+    point, tool = arguments.need(2)
+    options = arguments.options
+    if set(options) - {"rot", "exep", "wobj"}:
+        return None
+    there = options.get("exep") or ir.Builtin("current_target", (tool, options.get("wobj") or _WORLD))
+    moved: ir.Expression
+    if "rot" in options:
+        moved = ir.Builtin("compose", (_place_of(there), ir.Builtin("inverse", (_place_of(point),))))
+    else:
+        way = ir.Binary("-", ir.Field(there, "trans"), ir.Field(point, "trans"))
+        moved = ir.Aggregate((("trans", way), ("rot", _STRAIGHT)), type_name="pose")
+    return _assign("displacement", ir.Builtin("compose", (_DISPLACEMENT, moved)), origin)
+
+
+_STRAIGHT = ir.Builtin("rotation_zyx", (ir.IntLiteral(0), ir.IntLiteral(0), ir.IntLiteral(0)))
+
+
+def _place_of(target: ir.Expression) -> ir.Expression:
+    return ir.Builtin("pose_of", (target,))
+
+
 def _speed_refresh(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
     return None if arguments.options else _assign("override", arguments.need(1)[0], origin)
 
@@ -331,6 +368,9 @@ MOTION: dict[str, Make] = {
     "velset": _vel_set,
     "accset": _acc_set,
     "gripload": _grip_load,
+    "pdispset": _displace,
+    "pdispon": _displace_on,
+    "pdispoff": _displace_off,
     "speedrefresh": _speed_refresh,
     "stopmove": _stop_move,
     "startmove": _start_move,

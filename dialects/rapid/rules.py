@@ -58,6 +58,18 @@ _DEFAULTS: dict[str, float | bool | str] = {
     "override": 100.0,
 }
 
+# Components of the controller's own data, read only (reference manual, data types progdisp and motsetdata) -> neutral
+# system variables.
+SYSTEM_RECORDS: dict[tuple[str, str], str] = {
+    ("C_PROGDISP", "pdisp"): "displacement",
+    ("C_MOTSET", "vel.oride"): "speed_percent",
+    ("C_MOTSET", "vel.max"): "speed_limit",
+    ("C_MOTSET", "acc.acc"): "acceleration_percent",
+    ("C_MOTSET", "acc.ramp"): "acceleration_ramp",
+    ("C_MOTSET", "conf.jsup"): "joint_configuration_check",
+    ("C_MOTSET", "conf.lsup"): "path_configuration_check",
+}
+
 RULES = Rules(
     "rapid",
     _ADVANCE,

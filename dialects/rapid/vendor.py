@@ -12,7 +12,7 @@ from .words import words
 # Nothing that a run or a translation can show changes without them.
 _NONE = words(
     """PathResol MotionSup SoftAct SoftDeact ActUnit DeactUnit TPShow PathRecStart PathRecStop SpyStart SpyStop
-    MechUnitLoad PathAccLim WorldAccLim SkipWarn TuneServo TuneReset EOffsOff PDispOff CorrClear ClearIOBuff
+    MechUnitLoad PathAccLim WorldAccLim SkipWarn TuneServo TuneReset EOffsOff CorrClear ClearIOBuff
     ClearRawBytes TextTabInstall RMQEmptyQueue Save CloseDir CheckProgRef SyncMoveUndo UIShow"""
 )
 _MESSAGE = words(
@@ -29,7 +29,7 @@ _UNKNOWN = words(
     EGMSetupUC EGMStop EOffsOn EOffsSet EraseModule ErrRaise FCAct FCCalib FCDeact FCPress1LStart FCPressC
     FCPressEnd FCPressL FCRefStart FCRefStop GetDataVal GetSysData GetTrapData IError IOBusStart IODisable
     IOEnable IRMQMessage ISignalAI ISignalAO IVarValue Incr IndAMove IndCMove IndDMove IndRMove IndReset
-    InvertDO Load MakeDir ManLoadIdProc MoveAbsJ MoveC MoveJ MoveL Open OpenDir PDispOn PDispSet PackDNHeader
+    InvertDO Load MakeDir ManLoadIdProc MoveAbsJ MoveC MoveJ MoveL Open OpenDir PDispOn PackDNHeader
     PackRawBytes PathRecMoveBwd PathRecMoveFwd ProcerrRecovery PrxActivRecord PulseDO RMQFindSlot RMQGetMessage
     RMQGetMsgData RMQGetMsgHeader RMQReadWait RMQSendWait RaiseToUser ReadAnyBin ReadBlock ReadCfgData
     ReadErrData ReadRawBytes ReadVarArr RemoveDir RemoveFile RenameFile SCWrite SearchC SearchExtJ SearchL SetAO

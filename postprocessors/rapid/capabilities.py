@@ -21,6 +21,7 @@ CAPABILITIES = Capabilities(
         (
             *("speed_percent", "speed_limit", "acceleration_percent", "acceleration_ramp", "deceleration_percent"),
             *("joint_configuration_check", "path_configuration_check", "singularity_mode", "load", "override"),
+            "displacement",
             *("error_number", "interrupt_number", "circle_orientation", "actual_pose", "actual_joints"),
         )
     ),

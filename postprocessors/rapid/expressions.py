@@ -22,6 +22,7 @@ from .tables import (
     READERS,
     RELATION_LEVEL,
     SPEED_NAMES,
+    SYSTEM_RECORDS,
     ZONE_NAMES,
 )
 
@@ -239,6 +240,7 @@ class Expressions:
             "interrupt_number": "INTNO",
             "actual_pose": "CRobT()",
             "actual_joints": "CJointT()",
+            **SYSTEM_RECORDS,
         }
         if name not in words:
             raise CannotSayError(f"there is no system variable for {name.replace('_', ' ')}")

@@ -82,9 +82,36 @@ class Instructions:
             match value:
                 case ir.EnumLiteral(member=mode) | ir.TextLiteral(value=mode) if mode.lower() in modes:
                     return f"{word}\\{modes[mode.lower()]};"
+        if name == "displacement":
+            return self.displacement(value)
         if name in _ALONE:
             return _ALONE[name].format(self.print(value))
         raise CannotSayError(f"there is no setting for {name.replace('_', ' ')}")
+
+    def displacement(self, value: ir.Expression) -> str:
+        """PDispOff, PDispOn in the form in which it is read, else PDispSet."""
+        there: ir.Expression
+        match value:
+            case ir.System(name="null_frame"):
+                return "PDispOff;"
+            case ir.Builtin("compose", (ir.System(name="displacement"), ir.Aggregate() as moved)):
+                match moved.entries:
+                    case ((_, ir.Binary("-", ir.Field(there, "trans"), ir.Field(point, "trans"))), (_, turn)):
+                        if turn == ir.Builtin("rotation_zyx", (ir.IntLiteral(0),) * 3):
+                            return self.displacement_on("", there, point)
+            case ir.Builtin("compose", (ir.System(name="displacement"), ir.Builtin("compose", (one, two)))):
+                match one, two:
+                    case ir.Builtin("pose_of", (there,)), ir.Builtin("inverse", (ir.Builtin("pose_of", (point,)),)):
+                        return self.displacement_on("\\Rot", there, point)
+        return f"PDispSet {self.print(value)};"
+
+    def displacement_on(self, turned: str, there: ir.Expression, point: ir.Expression) -> str:
+        match there:
+            case ir.Builtin("current_target", (tool, frame)):
+                first = f"PDispOn{turned}," if turned else "PDispOn "
+                last = "" if frame == ir.Name("wobj0") else f"\\WObj:={self.print(frame)}"
+                return f"{first}{self.print(point)},{self.print(tool)}{last};"
+        return f"PDispOn{turned}\\ExeP:={self.print(there)},{self.print(point)},tool0;"  # the tool is not asked then
 
     def settings(self, body: ir.Body, at: int) -> tuple[int, str]:
         """How many statements from here one instruction says together, and its text; 0 when none."""

@@ -11,6 +11,17 @@ def words(text: str) -> frozenset[str]:
     return frozenset(text.split())
 
 
+# Neutral system variable -> component of the controller's own data.
+SYSTEM_RECORDS: dict[str, str] = {
+    "displacement": "C_PROGDISP.pdisp",
+    "speed_percent": "C_MOTSET.vel.oride",
+    "speed_limit": "C_MOTSET.vel.max",
+    "acceleration_percent": "C_MOTSET.acc.acc",
+    "acceleration_ramp": "C_MOTSET.acc.ramp",
+    "joint_configuration_check": "C_MOTSET.conf.jsup",
+    "path_configuration_check": "C_MOTSET.conf.lsup",
+}
+
 # IR type class -> type name. Types with parameters (signals, vendor types, references) are named in types.py.
 TYPE_NAMES: dict[type, str] = {
     ir.IntType: "num",

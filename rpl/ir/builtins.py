@@ -174,6 +174,7 @@ SYSTEM_VARIABLES: dict[str, SystemVariable] = _system(
     """
     tool            | P | rw | - |       | - | tool centre point in the flange (or the work piece, see interpolation)
     base            | P | rw | - |       | - | base or work object frame in the world
+    displacement    | P | rw | - |       | - | between the frame and the targets (RAPID program displacement)
     load            | L | rw | - |       | - | payload
     robot_root      | P | rw | - |       | - | robot base in the world
     world           | P | r  | - |       | - | the world frame

@@ -1,7 +1,7 @@
 """From a programmed target to what the emulator plans: tool, work object, robot base, missing components, speeds.
 
-A target P is reached when  robot_root · FK(joints) · tool = frame · P.  With the part on the robot (a stationary tool)
-the roles change:  robot_root · FK(joints) · part · P = tool.
+A target P is reached when  robot_root · FK(joints) · tool = frame · displacement · P.  With the part on the robot (a
+stationary tool) the roles change:  robot_root · FK(joints) · part · displacement · P = tool.
 """
 
 from __future__ import annotations
@@ -120,7 +120,8 @@ def frames_of(tool: Value, frame: Value, modal: Modal, over: Modal) -> Frames:
     root = _rigid(setting(modal, over, "robot_root"))
     if isinstance(tool, Record) and isinstance(frame, Record) and held == part_held:
         raise ProgramError("motion", "tool and work object must not both be held, or both stationary")
-    tool_pose, frame_pose = _tool_pose(tool), _frame_pose(frame)
+    tool_pose = _tool_pose(tool)
+    frame_pose = _frame_pose(frame).then(_rigid(setting(modal, over, "displacement")))
     if isinstance(tool, Record) and not held:
         return Frames(frame_pose, root.inverse.then(tool_pose), True)
     if modal_stationary and not isinstance(tool, Record):

@@ -18,7 +18,7 @@ SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distan
 # What else is followed, because the size of a corner that a speed decides depends on it. The values are those of a
 # controller that says nothing (mm/s2 and percent, as the emulator takes them).
 BRAKING = {"blend_speed": 100.0, "path_acceleration": 5000.0, "acceleration_percent": 100.0}
-_FOLLOWED = SETTINGS | BRAKING.keys()
+_FOLLOWED = SETTINGS | BRAKING.keys() | {"displacement"}
 # Setting -> constant; None: it depends on the run. A place that is never reached has no state.
 State = dict[str, "ir.Expression | None"]
 _UNKNOWN: State = dict.fromkeys(_FOLLOWED)
@@ -49,6 +49,15 @@ def in_frame(statement: ir.Statement) -> bool:
 
     each_expression(statement, look)
     return found
+
+
+def _plainly_reads(statement: ir.Statement) -> bool:
+    """Is it an assignment that reads or converts a place, and calls nothing that may change a setting?"""
+    if not isinstance(statement, ir.Assign):
+        return False
+    inside = list(walk(statement.value))
+    reads = any(isinstance(one, ir.Builtin) and one.function in IN_FRAME for one in inside)
+    return reads and not any(isinstance(one, ir.Call) for one in inside)
 
 
 def joined(*states: State | None) -> State | None:
@@ -89,7 +98,7 @@ class Flow:
 
 
 def _default(name: str, defaults: dict[str, float | bool | str]) -> ir.Expression | None:
-    if name == "base":
+    if name in ("base", "displacement"):
         return ir.System("null_frame")
     value = defaults.get(name, BRAKING.get(name))
     return ir.RealLiteral(float(value)) if isinstance(value, int | float) else None
@@ -159,7 +168,7 @@ class _Follower:
         return state
 
     def statement(self, statement: ir.Statement, state: State) -> State | None:
-        if self.noting and not isinstance(statement, ir.Move) and in_frame(statement):
+        if self.noting and not isinstance(statement, ir.Move) and (in_frame(statement) or _plainly_reads(statement)):
             self.note(statement, state)
         match statement:
             case ir.If(branches=branches, otherwise=otherwise):

@@ -25,6 +25,7 @@ from rpl.passes.legalise.cyclicflags import cyclic_flags
 from rpl.passes.legalise.datalists import set_data_at_start
 from rpl.passes.legalise.defaults import starting_values
 from rpl.passes.legalise.destinations import destinations
+from rpl.passes.legalise.displacements import displacements
 from rpl.passes.legalise.elementwise import elementwise
 from rpl.passes.legalise.elseif import nest_branches
 from rpl.passes.legalise.emptyreactions import without_empty_reactions
@@ -126,6 +127,7 @@ PASSES: tuple[Pass, ...] = (
     fold_pulses,
     rotation_vectors,
     levels_to_distances,
+    displacements,
     changed_places,
     elementwise,
     known_handles,
