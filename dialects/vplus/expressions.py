@@ -97,7 +97,7 @@ class Expressions:
             case "unary":
                 return self.unary(tree)
             case "based":
-                return _based(str(tree.children[0]))
+                return based(str(tree.children[0]))
             case "character":
                 return ir.IntLiteral(ord(str(tree.children[0])[1]))
             case "text":
@@ -229,12 +229,11 @@ def subtree(child: object) -> SyntaxTree:
     return child
 
 
-def _based(text: str) -> ir.IntLiteral:
+def based(text: str) -> ir.IntLiteral:
     """`^B101`, `^H1F`, and octal `^17`."""
-    mark = text[1].lower()
-    base, digits = {"b": (2, text[2:]), "h": (16, text[2:])}.get(mark, (8, text[1:]))
+    mark = next(mark for mark in tables.NUMBER_MARKS if text.lower().startswith(mark))
     try:
-        return ir.IntLiteral(int(digits, base), text)
+        return ir.IntLiteral(int(text[len(mark) :], tables.NUMBER_MARKS[mark]), text)
     except ValueError:
         raise StatementError(f"{text} is no number", 0) from None
 
@@ -247,4 +246,4 @@ def root_name(expression: ir.Expression | None) -> str | None:
     return None
 
 
-__all__ = ["Expressions", "Facts", "Names", "Token", "root_name", "significant", "subtree"]
+__all__ = ["Expressions", "Facts", "Names", "Token", "based", "root_name", "significant", "subtree"]

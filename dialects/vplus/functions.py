@@ -14,7 +14,7 @@ from rpl.reading.shapes import StatementError, SyntaxTree
 from rpl.source import NOWHERE, Origin
 
 from . import formats, signals, tables
-from .expressions import Expressions, root_name, subtree
+from .expressions import Expressions, based, root_name, subtree
 from .formats import Item
 
 UNKNOWN_FUNCTION = code(
@@ -36,7 +36,7 @@ class Functions(Expressions):
         if name in ("switch", "parameter"):
             return self.vendor(tree)
         values = self.values(arguments)
-        found = self.neutral(name, values) or self.special(name, values)
+        found = self.special(name, values) or self.neutral(name, values)
         if found is not None:
             return found
         if not any(values):
@@ -190,6 +190,8 @@ class Functions(Expressions):
             case "asc", [text, *at] if text is not None and len(at) <= 1:
                 place = (at[0] if at else None) or None
                 return self.built("character_code", self.part(text, place, one) if place is not None else text)
+            case "val", [ir.TextLiteral(value=digits)] if digits.startswith("^"):
+                return based(digits)
             case "$mid", [text, first, count] if text is not None:
                 return self.part(text, first or one, count or one)
             case "pos", [text, wanted, *start] if text is not None and wanted is not None and len(start) <= 1:

@@ -58,7 +58,7 @@ def _calculated(*steps: ir.Statement) -> bool:
 
 
 def _used_otherwise(modules: tuple[ir.Module, ...]) -> Iterable[str]:
-    """Programs that are called, controlled otherwise than started, asked for their state, or mentioned by a reaction."""
+    """Programs that are called, controlled otherwise than started, asked for their state, or part of a reaction."""
     for node in walk(modules):
         match node:
             case ir.CallRoutine(name=name):

@@ -18,6 +18,7 @@ RULES = Rules(
     advance=ADVANCE,
     components={"PoseType": _XYZABC, "TargetType": _XYZABC},
     text_plus=True,
+    number_marks=tables.NUMBER_MARKS,
     undefined=True,
     wait_poll_s=tables.CYCLE_S,
     # SPEED 100,100 ALWAYS, ACCEL 100,100, continuous path: the state in which every program starts.

@@ -69,6 +69,9 @@ FUNCTIONS: dict[str, tuple[str, int]] = {
     "#phere": ("current_joints", 0),
 }
 
+# Numbers to another base: binary, hexadecimal, octal. M: VAL reads them in a text as well.
+NUMBER_MARKS: dict[str, int] = {"^b": 2, "^h": 16, "^": 8}
+
 # TASK(1, n) gives this while task n executes (drivers that watch their tasks ask for it). M: 0 when it does not; which
 # other numbers say how it has ended is not imitated.
 TASK_STATE, TASK_EXECUTING = 1, 4

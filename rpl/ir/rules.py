@@ -39,7 +39,8 @@ class Rules:
     implicit_pose: an undeclared name is a pose. call_depth: nested calls the controller allows.
     system_defaults: modal system variables at the start of a run, in base units. errors: names of error numbers.
     blend_levels: distance in mm of each numbered blend level (INFORM PL). array_base: index of the first element of a
-    list that is written out. message_numbers, message_texts: of a controller whose messages show constant text only:
+    list that is written out. number_marks: what stands before the digits of a number to another base, also in a text
+    that is read as a number (longest first, in small letters). message_numbers, message_texts: of a controller whose messages show constant text only:
     regular expressions for what names a register of numbers, or any other register, in such a text.
     """
 
@@ -59,5 +60,6 @@ class Rules:
     type_names: Mapping[str, Type] = field(default_factory=dict)
     blend_levels: tuple[float, ...] = ()
     array_base: int = 1
+    number_marks: Mapping[str, int] = field(default_factory=dict)
     message_numbers: str = ""
     message_texts: str = ""

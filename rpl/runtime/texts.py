@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from decimal import ROUND_HALF_UP, Decimal, InvalidOperation
 
 from rpl.runtime.faults import ProgramError
@@ -24,6 +24,7 @@ from rpl.runtime.values import (
     whole,
 )
 
+_NO_MARKS: Mapping[str, int] = {}
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
 
 
@@ -80,8 +81,15 @@ def _parts(value: Value) -> Iterator[Value]:
             raise ProgramError("wrong_kind", "this value has no text")
 
 
-def text_value(text: str) -> float:
-    """The number written in the text."""
+def text_value(text: str, marks: Mapping[str, int] = _NO_MARKS) -> float:
+    """The number written in the text. `marks`: what stands before the digits of a number to another base."""
+    plain = text.strip().lower()
+    for mark, base in marks.items():
+        if plain.startswith(mark):
+            try:
+                return int(plain[len(mark) :], base)
+            except ValueError:
+                continue
     match = _NUMBER.fullmatch(text)
     if match is None:
         raise ProgramError("wrong_kind", f"{text!r} is no number")
@@ -294,7 +302,6 @@ PURE: dict[str, Callable[..., Value]] = {
     "value_text": value_text,
     "format": formatted,
     "message_text": message_text,
-    "text_value": text_value,
     "character_code": _code,
     "from_code": lambda code: chr(whole(code)),
 }

@@ -14,6 +14,7 @@ ROUTINES = {
     "may": ".PROGRAM may(a, b)\n IF b == 1 THEN\n a = 3\n END\n.END\n",
     "passed": ".PROGRAM passed(a, b)\n CALL may(a, b)\n.END\n",
     "count": ".PROGRAM count()\n IF NOT DEFINED(total) THEN\n total = 0\n END\n total = total+1\n.END\n",
+    "fill": ".PROGRAM fill()\n a[2] = 1\n.END\n",
     "given": ".PROGRAM given(a, done)\n done = DEFINED(a)\n.END\n",
 }
 # Statements, and what holds behind them.
@@ -31,6 +32,8 @@ CASES = {
     "not by the routine": ("CALL may(n, 0)", "NOT DEFINED(n)"),
     "by the routine": ("CALL may(n, 1)", "DEFINED(n)"),
     "by a routine of the routine": ("CALL passed(m, 0)\nCALL passed(n, 1)", "DEFINED(n) AND NOT DEFINED(m)"),
+    "of an element": ("LOCAL a[9]\na[0] = 4\na[7] = 9\ni = 7", "DEFINED(a[i]) AND NOT DEFINED(a[8]) AND DEFINED(a[0])"),
+    "of an element by a routine": ("a[1] = 4\nCALL fill()", "DEFINED(a[2]) AND DEFINED(a[1]) AND NOT DEFINED(a[3])"),
     "of the project": ("CALL count()\nCALL count()", "total == 2"),
     "of a parameter": ("m = 5\nCALL given(m, i)\nCALL given(n, q)", "i AND NOT q"),
 }
@@ -65,8 +68,8 @@ def test_what_is_certain_needs_no_flag() -> None:
     assert "n_set" not in "".join(file.data.decode() for file in written.files)
 
 
-def test_elements_of_lists_are_refused_by_name() -> None:
+def test_lists_that_a_routine_fills_are_refused_by_name() -> None:
     diagnostics = Diagnostics()
-    text = program("LOCAL a[3]\na[1] = 1\na[2] = 2", "DEFINED(a[2])")
-    translate_program(read(text), "rapid", None, None, diagnostics)
+    text = program("LOCAL a[3]\na[1] = 1\nCALL into(a[])", "DEFINED(a[2])")
+    translate_program(read(text + ".PROGRAM into(x[])\n x[2] = 1\n.END\n"), "rapid", None, None, diagnostics)
     assert ["is_uninitialised" in item.message for item in diagnostics.of(Severity.LOSS)] == [True]

@@ -55,3 +55,13 @@ def test_brackets_pass_a_value() -> None:
         program_of("n = 1\nCALL change((n))\nCALL change(n)\nIF n == 2 THEN\nSIGNAL 1\nEND", more), "p.v2", "vplus"
     )
     assert "CALL change((n))" in text and on == {"1"}
+
+
+@pytest.mark.parametrize(
+    "condition",
+    # M: VAL reads what a program may write as a number, with ^B, ^H and ^ for other bases.
+    ['VAL("^HFF") == 255', 'VAL("^B101") == 5', 'VAL("^17") == 15', "VAL($t) == 31", 'VAL("-2.5") == -2.5'],
+)
+def test_numbers_to_other_bases_in_texts(condition: str) -> None:
+    _, on = translated(program_of(f'$t = "^H1F"\nIF {condition} THEN\nSIGNAL 1\nEND'), "p.v2", "vplus")
+    assert on == {"1"}

@@ -103,6 +103,7 @@ from rpl.passes.legalise.tooldata import tool_data
 from rpl.passes.legalise.triggers import triggers
 from rpl.passes.legalise.truths import truths_to_numbers
 from rpl.passes.legalise.undefined import asked_values
+from rpl.passes.legalise.undefinedparts import asked_elements
 from rpl.passes.legalise.unused import drop_untyped, drop_unused
 from rpl.passes.legalise.valuearrays import copy_value_arrays
 from rpl.passes.legalise.waits import fit_waits
@@ -180,6 +181,7 @@ PASSES: tuple[Pass, ...] = (
     starting_values,
     fit_parameters,
     asked_values,
+    asked_elements,
     copy_value_arrays,
     array_sizes,
     check_errors,
