@@ -242,6 +242,8 @@ class Expressions:
                     _measured(lambda pieces, origin: ir.System(neutral, (index(pieces, origin),), origin=origin), unit),
                     suffixes[1:],
                 )
+        if name == "$in_home" and not suffixes:
+            return lambda pieces, origin: _at_home(origin)
         if name in tables.STRUCTURES:
             return self.structure(name, suffixes)
         if name in tables.SCALARS:
@@ -463,6 +465,19 @@ def _related(relation: str, left: Make, right: Make) -> Make:
 
 def _joined(op: str, left: Make, right: Make) -> Make:
     return lambda pieces, origin: ir.Binary(op, left(pieces, origin), right(pieces, origin), origin=origin)
+
+
+def _at_home(origin: Origin) -> ir.Expression:
+    """`$IN_HOME`: is each axis of the robot near to `$H_POS`?"""
+    near: ir.Expression | None = None
+    for axis in ("A1", "A2", "A3", "A4", "A5", "A6"):
+        here = ir.Field(ir.System("actual_joints", origin=origin), axis, origin=origin)
+        home = ir.Field(ir.Name("$H_POS", origin=origin), axis, origin=origin)
+        away = ir.Builtin("abs", (ir.Binary("-", here, home, origin=origin),), origin=origin)
+        one = ir.Binary("<", away, ir.IntLiteral(tables.HOME_TOLERANCE_DEG), origin=origin)
+        near = one if near is None else ir.Binary("and", near, one, origin=origin)
+    assert near is not None
+    return near
 
 
 def _measured(make: Make, unit: str) -> Make:

@@ -17,6 +17,7 @@ from rpl.reading.shapes import ShapeParser
 from rpl.registry import ReadResult
 from rpl.source import Origin, Source
 
+from . import tables
 from .blocks import Builder, DataList
 from .expressions import Facts
 from .motion import Motion
@@ -224,11 +225,22 @@ def _made_global(declaration: ir.Declaration, name: str) -> ir.Declaration:
     return declaration
 
 
+def _complete(declaration: ir.Declaration) -> ir.Declaration:
+    """Path parameters (LDAT) as older systems wrote them lack components that BAS reads: these get what is usual."""
+    match declaration:
+        case ir.Variable(type=ir.NamedType(name=name), initial=ir.Aggregate(entries=entries) as initial):
+            usual = tables.USUAL_COMPONENTS.get(name.lower(), {})
+            given = {(key or "").lower() for key, _ in entries}
+            more = tuple((key.upper(), ir.EnumLiteral(word)) for key, word in usual.items() if key not in given)
+            return replace(declaration, initial=replace(initial, entries=(*entries, *more))) if more else declaration
+    return declaration
+
+
 def _module(parts: _Parts) -> ir.Module:
     return ir.Module(
         parts.name,
         "krl",
-        tuple(parts.declarations),
+        tuple(_complete(one) for one in parts.declarations),
         tuple(parts.routines),
         tuple(parts.attributes),
         public=parts.public,
