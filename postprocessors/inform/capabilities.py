@@ -48,6 +48,7 @@ CAPABILITIES = Capabilities(
     search_results=frozenset(("found", "hit")),
     task_operations=frozenset(("start", "join")),
     moving_tasks=False,
+    late_triggers=False,
     banks={
         "IntType": tables.D,
         "RealType": tables.R,

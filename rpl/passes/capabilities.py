@@ -110,7 +110,8 @@ class Capabilities:
     path_points: the smallest corner (mm) of a point that the writer cuts a straight move at for an action on its path;
     where the ends of the move are computed, a pass does it (0: moves are not cut).
 
-    move_triggers: a move says the actions on its path itself (Move.triggers), and only so.
+    move_triggers: a move says the actions on its path itself (Move.triggers), and only so. late_triggers: an action
+    on the path may come some time behind the end of a move that stops there (else a task does it).
     watching_tasks: path events, searches and interrupts stand in `statements` although moves and the controller have
     none: the passes make tasks of them that watch beside the move (pathevents, watching). watched_interrupts: only
     interrupts are such tasks; one that stops the robot ends its moves by a search. pulse_levels: a Pulse may be to any
@@ -209,6 +210,7 @@ class Capabilities:
     speeds: frozenset[str] = frozenset()
     blends: frozenset[str] = frozenset()
     move_triggers: bool = False
+    late_triggers: bool = True
     watching_tasks: bool = False
     watched_interrupts: bool = False
     pulse_levels: bool = True

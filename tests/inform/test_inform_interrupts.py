@@ -15,7 +15,7 @@ from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
 ROBOT = "kuka_kr6r900sixx"
-SUFFIXES = {"krl": "src", "rapid": "mod", "vplus": "v2"}
+SUFFIXES = {"tp": "ls", "krl": "src", "rapid": "mod", "vplus": "v2"}
 
 
 def outputs_of(
@@ -23,9 +23,10 @@ def outputs_of(
 ) -> tuple[set[int], Diagnostics, str]:
     """Outputs that are on at the end of the run as jobs, the report, and the text of all jobs."""
     diagnostics = Diagnostics()
+    robot = "fanuc_lrmate200id" if language == "tp" else ROBOT
     read = read_sources([source_from_text(f"one.{SUFFIXES[language]}", text)], language, diagnostics)
     assert not diagnostics.has_errors, [item.as_text() for item in diagnostics]
-    translation = translate_program(read, "inform", ROBOT, None, diagnostics)
+    translation = translate_program(read, "inform", robot, None, diagnostics)
     again = Diagnostics()
     jobs = [source_from_bytes(file.path, file.data) for file in translation.files if file.path.endswith(".JBI")]
     back = read_sources(jobs, "inform", again)
@@ -36,7 +37,7 @@ def outputs_of(
         for time, (number, on) in inputs.items()
     ]
     cell.write_text("\n".join(lines), "utf-8")
-    run = run_program(back.program, ROBOT, read_cell(str(cell)), "ONE", 60.0)
+    run = run_program(back.program, robot, read_cell(str(cell)), "ONE", 60.0)
     assert run.status == "finished", run.fault
     state: dict[int, bool] = {}
     for _, name, value in run.outputs:
@@ -170,3 +171,62 @@ def test_arguments_of_a_job_beside_are_variables(tmp_path: Path) -> None:
 """
     on, diagnostics, _ = outputs_of("vplus", "\n".join(text.splitlines()), tmp_path, {})
     assert on == {1} and not diagnostics.of(Severity.LOSS)
+
+
+AT_ONCE = f"""DEF one()
+{START}INTERRUPT DECL 5 WHEN $OUT[20]==TRUE DO seen()
+FIRST
+INTERRUPT ON 5
+THEN
+WAIT SEC 0.5
+END
+DEF seen()
+$OUT[11] = TRUE
+END
+"""
+
+
+@pytest.mark.parametrize(
+    ("first", "then", "comes"),
+    [
+        ("$OUT[20] = FALSE", "$OUT[20] = TRUE", True),  # in the very moment in which the interrupt is turned on
+        ("$OUT[20] = TRUE", "WAIT SEC 0.5", False),  # it held before: no rise
+        ("$OUT[20] = TRUE", "WAIT SEC 0.5\n$OUT[20] = FALSE\nWAIT SEC 0.1\n$OUT[20] = TRUE", True),
+        ("$OUT[20] = TRUE", "INTERRUPT OFF 5\n$OUT[20] = FALSE\nINTERRUPT ON 5\n$OUT[20] = TRUE", True),
+    ],
+)
+def test_what_comes_as_soon_as_the_interrupt_is_on_is_seen(tmp_path: Path, first: str, then: str, comes: bool) -> None:
+    on, diagnostics, _ = outputs_of("krl", AT_ONCE.replace("FIRST", first).replace("THEN", then), tmp_path, {})
+    assert not diagnostics.of(Severity.LOSS)
+    assert (11 in on) == comes
+
+
+LATE = """/PROG  ONE
+/ATTR
+/MN
+   1:  J P[1] 100% FINE ;
+   2:  L P[2] 100mm/sec FINE TA    .30sec,DO[5]=ON ;
+   3:  R[1]=DO[5] ;
+   4:  DO[1]=(R[1]=0) ;
+   5:  WAIT    .50(sec) ;
+   6:  R[1]=DO[5] ;
+   7:  DO[2]=(R[1]=1) ;
+/POS
+P[1]{
+   GP1:
+    UF : 0, UT : 1,
+    J1= 0 deg, J2= 0 deg, J3= 0 deg, J4= 0 deg, J5= -60 deg, J6= 0 deg
+};
+P[2]{
+   GP1:
+    UF : 0, UT : 1, CONFIG : 'N U T, 0, 0, 0',
+    X = 450.0 mm, Y = 80.0 mm, Z = 300.0 mm, W = 180.0 deg, P = 0.0 deg, R = 0.0 deg
+};
+/END
+"""
+
+
+def test_what_comes_a_time_behind_the_end_of_a_move_is_a_job_beside(tmp_path: Path) -> None:
+    on, diagnostics, text = outputs_of("tp", LATE, tmp_path, {})
+    assert on == {1, 2, 5} and not diagnostics.of(Severity.LOSS)
+    assert "PSTART JOB:RPL_ON_PATH" in text and "TIMER T=0.30\r\nDOUT OT#(5) ON" in text

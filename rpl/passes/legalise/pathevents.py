@@ -41,8 +41,9 @@ _EVENT = "rpl_on_path"
 
 
 def path_events(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets whose path events are tasks."""
-    if not context.capabilities.watching_tasks:
+    """Only for targets whose path events are tasks, all of them or those that come behind the end of a move."""
+    watched = context.capabilities.watching_tasks
+    if not watched and context.capabilities.late_triggers:
         return program
     if not any(isinstance(node, ir.Trigger) for node in walk(*program.modules)):
         return program
@@ -50,7 +51,7 @@ def path_events(program: ir.Program, context: Context) -> ir.Program:
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         worker = _Events(context, editor, routine, beside)
-        return edit_bodies(routine, worker.body)
+        return edit_bodies(routine, worker.body if watched else worker.late_body)
 
     done = beside.placed(edit_routines(program, context, work))
     if beside.moving is not None:
@@ -153,6 +154,43 @@ class _Events:
         if timed and _number(trigger.delay) is None:
             return "its time is computed"
         return ""
+
+    # ---- only what comes when the robot stands already
+
+    def late_body(self, body: ir.Body) -> ir.Body:
+        """The triggers that stand before a move go behind it, as a task each."""
+        done: list[ir.Statement] = []
+        waiting: list[int] = []  # places in `done` of triggers that the next move may take
+        for statement in body:
+            match statement:
+                case ir.Trigger():
+                    waiting.append(len(done))
+                    done.append(statement)
+                case ir.Move():
+                    late = [at for at in waiting if self.late(done[at], statement)]
+                    events = [one for at in late if isinstance(one := done[at], ir.Trigger)]
+                    for at in late:
+                        done[at] = ir.Nothing(origin=done[at].origin)
+                    done.append(statement)
+                    for one in sorted(events, key=lambda each: _number(each.delay) or 0.0):
+                        action = replace(one.action, origin=_later(one.origin))
+                        done.extend(self.later(one, action, _number(one.delay) or 0.0))
+                    waiting = []
+                case ir.Assign() | ir.Nothing() | ir.LookAhead():
+                    done.append(statement)
+                case _:
+                    waiting = []
+                    done.append(inside(statement, self.late_body))
+        same = len(done) == len(body) and all(new is old for new, old in zip(done, body, strict=True))
+        return body if same else tuple(done)
+
+    def late(self, trigger: ir.Statement, move: ir.Move) -> bool:
+        """Does it come a constant time behind the end of the move, where the robot stands?"""
+        if not isinstance(trigger, ir.Trigger) or self.refused(trigger, move):
+            return False
+        stands = move.blend in (None, ir.BlendStop()) and move.search is None and not move.concurrent
+        at_end = trigger.reference == "end" and (trigger.distance is None or _number(trigger.distance) == 0.0)
+        return stands and at_end and (_number(trigger.delay) or 0.0) > 0.0
 
     # ---- one event
 

@@ -165,9 +165,9 @@ class _Watches:
             first = ir.IntLiteral(_NO_MASK)
             self.data.append(ir.Variable(self.mask, ir.IntType(), first, scope="global"))
         watch.mask = self.mask
-        if timed:
+        if key not in self.periods:
             watch.was = self.flag(f"rpl_interrupt_{key}_was")
-        else:
+        if not timed:
             self.task(watch)
 
     def by_urgency(self) -> tuple[ir.Task, ...]:
@@ -214,7 +214,8 @@ class _Watches:
     # ---- tasks
 
     def task(self, watch: Watch) -> None:
-        """Waits for the condition to come and acts, again and again."""
+        """Waits for the condition to come and acts, again and again. What it was is noted where the program turns the
+        interrupt on, so that a condition that comes before the task has looked is one that came."""
         name = self.beside.context.fresh(f"rpl_interrupt_{watch.key}")
         armed = ir.Name(watch.armed)
         off, cond = ir.Unary("not", armed), watch.declared.condition
@@ -223,16 +224,23 @@ class _Watches:
             acts = [ir.Critical(True), *acts, ir.Critical(False)]
         if watch.declared.once:
             acts.insert(0, ir.Assign(armed, ir.BoolLiteral(False)))
-        body: list[ir.Statement] = [
-            ir.WaitUntil(ir.Binary("cand", armed, ir.Unary("not", cond))),
-            ir.WaitUntil(ir.Binary("cor", cond, off)),
-        ]
+        came: ir.Expression = armed
         if watch.key in self.periods:
-            body = [ir.WaitUntil(armed), ir.Wait(self.periods[watch.key][0])]
+            body: list[ir.Statement] = [ir.WaitUntil(armed), ir.Wait(self.periods[watch.key][0])]
+        else:
+            was = ir.Name(watch.was)
+            new = ir.Unary("not", was)
+            came = ir.Binary("cand", armed, new)
+            acts.insert(0, ir.Assign(was, ir.BoolLiteral(True)))
+            body = [
+                ir.WaitUntil(ir.Binary("cand", armed, ir.Binary("cor", new, ir.Unary("not", cond)))),
+                ir.Assign(was, ir.BoolLiteral(False)),
+                ir.WaitUntil(ir.Binary("cor", cond, off)),
+            ]
         held = watch.may_come()
         if held is not None:
             body.append(ir.WaitUntil(ir.Binary("cor", held, off)))
-        body.append(ir.If(((armed, tuple(acts)),)))
+        body.append(ir.If(((came, tuple(acts)),)))
         self.made.append(ir.Routine(name, body=tuple(body), scope="global"))
         self.tasks.append((watch.priority, ir.Task(name, name, kind="background", cyclic=True)))
 
@@ -267,7 +275,7 @@ class _Watches:
             return (statement,) if handle is not None else ()
         done: list[ir.Statement] = []
         for watch in chosen:
-            if op == "on" and watch.served:
+            if op == "on" and watch.was:
                 done.append(ir.Assign(ir.Name(watch.was), watch.declared.condition, origin=tidy(statement.origin)))
             if op in ("on", "off", "delete"):
                 done.append(_set(watch.armed, op == "on", statement))
