@@ -41,11 +41,13 @@ class Position:
 
 
 def position_of(value: ir.Expression) -> Position | None:
-    """The position that is written out; None when it is computed or lacks components."""
+    """The position that is written out; None when it is computed or lacks components. Joints that are left out belong
+    to the way of a relative move, where they are zero."""
     parts = flat(value)
-    if "j1" in parts:
-        names = [name for name in tables.JOINT_ELEMENTS if name in parts]
-        found = _numbers(parts, names)
+    given = [at for at, name in enumerate(tables.JOINT_ELEMENTS, 1) if name in parts]
+    if given:
+        names = tables.JOINT_ELEMENTS[: given[-1]]
+        found = _numbers({**dict.fromkeys(names, ir.RealLiteral(0.0)), **parts}, names)
         return None if found is None else Position("joints", found, (), _external(parts))
     quaternion = _numbers(parts, ("q1", "q2", "q3", "q4"))
     if quaternion is not None:

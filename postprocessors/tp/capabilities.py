@@ -57,7 +57,6 @@ CAPABILITIES = Capabilities(
     partial_aggregates=True,
     constant_aggregates=True,
     relative_moves=True,
-    partial_targets=True,
     for_real=True,
     else_if=False,
     for_keeps_last=True,

@@ -8,6 +8,7 @@ from rpl import ir
 from rpl.passes.legalise.accelerations import accelerations_of_moves
 from rpl.passes.legalise.aggregates import aggregates
 from rpl.passes.legalise.aliases import without_aliases
+from rpl.passes.legalise.arcpoints import whole_arc_points
 from rpl.passes.legalise.arithmetic import arithmetic
 from rpl.passes.legalise.arrays import array_bases, array_sizes
 from rpl.passes.legalise.background import background_tasks
@@ -148,6 +149,7 @@ PASSES: tuple[Pass, ...] = (
     array_bases,
     near_joints,
     joint_goals,
+    whole_arc_points,
     three_point_arcs,
     circle_rules,
     destinations,

@@ -13,14 +13,15 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes import rigid
-from rpl.passes.fold import constant
+from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.editing import map_body
 from rpl.passes.legalise.jumps import inside
+from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
-from rpl.passes.values import Target
+from rpl.passes.values import Record, Target, real
 
 STOPPED_FOR_POSITION = code(
     "stopped-for-position",
@@ -46,12 +47,12 @@ def whole_targets(program: ir.Program, context: Context) -> ir.Program:
     capabilities = context.capabilities
     if capabilities.relative_moves and capabilities.partial_targets:
         return program
-    scopes = ProgramScope(program)
+    scopes, unchanged = ProgramScope(program), unchanged_in(program)
     modules = []
     for module in program.modules:
         routines = []
         for routine in module.routines:
-            worker = _Whole(context, scopes.routine(module, routine))
+            worker = _Whole(context, scopes.routine(module, routine), unchanged)
             body = worker.body(routine.body)
             declarations = (*routine.declarations, *worker.declared)
             routines.append(replace(routine, body=body, declarations=declarations))
@@ -60,8 +61,8 @@ def whole_targets(program: ir.Program, context: Context) -> ir.Program:
 
 
 class _Whole:
-    def __init__(self, context: Context, scope: Scope) -> None:
-        self.context, self.scope = context, scope
+    def __init__(self, context: Context, scope: Scope, unchanged: Unchanged) -> None:
+        self.context, self.scope, self.unchanged = context, scope, unchanged
         self.declared: list[ir.Declaration] = []
 
     def body(self, body: ir.Body) -> ir.Body:
@@ -124,20 +125,63 @@ class _Whole:
     def from_here(
         self, move: ir.Move, target: ir.Aggregate, type: ir.Type, done: list[ir.Statement]
     ) -> list[ir.Statement]:
-        """A temporary takes the robot's place; the components given are set or added."""
+        """The components given are set or added: in the values themselves where these are known, else in a temporary
+        that takes the place where the last move went to, or where the robot stands."""
+        joints = isinstance(type, ir.JointsType)
+        start = self.last_joints(done) if joints else self.last_pose(done, move)
+        known = self.folded(start, target, move.relative is not None) if joints else None
+        if known is not None:
+            return [replace(move, target=known, relative=None)]
         name = self.context.fresh("rpl_here")
         self.declared.append(ir.Variable(name, type, scope="routine"))
-        self.stop_before(done)
-        joints = isinstance(type, ir.JointsType)
-        place = ir.System("actual_joints" if joints else "actual_pose")
+        if start is None:
+            self.stop_before(done)
+            start = ir.System("actual_joints" if joints else "actual_pose")
         later = replace(move.origin, comments=())
-        steps: list[ir.Statement] = [ir.Assign(ir.Name(name), place, origin=move.origin)]
+        steps: list[ir.Statement] = [ir.Assign(ir.Name(name), start, origin=move.origin)]
         for component, value in target.entries:
             assert component is not None
             part = ir.Field(ir.Name(name), component)
             new = ir.Binary("+", part, value) if move.relative is not None else value
             steps.append(ir.Assign(part, new, origin=later))
         return [*steps, replace(move, target=ir.Name(name), relative=None, origin=later)]
+
+    def last_joints(self, done: list[ir.Statement]) -> ir.Expression | None:
+        """The joint values that the move before went to, when nothing in between can have moved the robot."""
+        for statement in reversed(done):
+            match statement:
+                case ir.Move(target=target, relative=None, search=None):
+                    given = isinstance(target, ir.Aggregate) or _is_place(target)
+                    whole = given and not self.missing(target) and _is_steady(target)
+                    return target if whole and isinstance(self.type_of(target), ir.JointsType) else None
+                case ir.Assign(target=ir.System()):
+                    continue  # tools and frames do not move the joints
+            if not _passes(statement):
+                return None
+        return None
+
+    def last_pose(self, done: list[ir.Statement], move: ir.Move) -> ir.Expression | None:
+        """The place that the move before went to. A joint move keeps the posture too, which only another one's place
+        tells."""
+        before = next((one for one in reversed(done) if isinstance(one, ir.Move)), None)
+        if before is None or (move.kind == "joint" and before.kind != "joint") or self.missing(before.target):
+            return None
+        return self.last_target(done, move)
+
+    def folded(self, start: ir.Expression | None, target: ir.Aggregate, adds: bool) -> ir.Aggregate | None:
+        """Joint values with those of the target in their places, where all are constants."""
+        value = None if start is None else constant(start, self.scope, self.unchanged)
+        if not isinstance(value, Record):
+            return None
+        axes = {name: part for name, part in value.parts if isinstance(part, int | float)}
+        if len(axes) != len(value.parts) or "j1" not in axes:
+            return None
+        for name, entry in target.entries:
+            number = constant_number(entry, self.scope, self.unchanged)
+            if number is None or name is None or name not in axes:
+                return None
+            axes[name] = axes[name] + number if adds else number
+        return replace(target, entries=tuple((name, real(float(part))) for name, part in axes.items()))
 
     def offset(self, move: ir.Move, target: ir.Aggregate, done: list[ir.Statement]) -> list[ir.Statement]:
         values = {name: value for name, value in target.entries if name is not None}

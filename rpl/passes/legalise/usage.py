@@ -66,10 +66,12 @@ class Usage:
     """Routine (folded) -> system variables it may set, directly or through calls."""
     interrupting: set[str] = field(default_factory=set)
     """System variables that an interrupt's routine may set."""
+    copied: dict[str, frozenset[int]] = field(default_factory=dict)
+    """Routine (folded) -> positions of arguments that it only gets the value of, whichever routine of that name."""
 
 
 def usage_of(program: ir.Program) -> Usage:
-    usage = Usage()
+    usage = Usage(copied=_copied(program))
     calls: dict[str, set[str]] = {}
     handlers: set[str] = set()
     for module in program.modules:
@@ -98,7 +100,7 @@ def assigned_in(body: ir.Body) -> set[str]:
 
     def call(expression: ir.Expression) -> None:
         if isinstance(expression, ir.Call):
-            _arguments(expression.arguments, usage)
+            _arguments(expression.name, expression.arguments, usage)
 
     each_statement(body, look)
     return usage.assigned
@@ -120,7 +122,7 @@ def _statement(statement: ir.Statement, key: str, usage: Usage, calls: dict[str,
     def call(expression: ir.Expression) -> None:
         if isinstance(expression, ir.Call):
             calls[key].add(expression.name.lower())
-            _arguments(expression.arguments, usage)
+            _arguments(expression.name, expression.arguments, usage)
 
     each_expression(statement, call)
 
@@ -132,8 +134,8 @@ def _assigned(statement: ir.Statement, usage: Usage) -> None:
             _name(target, usage)
         case ir.For(counter=counter):
             usage.assigned.add(counter.lower())
-        case ir.CallRoutine(arguments=arguments):
-            _arguments(arguments, usage)
+        case ir.CallRoutine(name=name, arguments=arguments):
+            _arguments(name, arguments, usage)
         case ir.Do(arguments=values):
             for value in values:
                 _name(value, usage)
@@ -150,9 +152,22 @@ def _assigned(statement: ir.Statement, usage: Usage) -> None:
             _name(found, usage)
 
 
-def _arguments(arguments: tuple[ir.Argument, ...], usage: Usage) -> None:
-    for argument in arguments:
-        if isinstance(argument.value, ir.Name | ir.Index | ir.Field):
+def _copied(program: ir.Program) -> dict[str, frozenset[int]]:
+    found: dict[str, frozenset[int]] = {}
+    for module in program.modules:
+        for routine in module.routines:
+            plain = all(not one.optional for one in routine.parameters)
+            by_value = [at for at, one in enumerate(routine.parameters) if plain and one.mode == "value"]
+            key = routine.name.lower()
+            found[key] = frozenset(by_value) & found.get(key, frozenset(by_value))
+    return found
+
+
+def _arguments(name: str, arguments: tuple[ir.Argument, ...], usage: Usage) -> None:
+    named = any(argument.name for argument in arguments)
+    copied = frozenset() if named else usage.copied.get(name.lower(), frozenset())
+    for at, argument in enumerate(arguments):
+        if at not in copied and isinstance(argument.value, ir.Name | ir.Index | ir.Field):
             _name(argument.value, usage)
 
 
