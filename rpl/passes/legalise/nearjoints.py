@@ -2,7 +2,8 @@
 
 Where place, tool and joints are constant the move goes to the joints themselves. Nearest to where the arm is: a move to
 the place, which the target's controller solves so. Nearest to other constant joints: their posture where the target's
-moves can ask for one, else the place alone, with a warning. What stays is refused by `refuse`.
+moves can ask for one, else the place alone, with a warning; so where the joints are not known before the program runs.
+What stays is refused by `refuse`.
 """
 
 from __future__ import annotations
@@ -58,6 +59,9 @@ class _Solved(Rewriter):
         if near == ir.Builtin("current_joints", ()):
             return replace(move, target=place)
         joints = self.axes(constant(near, self.scope, self.unchanged))
+        if joints is None and not isinstance(near, ir.Aggregate):
+            self.context.diagnostics.report(POSTURE, move.origin)
+            return replace(move, target=place)
         if joints is None:
             return move
         found = self.joints(move, place, joints)

@@ -18,16 +18,10 @@ from rpl.passes.legalise.effects import children, everything, is_constant
 from rpl.passes.legalise.operands import changing, is_operand, opposite, stands_still
 from rpl.passes.legalise.spread import is_computed, reads, spread
 from rpl.passes.legalise.usage import assigned_in
+from rpl.passes.legalise.walk import POLL_S, POLLED
 
-POLLED = code(
-    "polled-wait",
-    Severity.WARNING,
-    "the target cannot wait for this condition; it is computed every {seconds:g} s until it holds",
-)
 TIMED = code("timed-wait-computed", Severity.LOSS, "a wait for a computed condition loses its time limit")
 
-# How often a condition is computed that the target cannot wait for, s. Controllers scan every 8 to 16 ms.
-POLL_S = 0.012
 _COMPARISONS = ("=", "<>", "<", ">", "<=", ">=")
 _JOINING = {"and": "and", "or": "or", "cand": "and", "cor": "or"}
 _HELD = ir.IntLiteral(0)  # stands for a move's target while the rest of the move is looked at

@@ -24,6 +24,14 @@ EARLY = code(
     "this condition needs a value that the target computes in a statement of its own; it is computed once, before",
 )
 
+POLLED = code(
+    "polled-wait",
+    Severity.WARNING,
+    "the target cannot wait for this condition; it is computed every {seconds:g} s until it holds",
+)
+# How often a condition is computed that the target cannot wait for, s. Controllers scan every 8 to 16 ms.
+POLL_S = 0.012
+
 
 class Rewriter:
     """One pass over one program. `scope` is where the rewriting is just now."""
@@ -161,7 +169,9 @@ class Rewriter:
                 )
                 other = None if default is None else self.body(default)
                 return _in_order([*first, replace(statement, selector=chosen, cases=new, default=other)], statement)
-            case ir.WaitUntil() | ir.DeclareInterrupt() | ir.OrderInterrupt() | ir.Trigger():
+            case ir.WaitUntil():
+                return self.waiting(statement, self.statement(statement))
+            case ir.DeclareInterrupt() | ir.OrderInterrupt() | ir.Trigger():
                 done = self.statement(statement)
                 first = self.taken()
                 if first:
@@ -169,6 +179,29 @@ class Rewriter:
                 return _in_order([*first, *done], statement)
         done = self.statement(statement)
         return _in_order([*self.taken(), *done], statement)
+
+    def waiting(self, statement: ir.WaitUntil, done: list[ir.Statement]) -> list[ir.Statement]:
+        """A wait; one whose condition needs statements first is a loop that computes it again and again."""
+        first, wait = [*self.taken(), *done[:-1]], done[-1]
+        if not first or not isinstance(wait, ir.WaitUntil):
+            return _in_order([*first, wait], statement)
+        if wait.timeout is not None and wait.timed_out is None:
+            self.context.diagnostics.report(EARLY, statement.origin)
+            return _in_order([*first, wait], statement)
+        self.context.diagnostics.report(POLLED, statement.origin, seconds=POLL_S)
+        pause = ir.Wait(ir.Quantity(ir.RealLiteral(POLL_S), "s"))
+        leave = ir.If(((wait.condition, (ir.ExitLoop(),)),))
+        before: list[ir.Statement] = [ir.WaitForMotion()] if wait.in_position else []
+        late: list[ir.Statement] = []
+        if wait.timeout is not None and wait.timed_out is not None:
+            limit, waited = self.temporary(ir.RealType(), "limit"), self.temporary(ir.RealType(), "waited")
+            before.append(ir.Assign(limit, _seconds(wait.timeout)))
+            before.append(ir.Assign(waited, ir.RealLiteral(0.0)))
+            before.append(ir.Assign(wait.timed_out, ir.BoolLiteral(False)))
+            over = (ir.Assign(wait.timed_out, ir.BoolLiteral(True)), ir.ExitLoop())
+            late.append(ir.If(((ir.Binary(">=", waited, limit), over),)))
+            late.append(ir.Assign(waited, ir.Binary("+", waited, ir.RealLiteral(POLL_S))))
+        return _in_order([*before, ir.Loop((*_bare(first), leave, *late, pause))], statement)
 
     def loop(self, statement: ir.While, condition: ir.Expression, body: ir.Body) -> list[ir.Statement]:
         first = self.taken()
@@ -209,6 +242,14 @@ class Rewriter:
             first.extend(needed)
             done.append((condition, self.body(body)))
         return [*first, replace(statement, branches=tuple(done), otherwise=self.body(otherwise))]
+
+
+def _seconds(time: ir.Expression) -> ir.Expression:
+    """A time as a plain number of seconds."""
+    if isinstance(time, ir.Quantity):
+        factor = ir.UNITS[time.unit]
+        return time.value if factor == 1.0 else ir.Binary("*", time.value, ir.RealLiteral(factor))
+    return time
 
 
 def _bare(statements: list[ir.Statement]) -> list[ir.Statement]:
