@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rpl import ir
-from rpl.diagnostics import Diagnostics
+from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir import words
 from rpl.ir.walk import is_statement
 from rpl.reading.assemble import assemble
@@ -21,12 +21,20 @@ from .blocks import DECLARED, Builder, lower, scoped
 from .expressions import Reading
 from .splitter import NUMBERS, split
 
+REPLACED = code(
+    "rpl-entry-not-begun",
+    Severity.WARNING,
+    "{entry} is not begun by itself: the tasks that may move the robot ({tasks}) are the program",
+    "write BACKGROUND behind a task that runs beside {entry}, or add TASK main ENTRY {entry}",
+)
+
 
 def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     """Read all sources as one program."""
     parser = ShapeParser("rpl.lark", NUMBERS)
     modules: list[ir.Module] = []
     tasks: list[ir.Task] = []
+    places: list[Origin] = []
     entry = ""
     files: list[FileReport] = []
     for source in sources:
@@ -44,9 +52,23 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
             found.take(item)
         modules.extend(affix(module, affixed) for module in found.finish())
         tasks.extend(found.tasks)
+        places.extend(found.places)
         entry = entry or found.entry
         files.append(assembly.report)
+    _report_replaced(modules, tasks, entry, places, diagnostics)
     return ReadResult(ir.Program(tuple(modules), tuple(tasks), entry), tuple(files))
+
+
+def _report_replaced(
+    modules: Sequence[ir.Module], tasks: Sequence[ir.Task], entry: str, places: Sequence[Origin], found: Diagnostics
+) -> None:
+    """A task that moves the robot is a program of its own: where there is one, nothing else is begun by itself."""
+    moving = [task for task in tasks if task.kind == "motion"]
+    first = entry or next((r.name for m in modules for r in m.routines if r.name.lower() == "main"), "")
+    if not moving or not first or any(task.entry.lower() == first.lower() for task in moving):
+        return
+    at = places[list(tasks).index(moving[0])]
+    found.report(REPLACED, at, entry=first, tasks=", ".join(task.name for task in moving))
 
 
 class _File:
@@ -56,6 +78,7 @@ class _File:
         self.source = source
         self.modules: list[ir.Module] = []
         self.tasks: list[ir.Task] = []
+        self.places: list[Origin] = []
         self.entry = ""
         self.comments: list[Comment] = []
         self.loose: list[Item] = []
@@ -70,6 +93,7 @@ class _File:
                 self.modules.append(module)
             case ModulePart(data=ir.Task() as task):
                 self.tasks.append(task)
+                self.places.append(item.origin)
             case ModulePart(data=str(entry)):
                 self.entry = entry
             case ir.Nothing() if not self.loose:

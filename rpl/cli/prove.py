@@ -41,6 +41,7 @@ def command(
     Exit status 0 when they do, 1 when they do not; the first difference is shown with both source lines.
     """
     from rpl.project import read_program
+    from rpl.proof.cellnames import report_unknown_signals
     from rpl.proof.prove import load_cell, prove_programs
 
     if tolerance is not None and not tolerance >= 0:
@@ -54,13 +55,16 @@ def command(
         if not read.files:
             raise UsageError(f"no robot program in {path}; name the language with --from or --to if there is one")
         programs.append(read.program)
+    surroundings, unknown = load_cell(cell), collector()
+    report_unknown_signals(programs[0], surroundings, unknown)
+    print_diagnostics(unknown, Severity.WARNING)
     with waiting("proving"):
         result = prove_programs(
             programs[0],
             programs[1],
             robot,
             to_robot or robot,
-            load_cell(cell),
+            surroundings,
             entry=entry,
             to_entry=to_entry or entry,
             path_mm=tolerance,

@@ -55,6 +55,7 @@ def command(
     Exit status 0 when the program came to its end or its own stop, 1 for a fault, a deadlock or the time limit.
     """
     from rpl.project import read_program
+    from rpl.proof.cellnames import report_unknown_signals
     from rpl.proof.prove import load_cell
     from rpl.simulation import run_program
 
@@ -71,8 +72,11 @@ def command(
         assumptions = collector()
         report_assumed(read.program, model, assumptions)
         print_diagnostics(assumptions, Severity.WARNING)
+    surroundings, assumptions = load_cell(cell), collector()
+    report_unknown_signals(read.program, surroundings, assumptions)
+    print_diagnostics(assumptions, Severity.WARNING)
     with waiting("running"):
-        result = run_program(read.program, model, load_cell(cell), entry, max_time)
+        result = run_program(read.program, model, surroundings, entry, max_time)
     if trace is not None:
         lines = [json.dumps(plain(event), ensure_ascii=False) for event in result.trace_lines()]
         write_file(trace, "".join(line + "\n" for line in lines).encode("utf-8"))

@@ -80,6 +80,7 @@ def command(
     """
     from rpl.cell import read_cell
     from rpl.project import read_program
+    from rpl.proof.cellnames import report_unknown_signals
     from rpl.translation import translate_program
     from rpl.writing.registers import read_registers
 
@@ -95,7 +96,9 @@ def command(
     before = len(diagnostics)
     with waiting("writing"):
         kept = read_registers(registers) if registers is not None else None
-        given = read_cell(cell).variables if cell is not None else None
+        around = read_cell(cell) if cell is not None else None
+        report_unknown_signals(read.program, around, diagnostics)
+        given = around.variables if around is not None else None
         translation = translate_program(read, target, robot, to_robot, diagnostics, kept, own, given)
     if strict:
         _raise_approximations(diagnostics, before)

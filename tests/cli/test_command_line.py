@@ -197,3 +197,17 @@ def test_a_closed_pipe_is_no_traceback() -> None:
 def test_the_module_runs_as_the_command_does() -> None:
     done = python("-m", "rpl.cli.main", "--version")
     assert (done.returncode, done.stdout.split()[0]) == (0, "rpl")
+
+
+def test_a_cell_file_that_names_an_unknown_signal(
+    program: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    program.write_text("DEF demo()\nSIGNAL grip_closed $IN[7]\nWAIT FOR grip_closed\n$OUT[1]=TRUE\nEND\n")
+    rows = ["grip_closed", "$IN[9]", "DI[2]", "grip_close"]
+    text = "".join(f'[[input]]\ntime = 1.0\nsignal = "{name}"\nvalue = true\n' for name in rows)
+    cell = tmp_path / "cell.toml"
+    cell.write_text(text)
+    assert run(["run", str(program), "--cell", str(cell)]) == 0
+    warnings = [line for line in words(capsys)[1].splitlines() if "cell-unknown-signal" in line]
+    assert len(warnings) == 1
+    assert "cell.toml:15:10: warning" in warnings[0] and "the nearest are grip_closed" in warnings[0]

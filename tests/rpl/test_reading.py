@@ -227,3 +227,19 @@ def test_one_file_for_each_module() -> None:
     program, _, _ = read("ENTRY a\nMODULE m\nEND MODULE\nMODULE `n/1`\nEND MODULE\n")
     files = registry.target("rpl").write(program, WriteContext(Diagnostics(), options={"files": "module"}))
     assert [file.path for file in files] == ["m.rpl", "n_1.rpl", "tasks.rpl"]
+
+
+@pytest.mark.parametrize(
+    ("tasks", "codes"),
+    [
+        ("TASK beat ENTRY pulse", ["rpl-entry-not-begun"]),
+        ("TASK beat ENTRY pulse BACKGROUND", []),
+        ("TASK beat ENTRY pulse\nTASK first ENTRY main", []),
+    ],
+)
+def test_a_task_that_stands_for_the_entry_is_reported(tasks: str, codes: list[str]) -> None:
+    routines = "".join(f"PROCEDURE {name}()\n WAIT 1 s\nEND PROCEDURE\n" for name in ("main", "pulse"))
+    text = f"ENTRY main\n{tasks}\n{routines}"
+    diagnostics = Diagnostics()
+    registry.dialect("rpl").read([source_from_text("p.rpl", text)], diagnostics)
+    assert [item.code.name for item in diagnostics] == codes
