@@ -169,10 +169,13 @@ class Motion:
                 self.before.append(self.standstill())
             start = f"PR[{self.second}]"
             self.before.append(Line(f"  {start}=LPOS"))
-        self.before.append(
-            Line(f"  PR[{self.scratch}]={self.points.place(self.points.add(step_of(move.target, turned=True)))}")
-        )
-        return start, f" Tool_Offset,PR[{self.scratch}]"
+        way = self.expressions.element(move.target) if isinstance(move.target, ir.Index | ir.Name) else None
+        if way is None:
+            way = self.points.place(self.points.add(step_of(move.target, turned=True)))
+        if not way.startswith("PR["):
+            self.before.append(Line(f"  PR[{self.scratch}]={way}"))
+            way = f"PR[{self.scratch}]"
+        return start, f" Tool_Offset,{way}"
 
     def standstill(self) -> Line:
         """A way of no length that ends with FINE: the lines behind it come when the robot stands."""

@@ -146,6 +146,8 @@ def point_number(name: str) -> int | None:
 def step_of(value: ir.Expression, turned: bool = False) -> Position:
     """The way of a relative move; components that are left out are zero. INC adds component by component, so a turn in
     degrees is something else than a composed one (`turned`: it may have one)."""
+    if not isinstance(value, ir.Aggregate):
+        raise CannotSayError("the way of a relative move that is computed")
     parts = flat(value)
     names = _JOINTS if set(_JOINTS) & set(parts) else _POSE
     values = numbers({**dict.fromkeys(names, ir.RealLiteral(0.0)), **parts}, names)

@@ -261,6 +261,13 @@ def test_a_way_along_the_tool_goes_from_the_point_before() -> None:
     assert found[-3:] == ["PR[99]=LPOS", "PR[100]=P[3]", "L PR[99] 100mm/sec FINE Tool_Offset,PR[100]"]
 
 
+def test_a_way_along_the_tool_in_a_position_register() -> None:
+    found = lines("MOVE LINEAR TO P1 SPEED 100 mm/s\nMOVE LINEAR BY PR[7] IN TOOL SPEED 100 mm/s")
+    assert found[1:] == ["L P[1] 100mm/sec FINE Tool_Offset,PR[7]"]
+    codes = listing("MOVE LINEAR BY inverse(PR[7]) IN TOOL SPEED 100 mm/s")[1]
+    assert "tp-guarded-stop" in codes
+
+
 def test_a_way_along_the_tool_from_a_place_that_is_not_known() -> None:
     """The robot may stand already, or it comes to rest first; a corner that is lost by that is said."""
     away = "MOVE LINEAR BY {z: -80} IN TOOL SPEED 100 mm/s"
