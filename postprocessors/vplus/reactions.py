@@ -27,12 +27,17 @@ class Watch:
     condition: str
 
     def steps(self) -> tuple[str, ...]:
-        wait = f"WAIT {self.condition}"
         return (
             "; Switches a signal as a condition comes and goes.",
-            *("WHILE TRUE DO", f"    WAIT NOT ({self.condition})", f"    SIGNAL -{self.signal}"),
-            *(f"    {wait}", f"    SIGNAL {self.signal}", "END"),
+            *("WHILE TRUE DO", f"    IF SIG({self.signal}) THEN"),
+            *(f"        WAIT NOT ({self.condition})", f"        SIGNAL -{self.signal}", "    END"),
+            *(f"    WAIT {self.condition}", f"    SIGNAL {self.signal}", "END"),
         )
+
+    def begun(self) -> tuple[str, ...]:
+        """The signal is as the condition is when the reaction is armed, so what comes right behind is not missed."""
+        on = (f"IF {self.condition} THEN", f"    SIGNAL {self.signal}", "END")
+        return (f"SIGNAL -{self.signal}", *on, f"EXECUTE /C {self.task} {self.name}()")
 
 
 def _no_task(signal: ir.Signal) -> int:
@@ -46,7 +51,7 @@ class Reactions:
         self.task_of: Callable[[ir.Signal], int] = _no_task
         self.declared: dict[str, list[ir.DeclareInterrupt]] = {}
         self.watches: dict[str, Watch] = {}
-        self.flags = {node.index.value for node in walk(program) if _is_flag(node)}  # type: ignore[attr-defined]
+        self.flags = {number for node in walk(program) if (number := _flag(node)) is not None}
         for node in walk(program):
             if isinstance(node, ir.DeclareInterrupt):
                 self.declared.setdefault(_key(node), []).append(node)
@@ -71,7 +76,7 @@ class Reactions:
         """REACT, behind the start of the program that watches the condition, if one does."""
         step = self.step(declared, expressions)
         watch = self.watches.get(repr(declared.condition))
-        return [step] if watch is None else [f"EXECUTE /C {watch.task} {watch.name}()", step]
+        return [step] if watch is None else [*watch.begun(), step]
 
     def watched(self, condition: ir.Expression, expressions: Expressions) -> str:
         """A software signal that a program in a task of its own switches as the condition comes and goes."""
@@ -123,6 +128,8 @@ class Reactions:
                 declared = expressions.places.declared(name)
                 if declared is not None:
                     return self.signal(declared, expressions, on)
+            case ir.System(name="flag", indices=(index,)):
+                return self.signal(ir.Signal("flag", index), expressions, on)
             case ir.Signal() if not expressions.places.is_group(condition):
                 return expressions.places.number(expressions.places.numbered(condition), not on)
         if not on:
@@ -130,11 +137,14 @@ class Reactions:
         return self.watched(condition, expressions)
 
 
-def _is_flag(node: object) -> bool:
+def _flag(node: object) -> int | None:
+    """The number of a software signal that the program itself uses."""
     match node:
-        case ir.Signal(kind="flag", index=ir.IntLiteral()):
-            return True
-    return False
+        case ir.Signal(kind="flag", index=ir.IntLiteral(value=number)):
+            return number
+        case ir.System(name="flag", indices=(ir.IntLiteral(value=number),)):
+            return number
+    return None
 
 
 def _key(declared: ir.DeclareInterrupt) -> str:

@@ -7,6 +7,7 @@ import pytest
 from rpl.diagnostics import Diagnostics
 from rpl.project import read_sources
 from rpl.proof.prove import prove_programs
+from rpl.simulation import run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
@@ -96,8 +97,45 @@ ENDMODULE
     lines, difference = proved(text, "m.mod", "rapid", None, "main")
     start = lines.index("EXECUTE /C 7 rpl.watch.1()")
     assert lines[start + 1].startswith("REACT 2008, beat_timer")
-    assert lines[lines.index(".PROGRAM rpl.watch.1()") + 3 :][:2] == ["WAIT NOT (TIMER(15) > 0)", "SIGNAL -2008"]
+    assert lines[lines.index(".PROGRAM rpl.watch.1()") + 4 :][:2] == ["WAIT NOT (TIMER(15) > 0)", "SIGNAL -2008"]
     assert not difference
+
+
+COUNTED = """DEF count()
+DECL INT i
+INTERRUPT DECL 12 WHEN {condition} DO note()
+n=0
+$FLAG[5]=FALSE
+$FLAG[8]=FALSE
+INTERRUPT ON 12
+FOR i=1 TO 3
+  $FLAG[5]=TRUE
+  WAIT SEC 0.2
+  $FLAG[5]=FALSE
+  WAIT SEC 0.2
+ENDFOR
+INTERRUPT OFF 12
+$FLAG[5]=TRUE
+WAIT SEC 0.2
+IF n==3 THEN
+  $OUT[1]=TRUE
+ENDIF
+END
+DEF note()
+n=n+1
+END
+"""
+
+
+@pytest.mark.parametrize("condition", ["$FLAG[5]==TRUE", "$FLAG[5]", "$FLAG[5] AND NOT $FLAG[8]"])
+def test_what_comes_right_behind_the_arming_of_a_reaction_counts(condition: str) -> None:
+    data = source_from_text("count.dat", "DEFDAT count\nDECL INT n=0\nENDDAT\n")
+    program = source_from_text("count.src", COUNTED.format(condition=condition))
+    read = read_sources([program, data], "krl", Diagnostics())
+    files = translate_program(read, "vplus", "kuka_kr6r900sixx", None, Diagnostics()).files
+    back = read_sources([source_from_bytes(one.path, one.data) for one in files], "vplus", Diagnostics())
+    result = run_program(back.program, "kuka_kr6r900sixx", None, "count", 10.0)
+    assert [(name, value) for _, name, value in result.outputs if name == "1"] == [("1", True)]
 
 
 def test_one_joint_is_changed_in_a_step_of_its_own() -> None:
