@@ -10,6 +10,7 @@ from rpl import ir
 from rpl.source import Origin
 
 from .arguments import Arguments
+from .dialogs import BUTTONS, keys_asked
 from .expressions import Expressions, as_bool, truth_of
 from .functions import bit_mask
 from .motion import MOTION, Made, Make
@@ -235,7 +236,8 @@ def _tp_read_number(arguments: Arguments, expressions: Expressions, origin: Orig
 
 
 def _ui_message(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
-    """UIMsgBox [\\Header] line [\\MsgLine2] ...: with its only OK key it waits to be acknowledged."""
+    """UIMsgBox [\\Header] line [\\MsgLine2] ... [\\Buttons] [\\Result]: a choice whose answer is
+    taken, or it waits to be acknowledged (by which key is all the same)."""
     text = arguments.need(1)[0]
     options = dict(arguments.options)
     header = options.pop("header", None)
@@ -245,13 +247,12 @@ def _ui_message(arguments: Arguments, expressions: Expressions, origin: Origin) 
             text = _joined(_joined(text, ir.TextLiteral(" ")), more)
     for harmless in ("wrap", "icon", "image"):
         options.pop(harmless, None)
-    match options.pop("buttons", None):
-        case None:
-            pass
-        case ir.Name(id=name) if name.lower() == "btnok":
-            pass
-        case _:
-            return None
+    buttons, result = options.pop("buttons", None), options.pop("result", None)
+    if result is not None:
+        limit = options.pop("maxtime", None)
+        return None if options else keys_asked(result, text, header, limit, {"buttons": buttons}, origin)
+    if buttons is not None and (not isinstance(buttons, ir.Name) or buttons.id.lower() not in BUTTONS):
+        return None
     return None if options else ir.Message("quit", text, sender=header, origin=origin)
 
 

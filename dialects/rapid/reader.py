@@ -14,6 +14,7 @@ from rpl.registry import ReadResult
 from rpl.source import Origin, Source
 
 from .blocks import Blocks, is_statement, part
+from .dialogs import with_dialogs
 from .instructions import INSTRUCTIONS
 from .parser import RapidParser
 from .prelude import PREDEFINED_NAMES
@@ -49,7 +50,9 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
         found, report = _read_file(source, project, parser, diagnostics)
         modules.extend(found)
         reports.append(report)
-    return ReadResult(ir.Program(tuple(modules), _tasks(modules)), tuple(reports))
+    own = frozenset(project.routines.union(*project.local_routines.values()))
+    program = with_dialogs(ir.Program(tuple(modules), _tasks(modules)), own, diagnostics)
+    return ReadResult(program, tuple(reports))
 
 
 def _read_file(

@@ -8,6 +8,7 @@ from rpl.writing.statements import CannotSayError
 
 from .expressions import Expressions
 from .motion import output_value
+from .tables import BUTTONS
 
 _CONTROL = {"on": "IWatch", "off": "ISleep", "enable": "IEnable", "disable": "IDisable", "delete": "IDelete"}
 _HALT = {"stop": "Stop", "exit": "EXIT", "cycle": "ExitCycle"}
@@ -116,6 +117,8 @@ class Instructions:
     def settings(self, body: ir.Body, at: int) -> tuple[int, str]:
         """How many statements from here one instruction says together, and its text; 0 when none."""
         first = body[at]
+        if isinstance(first, ir.Dialog) and at + 1 < len(body):
+            return self.box(first, body[at + 1])
         if not isinstance(first, ir.Assign) or not isinstance(first.target, ir.System):
             return 0, ""
         for names, pattern in _TOGETHER:
@@ -274,6 +277,8 @@ class Instructions:
         if dialog.timed_out is not None:
             raise CannotSayError("a dialog that ends by time raises an error")
         whole = dialog.text
+        if dialog.kind == "text":
+            return self.asked("UIAlphaEntry", dialog, "")
         if dialog.sender is not None:
             whole = ir.Binary("&", ir.Binary("&", dialog.sender, ir.TextLiteral(": ")), whole)
         answer, text = self.print(dialog.answer), self.print(whole)
@@ -285,6 +290,28 @@ class Instructions:
         keys = ["stEmpty" if key is None else self.print(key) for key in dialog.keys]
         keys += ["stEmpty"] * (_KEYS - len(keys))
         return f"TPReadFK {answer},{text},{','.join(keys)}{time};"
+
+    def box(self, dialog: ir.Dialog, behind: ir.Statement) -> tuple[int, str]:
+        """A choice of predefined buttons and the statement that makes the controller's numbers of the keys."""
+        keys = [key.value if isinstance(key, ir.TextLiteral) else None for key in dialog.keys]
+        for name, buttons in BUTTONS.items():
+            if keys != [word for word, _ in buttons] or dialog.kind != "keys" or dialog.timed_out is not None:
+                continue
+            becomes = [(ir.Assign(dialog.answer, ir.IntLiteral(number)),) for _, number in buttons]
+            is_key = [ir.Binary("=", dialog.answer, ir.IntLiteral(1 + place)) for place in range(len(buttons) - 1)]
+            if behind == ir.If(tuple(zip(is_key, becomes, strict=False)), becomes[-1]):
+                try:
+                    return 2, self.asked("UIMessageBox", dialog, f"\\Buttons:={name}")
+                except CannotSayError:
+                    return 0, ""
+        return 0, ""
+
+    def asked(self, function: str, dialog: ir.Dialog, options: str) -> str:
+        """One of the functions that show a message and give the operator's answer."""
+        header = "" if dialog.sender is None else f"\\Header:={self.print(dialog.sender)}"
+        time = "" if dialog.timeout is None else f"\\MaxTime:={self.print(dialog.timeout)}"
+        shown = f"{function}({header}\\Message:={self.print(dialog.text)}{options}{time})"
+        return f"{self.print(dialog.answer)}:={shown};"
 
     def do(self, do: ir.Do) -> str:
         arguments = [argument for argument in do.arguments if argument is not None]

@@ -64,6 +64,10 @@ def behind(origin: Origin) -> str:
     return f" !{words}" if words else ""
 
 
+def _inside(choice: ir.If) -> list[ir.Statement]:
+    return [one for body in (*(body for _, body in choice.branches), choice.otherwise) for one in body]
+
+
 class Statements:
     """Writes the statements of one routine."""
 
@@ -81,7 +85,9 @@ class Statements:
         while at < len(body):
             count, text = self.instructions.settings(body, at)
             if count:
-                lines.extend(self.framed(body[at], [text], body[at : at + count]))
+                together = list(body[at : at + count])
+                inner = [one for node in together if isinstance(node, ir.If) for one in _inside(node)]
+                lines.extend(self.framed(body[at], [text], [*together, *inner]))
             else:
                 lines.extend(self.statement(body[at]))
                 count = 1

@@ -22,6 +22,15 @@ SYSTEM_RECORDS: dict[str, str] = {
     "path_configuration_check": "C_MOTSET.conf.lsup",
 }
 
+# Predefined buttons of a message box: the keys they show, and the number that each gives.
+BUTTONS: dict[str, tuple[tuple[str, int], ...]] = {
+    "btnAbrtRtryIgn": (("Abort", 2), ("Retry", 3), ("Ignore", 4)),
+    "btnOKCancel": (("OK", 1), ("Cancel", 5)),
+    "btnRetryCancel": (("Retry", 3), ("Cancel", 5)),
+    "btnYesNo": (("Yes", 6), ("No", 7)),
+    "btnYesNoCancel": (("Yes", 6), ("No", 7), ("Cancel", 5)),
+}
+
 # IR type class -> type name. Types with parameters (signals, vendor types, references) are named in types.py.
 TYPE_NAMES: dict[type, str] = {
     ir.IntType: "num",

@@ -98,5 +98,6 @@ class StatementPrinter(ABC, Generic[LineT]):
 
 def original(statement: ir.Statement) -> str:
     """How the source says the statement, else its kind."""
-    text = statement.origin.text or getattr(statement, "text", "") or type(statement).__name__
+    own = statement.text if isinstance(statement, ir.Opaque | ir.Vendor) else ""
+    text = statement.origin.text or own or type(statement).__name__
     return "\n".join(part.strip() for part in text.splitlines())
