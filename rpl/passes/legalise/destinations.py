@@ -70,7 +70,7 @@ class _Destinations(Rewriter):
         match statement:
             case ir.Move():
                 own = (statement.relative, statement.swept, statement.tool, statement.frame, statement.search)
-                plain = all(one is None for one in own) and not statement.settings and statement.group == 1
+                plain = all(one is None for one in own) and not _moved(statement) and statement.group == 1
                 return statement if plain and _repeatable(statement.target) else None
             case ir.Assign(target=ir.System(name=name)):
                 return None if name in _SETTINGS else self.last
@@ -80,6 +80,11 @@ class _Destinations(Rewriter):
             case ir.WaitForMotion() | ir.Nothing():
                 return self.last
         return None
+
+
+def _moved(move: ir.Move) -> bool:
+    """Has the move settings of its own that its place hangs on?"""
+    return any(not isinstance(one, ir.System) or one.name in _SETTINGS for one, _ in move.settings)
 
 
 def _names(move: ir.Move) -> set[str]:

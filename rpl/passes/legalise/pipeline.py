@@ -41,6 +41,7 @@ from rpl.passes.legalise.functions import functions_to_procedures
 from rpl.passes.legalise.geometry import geometry
 from rpl.passes.legalise.groups import name_groups
 from rpl.passes.legalise.handles import known_handles
+from rpl.passes.legalise.homes import home_positions
 from rpl.passes.legalise.interrupts import interrupts
 from rpl.passes.legalise.joins import joins
 from rpl.passes.legalise.jointgoals import joint_goals
@@ -126,6 +127,7 @@ PASSES: tuple[Pass, ...] = (
     task_names,
     task_states,
     straight_splines,
+    home_positions,
     fold_pulses,
     rotation_vectors,
     levels_to_distances,

@@ -44,6 +44,7 @@ def written(text: str, name: str, dialect: str, target: str, robot: str) -> tupl
         ("        BREAK", True),
         ("        n = 5", True),
         ("        SET there = SHIFT(there BY 10)", False),
+        ("        SPEED 50\n        MOVE there\n        BREAK", True),
         ("        TOOL TRANS(0,0,50)", False),
         ("        IF n > 1 THEN\n            MOVES SHIFT(there BY 10)\n        END", False),
     ],
@@ -57,3 +58,10 @@ def test_a_language_that_waits_is_there() -> None:
     text, losses = written(KRL, "t.src", "krl", "rapid", "kuka_kr6r900sixx")
     assert not losses
     assert "CRobT(" in text
+
+
+@pytest.mark.parametrize("target", ["krl", "rapid", "tp", "urscript", "inform"])
+def test_the_ready_position_is_that_of_the_arm(target: str) -> None:
+    text = ".PROGRAM main()\n READY\n BREAK\n SIGNAL 1\n.END\n"
+    _, losses = written(text, "main.v2", "vplus", target, "adept_viper_s650")
+    assert not losses
