@@ -1,4 +1,4 @@
-"""Searches and interrupts for targets that have tasks, but neither of them.
+"""Searches, interrupts and moves that the program does not wait for, for targets that have tasks, but none of these.
 
 An interrupt whose action takes no time and leaves the robot alone is a task of its own that waits for the condition and
 acts in a critical section, where the target has these. Any other one the program serves itself: while it may come, a
@@ -14,6 +14,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.beside import Beside, closure, local_names, tidy
+from rpl.passes.legalise.concurrentmoves import ConcurrentMoves, has_concurrent
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.endedmoves import EndedMoves, unending
@@ -55,7 +56,8 @@ def watching(program: ir.Program, context: Context) -> ir.Program:
     nodes = list(walk(*program.modules))
     searches = can.watching_tasks and any(isinstance(node, ir.Search) for node in nodes)
     interrupts = any(isinstance(node, ir.DeclareInterrupt) for node in nodes)
-    if not searches and not interrupts:
+    concurrent = can.watching_tasks and has_concurrent(program)
+    if not searches and not interrupts and not concurrent:
         return program
     beside = Beside(program, context)
     movers = Movers(beside, ProgramScope(program))
@@ -71,7 +73,9 @@ def watching(program: ir.Program, context: Context) -> ir.Program:
         if served.watches:
             done = served.routine(editor, routine, done)
         elif searches:
-            done = edit_bodies(routine, SearchTasks(editor, routine, beside, movers).body)
+            done = edit_bodies(done, SearchTasks(editor, routine, beside, movers).body)
+        if concurrent and not served.watches:
+            done = edit_bodies(done, ConcurrentMoves(editor, routine, beside, movers).body)
         return edit_bodies(done, watches.body) if interrupts else done
 
     done = edit_routines(program, context, work)
