@@ -31,7 +31,11 @@ VIA = "CIRC {X 40,Y -40,Z 0,A 0,B 0,C 180}"
 
 
 def translated(arc: str, target: str, a: float = 0.0) -> tuple[ProofResult, list[str]]:
-    read = read_sources([source_from_text("a.src", FRAME.format(arc=arc, a=a))], "krl", Diagnostics())
+    return translated_text(FRAME.format(arc=arc, a=a), target)
+
+
+def translated_text(text: str, target: str) -> tuple[ProofResult, list[str]]:
+    read = read_sources([source_from_text("a.src", text)], "krl", Diagnostics())
     diagnostics = Diagnostics()
     written = translate_program(read, target, ARM, None, diagnostics)
     back = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, Diagnostics())
@@ -70,6 +74,50 @@ def test_parts_turn_the_tool_where_the_target_follows_another_rule(angle: int) -
 def test_an_angle_that_changes_is_refused_by_name() -> None:
     arc = f"$VEL.CP = $VEL.CP\n{VIA},{{X 0,Y 0,Z 0,A 0,B 0,C 180}}, CA $OV_PRO"
     assert "arc-angle-lost" in translated(arc, "rapid")[1]
+
+
+RUN = """DEF a()
+DECL E6POS P,Q,S
+INT I
+$BASE = {X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}
+$TOOL = {X 0.0,Y 0.0,Z 100.0,A 0.0,B 0.0,C 0.0}
+$VEL.CP = 0.3
+PTP {A1 0,A2 -90,A3 90,A4 0,A5 90,A6 0}
+S = $POS_ACT
+S.Z = S.Z-100
+LIN S
+P = S
+P.X = P.X+50
+P.Y = P.Y+50
+Q = S
+Q.Y = Q.Y+100
+CIRC P,Q,CA 90
+WAIT SEC 0
+IF (ABS($POS_ACT.X-P.X)<0.5) AND (ABS($POS_ACT.Y-P.Y)<0.5) THEN
+  $OUT[1]=TRUE
+ENDIF
+FOR I=1 TO 2
+  LIN S C_DIS
+ENDFOR
+P.Z = P.Z+10
+CIRC P,Q,CA -45
+$OUT[2]=TRUE
+END
+"""
+
+
+@pytest.mark.parametrize("target", ["rapid", "tp", "urscript", "vplus", "inform"])
+def test_ends_that_are_known_only_in_a_run_are_computed_there(target: str) -> None:
+    result, told = translated_text(RUN, target)
+    assert result.equal, result.as_text()
+    assert told.count("arc-end-computed") == 2
+    assert not [one for one in told if "lost" in one or "guarded" in one]
+
+
+def test_a_full_turn_of_points_known_only_in_a_run_is_refused_by_name() -> None:
+    told = translated_text(RUN.replace("CA -45", "CA 400"), "rapid")[1]
+    assert told.count("arc-end-computed") == 1
+    assert "arc-angle-lost" in told
 
 
 def test_what_is_not_the_same_is_told_with_its_size() -> None:

@@ -1,7 +1,7 @@
 """Arcs for targets that know only start, via and end.
 
-An arc whose length is an angle (KRL's CA) ends at a computed point. The points that fix the circle must be known:
-constants, or data that nothing assigns. An angle of a full turn or more is written in parts, which meet in a small
+An arc whose length is an angle (KRL's CA) ends at a computed point: a constant where the points that fix the circle are
+constants, or data that nothing assigns; else the program computes it (`arcends`). An angle of a full turn or more is written in parts, which meet in a small
 corner because three points fix less than one turn. And where the target's tool turns otherwise on the way (seen from
 the base or from the tangent) and has no setting for it, an arc on which that makes a difference is reported.
 """
@@ -10,17 +10,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
+from rpl.passes.legalise.arcends import COMPUTED, computed_arc
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.datalists import never_called
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.jumps import inside
-from rpl.passes.legalise.usage import each_statement
+from rpl.passes.legalise.usage import base_name, each_statement
 from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.typewords import type_word
 from rpl.passes.values import Target, real
@@ -151,6 +153,7 @@ class _Arcs:
     varies: bool  # the program sets how the tool turns
     rule: str  # how it turns here; empty: not known
     last: ir.Move | None = None  # the move before, under the same tool and frame
+    temporaries: dict[tuple[str, ir.Type], ir.Name] = field(default_factory=dict)
 
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
@@ -171,6 +174,10 @@ class _Arcs:
                     self.rule = _word(value)
                 case ir.Assign(target=ir.System(name=name)) if name in _MODAL:
                     self.last = None
+                case ir.Assign(target=target) if self.last is not None and base_name(target) in _names(
+                    self.last.target
+                ):
+                    self.last = replace(self.last, target=ir.System("actual_pose"))
                 case ir.Assign() | ir.Nothing() | ir.LookAhead() | ir.Trigger() | ir.WaitForMotion() | ir.Wait():
                     pass
                 case _:
@@ -229,7 +236,7 @@ class _Arcs:
         if angle is None:
             return self.lost(move, "its angle changes in a run")
         if move.relative or start is None or via is None or end is None:
-            return self.lost(move, "its start, its point on the way or its end is not known here")
+            return self.computed(move, angle)
         circle = circle_through(start.position, via.position, end.position)
         if circle is None or angle == 0.0:
             return self.lost(move, "its points fix no circle")
@@ -243,6 +250,36 @@ class _Arcs:
             return self.lost(move, "it goes around, and actions or a search belong to it")
         rotations = circle.rotations(angle, start.rotation, end.rotation, rule == "path")
         return self.parts(move, circle, angle, count, rotations)
+
+    def computed(self, move: ir.Move, angle: float) -> ir.Body:
+        """The arc to a point that the program computes."""
+        goals = () if move.via is None else (move.via, move.target)
+        start: ir.Expression = ir.System("actual_pose")
+        last = self.last
+        if last is not None and _alike(last, move) and _steady(last.target) and self.place(last.target) is not None:
+            start = last.target
+        places = tuple((one, type) for one in (start, *goals) if (type := self.place(one)) is not None)
+        if len(places) != 3 or move.relative is not None:
+            return self.lost(move, "its point on the way or its end is not whole, or counted from its start")
+        if abs(angle) >= 360.0 or angle == 0.0:
+            return self.lost(move, "it goes around, and its points are known only in a run")
+        self.context.diagnostics.report(COMPUTED, move.origin, angle=angle)
+        done = computed_arc(move, places, angle, self.temporary)
+        arc = done[-1]
+        assert isinstance(arc, ir.Move)  # computed_arc ends with it
+        self.last = None
+        return (*done[:-1], *self.look(arc))
+
+    def place(self, place: ir.Expression) -> ir.Type | None:
+        """The type of a place of which all components are given."""
+        type = self.editor.type_of(place)
+        return type if isinstance(type, ir.PoseType | ir.TargetType) and _complete(place) else None
+
+    def temporary(self, stem: str, type: ir.Type) -> ir.Name:
+        """One variable for all arcs of the routine."""
+        if (stem, type) not in self.temporaries:
+            self.temporaries[stem, type] = self.editor.temporary(stem, type)
+        return self.temporaries[stem, type]
 
     def parts(self, move: ir.Move, circle: Circle, angle: float, count: int, rotations: Rotations) -> ir.Body:
         """Arcs of the same length."""
@@ -268,6 +305,27 @@ class _Arcs:
     def lost(self, move: ir.Move, reason: str) -> ir.Body:
         self.context.diagnostics.report(NOT_KNOWN, move.origin, reason=reason)
         return (move,)
+
+
+def _names(place: ir.Expression) -> set[str]:
+    return {one.id.lower() for one in walk(place) if isinstance(one, ir.Name)}
+
+
+def _complete(place: ir.Expression) -> bool:
+    """Are all components of a place given?"""
+    return not isinstance(place, ir.Aggregate) or {"x", "y", "z", "a", "b", "c"} <= {name for name, _ in place.entries}
+
+
+def _steady(place: ir.Expression) -> bool:
+    """Is it the same when it is computed again behind the move, if nothing in it is assigned?"""
+    match place:
+        case ir.Aggregate(entries=entries):
+            return all(_steady(one) for _, one in entries)
+        case ir.Unary(operand=inner) | ir.Field(base=inner):
+            return _steady(inner)
+        case ir.Index(base=base, indices=indices):
+            return all(map(_steady, (base, *indices)))
+    return isinstance(place, ir.Name | ir.IntLiteral | ir.RealLiteral)
 
 
 def _alike(last: ir.Move, move: ir.Move) -> bool:
