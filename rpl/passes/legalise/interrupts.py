@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.reconnected import one_trap_each
 from rpl.passes.legalise.usage import base_name, called_names, each_statement, exposed
 from rpl.passes.rewrite import rewrite_parts
 
@@ -21,7 +22,7 @@ def interrupts(program: ir.Program, context: Context) -> ir.Program:
     if "DeclareInterrupt" not in statements and "ConnectInterrupt" in statements:
         return _Traps(program, context).program()
     if "ConnectInterrupt" not in statements and "DeclareInterrupt" in statements:
-        return _Priorities(program, context).program()
+        return _Priorities(one_trap_each(program, context), context).program()
     return program
 
 
@@ -49,15 +50,33 @@ def _priority(handle: ir.Expression | None) -> int | None:
 
 
 def _watchable(condition: ir.Expression) -> bool:
-    """A signal, or a signal compared with TRUE or FALSE, or its negation."""
+    """A signal or a flag, or one compared with TRUE or FALSE, or its negation."""
     match condition:
         case ir.Signal():
-            return condition.kind.startswith("digital")
+            return condition.kind.startswith("digital") or _flag(condition) is not None
+        case ir.System():
+            return _flag(condition) is not None
         case ir.Unary(op="not", operand=operand):
             return _watchable(operand)
         case ir.Binary(op="=" | "<>", left=left, right=ir.BoolLiteral()):
             return _watchable(left)
     return False
+
+
+def _flag(condition: ir.Expression) -> ir.Expression | None:
+    """The flag with a constant number that a condition looks at, whatever it is compared with. Flags become data: an
+    interrupt comes with each change of it, and its routine looks whether this was the wanted one."""
+    match condition:
+        case (
+            ir.Signal(kind="flag", index=ir.IntLiteral(), last=None)
+            | ir.System(name="flag", indices=(ir.IntLiteral(),))
+        ):
+            return condition
+        case ir.Unary(op="not", operand=operand):
+            return _flag(operand)
+        case ir.Binary(op="=" | "<>", left=left, right=ir.BoolLiteral()):
+            return _flag(left)
+    return None
 
 
 # ---- priority -> trap
@@ -115,6 +134,8 @@ class _Traps:
         self.traps[priority] = trap
         # The motion that the action braked goes on when the interrupt routine has ended.
         body: ir.Body = (declared.action, ir.StartMotion()) if self.brakes(declared.action) else (declared.action,)
+        if _flag(declared.condition) is not None:
+            body = (ir.If(((declared.condition, body),)),)
         self.made.append(ir.Routine(trap.routine, "trap", body=body, scope="task"))
 
     def brakes(self, action: ir.Statement) -> bool:
@@ -151,7 +172,9 @@ class _Traps:
                     return [statement]
                 name = ir.Name(trap.handle)
                 if op == "on":
-                    return [ir.OrderInterrupt(name, "edge", trap.condition, origin=statement.origin)]
+                    flag = _flag(trap.condition)
+                    event, watched = ("edge", trap.condition) if flag is None else ("change", flag)
+                    return [ir.OrderInterrupt(name, event, watched, origin=statement.origin)]
                 if op == "off":
                     return self.connect(trap, statement)
                 return [replace(statement, handle=name)]

@@ -88,6 +88,7 @@ class _Named:
         self.highest: dict[str, int] = {}
         self.dynamic: dict[str, str] = {}
         self.flags: str | None = None
+        self.flags_watched = False  # an interrupt comes with each change of one
         self.scope: Scope | None = None
         self._collect(program)
 
@@ -98,6 +99,9 @@ class _Named:
             return rewrite_parts(expression, look)
 
         def deeper(body: ir.Body) -> ir.Body:
+            for statement in body:
+                if isinstance(statement, ir.OrderInterrupt) and statement.event == "change":
+                    self.flags_watched = self.flags_watched or _is_flag(statement.condition)
             return tuple(rewrite_parts(statement, look, deeper) for statement in body)
 
         for module in program.modules:
@@ -176,7 +180,8 @@ class _Named:
         declarations: tuple[ir.Declaration, ...] = ()
         if self.flags is not None:
             type = ir.ArrayType(ir.BoolType(), (ir.IntLiteral(_FLAGS),))
-            declarations = (ir.Variable(self.flags, type, storage="variable", scope="global"),)
+            storage = "persistent" if self.flags_watched else "variable"
+            declarations = (ir.Variable(self.flags, type, storage=storage, scope="global"),)
         routines = tuple(self.access(what, name) for what, name in self.dynamic.items())
         if not declarations and not routines:
             return ()
@@ -331,6 +336,13 @@ def _numbers(
         used[bits].update(range(number, number + width))
         result[kind, key] = (number, True)
     return result
+
+
+def _is_flag(condition: ir.Expression | None) -> bool:
+    match condition:
+        case ir.System(name="flag") | ir.Signal(kind="flag"):
+            return True
+    return False
 
 
 __all__ = ["name_signals", "number_signals"]

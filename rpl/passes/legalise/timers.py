@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
 
 _TIMERS = ("timer", "timer_stopped", "timer_positive")
@@ -16,8 +17,10 @@ _TIMERS = ("timer", "timer_stopped", "timer_positive")
 
 def timers_to_clocks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without numbered timers that have stop watches, or a task that counts them. Computed timer
-    numbers stay for the writer."""
+    numbers stay for the writer. Where timers have no flag that tells whether they are past zero, they are compared."""
     capabilities = context.capabilities
+    if capabilities.timers and "timer_positive" not in capabilities.system_variables:
+        return _Compared(program, context).program()
     if capabilities.timers or not ("Clock" in capabilities.statements or capabilities.counted_clocks):
         return program
     worker = _Clocks(context)
@@ -41,6 +44,16 @@ def timers_to_clocks(program: ir.Program, context: Context) -> ir.Program:
     declarations = tuple(one for watch in worker.watches.values() for one in watch.declarations())
     home = ir.Module(context.fresh("rpl_timers"), first.dialect, declarations, task=first.task, public=True)
     return replace(program, modules=(*modules, home))
+
+
+class _Compared(Rewriter):
+    """The flag of a timer is whether the timer is above zero."""
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        done = super().expression(expression)
+        if isinstance(done, ir.System) and done.name == "timer_positive":
+            return ir.Binary(">", replace(done, name="timer"), ir.IntLiteral(0), origin=done.origin)
+        return done
 
 
 @dataclass(frozen=True, slots=True)
