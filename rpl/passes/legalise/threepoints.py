@@ -1,9 +1,10 @@
 """Arcs for targets that know only start, via and end.
 
 An arc whose length is an angle (KRL's CA) ends at a computed point: a constant where the points that fix the circle are
-constants, or data that nothing assigns; else the program computes it (`arcends`). An angle of a full turn or more is written in parts, which meet in a small
-corner because three points fix less than one turn. And where the target's tool turns otherwise on the way (seen from
-the base or from the tangent) and has no setting for it, an arc on which that makes a difference is reported.
+constants, or data that nothing assigns; else the program computes it (`arcends`). An angle of a full turn or more is
+written in parts, which meet in a small corner because three points fix less than one turn. And where the target's tool
+turns otherwise on the way (seen from the base or from the tangent) and has no setting for it, an arc on which that
+makes a difference is reported.
 """
 
 from __future__ import annotations
