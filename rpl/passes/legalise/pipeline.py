@@ -20,6 +20,7 @@ from rpl.passes.legalise.circles import circle_rules
 from rpl.passes.legalise.components import read_components
 from rpl.passes.legalise.composition import compositions
 from rpl.passes.legalise.configurations import configurations
+from rpl.passes.legalise.constantorientations import constant_orientations
 from rpl.passes.legalise.context import Context, Pass, names_in
 from rpl.passes.legalise.corners import corners
 from rpl.passes.legalise.cyclicflags import cyclic_flags
@@ -142,6 +143,7 @@ PASSES: tuple[Pass, ...] = (
     without_empty_reactions,
     link_prelude,
     possible_cases,
+    constant_orientations,
     labels_to_structure,
     settings_of_next_move,
     error_routines,
