@@ -60,6 +60,7 @@ class Goal:
     seen: Seen | None = None
     arc: bool = False  # it was the end of an arc
 
+
 # Instructions that calculate a point: they do not part the points of an arc.
 _PLACE_WORDS = ("MULMAT ", "INVMAT ", "SET ")
 
@@ -305,7 +306,7 @@ class Motion:
             if line.startswith("MOVC "):
                 done[self.line_of_last] = f"{line} FPT"
                 retaught = False
-            elif line.startswith("MOVL "):
+            elif line.startswith("MOVL ") and not any(line.split()[1] in one.split()[:2] for one in self.lines):
                 between = self.between_arcs(tool, speed) if self.before is not None else []
                 if between is not None:
                     done[self.line_of_last : self.line_of_last + 1] = [*between, f"MOVC {line[5:]}"]
