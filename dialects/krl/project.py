@@ -34,6 +34,14 @@ IMPORTED = code(
     "use the same name in both modules",
 )
 
+PARAMETERS = code(
+    "krl-message-parameters",
+    Severity.WARNING,
+    "the parameters of user messages are not filled into their texts: %1, %2 and %3 are shown as they stand",
+    "write the values into the text (SWRITE), or use MsgNotify with its parameters",
+)
+_PARAMETER = re.compile(r"^[^;\n]*\bPAR_TYPE[ \t]*=?[ \t]*#[ \t]*(?:VALUE|KEY)\b", re.IGNORECASE | re.MULTILINE)
+
 _ROUTINE = re.compile(
     r"^[ \t]*(?:GLOBAL[ \t]+)?DEF(?:FCT[ \t]+[\w$]+[ \t]*(?:\[[^\]\n]*\])?)?[ \t]+([\w$]+)",
     re.IGNORECASE | re.MULTILINE,
@@ -93,6 +101,8 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
         done = assemble(source, "krl", split(source), _parser(), lowering.lower, build, diagnostics)
         reports.append(done.report)
         _sort_items(source, done.items, modules, diagnostics)
+        if "set_krlmsg" not in facts.routines and (found := _PARAMETER.search(source.text)):
+            diagnostics.report(PARAMETERS, Origin(source, found.start(), found.end()))
     order = {source.path: position for position, source in enumerate(sources)}
     reports.sort(key=lambda report: order[report.path])
     _connect_imports(list(modules.values()), diagnostics)
