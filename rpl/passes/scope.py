@@ -102,7 +102,8 @@ class ProgramScope:
         self._own: dict[int, _Table] = {}
         self._shared: dict[tuple[str, bool], _Table] = {}
         self._homes: dict[int, ir.Module] = {}  # of routines and declarations, by identity
-        for module in program.modules:
+        self._tasks = {module.task for module in program.modules} | {""}
+        for module in sorted(program.modules, key=lambda one: not one.task):
             self._enter(module)
 
     def _enter(self, module: ir.Module) -> None:
@@ -112,7 +113,7 @@ class ProgramScope:
         self._own[id(module)] = own
         for declaration in module.declarations:
             self._homes[id(declaration)] = module
-        for task in {module.task, ""}:
+        for task in self._seen_in(module):
             shared = self._shared.setdefault((task, fold.sensitive), _Table())
             shared.add(module.declarations, fold, visible_outside=True)
         for routine in module.routines:
@@ -120,8 +121,12 @@ class ProgramScope:
             own.routines.setdefault(key, routine)
             self._homes[id(routine)] = module
             if routine.scope != "module":
-                for task in {module.task, ""}:
+                for task in self._seen_in(module):
                     self._shared[task, fold.sensitive].routines.setdefault(key, routine)
+
+    def _seen_in(self, module: ir.Module) -> set[str]:
+        """The tasks that see a module; one of no task is seen in all of them, where they have nothing of the name."""
+        return {module.task, ""} if module.task else self._tasks
 
     def module(self, module: ir.Module) -> Scope:
         """The scope of a module's own declarations."""
