@@ -39,13 +39,14 @@ _LARGEST = 3.5e38  # single precision, with room for rounding
 
 @dataclass(slots=True)
 class Facts:
-    """What a quick look over the project found before reading: its programs, whole numbers that names stand for, and
-    whether any step changes how moves are joined."""
+    """What a quick look over the project found before reading: its programs, whole numbers that names stand for,
+    whether any step changes how moves are joined, and how long the hand takes (None: it changes)."""
 
     programs: frozenset[str] = frozenset()
     numbers: dict[str, frozenset[int]] = field(default_factory=dict)
     executed: dict[str, frozenset[str]] = field(default_factory=dict)
     joins_change: bool = False
+    hand_time_s: float | None = tables.HAND_TIME_S
 
 
 @dataclass(slots=True)

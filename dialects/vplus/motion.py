@@ -148,7 +148,10 @@ class Motion(Statements):
         if not word.endswith("i"):
             return hand_triggers(word, origin)
         switched = hand_outputs(word[:-1], origin)
-        wait = ir.Wait(ir.RealLiteral(tables.HAND_TIME_S), origin=origin)
+        seconds = self.facts.hand_time_s
+        wait: ir.Statement = ir.Vendor("vplus", word.upper(), "unknown", origin=origin)
+        if seconds is not None:
+            wait = ir.Wait(ir.RealLiteral(seconds), origin=origin)
         return ir.WaitForMotion(origin=origin), *switched, wait
 
     def here(self, given: Instruction) -> Lowered:

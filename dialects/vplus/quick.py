@@ -7,6 +7,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from . import tables
 from .expressions import Facts, significant
 
 _PROGRAM = re.compile(r"^[ \t]*\.PROGRAM[ \t]+([A-Za-z_][\w.]*)", re.IGNORECASE | re.MULTILINE)
@@ -32,6 +33,8 @@ _JOINS = re.compile(
     r"^[ \t]*(?:\d+[ \t]+)?(?:CPON|CPOFF)\b|^[ \t]*(?:\d+[ \t]+)?(?:ENABLE|DISABLE)\b[^;\r\n]*\bCP\b",
     re.IGNORECASE | re.MULTILINE,
 )
+_HAND_TIME = re.compile(r"^[ \t]*(?:\d+[ \t]+)?PARAMETER[ \t]+HAND\.TIME[ \t]*=[ \t]*([^;\r\n]*)", re.I | re.MULTILINE)
+_PLAIN_NUMBER = re.compile(r"\d+\.?\d*|\.\d+")
 
 
 def facts_of(texts: Iterable[str]) -> Facts:
@@ -40,13 +43,23 @@ def facts_of(texts: Iterable[str]) -> Facts:
     programs: set[str] = set()
     executed: dict[str, set[str]] = {}
     joins = False
+    hand: set[str] = set()
     for text in kept:
+        hand.update(value.strip() for value in _HAND_TIME.findall(text))
         programs.update(significant(name) for name in _PROGRAM.findall(text))
         for task, program in _EXECUTED.findall(text):
             executed.setdefault(task.lower(), set()).add(program)
         joins = joins or _JOINS.search(text) is not None
     tasks = {task: frozenset(names) for task, names in executed.items()}
-    return Facts(frozenset(programs), _Numbers().of(kept), tasks, joins)
+    return Facts(frozenset(programs), _Numbers().of(kept), tasks, joins, _hand_time(hand))
+
+
+def _hand_time(values: set[str]) -> float | None:
+    """Seconds that OPENI and the like wait, where the project sets it to one number; None: nobody can say."""
+    if not values:
+        return tables.HAND_TIME_S
+    numbers = {float(value) if _PLAIN_NUMBER.fullmatch(value) else None for value in values}
+    return numbers.pop() if len(numbers) == 1 else None
 
 
 class _Numbers:

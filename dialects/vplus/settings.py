@@ -5,6 +5,7 @@ A setting without ALWAYS holds for the next move only.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
 from rpl import ir
@@ -300,6 +301,8 @@ class Settings(Motion):
             if found is not None:
                 return found
         effect = "none" if word in ("defbelt", "setbelt", "parameter") else "unknown"
+        if word == "parameter" and re.search(r"\bhand\.time\b", origin.text, re.IGNORECASE):
+            effect = "tuning"  # what waits for the hand has its time already
         return ir.Vendor("vplus", code_of(origin.text), effect, origin=origin)
 
     def setting(self, word: str, places: list[SyntaxTree], value: ir.Expression, origin: Origin) -> Lowered | None:

@@ -26,7 +26,8 @@ SIGNAL_RANGES: tuple[tuple[int, int, str, int], ...] = (
 )
 # M: the hand's solenoids are the first two signals of the robot.
 HAND_OPEN, HAND_CLOSE = 3001, 3002
-# M: HAND.TIME is a parameter; its default stands in for what the controller has stored. Seconds.
+# M: HAND.TIME is a parameter; its default stands in for what the controller has stored. Seconds. A project that sets it
+# to one number has that number throughout, since the controller keeps it.
 HAND_TIME_S = 0.05
 # WAIT without a condition waits for the next trajectory cycle (user's guide: 16 ms).
 CYCLE_S = 0.016

@@ -226,3 +226,18 @@ def test_a_reaction_belongs_to_the_task_and_can_switch_itself_on_again() -> None
     more = ".PROGRAM begin()\nREACT 1001, seen\n.END\n.PROGRAM seen()\nn = n+1\nREACT 1001, seen\n.END"
     text = "n = 0\nCALL begin()\nWAIT.EVENT , 3\nIF n == 2 THEN\nSIGNAL 1\nEND"
     assert outputs(run(text, more, cell=cell)) == [("1", True)]
+
+
+@pytest.mark.parametrize(
+    ("parameter", "seconds"),
+    # M: HAND.TIME is what OPENI and CLOSEI wait; 0.05 s stands in where a project does not set it.
+    [("", 0.05), ("PARAMETER HAND.TIME = 0.2\n", 0.2), ("PARAMETER HAND.TIME = .5\n", 0.5)],
+)
+def test_the_hand_takes_its_time(parameter: str, seconds: float) -> None:
+    result = run(f"{parameter}CLOSEI\nSIGNAL 1")
+    assert result.status == "finished" and result.outputs[-1][0] == pytest.approx(seconds)
+
+
+def test_a_hand_whose_time_changes_is_not_guessed() -> None:
+    result = run("PARAMETER HAND.TIME = 0.2\nCLOSEI\nPARAMETER HAND.TIME = 0.4\nOPENI\nSIGNAL 1")
+    assert result.fault is not None and result.fault.code == "vendor"

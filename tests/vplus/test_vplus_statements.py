@@ -116,7 +116,7 @@ SETTINGS: list[tuple[str, list[str]]] = [
     ("BASE board", ["WAIT FOR MOTION", "$base = board"]),
     ("ENABLE POWER", ['VENDOR vplus "ENABLE POWER" EFFECT none']),
     ("DISABLE CP", ["$blending = FALSE"]),
-    ("PARAMETER HAND.TIME = 3", ['VENDOR vplus "PARAMETER HAND.TIME = 3" EFFECT none']),
+    ("PARAMETER HAND.TIME = 3", ['VENDOR vplus "PARAMETER HAND.TIME = 3" EFFECT tuning']),
 ]
 
 SIGNALS: list[tuple[str, list[str]]] = [
@@ -134,7 +134,10 @@ SIGNALS: list[tuple[str, list[str]]] = [
     ("WAIT SIG(1001)", ["WAIT UNTIL di[1]"]),
     ("WAIT n > 3", ["WAIT UNTIL n > 3"]),
     ("WAIT.EVENT , 0.1", ["WAIT 0.1"]),
-    ("REACT 1001, alarm, 10", ["DECLARE INTERRUPT 118 EVERYWHERE NAMED 1001 WHEN di[1] DO alarm()", "INTERRUPT ON 1001"]),
+    (
+        "REACT 1001, alarm, 10",
+        ["DECLARE INTERRUPT 118 EVERYWHERE NAMED 1001 WHEN di[1] DO alarm()", "INTERRUPT ON 1001"],
+    ),
     (
         "REACTI -1002, alarm()",
         ["DECLARE INTERRUPT 127 EVERYWHERE BRAKING NAMED -1002 WHEN NOT di[2] DO alarm()", "INTERRUPT ON -1002"],

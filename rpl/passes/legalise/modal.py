@@ -45,6 +45,7 @@ DROPPED_SETTINGS = frozenset(
         *("path_acceleration", "swivel_acceleration", "twist_acceleration", "joint_acceleration", "path_jerk"),
         *("external_speed", "external_acceleration", "blend_rotation", "blend_speed", "orientation_mode"),
         *("circle_orientation", "singular_rule", "path_limit_rule", "advance", "load", "interpolation"),
+        *("end_tolerance", "deceleration_percent"),
     }
 )
 

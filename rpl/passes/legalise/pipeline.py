@@ -44,6 +44,7 @@ from rpl.passes.legalise.groups import name_groups
 from rpl.passes.legalise.handles import known_handles
 from rpl.passes.legalise.homes import home_positions
 from rpl.passes.legalise.interrupts import interrupts
+from rpl.passes.legalise.joinedmoves import joined_moves
 from rpl.passes.legalise.joins import joins
 from rpl.passes.legalise.jointgoals import joint_goals
 from rpl.passes.legalise.labels import structure_to_labels
@@ -146,6 +147,7 @@ PASSES: tuple[Pass, ...] = (
     constant_orientations,
     labels_to_structure,
     settings_of_next_move,
+    joined_moves,
     error_routines,
     list_results,
     lists_in_variables,
