@@ -11,10 +11,18 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rpl.emulator.rotations import FloatArray, pose_matrix, rotation_angle, rotation_vector_to_matrix, slerp
+from rpl.emulator.rotations import (
+    FloatArray,
+    matrix_to_rotation_vector,
+    pose_matrix,
+    rotation_angle,
+    rotation_vector_to_matrix,
+    slerp,
+)
 
 # Three points whose triangle is flatter than this sine define no circle.
 FLAT = 1e-6
+_HALF_TURN = 1e-4  # rad: turns that near to half a turn have two ways
 
 
 class Path(Protocol):
@@ -96,8 +104,20 @@ class Arc:
         s = np.asarray(fraction, dtype=np.float64)
         around = rotation_vector_to_matrix(s[..., None] * self.sweep_rad * self.axis)
         position = self.centre + around @ (self.start[:3, 3] - self.centre)
-        turn = slerp(self.start, self._goal(), s)
-        return pose_matrix(position, around @ turn if self.follow_path else turn)
+        if not self.follow_path:
+            return pose_matrix(position, slerp(self.start, self._goal(), s))
+        return pose_matrix(position, around @ self._against_arc(s))
+
+    def _against_arc(self, s: FloatArray) -> FloatArray:
+        """Rotations relative to the tangent frame. Half a turn against it (a half circle with the same orientation at
+        both ends) has two equal ways: the one that turns the tool back, not round once more, is taken."""
+        first = self.start[:3, :3]
+        turn = matrix_to_rotation_vector(first.T @ self._goal())
+        angle = float(np.linalg.norm(turn))
+        with_arc = float((first @ turn) @ self.axis) > 0.0
+        if with_arc and angle > np.pi - _HALF_TURN:
+            turn = turn * (1.0 - 2.0 * np.pi / angle)
+        return np.asarray(first @ rotation_vector_to_matrix(s[..., None] * turn))
 
     def tangent(self, fraction: float) -> FloatArray:
         around = rotation_vector_to_matrix(fraction * self.sweep_rad * self.axis)

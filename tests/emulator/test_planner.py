@@ -295,3 +295,18 @@ def test_speed_ceiling_is_kept_in_its_interval() -> None:
     assert speed[inside].max() <= 0.1 + 1e-9
     assert speed.max() > 1.0
     assert np.abs(np.diff(speed)).max() / (times[1] - times[0]) <= 20.0 + 1e-6
+
+
+@pytest.mark.parametrize("noise_deg", [-1e-6, 0.0, 1e-6])
+@pytest.mark.parametrize("side", [20.0, -20.0])
+def test_a_half_circle_along_the_path_does_not_turn_the_tool_round(side: float, noise_deg: float) -> None:
+    down = zyx_to_matrix([0.0, 180.0, 0.0])
+    arc = arc_through(
+        pose_matrix([500.0, -10.0, 240.0], down),
+        pose_matrix([500.0 + side, -30.0, 240.0], down),
+        pose_matrix([500.0, -50.0, 240.0], zyx_to_matrix([noise_deg, 180.0, 0.0])),
+        follow_path=True,
+    )
+    assert arc is not None
+    turned = [float(rotation_angle(pose[:3, :3] @ down.T)) for pose in arc.poses(np.linspace(0.0, 1.0, 9))]
+    assert max(turned) < 1e-6
