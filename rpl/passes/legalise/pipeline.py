@@ -47,6 +47,7 @@ from rpl.passes.legalise.interrupts import interrupts
 from rpl.passes.legalise.joinedmoves import joined_moves
 from rpl.passes.legalise.joins import joins
 from rpl.passes.legalise.jointgoals import joint_goals
+from rpl.passes.legalise.knownjoints import known_joints
 from rpl.passes.legalise.labels import structure_to_labels
 from rpl.passes.legalise.levels import levels_to_distances
 from rpl.passes.legalise.lists import lists_in_variables
@@ -154,6 +155,7 @@ PASSES: tuple[Pass, ...] = (
     joined_subscripts,
     array_bases,
     near_joints,
+    known_joints,
     joint_goals,
     whole_arc_points,
     three_point_arcs,
