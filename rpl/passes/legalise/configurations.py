@@ -309,7 +309,7 @@ class _Configurations(Rewriter):
             return _Refused("no move uses it")
         flags: dict[str, int] | None = None
         refused: _Refused | None = None
-        for use in sorted(uses, key=lambda one: (not one.joint, one.moved is not None)):
+        for use in sorted(uses, key=lambda one: (not one.joint, one.moved is not None, self.uses.order.get(one, 0))):
             found = self.for_use(value, use, had)
             if isinstance(found, _Refused):
                 if found.fatal or (use.joint and use.moved is None):

@@ -376,6 +376,7 @@ class Uses:
     found: dict[int, set[Use]] = field(default_factory=dict)
     sources: dict[int, set[int]] = field(default_factory=dict)
     moves: list[tuple[int, Use]] = field(default_factory=list)
+    order: dict[Use, int] = field(default_factory=dict)  # of the uses, as their moves stand in the program
     keep: list[object] = field(default_factory=list)
 
     @classmethod
@@ -483,6 +484,8 @@ class Uses:
         return found
 
     def spread(self) -> None:
+        for _, use in self.moves:
+            self.order.setdefault(use, len(self.order))
         work = list(self.moves)
         while work:
             key, use = work.pop()
