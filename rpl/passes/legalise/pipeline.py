@@ -100,6 +100,7 @@ from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
 from rpl.passes.legalise.taskarguments import task_arguments
 from rpl.passes.legalise.taskreferences import task_references
+from rpl.passes.legalise.taskdata import shared_task_data
 from rpl.passes.legalise.tasknames import task_names
 from rpl.passes.legalise.taskstates import task_states
 from rpl.passes.legalise.threepoints import three_point_arcs
@@ -126,6 +127,7 @@ from rpl.passes.typing import normalise
 # name to add.
 PASSES: tuple[Pass, ...] = (
     drop_untyped,
+    shared_task_data,
     cyclic_flags,
     task_names,
     task_states,
