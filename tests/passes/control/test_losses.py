@@ -114,10 +114,10 @@ def test_an_error_routine_as_handlers(end: ir.Statement) -> None:
 
 def test_an_error_routine_that_changes_is_named() -> None:
     (module,) = _raising(ir.Retry()).modules
-    main = replace(module.routines[0], body=(*module.routines[0].body, ir.OnError(None)))
+    main = replace(module.routines[0], body=(*module.routines[0].body, ir.OnError("other")))
     given = ir.Program((replace(module, routines=(main, *module.routines[1:])),))
     after, context = rewritten(given, PLAIN, error_routines)
-    assert [item.code.name for item in context.diagnostics] == ["error-routine-lost"]
+    assert [item.code.name for item in context.diagnostics] == ["error-routine-lost"] * 2
     assert count(after, ir.OnError) == 2
 
 
