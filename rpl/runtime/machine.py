@@ -326,10 +326,11 @@ class Machine:
                 if kind.endswith("_out"):
                     name = self.physical_name(key, SignalRef(kind, whole(key[1])), task)
                     self.outputs.append((self.now, name, bit))
+                    self._react(bit, (key,))
         if kind.endswith("_out"):
             first, last = (self.physical_name(key, SignalRef(kind, whole(key[1])), task) for key in (keys[0], keys[-1]))
             group = port._replace(last=port.last if port.last is not None else port.number)
-            self._show_output(task, group, f"{first} TO {last}", value, origin, tuple(keys))
+            self._show_output(task, group, f"{first} TO {last}", value, origin, ())
         self.changed()
 
     def _show_output(
@@ -337,6 +338,10 @@ class Machine:
     ) -> None:
         names = (name, *self.linked.alias_names(port))
         self.event("output", {"signal": name, "value": value}, task, origin, port=port, names=names)
+        self._react(value, keys)
+
+    def _react(self, value: Value, keys: tuple[Key, ...]) -> None:
+        """The world's answers to an output. Each bit of a group is an output by itself."""
         for wanted, reaction in self.reactions:
             if reaction.value == value and any(key in wanted or usual(key) in wanted for key in keys):
                 self.schedule(self.now + reaction.after_s, INPUTS, "input", 0, reaction.signal, reaction.result)

@@ -238,6 +238,19 @@ def test_reactions_of_the_cell() -> None:
     assert result.outputs[-1][:2] == (pytest.approx(0.3), "$OUT[2]")
 
 
+def test_each_bit_of_a_group_has_its_own_reaction() -> None:
+    rows = [(n, level) for n in range(1, 5) for level in ("true", "false")]
+    cell = "".join(
+        f"[[reaction]]\nwhen='$OUT[{n}]'\nbecomes={level}\nafter=0.1\nsignal='$IN[{n}]'\nvalue={level}\n"
+        for n, level in rows
+    )
+    data = "SIGNAL NR $OUT[1] TO $OUT[4]\nSIGNAL ECHO $IN[1] TO $IN[4]\nDECL INT I\n"
+    body = "FOR I=0 TO 15\nNR=I\nWAIT SEC 0.2\n$OUT[10+I]=(ECHO==I)\nENDFOR"
+    assert {name for name, value in on(krl(body, data=data, cell=cell)).items() if value} >= {
+        f"$OUT[{10 + value}]" for value in range(16)
+    }
+
+
 def test_two_runs_are_equal_and_a_copy_goes_on_by_itself() -> None:
     text = "DEF P0( )\nDECL INT I\nFOR I=1 TO 5\n$OUT[I]=TRUE\nWAIT SEC 1\nENDFOR\nEND"
     program = read("krl", text)
