@@ -1,21 +1,49 @@
 """`$a = $DECODE($text, $separators, mode)`: cut the head off a text. One step of V+ becomes several neutral ones.
 
 Mode 0 (or left out) takes everything in front of the first separator, mode 1 the separators that stand in front (M: the
-usual idiom takes a word and then its separators, until nothing is left).
+usual idiom takes a word and then its separators, until nothing is left). Inside of an expression it is done in front of
+the statement (`in_front`).
 """
 
 from __future__ import annotations
 
+from typing import cast
+
 from rpl import ir
-from rpl.reading.shapes import StatementError
+from rpl.reading.pieces import Element, Open
+from rpl.reading.shapes import StatementError, SyntaxTree
 from rpl.source import Origin
 
 from .expressions import root_name
 
+Lowered = Element | tuple[Element, ...]
+# Marks of jumps that leave several loops: word and count, as no label of V+ can be written.
+LEAVE_MARK = "{word}:{count}"
+# Statements that look at their values once, when they are reached.
+_ONCE = frozenset(("assign", "set", "call_routine", "call_computed", "if_open", "if_goto", "case_open", "for_open")) | {
+    "type_",
+    "write",
+    "instruction",
+    "bracketed",
+    "setting",
+}
 
-def decoded(
-    target: ir.Expression, values: list[ir.Expression | None], origin: Origin
-) -> ir.Assign | tuple[ir.Statement, ...]:
+
+def in_front(tree: SyntaxTree, lowered: Lowered, steps: ir.Body, origin: Origin) -> Lowered:
+    """A statement behind the `steps` that its values need; the condition of WHILE is looked at in each pass."""
+    kind = str(tree.data)
+    elements = lowered if isinstance(lowered, tuple) else (lowered,)
+    if kind == "while_open" and isinstance(lowered, Open):
+        over = ir.Unary("not", cast(ir.Expression, lowered.data), origin=origin)
+        leave = ir.Goto(LEAVE_MARK.format(word="exit", count=1), origin=origin)
+        forever = Open(lowered.kind, ir.BoolLiteral(True), lowered.origin)
+        return forever, *steps, ir.If(((over, (leave,)),), origin=origin)
+    if kind not in _ONCE or str(tree.children[0]).lower() == "wait":
+        raise StatementError("$DECODE cannot stand in a condition that is looked at again and again", 0)
+    return *steps, *elements
+
+
+def decoded(target: ir.Expression, values: list[ir.Expression | None], origin: Origin) -> tuple[ir.Statement, ...]:
     """The statements of one such assignment."""
     text, separators = [*values, None, None][:2]
     mode = values[2] if len(values) > 2 else None

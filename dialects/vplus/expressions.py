@@ -80,6 +80,9 @@ class Expressions:
         self.names = Names(diagnostics)
         self.numbers: tuple[str, ...] = ()
         self.origin = Origin()
+        self.steps: list[ir.Statement] = []  # what the statement at hand has to do before itself
+        self.met: list[str] = []  # variables that it read so far
+        self.cuts = 0
 
     def name(self, text: str) -> str:
         return self.names.of(text, self.origin)
@@ -164,8 +167,10 @@ class Expressions:
             known = self.constant(text)
             if known is not None:
                 return known
+            self.met.append(significant(text))
             return ir.Name(self.name(text), origin=self.origin)
         base = ir.Name(self.name(text), origin=self.origin)
+        self.met.append(significant(text))
         indices = [self.optional(subtree(child)) for child in subtree(tree.children[1]).children]
         given = tuple(index for index in indices if index is not None)
         if not given:

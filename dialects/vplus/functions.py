@@ -13,8 +13,8 @@ from rpl.passes import rigid
 from rpl.reading.shapes import StatementError, SyntaxTree
 from rpl.source import NOWHERE, Origin
 
-from . import formats, signals, tables
-from .expressions import Expressions, based, root_name, subtree
+from . import decode, formats, signals, tables
+from .expressions import Expressions, based, root_name, significant, subtree
 from .formats import Item
 
 UNKNOWN_FUNCTION = code(
@@ -35,6 +35,8 @@ class Functions(Expressions):
             return formats.text_of(self.items(arguments), self.origin)
         if name in ("switch", "parameter"):
             return self.vendor(tree)
+        if name == "$decode":
+            return self.cut_off(arguments)
         values = self.values(arguments)
         found = self.special(name, values) or self.neutral(name, values)
         if found is not None:
@@ -44,6 +46,22 @@ class Functions(Expressions):
             if constant is not None:
                 return constant
         return self.vendor(tree)
+
+    def cut_off(self, arguments: SyntaxTree) -> ir.Expression:
+        """`$DECODE` inside of an expression also changes its text: done in front of the statement, in order, into a
+        text of its own."""
+        met = tuple(self.met)
+        values = self.values(arguments)
+        self.met = list(met)
+        text = (root_name(values[0]) if values else None) or ""
+        if significant(text) in met:
+            raise StatementError(f"$DECODE changes {text}, which the same step reads in front of it", 0)
+        self.cuts += 1
+        while significant(f"$decoded.{self.cuts}") in self.names.spellings:
+            self.cuts += 1
+        head = ir.Name(self.name(f"$decoded.{self.cuts}"), origin=self.origin)
+        self.steps.extend(decode.decoded(head, values, self.origin))
+        return head
 
     def values(self, arguments: SyntaxTree) -> Values:
         """The arguments in order; those left out are None. `t BY x` counts as two."""

@@ -15,7 +15,10 @@ _ASSIGNED = re.compile(
     r"^[ \t]*(?:\d+[ \t]+)?([A-Za-z_][\w.]*)[ \t]*(?:\[[^\]\r\n]*\])?[ \t]*=(?!=)[ \t]*([^;\r\n]*)",
     re.IGNORECASE | re.MULTILINE,
 )
-_COUNTED = re.compile(r"^[ \t]*FOR[ \t]+([A-Za-z_][\w.]*)[ \t]*=", re.IGNORECASE | re.MULTILINE)
+_COUNTED = re.compile(
+    r"^[ \t]*FOR[ \t]+([A-Za-z_][\w.]*)[ \t]*=[ \t]*(.*?)[ \t]+TO[ \t]+([^;\r\n]*?)[ \t]*(?:\bSTEP\b.*|;.*)?$",
+    re.IGNORECASE | re.MULTILINE,
+)
 _HEADER = re.compile(r"^[ \t]*\.PROGRAM[ \t]+([\w.]+)[ \t]*\(([^)\r\n]*)\)", re.IGNORECASE | re.MULTILINE)
 _CALLED = re.compile(
     r"^[ \t]*(?:\d+[ \t]+)?(?:CALL|EXECUTE(?:[ \t]+/C)?(?:[ \t]+[\w.]+)??)[ \t]+([A-Za-z_][\w.]*)[ \t]*"
@@ -78,8 +81,9 @@ class _Numbers:
         for text in texts:
             for name, value in (*_ASSIGNED.findall(text), *_STORED.findall(text)):
                 self.gets(significant(name), value.strip())
-            for name in _COUNTED.findall(text):
-                self.known[significant(name)] = None
+            for name, first, last in _COUNTED.findall(text):
+                self.gets(significant(name), first)
+                self.gets(significant(name), last)
             for inner in _TAKEN.findall(text):
                 for name in _NAME.findall(inner):
                     self.known[significant(name)] = None
@@ -92,7 +96,7 @@ class _Numbers:
         known = self.known.setdefault(name, set())
         if known is None:
             return
-        if value.isdigit() and len(value) < 9:
+        if value.removeprefix("-").isdigit() and len(value) < 9:
             known.add(int(value))
         else:
             self.known[name] = None

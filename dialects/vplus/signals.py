@@ -76,8 +76,7 @@ def reading(operands: Iterable[ir.Expression], facts: Facts, origin: Origin) -> 
     whole: ir.Expression | None = None
     for operand in operands:
         number, wanted = split_sign(operand)
-        found = port(number, facts, origin)
-        value: ir.Expression = found if found is not None else _any_kind(number, origin)
+        value = _reading_of(number, facts, origin)
         if not wanted:
             value = ir.Unary("not", value, origin=origin)
         whole = value if whole is None else ir.Binary("and", whole, value, origin=origin)
@@ -86,15 +85,31 @@ def reading(operands: Iterable[ir.Expression], facts: Facts, origin: Origin) -> 
     return whole
 
 
-def _any_kind(number: ir.Expression, origin: Origin) -> ir.Expression:
-    """The signal of a number of which nothing is known: by its size. A negative number asks for the opposite."""
+def _reading_of(number: ir.Expression, facts: Facts, origin: Origin) -> ir.Expression:
+    """SIG(n): is the signal in the state that the sign asks for? The sign may show only when the program runs."""
+    found = port(number, facts, origin)
+    if found is not None:
+        return found
+    values = numbers_of(number, facts)
+    size = ir.Builtin("abs", (number,), origin=origin)
+    kinds = {kind_of(value) for value in values}
+    known = next(iter(kinds)) if len(kinds) == 1 else None
+    state = _any_kind(size, origin) if known is None else signal(known[0], size, known[1], origin)
+    if values and all(value < 0 for value in values):
+        return ir.Unary("not", state, origin=origin)
+    negative = ir.Binary("<", number, ir.IntLiteral(0), origin=origin)
+    return ir.Binary("xor", state, negative, origin=origin)
+
+
+def _any_kind(size: ir.Expression, origin: Origin) -> ir.Expression:
+    """The signal of a number without sign of which nothing else is known: by its size."""
     done: ir.Expression | None = None
     for first, last, kind, offset in _RANGES:
-        fits = ir.Binary("<=", number, ir.IntLiteral(last), origin=origin)
+        fits = ir.Binary("<=", size, ir.IntLiteral(last), origin=origin)
         if first > 1:
-            above = ir.Binary(">=", number, ir.IntLiteral(first), origin=origin)
+            above = ir.Binary(">=", size, ir.IntLiteral(first), origin=origin)
             fits = ir.Binary("cand", above, fits, origin=origin)
-        here = ir.Binary("cand", fits, signal(kind, number, offset, origin), origin=origin)
+        here = ir.Binary("cand", fits, signal(kind, size, offset, origin), origin=origin)
         done = here if done is None else ir.Binary("cor", done, here, origin=origin)
     assert done is not None
     return done

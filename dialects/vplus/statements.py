@@ -13,11 +13,12 @@ from lark import Token, Tree
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.reading.pieces import Close, Element, Middle, ModulePart, Open
+from rpl.reading.pieces import Close, Middle, ModulePart, Open
 from rpl.reading.shapes import Slot, StatementError, SyntaxTree
 from rpl.source import Origin
 
 from . import decode, formats, tables
+from .decode import LEAVE_MARK, Lowered
 from .expressions import Facts, root_name, subtree
 from .functions import Functions
 from .split import Outline, code_of
@@ -37,10 +38,7 @@ UNKNOWN_TASK = code(
     "which program runs in task {task} is not known: {count} programs are executed there",
 )
 
-Lowered = Element | tuple[Element, ...]
 Operands = list[SyntaxTree | None]
-# Marks of jumps that leave several loops: word and count, as no label of V+ can be written.
-LEAVE_MARK = "{word}:{count}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +90,7 @@ class Statements(Functions):
     def lower(self, tree: SyntaxTree, numbers: tuple[str, ...], origin: Origin) -> Lowered:
         """The element(s) of one statement."""
         self.numbers, self.origin = numbers, origin
+        self.steps, self.met = [], []
         children = tree.children
         kind = str(tree.data)
         method: Callable[[SyntaxTree, Origin], Lowered] | None = getattr(self, f"on_{kind}", None)
@@ -99,7 +98,8 @@ class Statements(Functions):
             if kind == "statement" and len(children) == 1:
                 return self.lower(subtree(children[0]), numbers, origin)
             raise StatementError(f"did not expect {kind} here", 0)
-        return method(tree, origin)
+        lowered = method(tree, origin)
+        return decode.in_front(tree, lowered, tuple(self.steps), origin) if self.steps else lowered
 
     # ---- programs and sections
 

@@ -56,6 +56,17 @@ HOLDS = [
         '$a = "12, 34"\n$b = $DECODE($a, ", ", 0)\n$c = $DECODE($a, ", ", 1)\n'
         'IF ($b == "12") AND ($c == ", ") AND ($a == "34") THEN\nSIGNAL 1\nEND',
     ),
+    (
+        "DECODE inside of an expression takes its words in order",
+        '$a = "12,34 56"\n$b = $DECODE($a, ",", 0)+"-"+$DECODE($a, ",", 1)+$DECODE($a, " ", 0)\n'
+        'IF ($b == "12-,34") AND ($a == " 56") THEN\nSIGNAL 1\nEND',
+    ),
+    (
+        "DECODE in the condition of WHILE takes a word in each pass",
+        '$a = "ab,c,,d"\nk = 0\nWHILE LEN($DECODE($a, ",", 0)) > 0 DO\nk = k+1\n$b = $DECODE($a, ",", 1)\nEND\n'
+        "IF k == 3 THEN\nSIGNAL 1\nEND",
+    ),
+    ("DECODE as an argument", '$a = "7;8"\nIF VAL($DECODE($a, ";")) == 7 THEN\nIF $a == ";8" THEN\nSIGNAL 1\nEND\nEND'),
     ("ENCODE puts a blank for the sign", '$a = "P"+$ENCODE(11000)\nIF $a == "P 11000" THEN\nSIGNAL 1\nEND'),
     ("bits", "IF ((^HFF BAND ^B1010) == 10) AND (BMASK(1,3) == 5) AND (^17 == 15) THEN\nSIGNAL 1\nEND"),
     ("a name counts with 15 characters", "a.very.long.name.one = 3\nIF a.very.long.namX == 3 THEN\nSIGNAL 1\nEND"),
@@ -95,6 +106,14 @@ HOLDS = [
 @pytest.mark.parametrize(("what", "text"), HOLDS, ids=[what for what, _ in HOLDS])
 def test_it_holds(what: str, text: str) -> None:
     assert outputs(run(text)) == [("1", True)], what
+
+
+@pytest.mark.parametrize(
+    "step", ['$b = $a+$DECODE($a, ",")', 'DO\nUNTIL $DECODE($a, ",") == ""', 'WAIT $DECODE($a, ",") == ""']
+)
+def test_decode_is_not_read_where_its_order_cannot_be_kept(step: str) -> None:
+    _, diagnostics = read(program_of(f'$a = "1,2"\n{step}'))
+    assert "$DECODE" in " ".join(item.as_text() for item in diagnostics)
 
 
 def test_arguments_are_passed_by_reference_and_in_brackets_by_value() -> None:
