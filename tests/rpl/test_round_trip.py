@@ -31,7 +31,9 @@ def printed(program: ir.Program) -> str:
 def read(text: str) -> ir.Program:
     diagnostics = Diagnostics()
     program = registry.dialect("rpl").read([source_from_text("t.rpl", text)], diagnostics).program
-    assert [item.as_text() for item in diagnostics] == [], text
+    # Drawn tasks and entries are any names, so that one may stand for the other.
+    said = [item.as_text() for item in diagnostics if item.code.name != "rpl-entry-not-begun"]
+    assert said == [], text
     return program
 
 

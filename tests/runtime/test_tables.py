@@ -88,7 +88,6 @@ def test_indices_are_checked(index: float, good: bool) -> None:
         ("value_text", (VectorValue(1.5, 2, -3),), "[1.5,2,-3]"),
         ("format", ("%d-%5.2f-%s|%3d|%c", 5, 3.14159, "x", 7, "A"), "5- 3.14-x|  7|A"),
         ("message_text", ("%1 of %2, %3", 1, 2), "1 of 2, %3"),
-        ("text_value", (" -1.5 ",), -1.5),
         ("round", (2.5,), 3),
         ("round", (-2.5,), -3),
         ("round", (3.14159, 2), 3.14),
@@ -97,6 +96,10 @@ def test_indices_are_checked(index: float, good: bool) -> None:
 )
 def test_functions_by_example(function: str, arguments: tuple[object, ...], result: object) -> None:
     assert functions.PURE[function](*arguments) == result
+
+
+def test_numbers_written_in_texts_are_read_by_the_marks_of_the_language() -> None:
+    assert texts.text_value(" -1.5 ") == -1.5
 
 
 def test_values_are_read_from_text_in_the_shape_of_the_variable() -> None:
