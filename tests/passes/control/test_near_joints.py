@@ -48,10 +48,12 @@ def test_constant_places_become_their_joints(target: str, near: str) -> None:
 
 
 NOW = "get_actual_joint_positions()"
+SET = "i = get_standard_analog_in(0)\n"
+SET_PLACE = "p[0.4, -0.1 * i, 0.3, 3.14159, 0, 0]"
 FORMS = [
-    (f"i = get_standard_analog_in(0)\nmovej(get_inverse_kin(p[0.4, -0.1 * i, 0.3, 3.14159, 0, 0], {NOW}))", "PoseType", 0),
-    (f"i = get_standard_analog_in(0)\nq = get_inverse_kin(p[0.4, -0.1 * i, 0.3, 3.14159, 0, 0], {NOW})\nmovej(q)", "PoseType", 0),
-    (f"i = get_standard_analog_in(0)\nmovej(get_inverse_kin(p[0.4, -0.1 * i, 0.3, 3.14159, 0, 0], {TAUGHT}))", "PoseType", 1),
+    (f"{SET}movej(get_inverse_kin({SET_PLACE}, {NOW}))", "PoseType", 0),
+    (f"{SET}q = get_inverse_kin({SET_PLACE}, {NOW})\nmovej(q)", "PoseType", 0),
+    (f"{SET}movej(get_inverse_kin({SET_PLACE}, {TAUGHT}))", "PoseType", 1),
     (f"q = {NOW}\nq[0] = q[0] + get_standard_analog_in(0)\nmovej(get_inverse_kin({PLACE}, q))", "PoseType", 1),
     (f"q = get_inverse_kin({PLACE}, {NOW})\nmovej(q)\ntextmsg(q[0])", "JointsType", 0),
 ]
