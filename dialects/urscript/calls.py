@@ -349,7 +349,7 @@ VALUES: dict[str, Make] = {
         ("get_actual_joint_positions", "get_joint_positions", "get_target_joint_positions"),
         lambda calls, bound: ir.Builtin("current_joints", ()),
     ),
-    "get_tcp_offset": lambda calls, bound: ir.Field(ir.Builtin("current_tool", ()), "frame"),
+    "get_tcp_offset": lambda calls, bound: ir.System("tool"),
     "get_forward_kin": _forward,
     "get_inverse_kin": _inverse("target_to_joints_near"),
     "get_inverse_kin_has_solution": _inverse("is_reachable"),

@@ -173,6 +173,8 @@ class Printer(StatementPrinter[Line]):
                 self.line(f"JMP LBL[{self.labels.number(name)}]", origin)
             case ir.Assign(target=ir.System(name="tool" | "base" as name), value=value):
                 self.select(name, value, origin)
+            case ir.Assign(target=target, value=ir.System(name="tool")):
+                self.put(self.tool_in_force(target), origin)
             case ir.Assign(value=ir.Builtin(function="current_target", arguments=(tool, frame)), target=target):
                 self.put(self.seen_with(tool, frame, target), origin)
                 self.motion.place = ""
@@ -415,6 +417,14 @@ class Printer(StatementPrinter[Line]):
                 behind.append(Line(f"  {kind}_NUM={keeper}"))
             before.extend(lines)
         return [*before, Line(f"  {self.expressions.place(target)}=LPOS"), *behind]
+
+    def tool_in_force(self, target: ir.Expression) -> list[Line]:
+        """The value of the tool in force in a position register: that of its number, which is asked where unknown."""
+        place, number = self.expressions.place(target), self.motion.tool
+        if number:
+            return [Line(f"  {place}=UTOOL[{number}]")]
+        keeper = self.frames.keeper("UTOOL in use")
+        return [Line(f"  {keeper}={ACTIVE['UTOOL_NUM']}"), Line(f"  {place}=UTOOL[{keeper}]")]
 
     def move(self, move: ir.Move) -> None:
         if move.search is not None:

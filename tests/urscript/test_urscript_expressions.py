@@ -40,7 +40,7 @@ CASES = [
     ("is_steady()", "(not @moving)"),
     ("get_actual_tcp_pose()", "pose_of(current_target())"),
     ("get_actual_joint_positions()", "current_joints()"),
-    ("get_tcp_offset()", "current_tool().frame"),
+    ("get_tcp_offset()", "@tool"),
     ('"a" + "b"', "('a' & 'b')"),
     ('str_cat("a", 1)', "('a' & value_text(1))"),
     ('str_at("abc", 0)', "text_part('abc',1,1)"),

@@ -2,7 +2,8 @@
 
 A stop point holds the program of some controllers until the robot stands (RAPID, FANUC, RPL); others run ahead over all
 moves (KRL) and stop only before certain statements. What interrupts, stop watches and other tasks do is seen while the
-robot moves, so statements that arm or disarm them, or look at what they have changed, must not come early.
+robot moves, so statements that arm or disarm them, look at what they have changed, or assign what they look at, must
+not come early.
 """
 
 from __future__ import annotations
@@ -46,13 +47,14 @@ def stand_first(program: ir.Program, context: Context) -> ir.Program:
 class _Facts:
     """Names in lower case. beside: routines that interrupts and background tasks run; changed: variables that these
     assign; movers: routines that drive; halting: those of them that end with a stop point; watchful: routines that
-    contain a statement which must not come early."""
+    contain a statement which must not come early; read: variables that the routines beside look at."""
 
     beside: frozenset[str]
     changed: frozenset[str]
     movers: frozenset[str]
     watchful: frozenset[str]
     halting: frozenset[str] = frozenset()
+    read: frozenset[str] = frozenset()
 
     @classmethod
     def of(cls, program: ir.Program) -> _Facts:
@@ -76,7 +78,8 @@ class _Facts:
             for name in (base_name(node.action.target),)
             if name is not None
         }
-        known = cls(beside, frozenset(changed), frozenset(), frozenset())
+        read = frozenset(name for one in beside for name in _looked_at(routines[one]))
+        known = cls(beside, frozenset(changed), frozenset(), frozenset(), read=read)
         movers = {n for n, r in routines.items() if any(isinstance(node, _MOVES) for node in walk(*bodies(r)))}
         watchful = {n for n, r in routines.items() if any(known.early(node) for node in _statements(r))}
         return replace(known, movers=_with_callers(movers, calls), watchful=_with_callers(watchful, calls))
@@ -87,6 +90,8 @@ class _Facts:
             case ir.ControlInterrupt() | ir.OrderInterrupt() | ir.Clock() | ir.TaskControl():
                 return True
             case ir.CallRoutine(name=name) if name.lower() in self.watchful:
+                return True
+            case ir.Assign(target=target) if (base_name(target) or "").lower() in self.read:
                 return True
         found = False
 
@@ -186,6 +191,21 @@ def _assigned(routine: ir.Routine) -> set[str]:
             case ir.Do(arguments=arguments):
                 names |= {base_name(one) for one in arguments if one is not None}
     return {name.lower() for name in names if name is not None} - own
+
+
+def _looked_at(routine: ir.Routine) -> set[str]:
+    """Variables of others that its expressions name."""
+    own = {d.name.lower() for d in routine.declarations if isinstance(d, ir.Variable)}
+    own |= {parameter.name.lower() for parameter in routine.parameters}
+    names: set[str] = set()
+
+    def look(expression: ir.Expression) -> None:
+        if isinstance(expression, ir.Name):
+            names.add(expression.id.lower())
+
+    for statement in _statements(routine):
+        each_expression(statement, look)
+    return names - own
 
 
 def _statements(routine: ir.Routine) -> list[ir.Statement]:

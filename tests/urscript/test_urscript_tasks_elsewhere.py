@@ -1,0 +1,72 @@
+"""Scripts with threads and the offset of the tool, run in the other languages."""
+
+from __future__ import annotations
+
+import pytest
+
+from rpl.diagnostics import Diagnostics, Severity
+from rpl.project import ReadProgram, read_sources
+from rpl.runtime.trace import RunResult
+from rpl.simulation import entry_name, run_program
+from rpl.source import source_from_bytes, source_from_text
+from rpl.translation import translate_program
+
+ARM = "ur5e"
+OTHERS = ("krl", "rapid", "tp", "vplus", "inform", "rpl", "urscript")
+TOOL = """def main():
+  set_tcp(p[0, 0, 0.2, 0, 0, 0])
+  local offset = get_tcp_offset()
+  if offset[2] > 0.199 and offset[2] < 0.201:
+    set_standard_digital_out(0, True)
+  end
+  global gap = pose_trans(p[0, 0, 0.1, 0, 0, 0], get_tcp_offset())
+  set_standard_digital_out(1, gap[2] > 0.299)
+  set_tcp(p[0, 0, 0.25, 0, 0, 0])
+  gap = get_tcp_offset()
+  set_standard_digital_out(2, gap[2] > 0.249)
+end
+"""
+# The thread counts while the robot moves for about a second; the flag that ends it must not come early.
+WATCHED = """def main():
+  global running = True
+  global turns = 0
+  thread watch():
+    while running:
+      turns = turns + 1
+      sleep(0.1)
+    end
+  end
+  movej([0, -1.5708, 1.5708, -1.5708, -1.5708, 0])
+  here = get_actual_tcp_pose()
+  h = run watch()
+  movel(pose_trans(p[0, 0, 0.1, 0, 0, 0], here), a=1.2, v=0.1)
+  running = False
+  join h
+  set_standard_digital_out(0, turns > 7 and turns < 16)
+end
+"""
+
+
+def translated(text: str, target: str) -> tuple[RunResult, list[str], str]:
+    """The run of what was written, the losses that were named, and the text."""
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("main.script", text)], "urscript", diagnostics)
+    written = translate_program(read, target, ARM, None, diagnostics)
+    back: ReadProgram = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
+    entry = written.renamed.get("main", "main") if target != "rpl" else entry_name(back.program)
+    losses = [item.code.name for item in diagnostics.of(Severity.LOSS)]
+    return run_program(back.program, ARM, None, entry), losses, "".join(f.data.decode() for f in written.files)
+
+
+@pytest.mark.parametrize("target", OTHERS)
+def test_the_offset_of_the_tool_is_read(target: str) -> None:
+    result, losses, _ = translated(TOOL, target)
+    assert (result.status, losses) == ("finished", [])
+    assert [each[2] for each in result.outputs] == [True, True, True]
+
+
+@pytest.mark.parametrize("target", ["krl", "vplus"])
+def test_a_flag_that_a_thread_looks_at_is_set_when_the_robot_stands(target: str) -> None:
+    result, losses, text = translated(WATCHED, target)
+    assert (result.status, losses) == ("finished", [])
+    assert [each[2] for each in result.outputs] == [True], text
