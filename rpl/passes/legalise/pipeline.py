@@ -74,6 +74,7 @@ from rpl.passes.legalise.possiblecases import possible_cases
 from rpl.passes.legalise.prelude import link_prelude
 from rpl.passes.legalise.pulselevels import pulse_levels
 from rpl.passes.legalise.pulses import fold_pulses
+from rpl.passes.legalise.randomnumbers import random_numbers
 from rpl.passes.legalise.reactions import reactions
 from rpl.passes.legalise.reactionsearches import reaction_searches
 from rpl.passes.legalise.references import references_as_copies
@@ -138,6 +139,7 @@ PASSES: tuple[Pass, ...] = (
     levels_to_distances,
     displacements,
     changed_places,
+    random_numbers,
     elementwise,
     known_handles,
     called_tasks,
