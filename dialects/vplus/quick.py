@@ -16,9 +16,9 @@ _ASSIGNED = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 _COUNTED = re.compile(
-    r"^[ \t]*FOR[ \t]+([A-Za-z_][\w.]*)[ \t]*=[ \t]*(.*?)[ \t]+TO[ \t]+([^;\r\n]*?)[ \t]*(?:\bSTEP\b.*|;.*)?$",
-    re.IGNORECASE | re.MULTILINE,
+    r"^[ \t]*FOR[ \t]+([A-Za-z_][\w.]*)[ \t]*=([^;\r\n]*?)\bTO\b([^;\r\n]*)", re.IGNORECASE | re.MULTILINE
 )
+_STEP = re.compile(r"\bSTEP\b", re.IGNORECASE)
 _HEADER = re.compile(r"^[ \t]*\.PROGRAM[ \t]+([\w.]+)[ \t]*\(([^)\r\n]*)\)", re.IGNORECASE | re.MULTILINE)
 _CALLED = re.compile(
     r"^[ \t]*(?:\d+[ \t]+)?(?:CALL|EXECUTE(?:[ \t]+/C)?(?:[ \t]+[\w.]+)??)[ \t]+([A-Za-z_][\w.]*)[ \t]*"
@@ -82,8 +82,8 @@ class _Numbers:
             for name, value in (*_ASSIGNED.findall(text), *_STORED.findall(text)):
                 self.gets(significant(name), value.strip())
             for name, first, last in _COUNTED.findall(text):
-                self.gets(significant(name), first)
-                self.gets(significant(name), last)
+                self.gets(significant(name), first.strip())
+                self.gets(significant(name), _STEP.split(last)[0].strip())
             for inner in _TAKEN.findall(text):
                 for name in _NAME.findall(inner):
                     self.known[significant(name)] = None

@@ -42,6 +42,8 @@ def numbers_of(expression: ir.Expression, facts: Facts) -> frozenset[int]:
             return frozenset((value,))
         case ir.Name(id=name) | ir.Index(base=ir.Name(id=name)):
             return facts.numbers.get(significant(name), frozenset())
+        case ir.Binary(op="+", left=ir.IntLiteral(value=value), right=right):
+            return frozenset(number + value for number in numbers_of(right, facts))
         case ir.Binary(op="+" | "-" as op, left=left, right=ir.IntLiteral(value=value)):
             step = value if op == "+" else -value
             return frozenset(number + step for number in numbers_of(left, facts))

@@ -206,6 +206,8 @@ def test_signal_numbers_in_variables_are_of_the_kind_of_their_values() -> None:
     program, _ = read(program_of("CALL lamp(2005)\nCALL lamp(2006)", ".PROGRAM lamp(n)\nSIGNAL n\n.END"))
     assert as_rpl(program, "lamp") == ["SET flag[n - 2000] TO ON"]
     assert steps("PROMPT n\nSIGNAL n")[1].startswith("IF ")
+    assert steps("FOR i = 1 TO 8\nSIGNAL 40+i\nEND")[1].strip() == "SET do[40 + i] TO ON"
+    assert steps("FOR i = 1 TO n STEP 2\nSIGNAL i\nEND")[1].strip().startswith("IF ")
 
 
 RECOGNISED = [

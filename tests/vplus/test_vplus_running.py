@@ -99,6 +99,10 @@ HOLDS = [
         "IF (ABS(DX(p)-7) < 0.001) AND (ABS(DY(p)-10) < 0.001) AND (DZ(p) == 9) THEN\nSIGNAL 1\nEND",
     ),
     ("RX turns about x", "SET p = RX(90):TRANS(0,1,0)\nIF ABS(DZ(p)-1) < 0.0001 THEN\nSIGNAL 1\nEND"),
+    (
+        "the sign of a signal number in a variable",
+        "n = -1005\nIF SIG(n) THEN\nn = 1005\nIF NOT SIG(n) THEN\nSIGNAL 1\nEND\nEND",
+    ),
     ("SHIFT moves in the world", "SET p = SHIFT(RZ(90) BY 5,0,0)\nIF DX(p) == 5 THEN\nSIGNAL 1\nEND"),
 ]
 
@@ -106,6 +110,13 @@ HOLDS = [
 @pytest.mark.parametrize(("what", "text"), HOLDS, ids=[what for what, _ in HOLDS])
 def test_it_holds(what: str, text: str) -> None:
     assert outputs(run(text)) == [("1", True)], what
+
+
+@pytest.mark.parametrize("number", ["n", "1*n", "-1*m"])
+def test_the_sign_of_a_signal_number_counts_when_the_program_runs(number: str) -> None:
+    body = f"FOR n = -6 TO 7 STEP 13\nm = -n\nk = k+k\nIF SIG({number}) THEN\nk = k+1\nEND\nEND"
+    checks = "IF k == 3 THEN\nSIGNAL 1\nEND"
+    assert outputs(run(f"SIGNAL 7\nk = 0\n{body}\nSIGNAL -7\n{checks}"))[-1] == ("1", True)
 
 
 @pytest.mark.parametrize(
