@@ -31,6 +31,7 @@ CAPABILITIES = Capabilities(
         further="abcdefghijklmnopqrstuvwxyz0123456789_-",
     ),
     modal_motion=True,
+    concurrent_moves="moves",
     notation="inform",
     rotation="zyx",
     conversions=frozenset(("real", "trunc", "round_half_away", "bit", "truth", "floor", "code", "char")),

@@ -34,6 +34,7 @@ CAPABILITIES = Capabilities(
         further="abcdefghijklmnopqrstuvwxyz0123456789_",
     ),
     modal_motion=True,
+    concurrent_moves="advance",
     paths_to_joints=False,
     notation="krl",
     rotation="zyx",

@@ -30,6 +30,7 @@ CAPABILITIES = Capabilities(
     types=frozenset(type.__name__ for type in TYPE_NAMES),
     names=NameRules(32, False, RESERVED),
     modal_motion=False,
+    concurrent_moves="moves",
     paths_to_joints=False,
     notation="rapid",
     rotation="quaternion",

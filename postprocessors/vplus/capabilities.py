@@ -47,6 +47,7 @@ CAPABILITIES = Capabilities(
         further="abcdefghijklmnopqrstuvwxyz0123456789_.",
     ),
     modal_motion=True,
+    concurrent_moves="moves",
     notation="vplus",
     rotation="zyx",
     conversions=tables.words("real round_half_away trunc bit truth minus_bit floor code char"),

@@ -160,7 +160,8 @@ class Modal:
                 continue
             corner = corner if isinstance(statement, ir.Nothing) else None
             if fly_by and isinstance(statement, ir.WaitUntil | ir.Assign) and _stops(statement):
-                if "LookAhead" in self.context.capabilities.statements:
+                allowed = bool(done) and isinstance(done[-1], ir.LookAhead)
+                if "LookAhead" in self.context.capabilities.statements and not allowed:
                     self.context.diagnostics.report(EARLY_LOGIC, statement.origin)
                     done.append(ir.LookAhead(origin=replace(statement.origin, comments=())))
             elif not isinstance(statement, ir.Assign | ir.Nothing | ir.WaitUntil):

@@ -12,6 +12,7 @@ from rpl.passes.legalise.arcpoints import whole_arc_points
 from rpl.passes.legalise.arithmetic import arithmetic
 from rpl.passes.legalise.arrays import array_bases, array_sizes
 from rpl.passes.legalise.background import background_tasks
+from rpl.passes.legalise.begunmoves import begun_moves, moves_ahead
 from rpl.passes.legalise.bitgroups import groups_to_bits, shared_groups_to_bits
 from rpl.passes.legalise.calledtasks import called_tasks
 from rpl.passes.legalise.calls import rewrite_calls
@@ -169,6 +170,7 @@ PASSES: tuple[Pass, ...] = (
     configurations,
     without_aliases,
     stop_blends,
+    begun_moves,
     triggers,
     reactions,
     resumes,
@@ -218,6 +220,7 @@ PASSES: tuple[Pass, ...] = (
     modal_to_explicit,
     tool_data,
     mixed_speeds,
+    moves_ahead,
     explicit_to_modal,
     settings_at_moves,
     stand_first,
