@@ -95,6 +95,7 @@ class Capabilities:
     of constants and variables. calculated_places: moves, signals, waits take any expression. conditions: `comparisons`
     of two simple operands, joined by and/or.
     condition_terms: how many comparisons such a condition has at most, spelled out without brackets (0: any).
+    fixed_arcs: an arc may keep the tool as it is to the arc (else its end is worked out).
     functions_alone: a function only as the whole right side of an assignment.
 
     Motion: move_settings: which of `tool`, `frame`, `speed`, `blend` a move says itself, the rest being modal (System
@@ -208,6 +209,7 @@ class Capabilities:
     conditions: str = "any"
     condition_terms: int = 0
     functions_alone: bool = False
+    fixed_arcs: bool = False
     move_settings: frozenset[str] = frozenset()
     speeds: frozenset[str] = frozenset()
     blends: frozenset[str] = frozenset()
