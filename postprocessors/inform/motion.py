@@ -34,6 +34,11 @@ JOINT_CORNER = code(
     Severity.WARNING,
     "a joint move has positioning levels, no corner distance: {distance:g} mm is written as {written}",
 )
+COMPUTED_CORNER = code(
+    "inform-computed-corner",
+    Severity.WARNING,
+    "a joint move has positioning levels, no corner distance: the job chooses the largest level that is not wider",
+)
 LEFT_OUT = code("inform-left-out", Severity.WARNING, "INFORM has no place for {what} at a move; it is left out")
 NO_SPEED = code("inform-no-speed", Severity.WARNING, "the move says no speed; it is written without one")
 
@@ -62,7 +67,7 @@ class Goal:
 
 
 # Instructions that calculate a point: they do not part the points of an arc.
-_PLACE_WORDS = ("MULMAT ", "INVMAT ", "SET ")
+_PLACE_WORDS = ("MULMAT ", "INVMAT ", "SET ", "GETE ", "SETE ")
 
 
 @dataclass(slots=True)
@@ -102,7 +107,7 @@ class Motion:
         if move.relative is not None:
             goal, shown = self.relative(move, tool)
         elif move.kind in tables.MOVES:
-            goal = self.goal(move.target, move.frame, tool)
+            goal = self.goal(move.target, move, tool)
             known = self.positions.constants.known(move.target)
             if known is not None and known.kind == "pose":
                 goal.seen = Seen(known, move.frame, self.positions.changes)
@@ -162,9 +167,9 @@ class Motion:
             self.positions.in_tools[number] = place
         return number
 
-    def goal(self, target: ir.Expression, frame: ir.Expression | None, tool: int) -> Goal:
-        """The taught point or position variable of a target."""
-        job, constants = self.positions.job, self.positions.constants
+    def goal(self, target: ir.Expression, move: ir.Move, tool: int) -> Goal:
+        """The taught point or position variable of a target of the move."""
+        job, constants, frame = self.positions.job, self.positions.constants, move.frame
         base = Position("pose", WORLD) if frame is None else constants.known(frame)
         while isinstance(target, ir.Builtin) and target.function in ("joints_to_target", "pose_of"):
             target = target.arguments[0]
@@ -177,28 +182,30 @@ class Motion:
             return Goal(job.point_of(known, tool, number, wanted), tool, number, known)
         if self.is_joints(target):
             return Goal(self.positions.as_variable(target), tool, 0, None)
-        if tool != job.tool:
-            raise CannotSayError("positions in variables are driven to with one tool in a job, here it is another one")
-        if (base is None or base.values != WORLD) and not self.is_joints(target):
+        if base is None or base.values != WORLD:
             assert frame is not None  # no frame is the base
             target = ir.Binary(":", frame, target)
-            return Goal(self.positions.as_variable(target), tool, 0, None)
-        place = self.positions.as_variable(target)
-        if job.cell.tool_of_variables != job.tool:
-            helper = self.positions.registers.helper("P")
-            unit = job.constant(Position("pose", WORLD), job.tool)
-            self.lines.append(f"MULMAT {helper} {unit} {place}")
-            place = helper
+            place = self.positions.as_variable(target)
+        else:
+            place = self.positions.as_variable(target)
+            if job.cell.tool_of_variables != job.tool and tool == job.tool:
+                helper = self.positions.registers.helper("P")
+                unit = job.constant(Position("pose", WORLD), tool)
+                self.lines.append(f"MULMAT {helper} {unit} {place}")
+                place = helper
+        if tool != job.tool and move.kind == "joint":
+            place = self.positions.with_tool_and_posture(place, tool)
+        elif tool != job.tool:
+            place = self.positions.with_tool(place, tool)
         return Goal(place, tool, 0, None)
 
     def with_computed_tool(self, joints: Position, tool: int) -> str:
         """Joints whose tool is kept in a variable: the flange's posture, and the components of flange . tool."""
         job, registers = self.positions.job, self.positions.registers
         kept = job.constant(job.flange_of(joints), tool)
-        goal, reached, count = registers.helper("P"), registers.helper("P"), registers.helper("D")
+        goal, reached = registers.helper("P"), registers.helper("P")
         self.lines.extend([f"SET {goal} {kept}", f"MULMAT {reached} {kept} {self.positions.in_tools[tool]}"])
-        for number in range(1, len(tables.POSE_ELEMENTS) + 1):
-            self.lines.extend([f"GETE {count} {reached} ({number})", f"SETE {goal} ({number}) {count}"])
+        self.positions.copy_components(reached, goal)
         return goal
 
     def is_joints(self, target: ir.Expression) -> bool:
@@ -223,8 +230,8 @@ class Motion:
             return Goal("", tool, 0, None), f"IMOV {self.turned_way(move, way, tool)} BF"
         number = job.cell.frame(frame.values)
         place = self.positions.as_variable(move.target) if way is None else job.constant(way, tool)
-        if way is None and tool != job.tool:
-            raise CannotSayError("a computed way with another tool than the job's own")
+        if way is None and (tool != job.tool or job.cell.tool_of_variables != tool):
+            place = self.positions.with_tool(place, tool)
         word = "TF" if move.relative == "tool" else f"UF#({number})" if number else "BF"
         goal = None if way is None else self.reached(move, way, tool, frame)
         return goal or Goal("", tool, 0, None), f"IMOV {place} {word}"
@@ -267,12 +274,10 @@ class Motion:
         """A way in the axes of a computed frame as one in those of the base: frame . way - frame."""
         if move.frame is None or move.relative == "tool" or way is None or any(way.values[3:]):
             raise CannotSayError("a turned relative move in a computed frame")
-        if tool != self.positions.job.tool:
-            raise CannotSayError("a computed way with another tool than the job's own")
         helper, frame = self.positions.registers.helper("P"), self.positions.as_variable(move.frame)
         kept = self.positions.job.constant(way, tool)
         self.lines.extend([f"MULMAT {helper} {frame} {kept}", f"SUB {helper} {frame}"])
-        return helper
+        return helper if tool == self.positions.job.tool else self.positions.with_tool(helper, tool)
 
     def reached(self, move: ir.Move, way: Position, tool: int, frame: Position) -> Goal | None:
         """Where a relative move comes to from the last place."""
@@ -299,7 +304,7 @@ class Motion:
         or an arc; else it is taught once more."""
         if move.via is None:
             raise CannotSayError("a circle needs its point on the way")
-        via = self.goal(move.via, move.frame, tool)
+        via = self.goal(move.via, move, tool)
         retaught = True
         if self.line_of_last is not None and all(line.startswith(_PLACE_WORDS) for line in self.lines):
             line = done[self.line_of_last]
@@ -397,7 +402,7 @@ class Motion:
                 if move.kind != "joint":
                     return [self.tag("CR", distance, move.origin)]
                 if known is None:
-                    raise CannotSayError("a joint move with a computed corner distance")
+                    return self.computed_level(distance, move.origin)
                 # a corner stays one: where it would be a stop, what follows would come later
                 level_of = max(1, *(n for n, size in enumerate(tables.LEVELS) if size <= known))
                 written = f"PL={level_of}"
@@ -405,6 +410,18 @@ class Motion:
                     self.report_once(JOINT_CORNER, move.origin, written, distance=known, written=written)
                 return [written]
         raise CannotSayError("this kind of corner")
+
+    def computed_level(self, distance: ir.Expression, origin: Origin) -> list[str]:
+        """The level of a corner that is not known before: looked up in the table of distances."""
+        self.report_once(COMPUTED_CORNER, origin)
+        registers = self.positions.registers
+        real, level = registers.helper("R"), registers.helper("B")
+        self.number(real, distance)
+        for number in range(len(tables.LEVELS) - 1, 1, -1):
+            word = "ELSEIFEXP" if number < len(tables.LEVELS) - 1 else "IFTHENEXP"
+            self.lines.extend([f"{word} {real}>={tables.LEVELS[number]!r}", f"SET {level} {number}"])
+        self.lines.extend([f"ELSEIFEXP {real}>0.0", f"SET {level} 1", "ELSE", f"SET {level} 0", "ENDIF"])
+        return [f"PL={level}"]
 
     def level(self, level: ir.Expression) -> list[str]:
         known = constant(level)

@@ -179,6 +179,27 @@ class Positions:
         self.lines.append(f"MULMAT {helper} {helper} {wanted}")
         return helper
 
+    def with_tool(self, place: str, tool: int) -> str:
+        """The same pose in a variable that comes with this tool. A variable has the tool that its value was taught
+        with, which stays when its components are changed; the posture of the place does not come along."""
+        goal = self.registers.helper("P", f"tool {tool}")
+        self.lines.append(f"SET {goal} {self.job.constant(Position('pose', WORLD), tool)}")
+        self.copy_components(place, goal)
+        return goal
+
+    def with_tool_and_posture(self, place: str, tool: int) -> str:
+        """The same pose in a variable that comes with this tool, in the posture of the place: the pulses that bring the
+        tool there, and the pose and tool that belong to them."""
+        pulses, goal = self.registers.helper("P", "pulses"), self.registers.helper("P", f"tool {tool}")
+        self.lines.extend([f"CNVRT {pulses} {place} PULSE TL#({tool})", f"CNVRT {goal} {pulses} BF TL#({tool})"])
+        return goal
+
+    def copy_components(self, source: str, goal: str) -> None:
+        """The six components of a pose; tool and posture stay those of the goal."""
+        count = self.registers.helper("D")
+        for number in range(1, len(tables.POSE_ELEMENTS) + 1):
+            self.lines.extend([f"GETE {count} {source} ({number})", f"SETE {goal} ({number}) {count}"])
+
     def converted(self, place: str, how: str, inner: ir.Expression, more: list[ir.Expression]) -> None:
         """CNVRT place source PULSE or BF, with the tool's number."""
         tool = ""
