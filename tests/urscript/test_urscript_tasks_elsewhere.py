@@ -70,3 +70,42 @@ def test_a_flag_that_a_thread_looks_at_is_set_when_the_robot_stands(target: str)
     result, losses, text = translated(WATCHED, target)
     assert (result.status, losses) == ("finished", [])
     assert [each[2] for each in result.outputs] == [True], text
+
+
+# One assignment of what the program looks at is never divided; two of them are, and so is one that both assign.
+COUNTED = """def main():
+  global seen = 0
+  global last = 0
+  thread conveyor():
+    while True:
+      enter_critical
+      {section}
+      exit_critical
+      sleep(0.2)
+    end
+  end
+  local c = run conveyor()
+  {started}
+  sleep(1.1)
+  kill c
+  local counted = seen
+  sleep(0.5)
+  set_standard_digital_out(0, seen >= 5 and seen <= 7 and counted == seen and last < 9)
+end
+"""
+
+
+@pytest.mark.parametrize("target", [one for one in OTHERS if one not in ("rpl", "urscript")])
+def test_a_critical_section_with_one_access_is_left_out(target: str) -> None:
+    result, losses, _ = translated(COUNTED.format(section="seen = seen + 1", started="sleep(0.1)"), target)
+    assert (result.status, losses) == ("finished", [])
+    assert [each[2] for each in result.outputs] == [True]
+
+
+@pytest.mark.parametrize(
+    ("section", "started"),
+    [("seen = seen + 1\n      last = seen", "sleep(0.1)"), ("seen = seen + 1", "seen = seen + 0")],
+)
+def test_a_critical_section_with_more_is_named(section: str, started: str) -> None:
+    _, losses, _ = translated(COUNTED.format(section=section, started=started), "tp")
+    assert "critical-section-lost" in losses

@@ -24,6 +24,7 @@ from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.constantorientations import constant_orientations
 from rpl.passes.legalise.context import Context, Pass, names_in
 from rpl.passes.legalise.corners import corners
+from rpl.passes.legalise.criticals import without_criticals
 from rpl.passes.legalise.cyclicflags import cyclic_flags
 from rpl.passes.legalise.datalists import set_data_at_start
 from rpl.passes.legalise.defaults import starting_values
@@ -177,6 +178,7 @@ PASSES: tuple[Pass, ...] = (
     interrupts,
     static_variables,
     task_references,
+    without_criticals,
     background_tasks,
     stopped_tasks,
     joins,
