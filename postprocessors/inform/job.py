@@ -139,7 +139,7 @@ class Job:
         rows.sort(key=lambda row: (bool(row[2].position.flags), row[0], row[2].position.kind, row[2].frame, row[1]))
         counts = [sum(bank == kind for bank, _, _ in rows) for kind in ("C", "BC", "EC", "P", "BP", "EX")]
         lines = [f"///NPOS {','.join(map(str, counts))}"]
-        if rows or self.moves:
+        if rows or self.moves or self.tool:
             lines.append(f"///TOOL {self.tool}")
         state = {"TOOL": str(self.tool)}
         for bank, number, kept in rows:

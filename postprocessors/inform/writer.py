@@ -40,6 +40,11 @@ MANY_TASKS = code(
     "{count} jobs would run beside the program; a controller has {most} sub tasks",
     "begin some of them from one job, or watch fewer conditions",
 )
+TOOL_OF_PLACE = code(
+    "inform-tool-of-place",
+    Severity.WARNING,
+    "{name} asks where the tool is and does not drive: tool {tool} is taken, which most of the moves are driven with",
+)
 LONG_NAME = code(
     "inform-long-name", Severity.ERROR, "{name}: a job's name has at most {most} characters", "rename the routine"
 )
@@ -85,6 +90,8 @@ class _Writer:
     def choose_tools(self) -> None:
         """The tool that positions in variables are driven to with, in each job and in most of them."""
         everywhere: Counter[int] = Counter()
+        driven: Counter[int] = Counter()
+        standing: list[ir.Routine] = []
         for module in self.program.modules:
             for routine in module.routines:
                 constants = self.constants.routine(routine)
@@ -100,8 +107,22 @@ class _Writer:
                 everywhere.update(computed)
                 most = (computed or all_moves).most_common(1)
                 self.tools[id(routine)] = most[0][0] if most else 0
+                driven.update(all_moves)
+                if not most and any(map(_place_of_tool, walk(routine.body))):
+                    standing.append(routine)
         if everywhere:
             self.cell.tool_of_variables = everywhere.most_common(1)[0][0]
+        self.stand(standing, driven)
+
+    def stand(self, routines: list[ir.Routine], driven: Counter[int]) -> None:
+        """Jobs that do not drive and ask where the tool is: it is the tool that the others drive with."""
+        tools = Counter({tool: count for tool, count in driven.items() if tool}) or driven
+        if not tools:
+            return
+        for routine in routines:
+            self.tools[id(routine)] = tools.most_common(1)[0][0]
+            if len(tools) > 1:
+                self.diagnostics.report(TOOL_OF_PLACE, routine.origin, name=routine.name, tool=self.tools[id(routine)])
 
     def tool(self, move: ir.Move, constants: Constants) -> int:
         if move.tool is None:
@@ -237,6 +258,14 @@ class _Writer:
                 self.diagnostics.report(LOST_DECLARATION, assign.origin, name="this value", reason=str(error))
                 done.append("PAUSE")
         return done
+
+
+def _place_of_tool(node: object) -> bool:
+    """Does it ask where the tool is that is in use?"""
+    match node:
+        case ir.System(name="actual_pose") | ir.Builtin(function="current_target"):
+            return True
+    return False
 
 
 def _sub_tasks(program: ir.Program) -> dict[str, str]:
