@@ -78,7 +78,8 @@ class Handling:
 class Frame:
     """One call. kind: call, interrupt, trigger, error. `counter` is the next instruction, `at` the one that called;
     `result` the place in the caller's values that gets the function's value; `priority` of the interrupt; `wait` the
-    suspended wait of the interrupted frame below; `level` the frame that declared the interrupt."""
+    suspended wait of the interrupted frame below; `level` the frame that declared the interrupt; `goes_on`:
+    what it braked goes on at its end."""
 
     code: Code
     values: Values
@@ -92,6 +93,7 @@ class Frame:
     wait: object = None
     level: Frame | None = None
     number: int = 0
+    goes_on: bool = False
     leaving: object = None
 
 

@@ -131,7 +131,7 @@ class Task:
         self.interrupt_number = 0
         self.aside -= 1
         if frame.kind == "interrupt" and self.robot is not None:
-            self.robot.interrupt_ended(goes_on=frame.level is not None)
+            self.robot.interrupt_ended(goes_on=frame.goes_on)
         wait = frame.wait
         if isinstance(wait, Wait):
             self.wait = wait
@@ -312,6 +312,7 @@ class Task:
             frame = self.new_frame(interrupt.action, "interrupt")
         else:
             frame = Frame(interrupt.action, values, "interrupt")
+            frame.goes_on = True  # it was declared; what a trap routine braked waits for its start
         frame.priority, frame.level, frame.number = interrupt.priority, interrupt.level, interrupt.key
         if interrupt.stops and self.robot is not None:
             self.robot.halt(True, ends_move=True)

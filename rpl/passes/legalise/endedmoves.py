@@ -12,6 +12,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.beside import tidy
 from rpl.passes.legalise.editing import Editor, negation
+from rpl.passes.legalise.heldmotion import not_again, path_differs
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.served import Served
 
@@ -65,6 +66,8 @@ class EndedMoves(Served):
         """The move, which ends where the condition comes; what was only stopped begins again from there. Where the
         condition holds from the start the interrupt has come before and the move is one as any other."""
         (move,) = moves
+        if self.again and path_differs(move):
+            return not_again(move, path_differs(move), self.context)
         if not isinstance(move.blend, ir.BlendStop | None):
             self.context.diagnostics.report(CORNER, move.origin)
         (watch,) = self.watches.values()

@@ -44,6 +44,7 @@ from rpl.passes.legalise.functions import functions_to_procedures
 from rpl.passes.legalise.geometry import geometry
 from rpl.passes.legalise.groups import name_groups
 from rpl.passes.legalise.handles import known_handles
+from rpl.passes.legalise.heldmotion import held_motion
 from rpl.passes.legalise.homes import home_positions
 from rpl.passes.legalise.interrupts import interrupts
 from rpl.passes.legalise.joinedmoves import joined_moves
@@ -81,6 +82,7 @@ from rpl.passes.legalise.reactions import reactions
 from rpl.passes.legalise.reactionsearches import reaction_searches
 from rpl.passes.legalise.references import references_as_copies
 from rpl.passes.legalise.refusals import refuse
+from rpl.passes.legalise.repeatedmoves import repeated_moves
 from rpl.passes.legalise.results import list_results
 from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.rotationvectors import rotation_vectors
@@ -173,9 +175,11 @@ PASSES: tuple[Pass, ...] = (
     stop_blends,
     begun_moves,
     triggers,
+    held_motion,
     reactions,
     resumes,
     interrupts,
+    repeated_moves,
     static_variables,
     task_references,
     without_criticals,

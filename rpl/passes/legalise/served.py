@@ -14,11 +14,13 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.beside import Beside, closure, tidy
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, expansion, map_body, negation
+from rpl.passes.legalise.heldmotion import not_again, path_differs
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.movers import Movers
 from rpl.passes.legalise.movesettings import plain
 from rpl.passes.legalise.searchtasks import SearchTasks
 from rpl.passes.legalise.support import default_value
+from rpl.passes.legalise.usage import called_below
 
 MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.ResumeLevel)
 _TRUE, _FALSE = ir.BoolLiteral(True), ir.BoolLiteral(False)
@@ -65,16 +67,18 @@ class Served:
     declaring: frozenset[str] = frozenset()
     leaves: bool = False
     brakes: bool = False
+    again: bool = False  # what it stops is begun again
     here: ir.Routine | None = None
     searching: SearchTasks | None = None
 
     def __post_init__(self) -> None:
         actions = [one.declared.action for one in self.watches.values()]
         roots = {one.name.lower() for one in actions if isinstance(one, ir.CallRoutine)}
-        self.handlers = _below(self.program, roots)
+        self.handlers = called_below(self.program, roots)
         resuming = closure(self.program, (ir.ResumeLevel,))
         self.leaves = bool(roots & resuming)
         stopping = closure(self.program, (ir.StopMotion,))
+        self.again = bool(roots & stopping) and not self.leaves
         self.brakes = bool(roots & stopping) or any(one.declared.stops for one in self.watches.values())
         found = set()
         for module in self.program.modules:
@@ -137,6 +141,9 @@ class Served:
 
     def drive(self, editor: Editor, moves: list[ir.Move]) -> ir.Body:
         assert self.here is not None  # set with the routine
+        other = next(filter(None, map(path_differs, moves)), "")
+        if self.again and other:
+            return (*not_again(moves[0], other, self.context), *moves[1:])
         begun = self.movers.begin(editor, self.here, moves)
         comments = tuple(comment for move in moves for comment in move.origin.comments)
         call = ir.CallRoutine(self.name("rpl_drive"), origin=tidy(moves[0].origin))
@@ -302,20 +309,6 @@ class Served:
         words = ("rpl_acting", "rpl_braked", "rpl_left")
         named = [self.names[word] for word in words if word in self.names]
         return tuple(ir.Variable(name, ir.BoolType(), _FALSE, scope="global") for name in named)
-
-
-def _below(program: ir.Program, roots: set[str]) -> frozenset[str]:
-    """These routines and all that they call, folded."""
-    routines = {routine.name.lower(): routine for module in program.modules for routine in module.routines}
-    found, waiting = set(roots), list(roots)
-    while waiting:
-        routine = routines.get(waiting.pop())
-        for node in walk(*routine.body) if routine is not None else ():
-            match node:
-                case ir.CallRoutine(name=name) | ir.Call(name=name) if name.lower() not in found:
-                    found.add(name.lower())
-                    waiting.append(name.lower())
-    return frozenset(found)
 
 
 def _routine(name: str, body: ir.Body) -> ir.Routine:

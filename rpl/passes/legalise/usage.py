@@ -208,6 +208,20 @@ def doing(program: ir.Program, does: Callable[[object], bool]) -> frozenset[str]
     return frozenset(found)
 
 
+def called_below(program: ir.Program, roots: set[str]) -> frozenset[str]:
+    """These routines and all that they call, folded."""
+    routines = {routine.name.lower(): routine for module in program.modules for routine in module.routines}
+    found, waiting = set(roots), list(roots)
+    while waiting:
+        routine = routines.get(waiting.pop())
+        for node in walk(*routine.body) if routine is not None else ():
+            match node:
+                case ir.CallRoutine(name=name) | ir.Call(name=name) if name.lower() not in found:
+                    found.add(name.lower())
+                    waiting.append(name.lower())
+    return frozenset(found)
+
+
 def exposed(program: ir.Program, names: set[str]) -> ir.Program:
     """The program with these routines (folded names) visible outside of their modules, for generated code to call."""
     if not names:
