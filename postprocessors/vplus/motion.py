@@ -321,7 +321,16 @@ class Motion:
             self.facts.once(LOOSE, move.origin)
         if not _as_here(move.blend):
             self.facts.once(CORNER, move.origin)
-        return []
+        return self.stopped_if(move.blend)
+
+    def stopped_if(self, blend: ir.Blend) -> list[str]:
+        """A corner whose size the run decides is a stop where it has none."""
+        size = size_of(blend)
+        if not isinstance(blend, ir.BlendDistance) or not isinstance(size, ir.Name | ir.System | ir.Index | ir.Field):
+            return []
+        if self.expressions.known(size) is not None:
+            return []
+        return [f"IF {self.expressions.text(size)} <= 0 THEN", "    BREAK", "END"]
 
     def stopped(self, move: ir.Move) -> list[str]:
         """A corner becomes a stop."""
