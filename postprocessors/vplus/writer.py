@@ -15,6 +15,7 @@ from rpl.ir.walk import walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.usage import usage_of
 from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.typing import type_of
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
@@ -164,7 +165,7 @@ class _File:
                     self.place_values(declaration, scope)
                     printer.comments_only(origin)
                 case ir.Initialise(assign=ir.Assign(target=target, value=value)):
-                    type = printer.expressions.type(target)
+                    type = type_of(target, scope)  # the printer sees the first module only
                     if type is None:
                         raise CannotSayError("its type is not known")
                     self.add(*stored(target, type, value, scope))
