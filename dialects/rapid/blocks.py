@@ -12,6 +12,7 @@ from rpl.reading.pieces import Attribute, Block, Item, ModulePart, Section
 from rpl.source import Origin
 
 from .project import Project
+from .signalparameters import with_signal_parameters
 from .statements import ForHead, HandlerHead, ModuleHead, RecordHead, RoutineHead
 
 MISPLACED = code("misplaced-declaration", Severity.WARNING, "a declaration stands where the controller takes none")
@@ -212,6 +213,7 @@ class Blocks:
             head.scope,
             origin=block.open.origin,
         )
+        made = with_signal_parameters(made)
         return (made, *outside) if outside else made
 
     def handlers(self, sections: tuple[Section, ...], bodies: list[ir.Body]) -> Handlers:

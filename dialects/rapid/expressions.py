@@ -230,8 +230,10 @@ class Expressions:
         return self.signal(value, kind) if kind else value
 
     def signal(self, value: ir.Expression, kind: str) -> ir.Expression:
-        """An argument in the place of a signal: a declared name (a parameter or alias) or the physical signal."""
+        """An argument in the place of a signal: a parameter, a declared name (an alias) or the physical signal."""
         match value:
+            case ir.Name(id=name) if name.lower() in self.project.signal_parameters:
+                return ir.Signal(kind, name=name)
             case ir.Convert(how="bit", operand=ir.Signal(name=name)) | ir.Signal(name=name) if name is not None:
                 return ir.Signal(kind, name=name)
             case ir.Name(id=name) if name.lower() not in self.project.declared:

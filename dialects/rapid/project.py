@@ -56,6 +56,7 @@ class Project:
     signals: dict[str, str] = field(default_factory=dict)
     types: set[str] = field(default_factory=set)
     signal_arguments: dict[str, dict[int | str, str]] = field(default_factory=dict)
+    signal_parameters: set[str] = field(default_factory=set)
     booked_errors: dict[str, int] = field(default_factory=dict)
 
     def type_named(self, word: str) -> ir.Type:
@@ -107,3 +108,4 @@ def _parameters(project: Project, routine: str, parameters: str) -> None:
         if kind:
             kinds = project.signal_arguments.setdefault(routine, {})
             kinds[position] = kinds[name.lower()] = kind
+            project.signal_parameters.add(name.lower())

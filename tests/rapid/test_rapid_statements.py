@@ -199,12 +199,27 @@ def test_declarations() -> None:
     assert isinstance(error, ir.Variable) and error.type == number
 
 
-def test_a_signal_parameter_stays_a_name() -> None:
+def test_a_signal_parameter_is_the_signal_that_was_passed() -> None:
     text = "MODULE m\nPROC p(VAR signaldo s)\nSet s;\nENDPROC\nPROC main()\np doX;\np lamp;\nENDPROC\nENDMODULE"
     first, main = module(text).routines
-    assert first.body == (ir.Assign(ir.Name("s"), ON),)
+    assert first.body == (ir.Assign(ir.Signal("digital_out", name="s"), ON),)
     signals = [ir.Signal("digital_out", name=name) for name in ("doX", "lamp")]
     assert main.body == tuple(ir.CallRoutine("p", (ir.Argument(signal),)) for signal in signals)
+
+
+@pytest.mark.parametrize(
+    ("line", "meaning"),
+    [
+        ("b:=DOutput(s)=1;", ir.Assign(ir.Name("b"), ir.Signal("digital_out", name="s"))),
+        ("b:=s=0;", ir.Assign(ir.Name("b"), ir.Unary("not", ir.Signal("digital_out", name="s")))),
+        ("n:=s;", ir.Assign(N, ir.Convert("bit", ir.Signal("digital_out", name="s")))),
+        ("WaitDO s,1;", ir.WaitUntil(ir.Signal("digital_out", name="s"))),
+        ("p s;", ir.CallRoutine("p", (ir.Argument(ir.Signal("digital_out", name="s")),))),
+    ],
+)
+def test_a_signal_parameter_that_is_read(line: str, meaning: ir.Statement) -> None:
+    text = f"MODULE m\nVAR num n;\nVAR bool b;\nPROC p(VAR signaldo s)\n{line}\nENDPROC\nENDMODULE"
+    assert module(text).routines[0].body == (meaning,)
 
 
 def test_a_routine_of_the_project_hides_an_installed_one() -> None:

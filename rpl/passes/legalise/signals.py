@@ -16,6 +16,7 @@ from rpl import ir, registry
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.signalnumbers import numbers_as_arguments, parameters_as_numbers
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.source import Origin
@@ -216,6 +217,11 @@ def number_signals(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose signals have numbers."""
     if context.capabilities.signal_prefixes:
         return program
+    program, places = parameters_as_numbers(program)
+    return numbers_as_arguments(_with_numbers(program, context), places)
+
+
+def _with_numbers(program: ir.Program, context: Context) -> ir.Program:
     prefixes = _prefixes()
     alone = not context.capabilities.numbered_groups
 
