@@ -353,4 +353,5 @@ def _entries(program: ir.Program) -> set[str]:
         return motion
     from rpl.passes.legalise.datalists import never_called, started_tasks
 
-    return never_called(program) - started_tasks(program)
+    beside = {task.entry.lower() for task in program.tasks if task.kind == "background"}
+    return never_called(program) - started_tasks(program) - beside
