@@ -32,4 +32,4 @@ def test_an_array_of_a_further_module_keeps_its_values() -> None:
     )
     assert not diagnostics.of(Severity.LOSS)
     text = made.files[0].data.decode("ascii").lower()
-    assert "noffs[1] 35" in text and "noffs[3] 105" in text
+    assert "noffs[2] 35" in text and "noffs[4] 105" in text
