@@ -212,7 +212,7 @@ class Motion:
                 raise CannotSayError(f"a move has no place for {what}")
         left = {
             "an orientation rule": move.orientation not in (None, "variable", "wrist"),
-            "a circle's orientation rule": move.circle_orientation not in (None, "base"),
+            "a circle's orientation rule": move.circle_orientation not in (None, "base", "path"),
             "an acceleration in mm/s2": move.speed is not None and move.speed.path_acceleration is not None,
             "an acceleration in deg/s2": move.speed is not None and move.speed.axis_acceleration is not None,
         }

@@ -3,7 +3,8 @@ always turn to the orientation of their end.
 
 The place that such a path reaches has the start's orientation, whatever its target says. Where the start is known (the
 move before it goes to taught or written data), the target gets that orientation; where both are the same, nothing
-changes; where it cannot be known, the move is refused by name.
+changes; where it cannot be known, the move is refused by name. An arc that keeps the tool as it is to the arc turns it
+by as much as the arc bends: the program works that out from the arc's three points (`fixedarcs`).
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.fixedarcs import FixedArcs, is_fixed
 from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.rigid import Pose, Rotation
@@ -82,6 +84,8 @@ class _Paths:
         self.effects = _effects(program)
         self.scope: Scope | None = None
         self.reports = False
+        self.arcs = FixedArcs(program, context)
+        self.passed = False  # the move before does not stop at its end
 
     def program(self) -> ir.Program:
         modules = tuple(
@@ -92,10 +96,27 @@ class _Paths:
 
     def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
         self.scope, self.reports = self.scopes.routine(module, routine), True
-        return replace(routine, body=self.body(routine.body, _State()))
+        body = self.body(routine.body, _State())
+        return replace(routine, body=body, declarations=(*routine.declarations, *self.arcs.taken()))
 
     def body(self, body: ir.Body, state: _State) -> ir.Body:
-        return tuple(self.statement(statement, state) for statement in body)
+        done: list[ir.Statement] = []
+        for statement in body:
+            turned = self.fixed_arc(statement, state)
+            done.extend(turned or (self.statement(statement, state),))
+        return tuple(done)
+
+    def fixed_arc(self, statement: ir.Statement, state: _State) -> ir.Body | None:
+        """The arc that keeps the tool as it is to the arc, with the steps that work out its end."""
+        if not isinstance(statement, ir.Move):
+            return None
+        passed, self.passed = self.passed, not isinstance(statement.blend, ir.BlendStop | None)
+        if not is_fixed(statement) or self.context.capabilities.fixed_arcs or passed:
+            return None
+        done = self.arcs.written(statement, self.scope) if self.reports and self.scope is not None else None
+        if done is not None:
+            state.last = None
+        return done
 
     def statement(self, statement: ir.Statement, state: _State) -> ir.Statement:
         match statement:
@@ -179,7 +200,10 @@ class _Paths:
             state.last = there
             return move
         start = state.last
-        if start is None or there is None:
+        if start is None or there is None or is_fixed(move):
+            if is_fixed(move) and self.context.capabilities.fixed_arcs:
+                state.last = None
+                return move
             if self.reports:
                 self.context.diagnostics.report(LOST, move.origin)
             state.last = None
