@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import children, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies, map_body
 from rpl.passes.legalise.jumps import inside
@@ -144,7 +144,7 @@ def _seen(statement: ir.Statement, named: set[str], assigned: set[str]) -> int |
 
 
 def _changed_names(beside: list[ir.Body]) -> Iterator[str]:
-    """What these statements may assign; whatever they hand to another routine counts."""
+    """What these statements may assign; each variable that they hand to another routine counts."""
     for node in walk(*beside):
         match node:
             case ir.Assign(target=target):
@@ -152,8 +152,11 @@ def _changed_names(beside: list[ir.Body]) -> Iterator[str]:
                 yield from () if name is None else (name.lower(),)
             case ir.Nothing():
                 continue
-            case ir.CallRoutine() | ir.Do() | ir.Call() | ir.TaskControl() | ir.For():
-                yield from (inner.id.lower() for inner in walk(node) if isinstance(inner, ir.Name))
+            case ir.For(counter=counter):
+                yield counter.lower()
+            case ir.CallRoutine() | ir.Do() | ir.Call() | ir.TaskControl() | ir.Argument():
+                handed = (one for one in children(node) if isinstance(one, ir.Name | ir.Index | ir.Field))
+                yield from (name.lower() for name in map(base_name, handed) if name is not None)
 
 
 def _in_loops(program: ir.Program) -> Iterator[ir.TaskControl]:
