@@ -28,6 +28,12 @@ THREAD = code(
     "{text} is kept as text: nothing tells which thread it means",
     "store the value of run in a variable of its own",
 )
+# Questions to the operator, and the kind of answer.
+_ASKED = {
+    "request_integer_from_primary_client": "number",
+    "request_float_from_primary_client": "number",
+    "request_string_from_primary_client": "text",
+}
 _STEP = ir.RealLiteral(STEP_TIME_S, str(STEP_TIME_S))
 
 
@@ -136,6 +142,8 @@ class Statements(Calls):
         if isinstance(value, nodes.Run):
             return self.run(value, target)
         if isinstance(target, nodes.Var):
+            if isinstance(value, nodes.Apply) and value.base is None and value.name in _ASKED:
+                return self.asked(target, value)
             kind = symbol.kind if symbol is not None else self.kind(value)
             stored = self.stored(value, kind, symbol is not None and symbol.is_joints)
             return (ir.Assign(self.name(target), stored, origin=self.origin),)
@@ -143,6 +151,13 @@ class Statements(Calls):
             return (ir.Assign(self.member(target, None), self.value(value, self.kind(target)), origin=self.origin),)
         assert isinstance(target, nodes.At)  # the syntax allows no other place
         return self.store_part(target, value)
+
+    def asked(self, target: nodes.Var, call: nodes.Apply) -> Made:
+        """A question to the operator at the panel, whose answer is kept."""
+        if len(call.arguments) != 1:
+            return (ir.Assign(self.name(target), self.text_of(call, None), origin=self.origin),)
+        question = self.value(call.arguments[0][1])
+        return (ir.Dialog(self.name(target), question, kind=_ASKED[call.name], origin=self.origin),)
 
     def store_part(self, target: nodes.At, value: Expr) -> Made:
         base, kind = target.base, self.kind(target.base)
