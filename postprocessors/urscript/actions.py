@@ -2,28 +2,58 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from rpl import ir
 from rpl.ir.walk import expressions as all_expressions
 from rpl.passes.legalise.jumps import opposite
 from rpl.passes.typewords import component_names, word_type
+from rpl.source import Origin
 from rpl.writing.statements import CannotSayError
 
 from . import tables
 from .declarations import in_one_list
-
-if TYPE_CHECKING:
-    from .statements import Printer
+from .expressions import Expressions
 
 _MESSAGES = {"notify": "", "state": "", "write": "", "error": "error=True", "quit": "blocking=True"}
 _LONGEST_KEYS = 9
 
 
+class Sharing(Protocol):
+    """What all routines of one file share (see statements.Output)."""
+
+    watches: dict[str, str]
+    threads: list[tuple[str, ...]]
+
+    def fresh(self, stem: str) -> str: ...
+
+
+class Printing(Protocol):
+    """What writes the lines of a routine (see statements.Printer)."""
+
+    expressions: Expressions
+    inside: bool
+
+    @property
+    def output(self) -> Sharing: ...
+
+    def line(self, text: str, origin: Origin | None = None) -> None: ...
+
+    def more(self, *texts: str) -> None: ...
+
+    def remark(self, text: str) -> None: ...
+
+    def temporary(self, stem: str, value: str) -> str: ...
+
+    def comments_only(self, origin: Origin) -> None: ...
+
+    def onward(self, word: str) -> None: ...
+
+
 class Actions:
     """Writes to the printer of one routine."""
 
-    def __init__(self, printer: Printer) -> None:
+    def __init__(self, printer: Printing) -> None:
         self.printer, self.expressions = printer, printer.expressions
 
     def write(self, statement: ir.Statement) -> None:
