@@ -330,9 +330,9 @@ def _entries(program: ir.Program) -> set[str]:
     motion = {task.entry.lower() for task in program.tasks if task.kind == "motion"}
     if motion:
         return motion
-    from rpl.passes.legalise.datalists import never_called
+    from rpl.passes.legalise.datalists import started_first
 
-    return set(never_called(program))
+    return started_first(program)
 
 
 def _file(listing: Listing, frames: Frames) -> OutputFile:

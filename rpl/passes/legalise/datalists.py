@@ -121,6 +121,13 @@ def moving_entries(program: ir.Program) -> set[str]:
     return never_called(foreground) - started_tasks(program) - others
 
 
+def started_first(program: ir.Program) -> set[str]:
+    """Where the program may be started, folded: what nothing calls and no task runs, but where there is only that."""
+    roots = never_called(program)
+    beside = started_tasks(program) | {task.entry.lower() for task in program.tasks if task.kind != "motion"}
+    return roots - beside or roots
+
+
 def _background(program: ir.Program) -> set[str]:
     """Modules of tasks that do not move the robot."""
     return {name for task in program.tasks if task.kind != "motion" for name in task.modules}
