@@ -11,9 +11,10 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.datalists import moving_entries
+from rpl.passes.legalise.helpers import Helpers
 from rpl.passes.legalise.modal import DROPPED, JOINT_BLEND, MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
 from rpl.passes.legalise.usage import base_name, each_expression, each_statement, usage_of
 from rpl.passes.rewrite import rewrite_parts
@@ -79,7 +80,20 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
             handlers = tuple(replace(handler, body=worker.body(handler.body, {})) for handler in routine.handlers)
             routines.append(replace(routine, body=worker.body(routine.body, {}), handlers=handlers))
         modules.append(replace(module, routines=tuple(routines)))
-    return replace(program, modules=tuple(modules))
+    return _with_least(replace(program, modules=tuple(modules)), context)
+
+
+def _with_least(program: ir.Program, context: Context) -> ir.Program:
+    """The limits of speeds asked for here, where the target has no function for the smaller of two numbers."""
+    if "min" in context.capabilities.functions:
+        return program
+    helpers = Helpers(context)
+
+    def change(node: object) -> object:
+        least = isinstance(node, ir.Builtin) and node.function == "min"
+        return helpers.call("rpl_min", *node.arguments) if least and isinstance(node, ir.Builtin) else node
+
+    return helpers.added_to(rewrite(program, change))
 
 
 def _usual_places(program: ir.Program) -> frozenset[str]:
