@@ -33,6 +33,7 @@ class Printing(Protocol):
 
     expressions: Expressions
     inside: bool
+    rounding: bool
 
     @property
     def output(self) -> Sharing: ...
@@ -68,6 +69,9 @@ class Actions:
                 printer.onward("continue")
             case ir.WaitForMotion():
                 printer.comments_only(origin)  # moves without a blend radius end before the next line
+                if printer.rounding:  # the last move of a loop or branch above
+                    printer.more("while not is_steady():", "  sync()", "end")
+                    printer.rounding = False
             case ir.WaitUntil():
                 self.wait_until(statement)
             case ir.Pulse() | ir.SetAfter():

@@ -86,6 +86,7 @@ class Printer(StatementPrinter[str]):
         self.scope, self.output, self.inside, self.depth = scope, output, inside, depth
         self.stopped = False  # does the statement follow one that brakes the robot?
         self.rest: ir.Body = ()  # what follows in the same body
+        self.rounding = False  # the move above has a blend radius: the program does not wait for its end
         self.before_next: list[tuple[str, ...]] = []
         self.expressions = Expressions(scope, output.notes)
         self.motion = Motion(self.expressions, output.diagnostics, output.robot)
@@ -156,7 +157,9 @@ class Printer(StatementPrinter[str]):
             case ir.ClearMotion() | ir.StartMotion() if self.stopped:
                 self.comments_only(statement.origin)  # stopj forgets the rest of the path by itself
             case ir.Move(origin=origin):
-                self.line(self.motion.move(statement, not _stands(self.rest)), origin)
+                line = self.motion.move(statement, not _stands(self.rest))
+                self.rounding = ", r=" in line
+                self.line(line, origin)
             case ir.If() | ir.Switch() | ir.For() | ir.While() | ir.Repeat() | ir.Loop():
                 self.block(statement)
             case _:
