@@ -40,8 +40,9 @@ class Rules:
     system_defaults: modal system variables at the start of a run, in base units. errors: names of error numbers.
     blend_levels: distance in mm of each numbered blend level (INFORM PL). array_base: index of the first element of a
     list that is written out. number_marks: what stands before the digits of a number to another base, also in a text
-    that is read as a number (longest first, in small letters). message_numbers, message_texts: of a controller whose messages show constant text only:
-    regular expressions for what names a register of numbers, or any other register, in such a text.
+    that is read as a number (longest first, in small letters). message_numbers, message_texts: of a controller whose
+    messages show constant text only: regular expressions for what names a register of numbers, or any other register,
+    in such a text.
     """
 
     name: str

@@ -417,7 +417,8 @@ class _Numbered(Rewriter):
             key = f"{routine.name if routine else 'data'}.element{len(self.helpers) + 1 if self.helpers else ''}"
             wanted = Wanted(key, (), bank, kind, (), 0, ir.Variable(key, kind))
             self.numbers.needed[bank.name] += 1
-            given = self.numbers.plan([wanted]).get(id(wanted.declaration), bank.last)
+            # A full bank is reported as such; even then two helpers of one statement never share a number.
+            given = self.numbers.plan([wanted]).get(id(wanted.declaration), bank.last - len(self.helpers))
             self.helpers.append(ir.Index(ir.Name(bank.name), (ir.IntLiteral(given),)))
             self.declare_bank(bank.name, bank.first, bank.last, kind)
         self.helpers_in_use += 1

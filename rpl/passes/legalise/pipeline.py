@@ -89,6 +89,7 @@ from rpl.passes.legalise.rotationvectors import rotation_vectors
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
 from rpl.passes.legalise.seenplaces import posed_places, seen_places
+from rpl.passes.legalise.settingparts import whole_settings
 from rpl.passes.legalise.sharing import share_temporaries
 from rpl.passes.legalise.shown import values_beside_messages
 from rpl.passes.legalise.signals import name_signals, number_signals
@@ -104,9 +105,9 @@ from rpl.passes.legalise.subscripts import joined_subscripts
 from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
 from rpl.passes.legalise.taskarguments import task_arguments
-from rpl.passes.legalise.taskreferences import task_references
 from rpl.passes.legalise.taskdata import shared_task_data
 from rpl.passes.legalise.tasknames import task_names
+from rpl.passes.legalise.taskreferences import task_references
 from rpl.passes.legalise.taskstates import task_states
 from rpl.passes.legalise.threepoints import three_point_arcs
 from rpl.passes.legalise.timers import timers_to_clocks
@@ -142,6 +143,7 @@ PASSES: tuple[Pass, ...] = (
     rotation_vectors,
     levels_to_distances,
     displacements,
+    whole_settings,
     changed_places,
     random_numbers,
     elementwise,

@@ -1,0 +1,36 @@
+"""One component of a tool or frame in use that is set alone: the whole is read, changed in a variable and set again.
+
+What follows the settings of a program (speeds, tools, frames in force) thus knows of every change.
+"""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.jumps import inside
+
+
+def whole_settings(program: ir.Program, context: Context) -> ir.Program:
+    """No assignment to a component of a system variable is left."""
+
+    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        def body(statements: ir.Body) -> ir.Body:
+            return map_body(statements, lambda one: _whole(inside(one, body), editor))
+
+        return edit_bodies(routine, body)
+
+    return edit_routines(program, context, work)
+
+
+def _whole(statement: ir.Statement, editor: Editor) -> ir.Body:
+    match statement:
+        case ir.Assign(target=ir.Field(base=ir.System() as setting, name=name), value=value):
+            kept = editor.temporary("setting", editor.type_of(setting))
+            steps = (
+                ir.Assign(kept, setting),
+                ir.Assign(ir.Field(kept, name), value),
+                ir.Assign(setting, kept),
+            )
+            return expansion(statement.origin, steps)
+    return (statement,)
