@@ -1,6 +1,5 @@
 """One interrupt variable for several trap routines, one after the other, in languages with numbered interrupts."""
 
-
 from rpl.diagnostics import Diagnostics
 from rpl.project import read_sources
 from rpl.proof.prove import prove_programs

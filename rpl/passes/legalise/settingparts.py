@@ -26,7 +26,10 @@ def whole_settings(program: ir.Program, context: Context) -> ir.Program:
 def _whole(statement: ir.Statement, editor: Editor) -> ir.Body:
     match statement:
         case ir.Assign(target=ir.Field(base=ir.System() as setting, name=name), value=value):
-            kept = editor.temporary("setting", editor.type_of(setting))
+            type = editor.type_of(setting)
+            if type is None:
+                return (statement,)
+            kept = editor.temporary("setting", type)
             steps = (
                 ir.Assign(kept, setting),
                 ir.Assign(ir.Field(kept, name), value),
