@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import (
     Editor,
@@ -31,6 +32,14 @@ CAUGHT_PARTLY = code(
     Severity.WARNING,
     "{routine}: errors that the controller itself raises stop the program instead of coming to this handler",
 )
+NOT_CAUGHT = code(
+    "fault-not-caught",
+    Severity.LOSS,
+    "{routine}: what a function is not defined for comes to this handler in the source, here it stops the robot",
+    "look at the value in front of the function",
+)
+# Functions that are not defined for every number.
+_PARTIAL = frozenset(("sqrt", "log", "asin", "acos"))
 _DIVISION, _BOUND = "division_by_zero", "out_of_range"
 
 
@@ -46,6 +55,7 @@ def check_errors(program: ir.Program, context: Context) -> ir.Program:
     """The program with errors as values that are passed on and looked at."""
     if context.capabilities.error_handlers:
         return program
+    _report_not_caught(program, context)
     facts = raising_of(program)
     if not facts.used:
         return program
@@ -71,6 +81,21 @@ def check_errors(program: ir.Program, context: Context) -> ir.Program:
         )
         program = with_support(program, context, declared, task="" if len(tasks) == 1 else task)
     return program
+
+
+def _report_not_caught(program: ir.Program, context: Context) -> None:
+    """Handlers that may take the fault of a function whose argument is not constant or surely wrong."""
+    if not any(isinstance(node, ir.Builtin) and _may_fail(node) for node in walk(*program.modules)):
+        return
+    for module in program.modules:
+        for routine in module.routines:
+            if routine.handlers and not routine.handlers[0].codes:
+                context.diagnostics.report(NOT_CAUGHT, routine.handlers[0].origin, routine=routine.name)
+
+
+def _may_fail(call: ir.Builtin) -> bool:
+    """Is it one of the functions, of a number that is written with a minus?"""
+    return call.function in _PARTIAL and any(isinstance(one, ir.Unary) for one in call.arguments)
 
 
 def _rewritten(editor: Editor, routine: ir.Routine, facts: Raising, names: _Names) -> ir.Routine:
