@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from test_inform_from_others import jobs_of
+from test_inform_from_others import codes, jobs_of
+
+from rpl.diagnostics import Severity
 
 STAYS = """DEF one()
 PTP {A1 0, A2 -90, A3 90, A4 0, A5 60, A6 0}
