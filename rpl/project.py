@@ -110,7 +110,7 @@ def recognise(source: Source) -> tuple[str | None, str]:
     if not source.data.strip():
         return None, "the file is empty"
     if _is_binary(source):
-        return None, "it is binary, encoded or compressed"
+        return None, f"it is binary, encoded or compressed{_first_nul(source)}"
     suffix = Path(source.path).suffix.lower()
     best, best_score = None, 0
     for name in registry.dialect_names():
@@ -135,6 +135,14 @@ def _is_binary(source: Source) -> bool:
         return True
     controls = sum(1 for byte in head if byte < 32 and byte not in _TEXT_CONTROLS)
     return controls * 50 > len(head)
+
+
+def _first_nul(source: Source) -> str:
+    """Where zero bytes begin that spoil what else is text: such a file was damaged and can be mended."""
+    at = source.data.find(b"\x00")
+    if at < 0 or sum(1 for byte in source.data[:at] if byte < 32 and byte not in _TEXT_CONTROLS):
+        return ""
+    return f" (zero bytes, the first one in line {source.data.count(10, 0, at) + 1})"
 
 
 def _expand(paths: Sequence[str | Path], diagnostics: Diagnostics) -> Iterator[_Found]:

@@ -42,7 +42,8 @@ def _recognise(path: str, text: str) -> int:
     suffix = Path(path).suffix.lower()
     if typical >= 2 and typical * 5 >= lines:
         return 45
-    return 32 if typical and suffix in (".src", ".sub", ".dat") else 0
+    rare = typical * 20 < lines  # `.dat` and `.src` are names of logs, tables and other languages too
+    return 32 if typical and not rare and suffix in (".src", ".sub", ".dat") else 0
 
 
 def _companions(path: str) -> tuple[str, ...]:
