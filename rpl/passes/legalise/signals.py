@@ -148,8 +148,10 @@ class _Named:
             case ir.Signal(kind="flag", index=index, last=None, name=None) if index is not None:
                 return self.expression(ir.System("flag", (index,), origin=expression.origin))
             case ir.Signal(kind=kind, index=ir.IntLiteral(value=first), last=ir.IntLiteral(value=last), name=None):
+                bits = ir.Signal(kind.replace("group", "digital"), ir.IntLiteral(first), ir.IntLiteral(last))
                 kind = kind.replace("digital", "group")
                 name = f"{self.prefixes.get(kind, kind)}{first}_{last}"
+                self.context.signal_groups.setdefault(name, bits)
                 return ir.Signal(kind, name=name, origin=expression.origin)
             case ir.Signal(kind=kind, index=index, name=None):
                 if index is not None and _constant(index):
