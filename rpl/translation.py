@@ -11,7 +11,7 @@ from rpl.emulator.model import RobotModel, load_robot
 from rpl.passes.given import with_given
 from rpl.passes.legalise import Context, legalise
 from rpl.project import ReadProgram
-from rpl.writing.names import rename
+from rpl.writing.names import rename, rename_hiding, renamed_twice
 from rpl.writing.target import OutputFile, WriteContext
 
 
@@ -56,10 +56,13 @@ def translate_program(
     context.registers = registers or {}
     before = len(collector)
     whole = with_given(read.program, given) if given and source != target_name else read.program
-    program = legalise(whole, context)
     renamed: dict[str, str] = {}
     if source != target_name:
-        program, renamed = rename(program, capabilities.names)
+        whole, hiding = rename_hiding(whole, capabilities.names)
+        program, legal = rename(legalise(whole, context), capabilities.names)
+        renamed = renamed_twice(hiding, legal)
+    else:
+        program = legalise(whole, context)
     legalised = len(collector)
     asked = WriteContext(collector, second, options or {}, context.register_names, context.foreign)
     files = target.write(program, asked)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from rpl.passes.capabilities import Capabilities, NameRules
 
 from .functions import FUNCTIONS
+from .predefined import PREDEFINED
 from .tables import OPERATORS, RESERVED, TYPE_NAMES, words
 
 _STATEMENTS = words(
@@ -28,7 +29,7 @@ CAPABILITIES = Capabilities(
     aliases=True,
     operators=OPERATORS,
     types=frozenset(type.__name__ for type in TYPE_NAMES),
-    names=NameRules(32, False, RESERVED),
+    names=NameRules(32, False, RESERVED, predefined=PREDEFINED),
     modal_motion=False,
     concurrent_moves="moves",
     paths_to_joints=False,

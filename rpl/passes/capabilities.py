@@ -11,7 +11,8 @@ from rpl.ir.types import Type
 @dataclass(frozen=True, slots=True)
 class NameRules:
     """What the target accepts as a name. `reserved` in lower case when names are case-insensitive. `longest_routine`:
-    the length of a routine's name where that is shorter (0: as any other)."""
+    the length of a routine's name where that is shorter (0: as any other). `predefined`: names (lower case) of the data
+    and routines every controller has; a program's own of that name would hide it, so it gets another."""
 
     longest: int
     case_sensitive: bool
@@ -19,6 +20,7 @@ class NameRules:
     first: str = "abcdefghijklmnopqrstuvwxyz"
     further: str = "abcdefghijklmnopqrstuvwxyz0123456789_"
     longest_routine: int = 0
+    predefined: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from rpl import ir
@@ -24,11 +25,38 @@ def rename(program: ir.Program, rules: NameRules) -> tuple[ir.Program, dict[str,
     return _Renamer(folded, collector.fields, ProgramScope(program)).program(program), changed
 
 
+def rename_hiding(program: ir.Program, rules: NameRules) -> tuple[ir.Program, dict[str, str]]:
+    """The program with other names for what it declares under a name the controller has declared, which it would hide
+    (RAPID's `fine`, a function `Offs`), and source name -> new name. Before the passes, which use the controller's."""
+    collector = _Collector()
+    collector.program(program)
+    taken = {name.lower() for name in collector.names}
+    changed: dict[str, str] = {}
+    for name in collector.declared:
+        if name.lower() in rules.predefined:
+            numbers = range(2, len(taken) + 3)
+            changed[name] = next(f"{name}_{number}" for number in numbers if f"{name}_{number}".lower() not in taken)
+            taken.add(changed[name].lower())
+    if not changed:
+        return program, {}
+    folded = {old.lower(): new for old, new in changed.items()}
+    return _Renamer(folded, collector.fields, ProgramScope(program)).program(program), changed
+
+
+def renamed_twice(first: Mapping[str, str], second: Mapping[str, str]) -> dict[str, str]:
+    """Source name -> last name of what was renamed in one of two steps or in both."""
+    between = set(first.values())
+    done = {old: second.get(new, new) for old, new in first.items()}
+    return done | {old: new for old, new in second.items() if old not in between}
+
+
 class _Collector:
-    """All names of a program in order of first appearance, and which of them are record fields."""
+    """All names of a program in order of first appearance, which of them are record fields, and which ones it declares
+    itself."""
 
     def __init__(self) -> None:
         self.names: dict[str, None] = {}
+        self.declared: dict[str, None] = {}
         self.fields: set[str] = set()
         self.routines: list[str] = []
 
@@ -36,16 +64,20 @@ class _Collector:
         if name:
             self.names.setdefault(name)
 
+    def own(self, name: str) -> None:
+        self.add(name)
+        self.declared.setdefault(name)
+
     def program(self, program: ir.Program) -> None:
         for module in program.modules:
             self.add(module.name)
             for declaration in module.declarations:
                 self.declaration(declaration)
             for routine in module.routines:
-                self.add(routine.name)
+                self.own(routine.name)
                 self.routines.append(routine.name)
                 for parameter in routine.parameters:
-                    self.add(parameter.name)
+                    self.own(parameter.name)
                 for declaration in routine.declarations:
                     self.declaration(declaration)
                 for body in (routine.body, routine.undo, routine.backward, *(h.body for h in routine.handlers)):
@@ -55,9 +87,9 @@ class _Collector:
         match declaration:
             case ir.EnumDeclaration(name=name, members=members):
                 for one in (name, *members):
-                    self.add(one)
+                    self.own(one)
             case ir.RecordDeclaration(name=name, fields=fields):
-                self.add(name)
+                self.own(name)
                 for field, _ in fields:
                     self.add(field)
                     self.fields.add(field.lower())
@@ -69,7 +101,7 @@ class _Collector:
                 self.add(name)
                 self.add(signal.name)
             case _:
-                self.add(declaration.name)
+                self.own(declaration.name)
                 if isinstance(declaration, ir.Variable) and declaration.initial is not None:
                     self.expression(declaration.initial)
 
