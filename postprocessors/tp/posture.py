@@ -6,11 +6,14 @@ posture they are in.
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from rpl import registry
 
 from .frames import Frames
+from .lines import Line
 from .positions import Points, Position
 
 if TYPE_CHECKING:
@@ -46,17 +49,57 @@ def choose_postures(points: Points, frames: Frames, robot: RobotModel) -> list[i
     return filled
 
 
-def assumed_postures(points: Points, frames: Frames, robot: RobotModel, first: tuple[float, ...]) -> list[int]:
+_REGISTER = r"PR\[(\d+)(?::[^\]]*)?\]"
+_STORED = re.compile(rf"\s*{_REGISTER}=P\[(\d+)")
+_COPIED = re.compile(rf"\s*{_REGISTER}=(.*)")
+_TURNED = re.compile(r"\s*PR\[(\d+),[456][:\]]")
+_MOVED = re.compile(rf"(?:[JLC]|\s)\s*{_REGISTER}\s(?!.*Offset)")
+
+
+def moved_to(lines: Iterable[Line]) -> frozenset[int] | None:
+    """Registers whose value goes to a move with the rotation it has, by itself or copied; None when any may, since
+    moves or copies compute the number."""
+    turned, moved, copies = set[int](), set[int](), list[tuple[int, list[int]]]()
+    for text in (one for line in lines for one in (line.first, *line.further)):
+        if re.search(r"PR\[A?R\[", text):
+            return None
+        if found := _TURNED.match(text):
+            turned.add(int(found[1]))
+        elif found := _COPIED.match(text):
+            copies.append((int(found[1]), [int(one) for one in re.findall(_REGISTER, found[2])]))
+        elif found := _MOVED.match(text):
+            moved.add(int(found[1]))
+    while more := {one for to, given in copies if to in moved - turned for one in given} - moved:
+        moved |= more
+    return frozenset(moved)
+
+
+def frames_only(lines: list[Line], moved: frozenset[int] | None) -> frozenset[int]:
+    """Points of a program that registers get but no move goes to: places are only computed from them, with another
+    rotation than theirs."""
+    stored = [(int(found[2]), int(found[1])) for line in lines if (found := _STORED.match(line.first))]
+    reached = {point for point, register in stored if moved is None or register in moved}
+    return frozenset(point for point, _ in stored) - reached
+
+
+def assumed_postures(
+    points: Points, frames: Frames, robot: RobotModel, first: tuple[float, ...], computed_from: frozenset[int]
+) -> list[int]:
     """Flags for poses that no move goes to as they are (registers get them), nearest to the joints `first` (else the
-    arm's home), with the only tool and frame that the program has."""
+    arm's home), with the only tool and frame that the program has; those that places are only `computed_from` hand
+    on the posture of `first` itself."""
     make = registry.dialect("tp").notation
     if make is None:
         return []
     notation, filled = make(), []
     near = _array(first) if len(first) == robot.axes else robot.home
-    moved_to = {number for number, _, _ in points.order}
+    in_moves = {number for number, _, _ in points.order}
     for number, position in points.found.items():
-        if position.kind != "pose" or position.flags or number in moved_to or number in points.recorded:
+        if position.kind != "pose" or position.flags or number in in_moves or number in points.recorded:
+            continue
+        if number in computed_from:
+            points.found[number] = position.with_flags(notation.encode(robot, near))
+            filled.append(number)
             continue
         flange = _flange(position, _usual("UFRAME", frames), _usual("UTOOL", frames), frames)
         joints = None if flange is None else robot.nearest(flange, near)

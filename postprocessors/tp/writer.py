@@ -25,7 +25,7 @@ from .frames import Frames, free_numbers, highest_free_registers, kept_registers
 from .lines import Line
 from .own import monitors_of, quiet_routines, steps_in
 from .positions import Points, point_number
-from .posture import assumed_postures, choose_postures
+from .posture import assumed_postures, choose_postures, frames_only, moved_to
 from .statements import Printer
 from .texts import comment
 from .wholes import moved_to_only
@@ -241,7 +241,10 @@ class _Writer:
             for number, _, _ in one.points.order
             if number in one.points.found and one.points.found[number].kind == "joints"
         ]
-        for number in assumed_postures(listing.points, self.frames, robot, first[0].values if first else ()):
+        moved = moved_to(line for one in listings for line in one.lines)
+        bases = frames_only(listing.lines, moved)
+        begun = first[0].values if first else ()
+        for number in assumed_postures(listing.points, self.frames, robot, begun, bases):
             self.diagnostics.report(ASSUMED, NOWHERE, point=f"{listing.name} P[{number}]")
 
     def standard_frames(self, listing: Listing, listings: list[Listing]) -> list[Line]:
