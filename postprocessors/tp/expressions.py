@@ -1,7 +1,8 @@
 """IR expressions as TP text: registers, signals, plain lines, mixed logic in brackets, conditions.
 
 A plain line goes from left to right without brackets; whatever needs an order of its own is mixed logic, which stands
-in brackets as a whole. Functions have an instruction of their own, so they are never part of a longer expression.
+in brackets as a whole. Functions have an instruction of their own, so they are part of a longer expression only where
+a TP program that is written anew has them there.
 """
 
 from __future__ import annotations
@@ -172,6 +173,12 @@ class Expressions:
             raise CannotSayError(f"{_what(expression)} inside of another instruction")
         return shown
 
+    def argument(self, expression: ir.Expression) -> str:
+        """What a function is given: a constant or a place; a TP program's own calculation stays as it was."""
+        if self.limited or self.simple(expression) is not None:
+            return self.operand(expression)
+        return self.mixed(expression)
+
     def text(self, text: str) -> str:
         if "'" in text or len(text) > tables.LONGEST_TEXT or ascii_text(text) != text:
             raise CannotSayError("a text is ASCII without apostrophes, of at most 254 characters")
@@ -188,9 +195,9 @@ class Expressions:
             case ir.Builtin():
                 return self.function(expression)
             case ir.Convert(how="trunc", operand=operand):
-                return f"TRUNC[{self.operand(operand)}]"
+                return f"TRUNC[{self.argument(operand)}]"
             case ir.Convert(how="round_half_away", operand=operand):
-                return f"ROUND[{self.operand(operand)}]"
+                return f"ROUND[{self.argument(operand)}]"
             case ir.Convert(how="real", operand=operand):
                 return self.value(operand)
             case ir.Unary(op="-", operand=operand):
@@ -203,7 +210,7 @@ class Expressions:
             wanted = 2 if name == "atan2" else 1
             if len(values) != wanted:
                 raise CannotSayError(f"{tables.FUNCTIONS[name]} has {wanted} argument{'s' * (wanted > 1)}")
-            return f"{tables.FUNCTIONS[name]}[{','.join(self.operand(value) for value in values)}]"
+            return f"{tables.FUNCTIONS[name]}[{','.join(self.argument(value) for value in values)}]"
         match name, values:
             case "text_length", (text,):
                 return f"STRLEN {self.operand(text)}"
@@ -272,6 +279,10 @@ class Expressions:
                 return printer.printed(operand)
             case ir.Convert(how="truth", operand=operand):
                 return printer.printed(ir.Binary("<>", operand, ir.IntLiteral(0)))
+            case ir.Builtin(function=name) if name in tables.FUNCTIONS and not self.limited:
+                return self.function(expression)
+            case ir.Convert(how="trunc" | "round_half_away") if not self.limited:
+                return self.value(expression)
         return self.operand(expression)
 
     # ---- conditions

@@ -127,7 +127,9 @@ class _Named:
 
     def statement(self, statement: ir.Statement) -> ir.Statement:
         match statement:
-            case ir.Assign(target=ir.Signal(index=index, name=None) as signal, value=value) if not _constant(index):
+            case ir.Assign(target=ir.Signal(index=index, name=None) as signal, value=value) if (
+                signal.kind != "flag" and not _constant(index)
+            ):
                 routine = self.routine(f"set_{signal.kind}", statement.origin, signal.kind)
                 assert index is not None
                 arguments = (ir.Argument(self.expression(index)), ir.Argument(self.expression(value)))
@@ -320,7 +322,7 @@ def _prefixes() -> dict[str, set[str]]:
 def _numbers(
     names: dict[tuple[str, str], str], prefixes: dict[str, set[str]], numbered: dict[str, set[int]]
 ) -> dict[tuple[str, str], tuple[int, bool]]:
-    """Number of each named signal, and whether it was chosen (not said by its name). Groups keep off the `numbered`."""
+    """Number of each named signal, and whether it was chosen (not said by its name), off the `numbered`."""
     result: dict[tuple[str, str], tuple[int, bool]] = {}
     used: dict[str, set[int]] = {}
     for kind, key in names:
@@ -336,9 +338,9 @@ def _numbers(
             continue
         bits = kind.replace("group", "digital")
         taken = used.setdefault(bits, set())
-        number, width = 1, 1
-        if kind.startswith("group"):  # whole bytes of the numbers, which every controller can take at once
-            width, taken = WIDTH, taken | numbered.get(bits, set())
+        number, taken = 1, taken | numbered.get(bits, set())
+        # Groups: whole bytes of the numbers, which every controller can take at once.
+        width = WIDTH if kind.startswith("group") else 1
         while any(number + bit in taken for bit in range(width)):
             number += width
         used[bits].update(range(number, number + width))
