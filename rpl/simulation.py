@@ -221,20 +221,28 @@ def _routine_of(program: ir.Program, linked: LinkedProgram, task: ir.Task) -> ir
     return found
 
 
-def _background(program: ir.Program) -> tuple[tuple[str, str], ...]:
-    """Modules and names of the routines that background tasks run: nobody starts them as the program."""
+def _background(program: ir.Program) -> tuple[tuple[int, str], ...]:
+    """Modules (by identity: two tasks may have modules of one name) and names of the routines that background tasks
+    run: nobody starts them as the program."""
     return tuple(
-        (module.name, task.entry.lower())
+        (id(module), task.entry.lower())
         for task in program.tasks
         if task.kind != MOTION_TASK
         for module in program.modules
-        if not task.modules or module.name in task.modules
+        if _belongs(module, task, program)
     )
+
+
+def _belongs(module: ir.Module, task: ir.Task, program: ir.Program) -> bool:
+    """May the task begin in this module? Modules of several tasks may have one name: the task's own are meant."""
+    if not task.modules or any(one.task == task.name for one in program.modules):
+        return not task.modules or module.task == task.name
+    return module.name in task.modules
 
 
 def _in_modules(program: ir.Program, linked: LinkedProgram, task: ir.Task) -> ir.Routine | None:
     for module in program.modules:
-        if task.modules and module.name not in task.modules:
+        if not _belongs(module, task, program):
             continue
         fold = linked.scopes.module(module).fold
         for routine in module.routines:
@@ -254,7 +262,7 @@ def find_entry(program: ir.Program, linked: LinkedProgram, entry: str | None) ->
         return found[1]
     main = _foreground(program, linked, MAIN) or _any_case(program, MAIN)
     behind = _background(program)
-    if main is not None and _starts(main[1]) and (main[0].name, main[1].name.lower()) not in behind:
+    if main is not None and _starts(main[1]) and (id(main[0]), main[1].name.lower()) not in behind:
         return main[1]
     startable = [(m, r) for m, r in _startable(program, behind) if not _is_empty(r)]
     uncalled = [(m, r) for m, r in startable if r.name.lower() not in _called(program, r)]
@@ -284,7 +292,7 @@ def _foreground(program: ir.Program, linked: LinkedProgram, wanted: str) -> tupl
     for module in program.modules:
         fold = linked.scopes.module(module).fold
         for routine in module.routines:
-            if fold(routine.name) == fold(wanted) and (module.name, routine.name.lower()) not in behind:
+            if fold(routine.name) == fold(wanted) and (id(module), routine.name.lower()) not in behind:
                 return module, routine
     return None
 
@@ -299,9 +307,9 @@ def _starts(routine: ir.Routine) -> bool:
     return routine.kind == "procedure" and all(parameter.optional for parameter in routine.parameters)
 
 
-def _startable(program: ir.Program, without: tuple[tuple[str, str], ...] = ()) -> list[tuple[ir.Module, ir.Routine]]:
+def _startable(program: ir.Program, without: tuple[tuple[int, str], ...] = ()) -> list[tuple[ir.Module, ir.Routine]]:
     routines = [(module, r) for module in program.modules for r in module.routines if _starts(r)]
-    return [(module, r) for module, r in routines if (module.name, r.name.lower()) not in without]
+    return [(module, r) for module, r in routines if (id(module), r.name.lower()) not in without]
 
 
 def _is_empty(routine: ir.Routine) -> bool:
