@@ -15,6 +15,8 @@ ROUTINES = {
     "passed": ".PROGRAM passed(a, b)\n CALL may(a, b)\n.END\n",
     "count": ".PROGRAM count()\n IF NOT DEFINED(total) THEN\n total = 0\n END\n total = total+1\n.END\n",
     "fill": ".PROGRAM fill()\n a[2] = 1\n.END\n",
+    "both": ".PROGRAM both(a, low, high, done)\n IF DEFINED(low) THEN\n done = done+low\n END\n"
+    " IF DEFINED(high) THEN\n done = done+high\n END\n.END\n",
     "given": ".PROGRAM given(a, done)\n done = DEFINED(a)\n.END\n",
 }
 # Statements, and what holds behind them.
@@ -35,6 +37,7 @@ CASES = {
     "of an element": ("LOCAL a[9]\na[0] = 4\na[7] = 9\ni = 7", "DEFINED(a[i]) AND NOT DEFINED(a[8]) AND DEFINED(a[0])"),
     "of an element by a routine": ("a[1] = 4\nCALL fill()", "DEFINED(a[2]) AND DEFINED(a[1]) AND NOT DEFINED(a[3])"),
     "of the project": ("CALL count()\nCALL count()", "total == 2"),
+    "of parameters behind one left out": ("m = 0\nCALL both(1, 2, 4, m)\nCALL both(1, , 8, m)", "m == 14"),
     "of a parameter": ("m = 5\nCALL given(m, i)\nCALL given(n, q)", "i AND NOT q"),
 }
 

@@ -142,11 +142,12 @@ def _starts_with_value(name: str, scope: Scope) -> bool:
 def _given(
     routine: ir.Routine, arguments: tuple[ir.Argument, ...], scope: Scope
 ) -> Iterator[tuple[ir.Parameter, ir.Expression | None]]:
-    """Each parameter with the argument that a call in order gives it."""
+    """Each parameter with the argument that a call gives it; optional ones are given by name and take no place."""
     by_name = {scope.fold(one.name): one.value for one in arguments if one.name}
-    in_order = [one.value for one in arguments if not one.name]
-    for at, parameter in enumerate(routine.parameters):
-        yield parameter, by_name.get(scope.fold(parameter.name), in_order[at] if at < len(in_order) else None)
+    in_order = iter([one.value for one in arguments if not one.name])
+    for parameter in routine.parameters:
+        named = scope.fold(parameter.name) in by_name or parameter.optional or parameter.switch
+        yield parameter, by_name.get(scope.fold(parameter.name)) if named else next(in_order, None)
 
 
 class _Facts:
