@@ -153,8 +153,16 @@ def _euler(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
     return None
 
 
+def _place_of(target: ir.Expression) -> ir.Expression:
+    """Where a robtarget is; one that is written out has its place in front."""
+    match target:
+        case ir.Aggregate(entries=((None, place), *_)):
+            return place
+    return ir.Field(target, "trans")
+
+
 def _def_frame(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
-    points = [ir.Field(point, "trans") for point in arguments.need(3)]
+    points = [_place_of(point) for point in arguments.need(3)]
     if set(arguments.options) - {"origin"}:
         return None
     origin = arguments.options.get("origin")

@@ -215,11 +215,7 @@ class Expressions:
             raise CannotSayError(f"there is no function {expression.function}")
         arguments = list(expression.arguments)
         for position in range(TARGETS_FOR_POSITIONS.get(expression.function, 0)):
-            match arguments[position]:
-                case ir.Field(base=base, name="trans"):
-                    arguments[position] = base
-                case _:
-                    raise CannotSayError("three points are needed here, not three positions")
+            arguments[position] = self.target_at(arguments[position])
         if expression.function in ("joints_to_target", "target_to_joints") and arguments[2:] == [ir.Name("wobj0")]:
             arguments.pop()
         if expression.function.startswith("current_") and arguments[:1] == [ir.Builtin("current_tool", ())]:
@@ -233,6 +229,13 @@ class Expressions:
         if found is None:
             raise CannotSayError(f"{expression.function} is not known with {len(arguments)} arguments")
         return found.format(*(self.text(argument) for argument in arguments))
+
+    def target_at(self, position: ir.Expression) -> ir.Expression:
+        """A robtarget at a position, for functions that look at nothing else of it."""
+        match position:
+            case ir.Field(base=base, name="trans") if isinstance(type_of(base, self.scope), ir.TargetType | None):
+                return base
+        return ir.Aggregate((("trans", position),), "target rapid")
 
     def system(self, name: str) -> str:
         words = {

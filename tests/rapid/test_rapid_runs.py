@@ -15,6 +15,8 @@ HEAD = """MODULE checks
   VAR triggdata gun;
   VAR num n:=0;
   VAR byte mask:=170;
+  VAR pose fr;
+  VAR pos at;
   CONST robtarget p1:=[[450,0,350],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   TRAP tCount
     n:=n+1;
@@ -42,6 +44,14 @@ CASES = [
     ),
     # Bits of a byte are counted from 1, the least one (RAPID reference, BitCheck and its kin).
     ("bits are asked", "IF BitCheck(mask,2) AND NOT BitCheck(mask,1) AND BitCheck(mask,8) SetDO do1,1;", None),
+    (
+        "a frame by places that are written out",
+        """fr:=DefFrame([[10,20,30],p1.rot,p1.robconf,p1.extax],Offs(p1,-440,120,-320),p1\\Origin:=1);
+        fr:=DefFrame([[10,20,30],[1,0,0,0],[0,0,0,0],p1.extax],[[10,120,30],[1,0,0,0],[0,0,0,0],p1.extax],
+        [[-50,20,30],[1,0,0,0],[0,0,0,0],p1.extax]); at:=PoseVect(fr,[5,0,2]);
+        IF Distance(at,[10,25,32])<0.01 AND Abs(EulerZYX(\\Z,fr.rot)-90)<0.01 SetDO do1,1;""",
+        None,
+    ),
     ("bits are set and cleared", "BitSet mask,1; BitClear mask,8; IF mask=43 SetDO do1,1;", None),
     # StrToByte and ByteToStr with \\Char are the code of a character and back (RAPID reference).
     ("characters", 'IF StrToByte("A"\\Char)=65 AND ByteToStr(66\\Char)="B" AND StrToByte("12")=12 SetDO do1,1;', None),

@@ -71,6 +71,7 @@ MODULE Everything(SYSMODULE,NOVIEW)
     now:=CRobT(\WObj:=wCell);
     now:=CRobT(\Tool:=tGrip\WObj:=wCell);
     pe:=DefFrame(p,now,p\Origin:=1);
+    pe:=DefFrame([[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],now,p);
     n:=Round(Distance(p.trans,now.trans)\Dec:=2)+VectMagn(p.trans)+Pow(2,n)+EulerZYX(\Y,pe.rot);
     n:=StrFind(s,1,STR_DIGIT)+StrMatch(s,1,"x")+StrLen(StrMap(StrPart(s,1,2),STR_LOWER,STR_UPPER));
     ok:=StrToVal(s,n) AND StrMemb(s,1,"ab") AND StrOrder(s,"b",STR_UPPER);
