@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 # one degree of turning by 0.002 deg, both well below what counts as a difference.
 _STEP_MM, _STEP_DEG = 1.0, 1.0
 _FEWEST, _MOST = 9, 600
-# Waits shorter than this make nobody wait.
-_SHORTEST_WAIT_S = 1e-4
+# Waits shorter than this make nobody wait; those up to a slow controller's cycle are looks of a polling loop.
+_SHORTEST_WAIT_S, _CYCLE_S = 1e-4, 0.02
 _STANDING_MM = 1e-3
 
 
@@ -109,7 +109,8 @@ def _happening(event: Event, way: _Way, stuck: Place) -> Happening | None:
 
 def _without_polling(happenings: Sequence[Happening]) -> Iterator[Happening]:
     """Timed waits in a row, without motion between them, are one wait for their sum: a loop, its statements written
-    out, and a polling loop whose number of looks depends on when it began."""
+    out, and a polling loop whose number of looks depends on when it began. The looks of a loop that waits for nothing
+    but the next cycle are no part of a wait behind them."""
     last: Happening | None = None
     for happening in happenings:
         if last is not None and _in_a_row(last, happening):
@@ -126,6 +127,8 @@ def _without_polling(happenings: Sequence[Happening]) -> Iterator[Happening]:
 
 def _in_a_row(first: Happening, second: Happening) -> bool:
     if not first.kind == second.kind == "wait" or first.value is None or second.value is None:
+        return False
+    if (first.longest_s <= _CYCLE_S) != (second.longest_s <= _CYCLE_S):
         return False
     return abs(first.along - second.along) < _STANDING_MM
 

@@ -94,3 +94,12 @@ def test_polling_is_one_wait() -> None:
     many = tuple(Event(0.1 * number, "main", "wait", {"seconds": 0.1}) for number in range(30))
     found = compare(record(*polls), record(*many), Tolerance()).difference
     assert found is not None and found.kind == "wait"
+
+
+def test_looks_are_no_part_of_a_wait_behind_them() -> None:
+    looks = tuple(Event(0.008 * number, "main", "wait", {"seconds": 0.008}) for number in range(50))
+    wait = Event(0.4, "main", "wait", {"seconds": 0.5})
+    first, second, _ = record(*looks, wait).tasks["main"]
+    assert (first.times, second.times, second.value) == (50, 1, 0.5)
+    longer = Event(0.4, "main", "wait", {"seconds": 0.4})
+    assert compare(record(wait), record(longer), Tolerance()).difference is not None
