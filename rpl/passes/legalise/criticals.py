@@ -27,7 +27,7 @@ def without_criticals(program: ir.Program, context: Context) -> ir.Program:
         return program
     if not any(isinstance(node, ir.Critical) for node in walk(*program.modules)):
         return program
-    facts = _Facts(program)
+    facts = Facts(program)
     modules = tuple(
         changed(module, routines=tuple(facts.edited(routine) for routine in module.routines))
         for module in program.modules
@@ -35,7 +35,7 @@ def without_criticals(program: ir.Program, context: Context) -> ir.Program:
     return changed(program, modules=modules)
 
 
-class _Facts:
+class Facts:
     """Which routine runs in which task (`""`: the program itself), and what the routines read and assign."""
 
     def __init__(self, program: ir.Program) -> None:

@@ -55,6 +55,7 @@ from rpl.passes.legalise.labels import structure_to_labels
 from rpl.passes.legalise.levels import levels_to_distances
 from rpl.passes.legalise.lists import lists_in_variables
 from rpl.passes.legalise.locals import variables_of_routines
+from rpl.passes.legalise.locks import critical_flags
 from rpl.passes.legalise.logic import decide_logic
 from rpl.passes.legalise.lookahead import stop_blends
 from rpl.passes.legalise.loops import fit_loops
@@ -185,6 +186,7 @@ PASSES: tuple[Pass, ...] = (
     static_variables,
     task_references,
     without_criticals,
+    critical_flags,
     background_tasks,
     stopped_tasks,
     joins,
