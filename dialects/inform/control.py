@@ -18,7 +18,7 @@ from . import tables
 from .arcs import grouped
 from .data import ARITHMETIC, BITS, FUNCTIONS, Statements
 from .kinds import JOINTS, TARGET, labels_of
-from .motion import MOVES, Motion
+from .motion import Motion
 from .operands import tags_of
 from .signals import is_digital
 from .split import code_of
@@ -78,7 +78,7 @@ class Control(Motion):
         self.state = self.flow.before.get(id(command), {})
         head, condition = self.split_condition(command)
         word = command.word
-        if word in MOVES:
+        if word in tables.MOVES:
             done = self.on_move(command)
         elif word in _METHODS:
             done = _METHODS[word](self, head)
@@ -226,6 +226,8 @@ class Control(Motion):
         return ir.Switch(selector, tuple(cases), (alarm, ir.Halt(origin=self.origin)), origin=self.origin)
 
     def is_text(self, value: ir.Expression) -> bool:
+        if isinstance(value, ir.TextLiteral):
+            return True
         name = value.id if isinstance(value, ir.Name) else ""
         if isinstance(value, ir.Index) and isinstance(value.base, ir.Name):
             name = value.base.id
@@ -242,6 +244,9 @@ class Control(Motion):
         given: list[Operand] = [item.value for item in command.items if isinstance(item, Given)]
         given.extend(next((item.values for item in command.items if isinstance(item, Group)), ()))
         name = job.name.upper() if isinstance(job, JobName) else ""
+        called = self.shared.project.jobs.get(name)
+        if called is not None:  # what the job does not ask for is left out
+            given = given[: called.arguments()]
         arguments = tuple(ir.Argument(self.argument(item, name, n)) for n, item in enumerate(given, 1))
         if not isinstance(job, JobName):
             value = self.value(job)
@@ -270,7 +275,12 @@ class Control(Motion):
         return value
 
     def on_ret(self, command: Command) -> Statements:
-        return (ir.Return(origin=self.origin),)
+        """RET [value]: the caller gets the value by GETS ... $RV."""
+        back = ir.Return(origin=self.origin)
+        if command.word == "END" or not command.items:
+            return (back,)
+        value = self.value(command.items[0])
+        return ir.Assign(self.returned(self.is_text(value)), value, origin=self.origin), back
 
     def on_pause(self, command: Command) -> Statements:
         return (ir.Halt(origin=self.origin),)

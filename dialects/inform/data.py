@@ -8,7 +8,7 @@ from rpl.reading.shapes import StatementError
 
 from . import tables
 from .kinds import JOINTS, TARGET, Kind, frame_of, key_of
-from .operands import UNIFIED, Operands
+from .operands import UNIFIED, Operands, plain_bank
 from .syntax import Command, Formula, Group, Numbered, Operand, SystemName, Word, value_of
 
 EXTERNAL_ELEMENT = code(
@@ -181,7 +181,9 @@ class Data(Operands):
             raise StatementError("GETS needs a system variable ($...)", 0)
         if source.name in tables.POSITIONS and self.is_position(target):
             what, pulses = tables.POSITIONS[source.name]
-            return self.set_position(target, self.robot_position(what, pulses), Kind(JOINTS if pulses else TARGET))
+            tool = self.flow.tool(self.state)
+            kind = Kind(JOINTS if pulses else TARGET, tool=tool)
+            return self.set_position(target, self.robot_position(what, pulses, tool), kind)
         flag = {tables.SEARCH_STATUS: tables.SEARCH_FOUND, tables.WAIT_STATUS: tables.WAIT_LATE}.get(source.name)
         if flag is not None:
             self.shared.used.scalar(flag, ir.BoolType(), self.origin)
@@ -189,6 +191,10 @@ class Data(Operands):
             if flag == tables.WAIT_LATE:
                 state = ir.Unary("not", state, origin=self.origin)
             return self.set(target, ir.Convert("bit", state, origin=self.origin))
+        if source.name == tables.RETURNED and not self.is_position(target):
+            base = target.base if isinstance(target, ir.Index) else None
+            text = isinstance(base, ir.Name) and plain_bank(base.id).startswith("S")
+            return self.set(target, self.returned(text))
         type: ir.Type = ir.IntType()
         if self.is_position(target):
             type = ir.TargetType("inform")
@@ -197,14 +203,22 @@ class Data(Operands):
         value = ir.VendorValue("inform", f"${source.name}", type, origin=self.origin)
         return self.set_position(target, value, Kind(TARGET)) if self.is_position(target) else self.set(target, value)
 
-    def robot_position(self, what: str, pulses: bool) -> ir.Expression:
-        """Where the robot is, or was when the last search found its signal; poses in the base frame."""
-        tool, base = self.tool(None), ir.System("null_frame", origin=self.origin)
+    def robot_position(self, what: str, pulses: bool, number: ir.Expression) -> ir.Expression:
+        """Where the robot is, or was when the last search found its signal; poses in the base frame. M: with the
+        tool of the last move."""
+        tool, base = self.tool(number), ir.System("null_frame", origin=self.origin)
         if what == "current":
             return self.call("current_joints") if pulses else self.call("current_target", tool, base)
         self.shared.used.scalar(tables.SEARCH_PLACE, ir.TargetType("inform"), self.origin)
         place = ir.Name(tables.SEARCH_PLACE, origin=self.origin)
         return self.call("target_to_joints", place, tool, base) if pulses else place
+
+    def returned(self, text: bool) -> ir.Expression:
+        """The value that the last RET gave back; a real number where any job of the project gives one back."""
+        name = tables.RETURN_TEXT if text else tables.RETURN_VALUE
+        type: ir.Type = ir.RealType() if self.shared.project.gives_back_real() else ir.IntType()
+        self.shared.used.scalar(name, ir.StringType() if text else type, self.origin)
+        return ir.Name(name, origin=self.origin)
 
     def on_register(self, command: Command) -> Statements:
         """SETREG MREG#(n) v; GETREG v MREG#(n)."""

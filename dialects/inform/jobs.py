@@ -66,6 +66,12 @@ class Job:
             self._mentions = [(command, mentioned(command)) for command in commands(self.body)]
         return self._mentions
 
+    def arguments(self) -> int:
+        """How many arguments it takes by GETARG."""
+        taken = (command.items[1] for command in commands(self.body) if command.word == "GETARG" and command.items[1:])
+        numbers = (one.number for one in taken if isinstance(one, Numbered))
+        return max((one.value for one in numbers if isinstance(one, ir.IntLiteral)), default=0)
+
     @property
     def tool(self) -> int:
         """The tool of what has none of its own: the first that the header names."""

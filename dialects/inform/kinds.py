@@ -40,7 +40,9 @@ class Kind:
 ON, OFF = "on", "off"
 Key = tuple[str, int | None]
 SHIFTED: Key = ("SHIFT", 0)  # whether positions are shifted (SFTON), kept like what a variable holds
-_CALLER = -1  # the "argument" that tells a job so
+TOOL: Key = ("TOOL", 0)  # the tool of the last move
+_CALLER, _CALLER_TOOL = -1, -2  # the "arguments" that tell a job so
+INHERITED = ir.IntLiteral(-2)  # the tool that the job found when it was called
 State = dict[Key, Kind]
 NOTHING = Kind()
 
@@ -84,12 +86,24 @@ class Project:
     forms: dict[tuple[str, Key], dict[str, Origin]] = field(default_factory=dict)  # per job ("" globals) and variable
     # Variables and arguments that hold pulses or a pose, one cannot tell which: their pulses are stored as a pose.
     unified: set[tuple[str, Key]] = field(default_factory=set)
+    tools_left: dict[Key, Kind] = field(default_factory=dict)  # with which tool a job ends
     changed: bool = False
+    real_back: bool | None = None
 
     def is_unified(self, job: str, key: Key) -> bool:
         """Is what is put there stored as a pose in the base frame, whatever it was?"""
         home = job if key[0] != "P" else ""
         return (home, key) in self.unified or (home, (key[0], None)) in self.unified
+
+    def gives_back_real(self) -> bool:
+        """Does any RET give back a real number?"""
+        if self.real_back is None:
+            self.real_back = any(
+                command.word == "RET" and command.items and _is_real(command.items[0])
+                for job in self.jobs.values()
+                for command, _ in job.mentions()
+            )
+        return self.real_back
 
     def note(self, job: str, key: Key, kind: Kind) -> None:
         """The variable is given this somewhere."""
@@ -128,6 +142,7 @@ def _settled(project: Project, locals_of: Mapping[str, frozenset[str]]) -> dict[
     """The same with what is known to be stored as a pose."""
     project.globals.clear()
     project.arguments.clear()
+    project.tools_left.clear()
     project.forms.clear()
     for name, job in project.jobs.items():
         for (bank, number), point in job.points.items():
@@ -163,7 +178,7 @@ class Flow:
     def run(self) -> None:
         for _ in range(_ROUNDS):
             self.moved = False
-            self.through(self.job.body, {})
+            self.ends(self.through(self.job.body, {}))
             if not self.moved:
                 return
 
@@ -177,6 +192,8 @@ class Flow:
             return state[key]
         if key == SHIFTED:
             return self.project.arguments.get((self.job.name.upper(), _CALLER), Kind(OFF))
+        if key == TOOL:
+            return Kind("tool", tool=INHERITED)
         if key[0] == "P" and key in self.project.globals:
             return self.project.globals[key]
         if key[1] is not None:  # nobody names it: what computed indices have put there
@@ -190,12 +207,38 @@ class Flow:
             state = self.before.get(id(command), {})
             for node in nodes:
                 key = key_of(node)
-                if key is not None and is_mixed(self.held(key, state)):
+                kind = NOTHING if key is None else self.held(key, state)
+                if kind.form == MIXED or (is_mixed(kind) and self.needs_frame(command, node)):
+                    assert key is not None
                     found.add((self.job.name if key[0] != "P" else "", self.holder(key, state)))
-        for (job, number), kind in self.project.arguments.items():
-            if is_mixed(kind) and number >= 0:
-                found.add((job, ("ARGUMENT", number)))
+            if command.word == "GETARG" and len(command.items) > 1 and isinstance(command.items[1], Numbered):
+                number = command.items[1].number
+                if isinstance(number, ir.IntLiteral) and self.is_wanted_in_base(command.items[0]):
+                    found.add((self.job.name.upper(), ("ARGUMENT", number.value)))
+        for (job, argument), kind in self.project.arguments.items():
+            if kind.form == MIXED and argument >= 0:
+                found.add((job, ("ARGUMENT", argument)))
         return found
+
+    def is_wanted_in_base(self, operand: Operand) -> bool:
+        key = key_of(operand)
+        return key is not None and self.project.is_unified(self.job.name, key)
+
+    def needs_frame(self, command: Command, node: object) -> bool:
+        """Does the frame of a pose count where it stands? Its numbers alone do where they are read and copied."""
+        items, word = command.items, command.word
+        if word in ("CALL", "PSTART"):
+            name = next((item.name.upper() for item in items if isinstance(item, JobName)), "")
+            given = [item.value for item in items if isinstance(item, Given)]
+            wanted = (n for n, value in enumerate(given, 1) if (name, ("ARGUMENT", n)) in self.project.unified)
+            return any(given[n - 1] == node for n in wanted)
+        if word == "SET":
+            return len(items) > 1 and items[1] == node and self.is_wanted_in_base(items[0])
+        if word in ("CNVRT", "MSHIFT", "MFRAME"):
+            return any(item == node for item in items[1:])
+        if word in ("IMOV", "SIMOV", "SFTON"):
+            return not any(frame_of(item) is not None for item in items)
+        return word in tables.MOVES
 
     def holder(self, key: Key, state: State) -> Key:
         """The variable whose value this is: itself, or all that computed indices reach."""
@@ -249,7 +292,7 @@ class Flow:
         self.remember(command, state)
         if state is None:
             return None
-        conditional = any(isinstance(item, Word) and item.text in tables.CONDITION_WORDS for item in command.items)
+        conditional = _is_conditional(command)
         match command.word:
             case "JUMP":
                 self.jump(command, state)
@@ -257,11 +300,15 @@ class Flow:
                     self.call(command, state)
                 return state if conditional else None
             case "RET" | "END" | "ABORT":
+                self.ends(state)
                 return state if conditional else None
             case "CALL" | "PSTART":
                 return self.call(command, state)
             case "SFTON" | "SFTOF":
                 return {**state, SHIFTED: Kind(ON if command.word == "SFTON" else OFF)}
+            case word if word in tables.MOVES:
+                now = self.driven(command, state)
+                return self.join(state, now) if conditional else now
         return self.transfer(command, state)
 
     def jump(self, command: Command, state: State) -> None:
@@ -283,10 +330,42 @@ class Flow:
         """The called job may give other values to global variables."""
         name = next((item.name for item in command.items if isinstance(item, JobName)), "")
         self.project.argument(name, _CALLER, self.held(SHIFTED, state))
+        left = None
+        if command.word != "PSTART":
+            self.project.argument(name, _CALLER_TOOL, Kind("tool", tool=self.tool(state)))
+            left = self.project.tools_left.get((name.upper(), 0))
+        if left is not None and left.tool != INHERITED:
+            now = self.held(TOOL, state)
+            state = {**state, TOOL: joined(now, left) if _is_conditional(command) else left}
         given = [item.value for item in command.items if isinstance(item, Given)]
         for number, value in enumerate(given, 1):
             self.project.argument(name, number, self.kind(value, state))
         return {key: kind if key[0] != "P" else joined(kind, self.held(key, {})) for key, kind in state.items()}
+
+    # ---- the tool
+
+    def tool(self, state: State) -> ir.Expression:
+        """The tool that the controller works with: that of the last move; the job's own where no move is known."""
+        tool = self.held(TOOL, state).tool
+        if tool == INHERITED:
+            tool = self.project.arguments.get((self.job.name.upper(), _CALLER_TOOL), NOTHING).tool
+        return ir.IntLiteral(self.job.tool) if tool is None else tool
+
+    def ends(self, state: State | None) -> None:
+        if state is not None:
+            self.project.update(self.project.tools_left, (self.job.name.upper(), 0), self.held(TOOL, state))
+
+    def driven(self, command: Command, state: State) -> State:
+        """A move takes the tool of its position."""
+        arm = next((item for item in command.items if isinstance(item, ir.Index)), None)
+        if arm is None or not isinstance(arm.base, ir.Name) or arm.base.id not in ("C", "P", "LP"):
+            return state
+        number = arm.indices[0]
+        tool = self.kind(arm, state).tool
+        if arm.base.id == "C" and isinstance(number, ir.IntLiteral):
+            point = self.job.points.get(("C", number.value))
+            tool = None if point is None else ir.IntLiteral(point.tool)
+        return {**state, TOOL: Kind("tool", tool=ir.IntLiteral(self.job.tool) if tool is None else tool)}
 
     # ---- what instructions do
 
@@ -314,7 +393,7 @@ class Flow:
                 return self.kind(items[1], state)
             case "GETS" if len(items) > 1 and isinstance(items[1], SystemName):
                 pulses = tables.POSITIONS.get(items[1].name, ("", False))[1]
-                return Kind(JOINTS if pulses else TARGET)
+                return Kind(JOINTS if pulses else TARGET, tool=self.tool(state))
             case "CNVRT" if len(items) > 2:
                 if items[2] == Word("PULSE"):
                     return Kind(JOINTS)
@@ -348,6 +427,17 @@ def frame_of(operand: Operand) -> Frame | None:
         case Numbered(word="UF", number=number):
             return Frame("user", number)
     return None
+
+
+def _is_real(operand: Operand) -> bool:
+    match operand:
+        case ir.Index(base=ir.Name(id=bank)):
+            return bank.removeprefix("L").startswith("R")
+    return isinstance(operand, ir.RealLiteral)
+
+
+def _is_conditional(command: Command) -> bool:
+    return any(isinstance(item, Word) and item.text in tables.CONDITION_WORDS for item in command.items)
 
 
 def _labels(items: Iterable[Item]) -> Iterable[str]:

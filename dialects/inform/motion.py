@@ -33,9 +33,6 @@ OVERRUN = code(
     "inform-search-limits", Severity.INFO, "the time and distance of SRCH limit the search on the controller, not here"
 )
 
-KINDS = {"MOVJ": "joint", "MOVL": "linear", "MOVC": "circular", "MOVS": "spline", "IMOV": "linear"}
-MOVES = frozenset((*KINDS, *(f"S{word}" for word in KINDS)))
-
 
 @dataclass(slots=True)
 class _Segment:
@@ -124,7 +121,7 @@ class Motion(Data):
         speed, blend, settings, acceleration = self.dynamics(main)
         search = self.search(main)
         move = ir.Move(
-            KINDS[word],
+            tables.MOVE_KINDS[word],
             target,
             relative=relative,
             tool=tool,

@@ -37,7 +37,7 @@ UNIFIED = code(
 MIXED_FRAME = code(
     "inform-mixed-frame",
     Severity.WARNING,
-    "{name} may come with different {what}; here the base frame and the job's tool are taken",
+    "a position may come with different {what} here; the base frame and the job's tool are taken",
 )
 MASTER = code(
     "inform-tool-frame",
@@ -194,11 +194,6 @@ class Operands:
             self.mixed(operand)
         if kind.form not in (JOINTS, TARGET):
             kind = replace(kind, form=TARGET, frame=BASE)
-        if kind.frame == DIFFERENT or kind.tool == DIFFERENT_TOOL:
-            what = "tools" if kind.tool == DIFFERENT_TOOL else "frames"
-            self.report_once(MIXED_FRAME, f"{what} {self.spelled(operand)}", name=self.spelled(operand), what=what)
-            frame = BASE if kind.frame == DIFFERENT else kind.frame
-            kind = replace(kind, frame=frame, tool=None if kind.tool == DIFFERENT_TOOL else kind.tool)
         return kind
 
     def mixed(self, operand: Operand) -> None:
@@ -230,6 +225,9 @@ class Operands:
 
     def tool(self, number: ir.Expression | None) -> ir.Expression:
         """TL#(n); without a number the job's own tool."""
+        if number == DIFFERENT_TOOL:
+            self.report_once(MIXED_FRAME, "tools", what="tools")
+            number = None
         return self.numbered_frame("TL", ir.IntLiteral(self.job.tool) if number is None else self.final(number))
 
     def user_frame(self, number: ir.Expression) -> ir.Expression:
@@ -248,7 +246,9 @@ class Operands:
         """The frame as an expression in the robot's base."""
         if frame.kind == "user" and frame.number is not None:
             return self.user_frame(frame.number)
-        if frame.kind not in ("base", "user"):
+        if frame == DIFFERENT:
+            self.report_once(MIXED_FRAME, "frames", what="frames")
+        elif frame.kind not in ("base", "user"):
             self.report_once(MASTER, "master")
         return ir.System("null_frame", origin=self.origin)
 

@@ -25,6 +25,11 @@ PATH_UNIT = "mm/s"
 LEVELS = (0.0, 12.5, 25.0, 50.0, 100.0, 200.0, 300.0, 400.0, 500.0, 25.0)
 STANDARD_LEVEL = 9
 
+# ---- moves
+
+MOVE_KINDS = {"MOVJ": "joint", "MOVL": "linear", "MOVC": "circular", "MOVS": "spline", "IMOV": "linear"}
+MOVES = frozenset((*MOVE_KINDS, *(f"S{word}" for word in MOVE_KINDS)))
+
 # ---- frames and tools
 
 USER_FRAMES = 63
@@ -57,6 +62,9 @@ WAIT_STATUS = "B014"  # 1: the last WAIT with a time ended by its condition
 # Global data that stand for these.
 SEARCH_FOUND, SEARCH_PLACE, WAIT_LATE, UNTIL_MET = "SEARCH_FOUND", "SEARCH_PLACE", "WAIT_LATE", "UNTIL_MET"
 SHIFT = "SHIFT"
+# What the last RET with a value gave back (M: kept until the next one): numbers, texts.
+RETURNED = "RV"
+RETURN_VALUE, RETURN_TEXT = "RETURN_VALUE", "RETURN_TEXT"
 
 # ---- instructions that only this controller has: effect none, message, time, unknown
 

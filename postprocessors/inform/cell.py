@@ -33,6 +33,7 @@ class Cell:
 
     registers: Registers
     tool_of_variables: int = 0
+    several_tools: bool = False  # moves are driven with different tools
     kept: dict[Kept, int] = field(default_factory=dict)
     tools: dict[Values, int] = field(default_factory=dict)
     frames: dict[Values, int] = field(default_factory=dict)

@@ -154,18 +154,10 @@ class Motion:
         """The tool's number; one that is kept in a variable is set first."""
         if tool is None:
             return self.positions.job.tool
-        known = self.positions.constants.known(tool)
-        cell = self.positions.job.cell
-        if known is not None:
-            return cell.tool(known.values)
         place = element(tool)
-        if place is None or bank_of(place) != "P":
+        if self.positions.constants.known(tool) is None and (place is None or bank_of(place) != "P"):
             raise CannotSayError("a tool is a constant or in a position variable")
-        number = cell.tool_in(place)
-        if self.positions.in_tools.get(number) != place:
-            self.lines.append(f"SETTOOL TL#({number}) {place}")
-            self.positions.in_tools[number] = place
-        return number
+        return self.positions.number_of_tool(tool)
 
     def goal(self, target: ir.Expression, move: ir.Move, tool: int) -> Goal:
         """The taught point or position variable of a target of the move."""

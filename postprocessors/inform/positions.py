@@ -146,14 +146,37 @@ class Positions:
     def current(self, place: str, arguments: tuple[ir.Expression, ...]) -> None:
         """Where the tool is, in a frame."""
         frame = arguments[1] if len(arguments) > 1 else ir.System("null_frame")
-        change = self.change_of_tool(arguments[0])
-        self.lines.append(f"GETS {place} $PX001")
-        if change:
-            self.lines.append(f"MULMAT {place} {place} {change}")
+        if self.job.cell.several_tools and arguments[0] != ir.System("tool"):
+            self.seen_with(place, self.number_of_tool(arguments[0]))
+        else:
+            change = self.change_of_tool(arguments[0])
+            self.lines.append(f"GETS {place} $PX001")
+            if change:
+                self.lines.append(f"MULMAT {place} {place} {change}")
         if frame not in (ir.System("null_frame"), ir.System("world")):
             helper = self.registers.helper("P")
             self.position(helper, ir.Builtin("inverse", (frame,)))
             self.lines.append(f"MULMAT {place} {helper} {place}")
+
+    def seen_with(self, place: str, tool: int) -> None:
+        """Where the robot is, seen with this tool. $PX001 has the tool of the last move, whichever that was; the pulses
+        have none. The value then comes with the tool of all variables."""
+        pulses = self.registers.helper("P", "pulses")
+        self.lines.extend([f"GETS {pulses} $PX000", f"CNVRT {place} {pulses} BF TL#({tool})"])
+        if tool != self.job.cell.tool_of_variables:
+            self.lines.append(f"MULMAT {place} {self.kept(Position('pose', WORLD))} {place}")
+
+    def number_of_tool(self, tool: ir.Expression) -> int:
+        """The tool's number; one that is kept in a variable is set first."""
+        known = self.constants.known(tool)
+        if known is not None:
+            return self.job.cell.tool(known.values)
+        place = self.as_variable(tool)
+        number = self.job.cell.tool_in(place)
+        if self.in_tools.get(number) != place:
+            self.lines.append(f"SETTOOL TL#({number}) {place}")
+            self.in_tools[number] = place
+        return number
 
     def change_of_tool(self, tool: ir.Expression) -> str:
         """From the tool of the job, whose place $PX001 is, to another one: inverse(job's) . other; empty: the same."""

@@ -110,6 +110,7 @@ class _Writer:
                 driven.update(all_moves)
                 if not most and any(map(_place_of_tool, walk(routine.body))):
                     standing.append(routine)
+        self.cell.several_tools = len(driven) > 1
         if everywhere:
             self.cell.tool_of_variables = everywhere.most_common(1)[0][0]
         self.stand(standing, driven)

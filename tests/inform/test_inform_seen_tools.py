@@ -34,3 +34,34 @@ def test_the_tool_of_the_moment(body: str) -> None:
     back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], "inform", Diagnostics())
     result = run_program(back.program, "ur5e", None, "JOB")
     assert result.status == "finished" and result.outputs
+
+
+SEVERAL = """MODULE main
+PERS tooldata short:=[TRUE,[[0,0,50],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+PERS tooldata long:=[TRUE,[[0,0,150],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+VAR robtarget here;
+PROC main()
+  MoveAbsJ [[0,0,0,0,90,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,fine,short;
+  here:=CRobT(\\Tool:=short);
+  MoveJ Offs(here,0,0,-60),v500,fine,short;
+  here:=CRobT(\\Tool:=long);
+  MoveL Offs(here,0,20,0),v200,fine,long;
+  here:=CRobT(\\Tool:=SEEN);
+  TPWrite ""\\Num:=Round(here.trans.z);
+ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize("seen", ["short", "long", "tool0"])
+def test_the_place_with_a_tool_beside_those_of_the_moves(seen: str) -> None:
+    """$PX001 has the tool of the last move, so the place is asked for in pulses where moves have several tools."""
+    robot = "abb_irb1200_5_90"
+    source = read_sources([source_from_text("main.mod", SEVERAL.replace("SEEN", seen))], "rapid", Diagnostics())
+    expected = [event.data["text"] for event in run_program(source.program, robot).trace if event.kind == "message"]
+    diagnostics = Diagnostics()
+    translation = translate_program(source, "inform", robot, None, diagnostics)
+    assert not diagnostics.of(Severity.LOSS)
+    back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], "inform", Diagnostics())
+    result = run_program(back.program, robot, None, "MAIN")
+    assert [event.data["text"] for event in result.trace if event.kind == "message"] == expected != []
