@@ -49,3 +49,27 @@ def test_a_declared_group_is_written_bit_by_bit() -> None:
     listing = "".join(shown.values())
     assert "DO[41]=ON" in listing
     assert "DO[43]=OFF" in listing
+
+
+COUNTER = """&ACCESS RVP
+DEF P( )
+DECL INT I,N,A[3]
+DECL REAL R
+R=1.5
+N=0
+FOR I=1 TO 3
+  N=N+I
+  A[I]=N
+ENDFOR
+I=N/2+A[2]
+$OUT[1]=(I==6)
+N=R*4
+I=N-7/2
+$OUT[2]=(I==3)
+END
+"""
+
+
+def test_a_counter_is_calculated_with_elsewhere() -> None:
+    shown, _ = same_in_tp("krl", COUNTER)
+    assert "TRUNC" not in "".join(shown.values())

@@ -108,14 +108,16 @@ class _Numbered(Rewriter):
                 self.declared.append(ir.Variable(bank.name, array, storage="persistent", scope="global"))
         for place in self.places.values():
             if place.alone:
-                self.declare_alone(place)
+                self.declare_alone(place, main[place.wanted.bank.name])
 
-    def declare_alone(self, place: Place) -> None:
+    def declare_alone(self, place: Place, main: ir.Type) -> None:
+        """Numbers of a bank are of one kind, so that nothing is converted between its array and names of their own."""
         one = place.wanted
+        type = main if isinstance(one.type, ir.NUMBER_TYPES) and isinstance(main, ir.NUMBER_TYPES) else one.type
         for offset in range(one.count):
             name = f"{one.bank.name}{place.number + offset}"
             self.declared.append(
-                ir.Variable(name, self.type(one.type), storage="persistent", scope="global", label=one.element(offset))
+                ir.Variable(name, self.type(type), storage="persistent", scope="global", label=one.element(offset))
             )
 
     def all_wanted(self) -> list[Wanted]:
