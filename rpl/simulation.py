@@ -7,11 +7,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.errors import RunError, UsageError
 from rpl.runtime.faults import ProgramError
+from rpl.runtime.limits import DEFAULTS, Limits
 from rpl.runtime.machine import Machine
 from rpl.runtime.task import ENDED, Task
 from rpl.runtime.trace import Event, RunResult
@@ -22,7 +24,6 @@ if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
     from rpl.linking.program import LinkedProgram
 
-DEFAULT_MAX_TIME_S = 3600.0
 MAIN = "main"
 
 
@@ -31,16 +32,18 @@ def run_program(
     robot: str | RobotModel | None = None,
     cell: Cell | None = None,
     entry: str | None = None,
-    max_time_s: float | None = DEFAULT_MAX_TIME_S,
+    max_time_s: float | None = None,
     max_statements: int | None = None,
     on_event: Callable[[Event], None] | None = None,
+    limits: Limits = DEFAULTS,
 ) -> RunResult:
-    """Run a normalised program. Without a robot its moves take no time.
+    """Run a normalised program. Without a robot its moves take no time. A given `max_time_s` or `max_statements` stands
+    in place of that of `limits`.
 
     Raises UsageError for an unknown robot or when the entry cannot be found (the candidates are listed), RunError when
     the cell file does not fit the program. A fault inside the program is part of the result.
     """
-    simulation = Simulation(program, robot, cell, entry, max_time_s, max_statements, on_event)
+    simulation = Simulation(program, robot, cell, entry, max_time_s, max_statements, on_event, limits)
     simulation.run()
     return simulation.result()
 
@@ -54,16 +57,20 @@ class Simulation(Machine):
         robot: str | RobotModel | None = None,
         cell: Cell | None = None,
         entry: str | None = None,
-        max_time_s: float | None = DEFAULT_MAX_TIME_S,
+        max_time_s: float | None = None,
         max_statements: int | None = None,
         on_event: Callable[[Event], None] | None = None,
+        limits: Limits = DEFAULTS,
     ) -> None:
         from rpl.cell import Cell as NoCell
         from rpl.linking import link
 
-        limit = DEFAULT_MAX_TIME_S if max_time_s is None else max_time_s
+        if max_time_s is not None:
+            limits = replace(limits, time_s=max_time_s)
+        if max_statements is not None:
+            limits = replace(limits, statements=max_statements)
         linked = self.program = link(program)
-        super().__init__(linked, _model(robot), cell if cell is not None else NoCell(), limit, max_statements, on_event)
+        super().__init__(linked, _model(robot), cell if cell is not None else NoCell(), limits, on_event)
         self.breakpoints: set[tuple[str, int]] = set()
         self.passed: tuple[int, int] | None = None
         for declared, routine in _tasks(program, linked, entry):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from rpl.cli.limits import limit_options, limits_of
 from rpl.cli.output import collector, dialect_exists, json_option, print_diagnostics, print_json, robot_option, waiting
 from rpl.diagnostics import Severity
 from rpl.errors import UsageError
@@ -20,7 +21,7 @@ from rpl.errors import UsageError
 @click.option("--from", "dialect", metavar="D", help="Language of A; else seen from its content.")
 @click.option("--to", "other", metavar="D", help="Language of B; else seen from its content.")
 @click.option("--tolerance", type=float, metavar="MM", help="Distance of the tool paths that still counts as equal.")
-@click.option("--max-time", type=float, metavar="S", help="Compare at most so many simulated seconds.")
+@limit_options
 @json_option
 def command(
     a: str,
@@ -34,6 +35,8 @@ def command(
     other: str | None,
     tolerance: float | None,
     max_time: float | None,
+    max_steps: int | None,
+    max_events: int | None,
     as_json: bool,
 ) -> int:
     """Decide by running both whether the programs A and B (each a file, folder or archive) mean the same.
@@ -46,6 +49,7 @@ def command(
 
     if tolerance is not None and not tolerance >= 0:
         raise UsageError(f"--tolerance: {tolerance:g} is not a distance")
+    limits = limits_of(max_time, max_steps, max_events)
     programs = []
     for path, language in ((a, dialect), (b, other)):
         diagnostics = collector()
@@ -68,7 +72,7 @@ def command(
             entry=entry,
             to_entry=to_entry or entry,
             path_mm=tolerance,
-            max_time_s=max_time,
+            limits=limits,
         )
     if as_json:
         print_json(result.as_json())

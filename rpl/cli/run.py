@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from rpl.cli.limits import limit_options, limits_of
 from rpl.cli.output import (
     collector,
     dialect_exists,
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
 @click.option("--cell", metavar="F.toml", help="Surroundings: inputs over time, answers of the operator, parts.")
 @click.option("--entry", metavar="NAME", help="Routine to start with; else main, or the only one nobody calls.")
 @click.option("--trace", type=click.Path(dir_okay=False, path_type=Path), metavar="F.jsonl", help="Write every event.")
-@click.option("--max-time", type=float, metavar="S", help="Stop after so many simulated seconds.")
+@limit_options
 @json_option
 def command(
     paths: Sequence[str],
@@ -48,19 +49,20 @@ def command(
     entry: str | None,
     trace: Path | None,
     max_time: float | None,
+    max_steps: int | None,
+    max_events: int | None,
     as_json: bool,
 ) -> int:
     """Run a program on an emulated robot, in simulated time.
 
-    Exit status 0 when the program came to its end or its own stop, 1 for a fault, a deadlock or the time limit.
+    Exit status 0 when the program came to its end or its own stop, 1 for a fault, a deadlock or a limit.
     """
     from rpl.project import read_program
     from rpl.proof.cellnames import report_unknown_signals
     from rpl.proof.prove import load_cell
     from rpl.simulation import run_program
 
-    if max_time is not None and not max_time > 0:
-        raise UsageError(f"--max-time: {max_time:g} is not a time above 0 s")
+    limits = limits_of(max_time, max_steps, max_events)
     diagnostics = collector()
     with waiting("reading"):
         read = read_program(paths, dialect_exists(dialect), diagnostics)
@@ -76,7 +78,7 @@ def command(
     report_unknown_signals(read.program, surroundings, assumptions)
     print_diagnostics(assumptions, Severity.WARNING)
     with waiting("running"):
-        result = run_program(read.program, model, surroundings, entry, max_time)
+        result = run_program(read.program, model, surroundings, entry, limits=limits)
     if trace is not None:
         lines = [json.dumps(plain(event), ensure_ascii=False) for event in result.trace_lines()]
         write_file(trace, "".join(line + "\n" for line in lines).encode("utf-8"))

@@ -20,6 +20,7 @@ from rpl.linking.operators import (
     equality,
     logic,
     scaled,
+    whole_product,
 )
 from rpl.linking.types import Types
 from rpl.passes.scope import Scope
@@ -243,6 +244,8 @@ class Compiler:
         left, right = self.value(expression.left), self.value(expression.right)
         if op in ("=", "<>"):
             return equality(op, left, right, self._is_plain(expression.left) or self._is_plain(expression.right))
+        if op == "*" and self._is_whole(expression.left) and self._is_whole(expression.right):
+            return whole_product(left, right)
         number = _constant_number(expression.right)
         if number is not None and op in WITH_NUMBER:
             return WITH_NUMBER[op](left, number)
@@ -250,6 +253,9 @@ class Compiler:
         if op in NUMBERS:
             return NUMBERS[op](left, right)
         return lambda f: operation(left(f), right(f))
+
+    def _is_whole(self, expression: ir.Expression) -> bool:
+        return isinstance(self.types.of(expression), ir.IntType)
 
     def _is_plain(self, expression: ir.Expression) -> bool:
         """Certainly a number, BOOL, text or member: compared by Python's own equality."""

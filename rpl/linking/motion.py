@@ -10,6 +10,7 @@ from rpl import ir
 from rpl.linking.places import writer
 from rpl.runtime.code import Instruction, Read, Values
 from rpl.runtime.faults import ProgramError
+from rpl.runtime.limits import MOST_WAITING
 from rpl.runtime.orders import BlendOrder, Order, SearchOrder, SpeedOrder, TriggerOrder
 from rpl.runtime.system import modal_key
 from rpl.runtime.tasks import take_robot
@@ -268,7 +269,10 @@ class MotionStatements:
 
         def make(here: int, next: int) -> Instruction:
             def set_trigger(f: Values) -> int:
-                f[0].next_triggers.append(made(f))
+                waiting = f[0].next_triggers
+                if len(waiting) >= MOST_WAITING:
+                    raise ProgramError("internal_limit", f"more than {MOST_WAITING} path events wait for the next move")
+                waiting.append(made(f))
                 return next
 
             return set_trigger

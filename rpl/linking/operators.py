@@ -7,8 +7,9 @@ import operator
 from collections.abc import Callable
 
 from rpl.runtime import functions
-from rpl.runtime.code import Read
+from rpl.runtime.code import Read, Values
 from rpl.runtime.faults import ProgramError
+from rpl.runtime.limits import MOST_CHARACTERS, MOST_WHOLE
 from rpl.runtime.values import Value, equal, whole
 
 
@@ -76,23 +77,45 @@ def _quo(a: Value, b: Value) -> Value:
     return _div(a, b) if a.__class__ is int and b.__class__ is int else a / b
 
 
-def _text(value: Value) -> str:
-    if isinstance(value, str):
-        return value
-    raise ProgramError("wrong_kind", "only texts can be joined")
+def _joined(first: Value, second: Value) -> str:
+    if not isinstance(first, str) or not isinstance(second, str):
+        raise ProgramError("wrong_kind", "only texts can be joined")
+    if len(first) + len(second) > MOST_CHARACTERS:
+        raise ProgramError("overflow", f"the text has more than {MOST_CHARACTERS} characters")
+    return first + second
+
+
+def _product(a: Value, b: Value) -> Value:
+    """A product; what is too large for a whole number goes on as a real one, as in languages with one kind of them."""
+    product = a * b
+    if product.__class__ is int and not -MOST_WHOLE <= product <= MOST_WHOLE:
+        return float(product)
+    return product
+
+
+def whole_product(left: Read, right: Read) -> Read:
+    """The product of two expressions of a type of whole numbers."""
+
+    def multiply(f: Values) -> Value:
+        product = left(f) * right(f)
+        if not -MOST_WHOLE <= product <= MOST_WHOLE:
+            raise ProgramError("overflow", "the product is too large for a whole number")
+        return product
+
+    return multiply
 
 
 OPERATIONS: dict[str, Callable[[Value, Value], Value]] = {
     "+": operator.add,
     "-": operator.sub,
-    "*": operator.mul,
+    "*": _product,
     "/": operator.truediv,
     "div": _div,
     "mod": lambda a, b: a - b * _div(a, b),
     "quo": _quo,
     "**": lambda a, b: float(a) ** b,
     ":": functions.compose,
-    "&": lambda a, b: _text(a) + _text(b),
+    "&": _joined,
     "@": functions.cross,
     "<": operator.lt,
     ">": operator.gt,
@@ -106,7 +129,7 @@ OPERATIONS: dict[str, Callable[[Value, Value], Value]] = {
 NUMBERS: dict[str, Callable[[Read, Read], Read]] = {
     "+": lambda a, b: lambda f: a(f) + b(f),
     "-": lambda a, b: lambda f: a(f) - b(f),
-    "*": lambda a, b: lambda f: a(f) * b(f),
+    "*": lambda a, b: lambda f: _product(a(f), b(f)),
     "/": lambda a, b: lambda f: a(f) / b(f),
     "<": lambda a, b: lambda f: a(f) < b(f),
     ">": lambda a, b: lambda f: a(f) > b(f),
@@ -116,7 +139,7 @@ NUMBERS: dict[str, Callable[[Read, Read], Read]] = {
 WITH_NUMBER: dict[str, Callable[[Read, float], Read]] = {
     "+": lambda a, n: lambda f: a(f) + n,
     "-": lambda a, n: lambda f: a(f) - n,
-    "*": lambda a, n: lambda f: a(f) * n,
+    "*": lambda a, n: lambda f: _product(a(f), n),
     "<": lambda a, n: lambda f: a(f) < n,
     ">": lambda a, n: lambda f: a(f) > n,
     "<=": lambda a, n: lambda f: a(f) <= n,

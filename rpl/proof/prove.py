@@ -16,6 +16,7 @@ from rpl.proof.difference import Difference
 from rpl.proof.record import Record
 from rpl.proof.recording import record_of
 from rpl.proof.wiring import in_words_of, wired_groups
+from rpl.runtime.limits import DEFAULTS, Limits
 
 if TYPE_CHECKING:
     from rpl.cell import Cell
@@ -64,7 +65,7 @@ def prove_programs(
     entry: str | None = None,
     to_entry: str | None = None,
     path_mm: float | None = None,
-    max_time_s: float | None = None,
+    limits: Limits = DEFAULTS,
 ) -> ProofResult:
     """Run two normalised programs and compare them. `robot_b` None: the same arm as A's.
 
@@ -74,9 +75,9 @@ def prove_programs(
     first, second = _model(robot_a), _model(robot_b)
     if second is None:
         second = first
-    record_a = _run(program_a, first, cell, entry, max_time_s)
+    record_a = _run(program_a, first, cell, entry, limits)
     theirs = in_words_of(cell, program_a, program_b) if cell is not None else None
-    record_b = _run(program_b, second, theirs, to_entry if to_entry is not None else entry, max_time_s)
+    record_b = _run(program_b, second, theirs, to_entry if to_entry is not None else entry, limits)
     record_a, record_b = (
         with_wired_groups(record_a, wired_groups(program_b)),
         with_wired_groups(record_b, wired_groups(program_a)),
@@ -112,19 +113,17 @@ def _model(robot: str | RobotModel | None) -> RobotModel | None:
     return robot
 
 
-def _run(
-    program: ir.Program, robot: RobotModel | None, cell: Cell | None, entry: str | None, max_time_s: float | None
-) -> Record:
+def _run(program: ir.Program, robot: RobotModel | None, cell: Cell | None, entry: str | None, limits: Limits) -> Record:
     from rpl.simulation import run_program
 
-    result = run_program(program, robot, cell, entry, max_time_s)
+    result = run_program(program, robot, cell, entry, limits=limits)
     return record_of(result, program, robot)
 
 
 _REACH = {
     "fault": "both runs end in the same fault",
     "deadlock": "both runs end waiting for something that never comes; a cell file can give the inputs",
-    "limit": "both runs were cut off by the time limit",
+    "limit": "both runs were ended by a limit",
 }
 
 

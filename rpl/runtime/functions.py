@@ -53,9 +53,15 @@ def _rounding(cut: Callable[[float], int]) -> Callable[..., float]:
     return to_decimals
 
 
+# The widest whole numbers of any language have 64 bits.
+MOST_SHIFTED = 64
+
+
 def _shift(by: int) -> Callable[[Value, Value], int]:
     def shift(value: Value, count: Value) -> int:
         number, places = whole(value), whole(count)
+        if by > 0 and places > MOST_SHIFTED:
+            raise ProgramError("overflow", f"a number has no bit {places}")
         return number << places if by > 0 else number >> places
 
     return shift

@@ -17,6 +17,7 @@ from rpl.runtime import searching, tasks
 from rpl.runtime.code import Code, Read, Values, Write
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.interrupts import Interrupt
+from rpl.runtime.limits import EVENTS_OF_MOTION, MOST_WAITING, STEPS_OF_EVENT, Limits
 from rpl.runtime.motion import MotionQueue
 from rpl.runtime.signals import Key, bit_kind, group_bits, is_bit_group, key_of, keys_named, usual, usual_key, zero_of
 from rpl.runtime.task import ENDED, READY, WAITING, Task
@@ -44,15 +45,13 @@ class Machine:
         linked: Linked,
         model: RobotModel | None,
         cell: Cell,
-        max_time_s: float,
-        max_statements: int | None,
+        limits: Limits,
         on_event: Callable[[Event], None] | None = None,
     ) -> None:
         self.linked = linked
         self.model = model
         self.cell = cell
-        self.max_time_s = max_time_s
-        self.max_statements = max_statements
+        self.limits = limits
         self.on_event = on_event
         self.now = 0.0
         self.agenda: list[Entry] = []
@@ -69,6 +68,7 @@ class Machine:
         self.end_fault: Fault | None = None
         self.paused = False
         self.stepping = False
+        self.happened = 0  # at this moment: entries of the agenda and of the trace
         self.timed_outputs = 0
         self.calls = 0
         self.tokens = 0
@@ -135,14 +135,15 @@ class Machine:
             return False
         time, _, _, index, _, kind, data = heappop(self.agenda)
         if time > self.now:
-            if time > self.max_time_s:
-                self.now = max(self.now, self.max_time_s)
-                self.end("limit")
+            if time > self.limits.time_s:
+                self.now = max(self.now, self.limits.time_s)
+                self.end_at_limit("max-time", f"the run was ended after {self.limits.time_s:g} s")
                 return False
             self.now = time
+            self.happened = 0
+        self.happened += 1
         self._happen(kind, index, data)
-        if self.max_statements is not None and sum(task.statements for task in self.tasks) > self.max_statements:
-            self.end("limit")
+        self.end_beyond_limits(self.tasks[index])
         return not self.status
 
     def _happen(self, kind: str, index: int, data: tuple[Any, ...]) -> None:
@@ -163,6 +164,7 @@ class Machine:
                 self.timed_outputs -= 1
                 self.set_output(self.tasks[index], data[0], data[1], data[2].origin(data[3]))
             case "motion":
+                self.happened += EVENTS_OF_MOTION if self.model is not None else 0
                 robot = tasks.robot_of(self.tasks[index])  # the one that asked may have given it to another task
                 if robot is not None:
                     robot.happen(*data)
@@ -357,6 +359,8 @@ class Machine:
     def output_later(self, task: Task, port: SignalRef, value: Value, seconds: float, code: Code, at: int) -> None:
         """Write a signal after a time, whatever the program does meanwhile."""
         self.timed_outputs += 1
+        if self.timed_outputs > MOST_WAITING:
+            raise ProgramError("internal_limit", f"more than {MOST_WAITING} outputs wait to be switched later")
         self.schedule(self.now + max(seconds, 0.0), INPUTS, "output", task.index, port, value, code, at)
 
     def set_input(self, signal: str, value: Value) -> None:
@@ -384,6 +388,7 @@ class Machine:
         """Add an event to the trace."""
         shown = Event(self.now, task.name if task is not None else "", kind, data, origin, **more)
         self.trace.append(shown)
+        self.happened += 1
         if self.on_event is not None:
             self.on_event(shown)
         return shown
@@ -480,6 +485,25 @@ class Machine:
         self.changed()
         if task.kind == "motion" and self._is_finished():
             self.end("finished")
+
+    def end_beyond_limits(self, task: Task) -> None:
+        """End a run that has done more than it may; `task` was the last that did something."""
+        most = self.limits.statements
+        if task.spent >= self.limits.steps or self.happened >= self.limits.steps // STEPS_OF_EVENT:
+            done = f"{task.spent:,} steps" if task.spent >= self.limits.steps else f"{self.happened:,} events"
+            self.fault("no-time", f"no time passes here: {done} at this moment, and no end", task, task.where())
+        elif most is not None and sum(task.statements for task in self.tasks) > most:
+            self.end_at_limit("max-statements", f"the run was ended after {most:,} statements")
+        elif len(self.trace) > self.limits.events:
+            self.end_at_limit("max-events", f"the run was ended after {self.limits.events:,} events")
+
+    def end_at_limit(self, code: str, message: str) -> None:
+        """The run has done as much as it may; it is told where it was."""
+        if self.status:
+            return
+        task = next((task for task in self.tasks if task.state != ENDED), self.tasks[0])
+        self.end_fault = Fault(code, message, task.name, task.where())
+        self.end("limit")
 
     def halt(self, task: Task) -> None:
         """The program's own stop."""

@@ -25,9 +25,6 @@ READY, WAITING, ENDED = "ready", "waiting", "ended"
 # Instructions that a task may execute at one moment before a loop that looks at the outside lets a cycle pass, and how
 # many it gets in each such cycle.
 SPIN, SPIN_AGAIN = 2000, 500
-# Instructions without time after which a loop that nothing can end is given up.
-MOST_WITHOUT_TIME = 5_000_000
-MOST_BLIND_POLLS = 500_000
 # The priority of a task's error routine: no interrupt is more urgent.
 MOST_URGENT = -1
 
@@ -62,6 +59,7 @@ class Task:
         self.statements = 0
         self.spent = 0
         self.spent_at = -1.0
+        self.due = SPIN  # what it may have spent until somebody looks whether it spins
         self.spinning_since: float | None = None
         self.triggers: list[Frame] = []
         self.next_triggers: list[TriggerOrder] = []
@@ -160,6 +158,7 @@ class Task:
         """Execute until the task blocks or ends."""
         if self.spent_at != self.machine.now:
             self.spent, self.spent_at = 0, self.machine.now
+            self.due = SPIN if self.spinning_since is None else SPIN_AGAIN
             self.looked = self.looked_at_time = False
         if self.interrupts.pending or self.triggers:
             self.attend()
@@ -174,43 +173,32 @@ class Task:
                         break
                 else:
                     frame.counter = counter
-                    self._count(used)
-                    self._spun()
-                    continue
             except ProgramError as error:
-                self._count(used)
                 self.fail(error, counter)
-                continue
-            except (ArithmeticError, TypeError, AttributeError, KeyError, IndexError, ValueError) as error:
-                self._count(used)
+            except OPERATION_ERRORS as error:
                 self.fail(_as_program_error(error), counter)
-                continue
-            self._count(used)
+            self.spent += used
+            self.statements += used
             if counter == ATTEND:
                 self.attend()
+            if self.spent >= self.due and self.state == READY and not self.machine.paused:
+                self._spun()
 
     def _budget(self) -> int:
         if self.machine.stepping:
             return 0 if self.machine.pauses_at(self) else 1
-        most = SPIN if self.spinning_since is None else SPIN_AGAIN
-        return most - self.spent if self.spent < most else SPIN
-
-    def _count(self, used: int) -> None:
-        self.spent += used
-        self.statements += used
+        return self.due - self.spent
 
     def _spun(self) -> None:
         """Many instructions and no time: let time pass for who polls, give up on who cannot be ended."""
-        if self.machine.stepping:
-            return
-        if self.machine.has_future() or self.looked_at_time:
+        machine = self.machine
+        if machine.has_future() or self.looked_at_time:
             self.sleep_tick(self.frame.counter)
-            return
-        if self.looked and self.spent >= MOST_BLIND_POLLS:
-            self.machine.deadlock(self, "a signal that nothing changes, in a loop")
-        elif self.spent >= MOST_WITHOUT_TIME:
-            origin = self.frame.code.origin(self.frame.counter)
-            self.machine.fault("no-time", "this loop takes no time and never ends", self, origin)
+        elif self.looked and self.spent >= machine.limits.steps // 2:
+            machine.deadlock(self, "a signal that nothing changes, in a loop")
+        else:
+            machine.end_beyond_limits(self)
+        self.due = min(self.spent + SPIN, max(machine.limits.steps, self.spent + 1))
 
     def sleep_tick(self, next: int) -> int:
         """A cycle of the controller passes before the task goes on."""
@@ -478,6 +466,19 @@ class Task:
         return frame.code.origin(counter)
 
 
+# Python's own complaints about an operation of the program.
+OPERATION_ERRORS = (
+    ArithmeticError,
+    TypeError,
+    AttributeError,
+    KeyError,
+    IndexError,
+    ValueError,
+    MemoryError,
+    RecursionError,
+)
+
+
 def _as_program_error(error: Exception) -> ProgramError:
     """Python's own complaint about an operation, as the error of the program that asked for it."""
     match error:
@@ -489,4 +490,8 @@ def _as_program_error(error: Exception) -> ProgramError:
             return ProgramError("negative_argument", f"a function is not defined for this argument: {error}")
         case KeyError():
             return ProgramError("wrong_kind", f"there is no component {error}")
+        case MemoryError():
+            return ProgramError("internal_limit", "the program's data do not fit into memory")
+        case RecursionError():
+            return ProgramError("too_deep", "expressions that use each other are nested too deep")
     return ProgramError("wrong_kind", f"an operation does not fit its values: {error}")
