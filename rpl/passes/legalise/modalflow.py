@@ -18,7 +18,9 @@ SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distan
 # What else is followed, because the size of a corner that a speed decides depends on it. The values are those of a
 # controller that says nothing (mm/s2 and percent, as the emulator takes them).
 BRAKING = {"blend_speed": 100.0, "path_acceleration": 5000.0, "acceleration_percent": 100.0}
-_FOLLOWED = SETTINGS | BRAKING.keys() | {"displacement"}
+# How the tool turns on arcs is followed too; setting it again is never left out, for targets start with other rules.
+_TURNS = "circle_orientation"
+_FOLLOWED = SETTINGS | BRAKING.keys() | {"displacement", _TURNS}
 # Setting -> constant; None: it depends on the run. A place that is never reached has no state.
 State = dict[str, "ir.Expression | None"]
 _UNKNOWN: State = dict.fromkeys(_FOLLOWED)
@@ -87,6 +89,11 @@ class Flow:
         _Follower(program, flow).follow()
         return flow
 
+    def arc_rule(self, move: ir.Move) -> str:
+        """How the tool turns on an arc that does not say it: `base`, `path`; empty text: it hangs on the run."""
+        rule = self.at(move)[_TURNS]
+        return rule.member if isinstance(rule, ir.EnumLiteral) else ""
+
     def at(self, statement: ir.Statement) -> State:
         """The settings at a move, or where an expression of a statement depends on the frame (all unknown where nothing
         leads)."""
@@ -100,6 +107,8 @@ class Flow:
 def _default(name: str, defaults: dict[str, float | bool | str]) -> ir.Expression | None:
     if name in ("base", "displacement"):
         return ir.System("null_frame")
+    if name == _TURNS:
+        return ir.EnumLiteral(str(defaults.get(name, "base")))
     value = defaults.get(name, BRAKING.get(name))
     return ir.RealLiteral(float(value)) if isinstance(value, int | float) else None
 
@@ -127,8 +136,9 @@ class _Follower:
 
     def started(self) -> set[str]:
         """Routines that a run may begin with."""
-        named = {self.program.entry.lower(), *(task.entry.lower() for task in self.program.tasks)} - {""}
-        return (named or never_called(self.program)) & set(self.routines)
+        begins = {self.program.entry.lower(), *(t.entry.lower() for t in self.program.tasks if t.kind == "motion")}
+        beside = {task.entry.lower() for task in self.program.tasks}
+        return ((begins - {""} or never_called(self.program)) | beside) & set(self.routines)
 
     def follow(self) -> None:
         for _ in range(_ROUNDS):
@@ -227,7 +237,8 @@ class _Follower:
                 return dict(_UNKNOWN)
             case ir.Assign(target=ir.System(name=name), value=value) if name in _FOLLOWED:
                 new = self.stable(value) if name not in self.flow.usage.interrupting else None
-                self.note_setting(statement, new is not None and state[name] == new)
+                if name != _TURNS:
+                    self.note_setting(statement, new is not None and state[name] == new)
                 return {**state, name: new}
         return self.calls(statement, state)
 
@@ -268,6 +279,8 @@ class _Follower:
         match value:
             case ir.RealLiteral() | ir.IntLiteral():
                 return value
+            case ir.EnumLiteral(member=member):
+                return ir.EnumLiteral(member.lower())
             case ir.System(name="null_frame" | "world"):
                 return ir.System("null_frame")
             case ir.Quantity(value=inner) | ir.Unary(operand=inner) | ir.Convert(operand=inner):

@@ -71,6 +71,7 @@ from rpl.passes.legalise.onemove import settings_of_one_move
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.overrides import full_override
 from rpl.passes.legalise.parameters import fit_arguments
+from rpl.passes.legalise.partialplaces import partial_places
 from rpl.passes.legalise.pathevents import path_events
 from rpl.passes.legalise.pathpoints import path_points
 from rpl.passes.legalise.polling import poll_waits
@@ -87,6 +88,7 @@ from rpl.passes.legalise.repeatedmoves import repeated_moves
 from rpl.passes.legalise.results import list_results
 from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.rotationvectors import rotation_vectors
+from rpl.passes.legalise.saidtwice import said_once
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
 from rpl.passes.legalise.seenplaces import posed_places, seen_places
@@ -168,6 +170,7 @@ PASSES: tuple[Pass, ...] = (
     near_joints,
     known_joints,
     joint_goals,
+    partial_places,
     whole_arc_points,
     three_point_arcs,
     circle_rules,
@@ -254,6 +257,7 @@ PASSES: tuple[Pass, ...] = (
     structure_to_labels,
     steps,
     name_errors,
+    said_once,
     drop_unused,
     one_spelling,
     truths_to_numbers,

@@ -19,11 +19,12 @@ from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.arcends import COMPUTED, computed_arc
+from rpl.passes.legalise.circles import has_arcs
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.datalists import never_called
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.jumps import inside
-from rpl.passes.legalise.usage import base_name, each_statement
+from rpl.passes.legalise.modalflow import Flow
+from rpl.passes.legalise.usage import base_name
 from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.typewords import type_word
 from rpl.passes.values import Target, real
@@ -53,6 +54,7 @@ _FLAT = 1e-9
 _PLACES = 9  # of mm and degrees: a millionth of what any controller keeps
 _COUNTS = (1, 2, 3, 4, 6, 8, 12)
 _MODAL = ("tool", "base")
+_RULE = ir.System("circle_orientation")
 
 Rotations = Callable[[float], rigid.Rotation]  # fraction of an arc -> the tool's rotation there
 
@@ -111,14 +113,14 @@ def three_point_arcs(program: ir.Program, context: Context) -> ir.Program:
     own = "circle_orientation" in context.capabilities.system_variables
     if context.capabilities.arcs_by_angle and own:
         return program
-    known = unchanged_in(program)
-    default = _default(context.source)
-    varies = bool(_rules_set(program) - {default})
-    entries = never_called(program)
+    if not has_arcs(program):
+        return program
+    known, ours = unchanged_in(program), _default(context.source)
+    flow = Flow.of(program, dict(rules_of(context.source).system_defaults))
+    default = "" if any(isinstance(node, ir.Assign) and node.target == _RULE for node in walk(program)) else ours
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        rule = default if not varies or routine.name.lower() in entries else ""
-        return edit_bodies(routine, _Arcs(context, editor, known, varies, rule).body)
+        return edit_bodies(routine, _Arcs(context, editor, known, flow, default).body)
 
     return edit_routines(program, context, work)
 
@@ -127,32 +129,13 @@ def _default(dialect: str) -> str:
     return str(rules_of(dialect).system_defaults.get("circle_orientation") or "base")
 
 
-def _rules_set(program: ir.Program) -> set[str]:
-    """How the tool turns on arcs by what the program sets: `base`, `path`; empty text: something computed."""
-    found = set()
-
-    def look(one: ir.Statement) -> None:
-        match one:
-            case ir.Assign(target=ir.System(name="circle_orientation"), value=value):
-                found.add(_word(value))
-
-    for module in program.modules:
-        for routine in module.routines:
-            each_statement(routine.body, look)
-    return found
-
-
-def _word(value: ir.Expression) -> str:
-    return value.member.lower() if isinstance(value, ir.EnumLiteral) else ""
-
-
 @dataclass(slots=True)
 class _Arcs:
     context: Context
     editor: Editor
     known: Unchanged
-    varies: bool  # the program sets how the tool turns
-    rule: str  # how it turns here; empty: not known
+    flow: Flow
+    default: str  # how the tool turns where the flow is not known; empty: the program sets it
     last: ir.Move | None = None  # the move before, under the same tool and frame
     temporaries: dict[tuple[str, ir.Type], ir.Name] = field(default_factory=dict)
 
@@ -166,13 +149,11 @@ class _Arcs:
                     self.last = None
                     continue
                 case ir.Move(kind="circular"):
-                    done.extend(self.look(statement))
+                    done.extend(self.look(statement, self.rule(statement)))
                     self.last = statement
                     continue
                 case ir.Move():
                     self.last = statement
-                case ir.Assign(target=ir.System(name="circle_orientation"), value=value):
-                    self.rule = _word(value)
                 case ir.Assign(target=ir.System(name=name)) if name in _MODAL:
                     self.last = None
                 case ir.Assign(target=target) if self.last is not None and base_name(target) in _names(
@@ -182,29 +163,22 @@ class _Arcs:
                 case ir.Assign() | ir.Nothing() | ir.LookAhead() | ir.Trigger() | ir.WaitForMotion() | ir.Wait():
                     pass
                 case _:
-                    known = self.rule
-                    statement = inside(statement, self.inner(statement))
-                    self.last, self.rule = None, "" if self.varies else known
+                    statement = inside(statement, self.body)
+                    self.last = None
             done.append(statement)
         return tuple(done)
-
-    def inner(self, block: ir.Statement) -> Callable[[ir.Body], ir.Body]:
-        """Bodies of a block: those of a choice begin with what is in force before it."""
-        begun = self.rule if isinstance(block, ir.If | ir.Switch) or not self.varies else ""
-
-        def work(body: ir.Body) -> ir.Body:
-            self.rule = begun
-            return self.body(body)
-
-        return work
 
     @property
     def without_angle(self) -> bool:
         return not self.context.capabilities.arcs_by_angle
 
-    def look(self, move: ir.Move) -> ir.Body:
-        """The arc; in parts where that turns the target's tool as the source's, which would be turned otherwise."""
-        ours = move.circle_orientation or self.rule
+    def rule(self, move: ir.Move) -> str:
+        """How the tool turns on an arc: `base`, `path`; empty text: it is not known."""
+        return move.circle_orientation or self.flow.arc_rule(move) or self.default
+
+    def look(self, move: ir.Move, ours: str) -> ir.Body:
+        """The arc; in parts where that turns the target's tool as the source's, which would be turned otherwise.
+        `ours`: how the source turns it."""
         if "circle_orientation" in self.context.capabilities.system_variables or ours == _default(self.context.target):
             return (move,)
         start = None if self.last is None or not _alike(self.last, move) else self.pose(self.last.target)
@@ -243,8 +217,8 @@ class _Arcs:
             return self.lost(move, "its points fix no circle")
         count = 1 if abs(angle) < 360.0 else math.ceil((abs(angle) + 1.0) / 270.0)
         if count == 1:
-            return self.look(_to(move, circle, angle, end.rotation, self.context.source))
-        rule = move.circle_orientation or self.rule
+            return self.look(_to(move, circle, angle, end.rotation, self.context.source), self.rule(move))
+        rule = self.rule(move)
         if not rule:
             return self.lost(move, "it goes around, and how the tool turns on the way changes in a run")
         if move.triggers or move.search is not None:
@@ -254,11 +228,12 @@ class _Arcs:
 
     def computed(self, move: ir.Move, angle: float) -> ir.Body:
         """The arc to a point that the program computes."""
-        goals = () if move.via is None else (move.via, move.target)
         start: ir.Expression = ir.System("actual_pose")
         last = self.last
         if last is not None and _alike(last, move) and _steady(last.target) and self.place(last.target) is not None:
             start = last.target
+        filled: list[ir.Statement] = []
+        goals = [self.filled(one, start, move, filled) for one in (move.via, move.target) if one is not None]
         places = tuple((one, type) for one in (start, *goals) if (type := self.place(one)) is not None)
         if len(places) != 3 or move.relative is not None:
             return self.lost(move, "its point on the way or its end is not whole, or counted from its start")
@@ -269,7 +244,21 @@ class _Arcs:
         arc = done[-1]
         assert isinstance(arc, ir.Move)  # computed_arc ends with it
         self.last = None
-        return (*done[:-1], *self.look(arc))
+        return (*filled, *done[:-1], *self.look(arc, self.rule(move)))
+
+    def filled(
+        self, place: ir.Expression, start: ir.Expression, move: ir.Move, steps: list[ir.Statement]
+    ) -> ir.Expression:
+        """A place of some components with those of the start of the move for the others, in a variable."""
+        type = self.editor.type_of(place)
+        parts = isinstance(type, ir.PoseType | ir.TargetType) and isinstance(place, ir.Aggregate)
+        if not parts or _complete(place) or move.relative is not None or self.place(start) is None:
+            return place
+        assert isinstance(place, ir.Aggregate) and type is not None  # parts
+        whole = self.editor.temporary("whole", type)
+        steps.append(ir.Assign(whole, start, origin=replace(move.origin, comments=())))
+        steps += [ir.Assign(ir.Field(whole, name), value) for name, value in place.entries if name is not None]
+        return whole
 
     def place(self, place: ir.Expression) -> ir.Type | None:
         """The type of a place of which all components are given."""
