@@ -98,6 +98,7 @@ CAPABILITIES = Capabilities(
     place_components=False,
     pulse_levels=False,
     static_locals=True,
+    local_clocks=False,
 )
 
 

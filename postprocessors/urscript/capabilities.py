@@ -60,5 +60,6 @@ CAPABILITIES = Capabilities(
     poll_s=0.002,
     search_results=frozenset(("found", "hit")),
     reference_parameters=False,
+    local_clocks=False,
     list_results=True,
 )

@@ -81,7 +81,8 @@ class Capabilities:
     arrays_by_value: an array can be an argument by value (else the routine gets the caller's own).
     list_arguments: a list that is written out can be an argument (else it is stored in a variable first).
     list_results: functions may return arrays (else they write a parameter).
-    locals: a routine has variables of its own; static_locals: also some that keep their values from call to call.
+    locals: a routine has variables of its own; static_locals: also some that keep their values from call to call;
+    local_clocks: also stop watches.
     recursion: a routine may be active twice, each time with variables of its own (else they are kept on a stack
     around calls that lead back). call_depth: how deep calls nest (0: not said).
 
@@ -178,6 +179,7 @@ class Capabilities:
     reference_parameters: bool = True
     locals: bool = True
     static_locals: bool = False
+    local_clocks: bool = True
     arrays_by_value: bool = True
     list_arguments: bool = True
     list_results: bool = False

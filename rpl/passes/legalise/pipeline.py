@@ -88,6 +88,7 @@ from rpl.passes.legalise.repeatedmoves import repeated_moves
 from rpl.passes.legalise.results import list_results
 from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.rotationvectors import rotation_vectors
+from rpl.passes.legalise.routineclocks import clocks_of_routines
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
 from rpl.passes.legalise.seenplaces import posed_places, seen_places
@@ -185,6 +186,7 @@ PASSES: tuple[Pass, ...] = (
     resumes,
     interrupts,
     repeated_moves,
+    clocks_of_routines,
     static_variables,
     task_references,
     without_criticals,
