@@ -140,7 +140,7 @@ def _is_binary(source: Source) -> bool:
 def _first_nul(source: Source) -> str:
     """Where zero bytes begin that spoil what else is text: such a file was damaged and can be mended."""
     at = source.data.find(b"\x00")
-    if at < 0 or sum(1 for byte in source.data[:at] if byte < 32 and byte not in _TEXT_CONTROLS):
+    if at < 0 or any(byte < 32 and byte not in _TEXT_CONTROLS for byte in source.data[:at]):
         return ""
     return f" (zero bytes, the first one in line {source.data.count(10, 0, at) + 1})"
 

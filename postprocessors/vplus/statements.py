@@ -113,7 +113,7 @@ class Printer(StatementPrinter[str]):
             self.line(text)
 
     def remark(self, text: str) -> None:
-        indent = FIRST + STEP * self.depth
+        indent = (FIRST + STEP * self.depth)[: tables.LONGEST_LINE // 2]
         for part in text.splitlines() or [""]:
             plain = spelling.ascii_text(part.rstrip())
             room = tables.LONGEST_LINE - len(indent) - 1

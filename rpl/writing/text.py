@@ -101,7 +101,7 @@ def comment_lines(text: str, sign: str, width: int = 0, end: str = "") -> list[s
 
 def wrapped(line: str, width: int) -> list[str]:
     """A line of prose cut at blanks (inside a word only when it alone is too long); joining the parts gives it back."""
-    parts = []
+    parts, width = [], max(width, 1)
     while len(line) > width:
         at = line.rfind(" ", 1, width) + 1
         cut = at if at > 1 and line[:at].strip() else width

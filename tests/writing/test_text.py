@@ -145,6 +145,11 @@ def test_wrapping_loses_nothing(line: str, width: int) -> None:
     assert all(len(part) <= width for part in parts)
 
 
+@pytest.mark.parametrize("width", [0, -7])
+def test_wrapping_ends_where_no_room_is_left(width: int) -> None:
+    assert wrapped("abc", width) == ["a", "b", "c"]
+
+
 def test_comments_keep_every_line() -> None:
     assert comment_lines("one\ntwo words", "; ") == ["; one", "; two words"]
     assert comment_lines("", "! ") == ["!"]

@@ -89,6 +89,7 @@ from rpl.passes.legalise.results import list_results
 from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.rotationvectors import rotation_vectors
 from rpl.passes.legalise.routineclocks import clocks_of_routines
+from rpl.passes.legalise.saidtwice import said_once
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
 from rpl.passes.legalise.seenplaces import posed_places, seen_places
@@ -258,6 +259,7 @@ PASSES: tuple[Pass, ...] = (
     structure_to_labels,
     steps,
     name_errors,
+    said_once,
     drop_unused,
     one_spelling,
     truths_to_numbers,

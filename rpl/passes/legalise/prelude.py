@@ -9,9 +9,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir, registry
+from rpl.passes.fold import constant, literal
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.usage import usage_of
 from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import normalise
 
 _LONGEST_INLINED = 40
@@ -37,11 +39,15 @@ def link_prelude(program: ir.Program, context: Context) -> ir.Program:
 def _inlined(modules: list[ir.Module], prelude: ir.Module, assigned: set[str]) -> list[ir.Module]:
     """The modules of the prelude's dialect with calls of its small routines replaced."""
     own: set[str] = set()
+    uses = _Uses()
     for module in modules:
         for declaration in module.declarations:
             own.update(_keys(declaration))
-        own.update(routine.name.lower() for routine in module.routines)
-    inliner = _Inliner(prelude, own, assigned)
+            uses.declaration(declaration)
+        for routine in module.routines:
+            own.add(routine.name.lower())
+            uses.routine(routine)
+    inliner = _Inliner(prelude, own, assigned, uses.names)
     return [
         replace(
             module, routines=tuple(replace(routine, body=inliner.body(routine.body)) for routine in module.routines)
@@ -205,8 +211,12 @@ class _Inliner:
     """Replaces calls of small system routines by what they do: a Switch over a constant parameter is decided, a loop
     over the axes is written out, and defaults that nothing changes are written as their values."""
 
-    def __init__(self, prelude: ir.Module, shadowed: set[str], assigned: set[str]) -> None:
+    def __init__(self, prelude: ir.Module, shadowed: set[str], assigned: set[str], mentioned: set[str]) -> None:
         self.routines = {r.name.lower(): r for r in prelude.routines if r.name.lower() not in shadowed}
+        alone = ir.Program((prelude,))
+        self.scope = ProgramScope(alone).module(prelude)
+        assigned = assigned | usage_of(alone).assigned
+        self.unseen = _noted(prelude) - _read(prelude) - mentioned  # what only notes something down for nobody
         self.defaults: dict[str, ir.Expression] = {}
         for declaration in prelude.declarations:
             if isinstance(declaration, ir.Variable) and declaration.initial is not None:
@@ -268,9 +278,47 @@ class _Inliner:
                     for number in range(first, last + 1):
                         counted = {**given, statement.counter.lower(): ir.IntLiteral(number)}
                         done.extend(self.decided(statement.body, counted))
+                case ir.Assign(target=ir.Name(id=name)) if name.lower() in self.unseen:
+                    continue
+                case ir.If():
+                    done.extend(_taken(_Substitute(given, self.scope).body((statement,))))
                 case _:
-                    done.extend(_Substitute(given).body((statement,)))
+                    done.extend(_Substitute(given, self.scope).body((statement,)))
         return tuple(done)
+
+
+def _noted(prelude: ir.Module) -> set[str]:
+    """Plain variables of the prelude, folded."""
+    return {d.name.lower() for d in prelude.declarations if isinstance(d, ir.Variable)}
+
+
+def _read(prelude: ir.Module) -> set[str]:
+    """Names that the prelude's routines mention elsewhere than as the place of a whole assignment."""
+    uses = _Uses()
+
+    def body(statements: ir.Body) -> ir.Body:
+        for statement in statements:
+            plain = isinstance(statement, ir.Assign) and isinstance(statement.target, ir.Name)
+            if isinstance(statement, ir.Assign) and plain:
+                uses.expression(statement.value)
+            else:
+                rewrite_parts(statement, uses.expression, body)
+        return statements
+
+    for routine in prelude.routines:
+        body(routine.body)
+        uses.routine(replace(routine, body=()))
+    return uses.names
+
+
+def _taken(body: ir.Body) -> ir.Body:
+    """A branch whose condition is a constant, as its statements."""
+    match body:
+        case (ir.If(branches=((ir.BoolLiteral(value=True), chosen), *_)),):
+            return chosen
+        case (ir.If(branches=((ir.BoolLiteral(value=False), _), *rest), otherwise=otherwise) as whole,):
+            return _taken((replace(whole, branches=tuple(rest)),)) if rest else otherwise
+    return body
 
 
 def _chosen(switch: ir.Switch, selector: ir.Expression) -> ir.Body:
@@ -282,6 +330,10 @@ def _chosen(switch: ir.Switch, selector: ir.Expression) -> ir.Body:
 
 def _is_number(value: ir.Expression) -> bool:
     return isinstance(value, ir.IntLiteral | ir.RealLiteral)
+
+
+def _is_literal(value: ir.Expression) -> bool:
+    return _is_number(value) or (isinstance(value, ir.Unary | ir.Convert) and _is_literal(value.operand))
 
 
 def _repeatable(value: ir.Expression) -> bool:
@@ -315,15 +367,20 @@ def _jumps(body: ir.Body) -> bool:
 
 
 class _Substitute:
-    """Replaces parameters by the arguments of one call."""
+    """Replaces parameters by the arguments of one call; what then is arithmetic of literals becomes its value."""
 
-    def __init__(self, given: dict[str, ir.Expression]) -> None:
-        self.given = given
+    def __init__(self, given: dict[str, ir.Expression], scope: Scope) -> None:
+        self.given, self.scope = given, scope
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
         if isinstance(expression, ir.Name):
             return self.given.get(expression.id.lower(), expression)
-        return rewrite_parts(expression, self.expression)
+        done = rewrite_parts(expression, self.expression)
+        if isinstance(done, ir.Binary) and _is_literal(done.left) and _is_literal(done.right):
+            value = constant(done, self.scope)
+            known = None if value is None else literal(value)
+            return done if known is None else replace(known, origin=done.origin)
+        return done
 
     def body(self, body: ir.Body) -> ir.Body:
         return tuple(rewrite_parts(statement, self.expression, self.body) for statement in body)

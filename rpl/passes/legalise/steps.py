@@ -101,7 +101,8 @@ class _Steps(Hoister):
         if isinstance(type, ir.StringType) and not self.can.texts:
             return before, value
         name = self.temporary(type)
-        if isinstance(type, ir.BoolType) and self.by_steps and not isinstance(value, ir.Call | ir.Builtin):
+        whole = isinstance(value, ir.Call | ir.Builtin | ir.VendorValue)  # cannot be a condition's part either
+        if isinstance(type, ir.BoolType) and self.by_steps and not whole:
             return (*before, *self.decided(name, value)), name
         return (*before, ir.Assign(name, value)), name
 

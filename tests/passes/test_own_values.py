@@ -1,0 +1,34 @@
+"""Values that only the source's controller has: what asks for them is refused by name, in every language."""
+
+from __future__ import annotations
+
+import pytest
+
+from rpl import registry
+from rpl.diagnostics import Diagnostics, Severity
+from rpl.project import read_sources
+from rpl.source import source_from_bytes, source_from_text
+from rpl.translation import translate_program
+
+STEPS = {
+    "in a condition": "if socket_open(host, 30000, name):\n  set_standard_digital_out(1, True)\nend",
+    "of a loop": "while not socket_open(host, 30000, name):\n  sleep(0.1)\nend",
+    "stored": "open = socket_open(host, 30000, name)\nset_standard_digital_out(1, open)",
+}
+TARGETS = [name for name in registry.target_names() if name not in ("urscript", "rpl")]
+
+
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize("name", STEPS)
+def test_it_is_refused_and_what_is_written_reads(name: str, target: str) -> None:
+    lines = "\n".join(f"  {line}" for line in STEPS[name].splitlines())
+    text = f'def main():\n  host = "1.2.3.4"\n  name = "s"\n{lines}\n  sleep(1)\nend\n'
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("main.script", text)], "urscript", diagnostics)
+    files = translate_program(read, target, None, None, diagnostics).files
+    losses = diagnostics.of(Severity.LOSS)
+    assert losses and all(item.origin.line for item in losses)
+    again = Diagnostics()
+    programs = [file for file in files if not file.path.endswith(".csv")]
+    read_sources([source_from_bytes(file.path, file.data) for file in programs], target, again)
+    assert not again.of(Severity.ERROR)
