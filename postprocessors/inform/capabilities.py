@@ -44,6 +44,7 @@ CAPABILITIES = Capabilities(
     function_routines=False,
     parameters="none",
     locals=False,
+    flags=False,
     recursion=False,
     call_depth=tables.DEEPEST_CALL,
     search_results=frozenset(("found", "hit")),

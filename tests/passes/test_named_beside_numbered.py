@@ -43,7 +43,7 @@ def _on_at_the_end(record: Record) -> set[str]:
     return {name for name, on in state.items() if on and name in ("digital_out:1", "digital_out:2", "digital_out:3")}
 
 
-@pytest.mark.parametrize("target", ["rapid", "rpl", "krl", "tp", "urscript", "vplus"])
+@pytest.mark.parametrize("target", ["rapid", "rpl", "krl", "tp", "urscript", "vplus", "inform"])
 def test_a_named_output_takes_no_numbered_one(target: str) -> None:
     diagnostics = Diagnostics()
     read = read_sources([source_from_text("SIGS.LS", SOURCE)], "tp", diagnostics)

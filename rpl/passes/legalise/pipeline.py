@@ -38,6 +38,7 @@ from rpl.passes.legalise.errorcodes import name_errors
 from rpl.passes.legalise.errorroutines import error_routines
 from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.explicit import explicit_to_modal
+from rpl.passes.legalise.flagdata import flags_as_data
 from rpl.passes.legalise.flagreadings import flag_readings
 from rpl.passes.legalise.flatrecords import flat_records
 from rpl.passes.legalise.functions import functions_to_procedures
@@ -203,6 +204,7 @@ PASSES: tuple[Pass, ...] = (
     timers_to_clocks,
     counted_watches,
     shared_groups_to_bits,
+    flags_as_data,
     name_signals,
     number_signals,
     name_groups,
