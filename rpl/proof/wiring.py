@@ -12,7 +12,7 @@ from dataclasses import replace
 from rpl import ir, registry
 from rpl.cell import Cell
 from rpl.linking import link
-from rpl.runtime.signals import usual_key
+from rpl.runtime.signals import joined_name, usual_key
 
 _WIRING = "signal_names"
 
@@ -96,9 +96,13 @@ def in_words_of(cell: Cell, first: ir.Program, second: ir.Program) -> Cell:
         return cell
     known, spell = link(first).alias, registry.dialect(*theirs).signal_name
     declared = {name for module in first.modules for name in _declared(module)}
+    numbered = {name for module in second.modules for name in _declared(module)}
     groups = wired_groups(second)
 
     def named(signal: str) -> str:
+        whole = joined_name(signal)
+        if whole is not None and whole.lower() in numbered:  # RIN#(1), kept as RIN1, which has a number now
+            return whole
         port = known(signal) if signal.lower() not in declared else None
         if port is None or port.name is not None or port.number is None or port.last is not None:
             return signal

@@ -36,6 +36,12 @@ def usual_key(name: str) -> tuple[str, int] | None:
     return None if kind is None else (kind, int(match[2]))
 
 
+def joined_name(name: str) -> str | None:
+    """RI[1], SIN#(2) as RI1, SIN2: the name by which a signal of such an own kind is kept."""
+    match = _NUMBERED.fullmatch(name.strip())
+    return None if match is None else f"{match[1]}{match[2]}"
+
+
 def usual(key: Key) -> Key:
     """The key by kind and number of a name that is made of a usual word and a number; else the key itself."""
     found = usual_key(key) if isinstance(key, str) else None
@@ -81,6 +87,6 @@ def keys_named(text: str, alias: SignalRef | None) -> frozenset[Key]:
         usual = usual_key(text)
         if usual is not None:
             keys.add(usual)
-        elif match := _NUMBERED.fullmatch(text.strip()):
-            keys.add(f"{match[1]}{match[2]}".lower())  # RI[1], SIN#(2): signals kept by the name RI1, SIN2
+        elif whole := joined_name(text):
+            keys.add(whole.lower())
     return frozenset(keys)

@@ -6,11 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from rpl.cell import read_cell
+from rpl.cell import Cell, Input, read_cell
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import read_sources
+from rpl.proof.wiring import in_words_of, with_signal_names
 from rpl.simulation import run_program
-from rpl.source import source_from_text
+from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
 ARM = "motoman_gp7"
@@ -55,3 +56,15 @@ def test_every_language_has_a_signal_for_it(target: str) -> None:
     assert not any(b"9001" in one.data for one in files)
     if target == "inform":
         assert any(b"SRCH RIN#(1)=ON" in one.data for one in files)
+
+
+@pytest.mark.parametrize("target", ["krl", "rapid", "tp", "urscript", "vplus"])
+def test_a_cell_file_in_the_words_of_the_source_serves_the_translation(target: str) -> None:
+    read = read_sources([source_from_text("FEEL.JBI", JOB)], "inform", Diagnostics())
+    translation = translate_program(read, target, ARM, None, Diagnostics())
+    back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, Diagnostics())
+    named = with_signal_names(back.program, translation.program)
+    cell = Cell(inputs=(Input(2.5, "RIN#(1)", True),))
+    entry = translation.renamed.get("FEEL", "FEEL")
+    outputs = run_program(named, ARM, in_words_of(cell, read.program, named), entry).outputs
+    assert [value for *_, value in outputs] == [True]
