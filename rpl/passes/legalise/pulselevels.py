@@ -13,6 +13,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.support import with_support
+from rpl.passes.scope import Scope
 
 _HIGH, _LOW = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
@@ -27,7 +28,7 @@ def pulse_levels(program: ir.Program, context: Context) -> ir.Program:
     worker = _Pulses(context)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        return edit_bodies(routine, lambda body: map_body(body, worker.statement))
+        return edit_bodies(routine, lambda body: map_body(body, lambda one: worker.statement(one, editor.scope)))
 
     done = edit_routines(program, context, work)
     return with_support(done, context, worker.times, worker.routines, done.modules[0].task)
@@ -42,9 +43,9 @@ class _Pulses:
     times: list[ir.Variable] = field(default_factory=list)
     routines: list[ir.Routine] = field(default_factory=list)
 
-    def statement(self, statement: ir.Statement) -> ir.Body:
+    def statement(self, statement: ir.Statement, scope: Scope) -> ir.Body:
         match statement:
-            case ir.Pulse(signal=ir.Signal(index=ir.IntLiteral() | None) as signal, value=value) if value != _HIGH:
+            case ir.Pulse(signal=signal, value=value) if value != _HIGH and _is_one(signal, scope):
                 low = self.low(signal, statement.duration)
                 high = (ir.Pulse(signal, _HIGH, statement.duration),)
                 if value == _LOW:
@@ -52,9 +53,9 @@ class _Pulses:
                 if value == ir.Unary("not", signal):
                     return expansion(statement.origin, (ir.If(((signal, low),), high),))
                 return expansion(statement.origin, (ir.If(((value, high),), low),))
-        return (inside(statement, lambda inner: map_body(inner, self.statement)),)
+        return (inside(statement, lambda inner: map_body(inner, lambda one: self.statement(one, scope))),)
 
-    def low(self, signal: ir.Signal, duration: ir.Expression) -> ir.Body:
+    def low(self, signal: ir.Expression, duration: ir.Expression) -> ir.Body:
         if signal not in self.tasks:
             task, time = self.context.fresh("rpl_pulse"), self.context.fresh("rpl_pulse_time")
             self.tasks[signal] = task, time
@@ -67,6 +68,14 @@ class _Pulses:
             ir.Assign(ir.Name(time), duration),
             ir.TaskControl("start", task),
         )
+
+
+def _is_one(signal: ir.Expression, scope: Scope) -> bool:
+    """Is it always the same output, by its number or by a name of the program for it?"""
+    if isinstance(signal, ir.Name):
+        symbol = scope.value(signal.id)
+        return symbol is not None and isinstance(symbol.declaration, ir.SignalDeclaration)
+    return isinstance(signal, ir.Signal) and isinstance(signal.index, ir.IntLiteral | None)
 
 
 __all__ = ["pulse_levels"]
