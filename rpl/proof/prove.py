@@ -75,9 +75,27 @@ def prove_programs(
     first, second = _model(robot_a), _model(robot_b)
     if second is None:
         second = first
-    record_a = _run(program_a, first, cell, entry, limits)
+    record_a = recorded_run(program_a, first, cell, entry, limits)
+    to_entry = to_entry if to_entry is not None else entry
+    return prove_against(
+        record_a, program_a, program_b, second, cell, to_entry=to_entry, path_mm=path_mm, limits=limits
+    )
+
+
+def prove_against(
+    record_a: Record,
+    program_a: ir.Program,
+    program_b: ir.Program,
+    robot_b: RobotModel | None,
+    cell: Cell | None = None,
+    *,
+    to_entry: str | None = None,
+    path_mm: float | None = None,
+    limits: Limits = DEFAULTS,
+) -> ProofResult:
+    """Run B and compare it with a run of A that was recorded before, for who compares A with several programs."""
     theirs = in_words_of(cell, program_a, program_b) if cell is not None else None
-    record_b = _run(program_b, second, theirs, to_entry if to_entry is not None else entry, limits)
+    record_b = recorded_run(program_b, robot_b, theirs, to_entry, limits)
     record_a, record_b = (
         with_wired_groups(record_a, wired_groups(program_b)),
         with_wired_groups(record_b, wired_groups(program_a)),
@@ -113,7 +131,14 @@ def _model(robot: str | RobotModel | None) -> RobotModel | None:
     return robot
 
 
-def _run(program: ir.Program, robot: RobotModel | None, cell: Cell | None, entry: str | None, limits: Limits) -> Record:
+def recorded_run(
+    program: ir.Program,
+    robot: RobotModel | None,
+    cell: Cell | None = None,
+    entry: str | None = None,
+    limits: Limits = DEFAULTS,
+) -> Record:
+    """What a run of the program shows, as proofs compare it."""
     from rpl.simulation import run_program
 
     result = run_program(program, robot, cell, entry, limits=limits)

@@ -12,6 +12,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 
 from loading import objections
@@ -19,10 +20,12 @@ from loading import objections
 from rpl import ir, registry
 from rpl.cell import Cell
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity
+from rpl.emulator.model import load_robot
 from rpl.errors import RplError
 from rpl.ir.walk import walk
 from rpl.project import ReadProgram, read_sources
-from rpl.proof.prove import prove_programs
+from rpl.proof.prove import prove_against, recorded_run
+from rpl.proof.record import Record
 from rpl.proof.wiring import with_signal_names
 from rpl.simulation import entry_name
 from rpl.source import source_from_bytes
@@ -75,7 +78,8 @@ def outcome_of(
     entry = entry_name(read.program, entry)
     to_entry = translation.renamed.get(entry, entry) if entry else None
     named = with_signal_names(back.program, translation.program)
-    result = prove_programs(read.program, named, robot, robot, cell, entry=entry, to_entry=to_entry)
+    record = first_run(read, robot, cell, entry)
+    result = prove_against(record, read.program, named, model_of(robot), cell, to_entry=to_entry or entry)
     refused = sorted({f"{item.code.name}: {item.message}" for item in diagnostics.of(Severity.LOSS)})
     notes = sorted({item.code.name for item in diagnostics.of(Severity.WARNING)} - _HARMLESS)
     if refused:
@@ -87,6 +91,22 @@ def outcome_of(
     constructs = _constructs(read.program, diagnostics) if result.equal or refused else {}
     why = "" if result.equal else result.as_text()
     return Outcome(status, tuple(notes), tuple(refused), constructs, why), diagnostics
+
+
+model_of = cache(load_robot)
+_RUNS: dict[tuple[int, str, str | None], tuple[ReadProgram, Cell | None, Record]] = {}
+_KEPT = 8  # runs of sources; each target of a sample is compared with the same one
+
+
+def first_run(read: ReadProgram, robot: str, cell: Cell | None, entry: str | None) -> Record:
+    """The run of a source, made once for all the targets that it is compared with."""
+    key = (id(read), robot, entry)
+    known = _RUNS.get(key)
+    if known is None or known[0] is not read or known[1] != cell:
+        while len(_RUNS) >= _KEPT:
+            del _RUNS[next(iter(_RUNS))]
+        known = _RUNS[key] = (read, cell, recorded_run(read.program, model_of(robot), cell, entry))
+    return known[2]
 
 
 # ---- constructs: what the statements and expressions of a program are called

@@ -20,12 +20,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from outcomes import DIFFERENT, PAGE, REFUSED, outcome_of, page, recorded
+from outcomes import DIFFERENT, PAGE, REFUSED, first_run, model_of, outcome_of, page, recorded
 
 from rpl import registry
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import ReadProgram, read_program, read_sources
-from rpl.proof.prove import ProofResult, load_cell, prove_programs
+from rpl.proof.prove import ProofResult, load_cell, prove_against
 from rpl.proof.record import signal_names
 from rpl.proof.recording import record_of
 from rpl.proof.wiring import with_signal_names
@@ -102,9 +102,10 @@ def proof_of(sample: Path, target: str, to_robot: str | None = None) -> tuple[Pr
     assert not again.has_errors, [item.as_text() for item in again.of(Severity.ERROR)]
     entry = wanted.entry
     to_entry = translation.renamed.get(entry, entry) if entry else None
-    other = to_robot or wanted.robot
+    other = model_of(to_robot or wanted.robot)
     named = with_signal_names(back.program, translation.program)
-    result = prove_programs(program.program, named, wanted.robot, other, wanted.cell, entry=entry, to_entry=to_entry)
+    record = first_run(program, wanted.robot, wanted.cell, entry)
+    result = prove_against(record, program.program, named, other, wanted.cell, to_entry=to_entry)
     return result, diagnostics
 
 
@@ -128,11 +129,10 @@ def test_it_reads_without_an_error(sample: Path) -> None:
 
 @each_sample
 def test_it_does_what_it_says(sample: Path) -> None:
-    from rpl.emulator.model import load_robot
     from rpl.simulation import run_program
 
     wanted, program = expected(sample), programs_of(sample).program
-    robot = load_robot(wanted.robot)
+    robot = model_of(wanted.robot)
     result = run_program(program, robot, wanted.cell, wanted.entry)
     assert result.status == wanted.data.get("status", "finished"), result.as_json()["fault"]
     if "outputs" in wanted.data:
