@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 from rpl import ir
 from rpl.passes.rewrite import rewrite_parts
+from rpl.writing.refusals import UNDECLARED_PLACE
 from rpl.writing.statements import CannotSayError
 
 from . import tables
@@ -167,6 +168,8 @@ def operand(expression: ir.Expression) -> str:
 def variable(expression: ir.Expression) -> str:
     shown = element(expression)
     if shown is None:
+        if isinstance(expression, ir.Name):
+            raise CannotSayError(expression.id, UNDECLARED_PLACE)
         raise CannotSayError(f"this is no numbered variable: {_what(expression)}")
     return shown
 

@@ -10,6 +10,7 @@ from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import walk
 from rpl.source import NOWHERE, Origin
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.refusals import UNKNOWN_ROUTINE
 from rpl.writing.statements import CannotSayError, StatementPrinter
 
 from . import tables
@@ -223,7 +224,7 @@ class Printer(StatementPrinter[str]):
 
     def call(self, call: ir.CallRoutine) -> str:
         if call.arguments:
-            raise CannotSayError("arguments that are left over")
+            raise CannotSayError(call.name, UNKNOWN_ROUTINE)
         if call.dynamic is not None:
             return f"CALL JOB:{variable(call.dynamic)}"
         return f"CALL JOB:{self.job(call.name)}"

@@ -16,6 +16,7 @@ from rpl.ir.walk import walk
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 from rpl.writing.precedence import ExpressionPrinter, Printed
+from rpl.writing.refusals import UNDECLARED_PLACE
 from rpl.writing.statements import CannotSayError
 
 from . import tables
@@ -70,7 +71,7 @@ class Expressions:
             case ir.VendorValue(dialect="tp", text=text):
                 return text
             case ir.Name(id=name):
-                raise CannotSayError(f"{name} has no register")
+                raise CannotSayError(name, UNDECLARED_PLACE)
         raise CannotSayError(f"this is no register: {_what(expression)}")
 
     def element(self, expression: ir.Expression) -> str | None:

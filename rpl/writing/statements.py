@@ -15,6 +15,7 @@ from rpl.diagnostics import Code, Diagnostics
 from rpl.errors import RplError
 from rpl.source import Comment, Origin
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.refusals import refusal
 
 LineT = TypeVar("LineT")
 
@@ -80,7 +81,9 @@ class StatementPrinter(ABC, Generic[LineT]):
         self.comments_only(statement.origin)
         self.remark(original(statement))
         self.stop()
-        self.diagnostics.report(code or self.guarded, statement.origin, reason=reason)
+        known = refusal(statement, self.dialect) if code is None else None
+        shown, why = known or (code or self.guarded, reason)
+        self.diagnostics.report(shown, statement.origin, reason=why)
         self.ledger.reported(statement)
         self.guarded_behind(statement)
 

@@ -238,7 +238,7 @@ def test_guarded_stop_and_long_remarks() -> None:
     assert lines == ["'this is a line that nobody ", "'understands at all", "PAUSE"] or lines == [
         *("'this is a line that nobody", "'understands at all", "PAUSE"),
     ]
-    assert [item.code.name for item in diagnostics] == ["inform-guarded-stop"]
+    assert [item.code.name for item in diagnostics] == ["unread-instruction"]
 
 
 def test_ranges() -> None:

@@ -32,3 +32,13 @@ def test_it_is_refused_and_what_is_written_reads(name: str, target: str) -> None
     programs = [file for file in files if not file.path.endswith(".csv")]
     read_sources([source_from_bytes(file.path, file.data) for file in programs], target, again)
     assert not again.of(Severity.ERROR)
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_the_report_says_what_is_asked_for(target: str) -> None:
+    text = "def main():\n  a = socket_open(x, 3, y)\n  modbus_delete_signal(1)\n  sleep(1)\nend\n"
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("main.script", text)], "urscript", diagnostics)
+    translate_program(read, target, None, None, diagnostics)
+    codes = {item.code.name for item in diagnostics.of(Severity.LOSS)}
+    assert "other-controllers-instruction" in codes and not any("guarded" in code for code in codes), codes
