@@ -123,7 +123,8 @@ TEXT_PROCEDURES: dict[str, str] = {
 # M: $IN_HOME is TRUE while each axis is within so many degrees of $H_POS ($H_POS_TOL as delivered).
 HOME_TOLERANCE_DEG = 2
 # M: data of KSS 5 has no CIRC_TYP; its BAS leaves $CIRC_TYPE as it is, which is #BASE behind BAS(#INITMOV,0).
-USUAL_COMPONENTS: dict[str, dict[str, str]] = {"ldat": {"circ_typ": "BASE"}}
+# Nor has it an APO_MODE of joint moves: APO_DIST is a percentage there.
+USUAL_COMPONENTS: dict[str, dict[str, str]] = {"ldat": {"circ_typ": "BASE"}, "pdat": {"apo_mode": "CPTP"}}
 # M: StrAdd is an INT in KSS 8: the new length, 0 when it does not fit. Programs also ask it like a BOOL.
 TEXT_LENGTHS = {"text_append": "text_append_length"}
 MESSAGES = {"msgnotify": "notify", "msgstate": "state", "msgquit": "quit", "msgloop": "quit"}  # MsgLoop: M

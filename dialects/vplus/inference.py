@@ -29,6 +29,7 @@ TWO_KINDS = code(
 Symbol = tuple[str, str]  # program ("" for all), significant name
 POSE, REAL, BOOL = "pose", "real", "bool"
 _DEEPEST = 8
+_THREE = 3
 _KIND_TYPES: dict[str, ir.Type] = {
     "text": tables.TEXT,
     "joints": tables.JOINTS,
@@ -105,7 +106,8 @@ def element_type(kind: str) -> ir.Type:
 
 def last_index(entry: Entry, dimension: int) -> int:
     known = entry.last.get(dimension, 0)
-    return max(known, tables.LAST_INDEX) if dimension in entry.unforeseen and not entry.fixed else known
+    usual = tables.LAST_INDEX if entry.rank < _THREE else tables.LAST_INDEX_OF_THREE
+    return max(known, usual) if dimension in entry.unforeseen and not entry.fixed else known
 
 
 def infer(programs: dict[str, ProgramPart], data: list[DataPart], diagnostics: Diagnostics) -> Symbols:

@@ -42,7 +42,9 @@ FULL_ROTATION_SPEED_DEG_S = 180.0
 MM_PER_INCH = 25.4
 
 # An array with an index that nobody can foresee gets at least this last index (V+ arrays grow as they are used).
+# Of three dimensions each gets the smaller one: a run has a place for every element.
 LAST_INDEX = 255
+LAST_INDEX_OF_THREE = 63
 
 CONSTANTS: dict[str, ir.Expression] = {
     "true": ir.BoolLiteral(True),

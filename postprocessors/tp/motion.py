@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple, Protocol
 
 from rpl import ir
@@ -47,6 +47,7 @@ CORNER_STOPPED = code(
 )
 
 _NUMBER = re.compile(r"PR\[(\d+)")
+_HIGH = ir.BoolLiteral(True)
 
 
 class Action(Protocol):
@@ -495,6 +496,13 @@ def _pulses(triggers: tuple[ir.Expression | ir.Trigger, ...]) -> list[tuple[ir.E
     """The triggers, each with the seconds of its pulse: an output that is switched off a constant time later."""
     done: list[tuple[ir.Expression | ir.Trigger, float | None]] = []
     for trigger in triggers:
+        pulse = trigger.action if isinstance(trigger, ir.Trigger) else None
+        if isinstance(trigger, ir.Trigger) and isinstance(pulse, ir.Pulse):
+            seconds = measured(pulse.duration, "s")
+            if seconds is None or pulse.value != _HIGH:
+                raise CannotSayError("a pulse on the path is to high and lasts a constant time")
+            done.append((replace(trigger, action=ir.Assign(pulse.signal, pulse.value)), float(seconds)))
+            continue
         match trigger, done[-1][0] if done else None:
             case (
                 ir.Trigger(

@@ -120,9 +120,11 @@ PROGRAMS = {
 KNOWN_LOSSES = {("appended texts", "tp"): {"tp-text-case"}}
 
 
-def read(text: str) -> ReadProgram:
+def read(text: str | dict[str, str]) -> ReadProgram:
+    """A bare text is `p.src`."""
     diagnostics = Diagnostics()
-    done = read_sources([source_from_text("p.src", text)], "krl", diagnostics)
+    files = {"p.src": text} if isinstance(text, str) else text
+    done = read_sources([source_from_text(*item) for item in files.items()], "krl", diagnostics)
     assert not diagnostics.has_errors, [item.as_text() for item in diagnostics]
     return done
 
@@ -137,14 +139,16 @@ def on_at_the_end(result: RunResult, program: ir.Program) -> set[int]:
     return {number for number, on in state.items() if on}
 
 
-def missed(text: str, count: int, cell: Cell | None = None) -> set[int]:
+def missed(text: str | dict[str, str], count: int, cell: Cell | None = None) -> set[int]:
     program = read(text)
     result = run_program(program.program, KUKA, cell, "CHECKS", 60.0)
     assert result.status == "finished", (result.status, result.fault)
     return set(range(1, count + 1)) - on_at_the_end(result, program.program)
 
 
-def missed_in(text: str, count: int, target: str, cell: Cell | None = None) -> tuple[set[int], set[str]]:
+def missed_in(
+    text: str | dict[str, str], count: int, target: str, cell: Cell | None = None
+) -> tuple[set[int], set[str]]:
     """The expectations that the target's program does not meet, and the losses that were named."""
     program, diagnostics = read(text), Diagnostics()
     translation = translate_program(program, target, KUKA, None, diagnostics)

@@ -37,6 +37,7 @@ TYPES = [
     ('FOR n = 7 TO 1 STEP -1\n$x[n] = ""\nEND', "$x", ir.ArrayType(TEXT, (ir.IntLiteral(7),), 0)),
     ("last = 20\nFOR n = 1 TO last\nMOVE x[n]\nEND", "x", ir.ArrayType(POSE, (ir.IntLiteral(20),), 0)),
     ("PROMPT n\nx[n] = 1", "x", ir.ArrayType(REAL, (ir.IntLiteral(255),), 0)),
+    ("PROMPT n\nx[n,n,2] = 1", "x", ir.ArrayType(REAL, (ir.IntLiteral(63), ir.IntLiteral(63), ir.IntLiteral(2)), 0)),
     ("x[n MOD 8] = 1", "x", ir.ArrayType(REAL, (ir.IntLiteral(7),), 0)),
     ("x[2] = 0\nCALL fill(x[])", "x", ir.ArrayType(REAL, (ir.IntLiteral(12),), 0)),
 ]

@@ -15,7 +15,8 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import expansion
 from rpl.passes.rewrite import rewrite_parts
 
-_READERS = frozenset(("parse_value", "scan_from"))  # procedures that fill data of any type
+_READERS = frozenset(("parse_value",))  # procedures that fill data of any type
+_TELLING = {"scan_from": ".ret1", "format_into": ".ret1"}  # procedures that set a field of the record that they get
 _NO_MEMBERS = (ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.Quantity, ir.Aggregate)
 
 
@@ -106,6 +107,8 @@ class _Held:
                 self.opened(value)
             case ir.Do(procedure=procedure, arguments=arguments):
                 self.anything = self.anything or procedure in _READERS
+                if procedure in _TELLING:
+                    self.open.add(_TELLING[procedure])
                 for place in arguments:
                     if place is not None:
                         self.opened(place)

@@ -1,0 +1,75 @@
+"""Programs as a plant writes them, which switch an output per expectation, on their own arm and in each target."""
+
+from __future__ import annotations
+
+import pytest
+from test_krl_in_targets import TARGETS, missed, missed_in
+
+from rpl.cell import Cell, parse_cell
+
+# Inline forms as KSS 5 writes them: path data without APO_MODE.
+OLDER_DATA: str | dict[str, str] = {
+    "checks.src": """DEF CHECKS( )
+BAS(#INITMOV,0)
+PDAT_ACT=PPDAT1
+FDAT_ACT=FP1
+BAS(#PTP_PARAMS,60)
+PTP XP1 C_PTP
+LDAT_ACT=LCPDAT1
+FDAT_ACT=FP1
+BAS(#CP_PARAMS,0.2)
+LIN XP2
+WAIT SEC 0
+IF (ABS($POS_ACT.X-500.0)<0.5) AND (ABS($VEL.CP-0.2)<0.001) THEN
+  $OUT[1]=TRUE
+ENDIF
+END
+""",
+    "checks.dat": """DEFDAT CHECKS
+DECL PDAT PPDAT1={VEL 100.0,ACC 100.0,APO_DIST 50.0}
+DECL LDAT LCPDAT1={VEL 2.0,ACC 100.0,APO_DIST 20.0,APO_FAC 50.0,ORI_TYP #VAR}
+DECL FDAT FP1={TOOL_NO 0,BASE_NO 0,IPO_FRAME #BASE,POINT2[] " "}
+DECL E6POS XP1={X 480.0,Y 20.0,Z 340.0,A 180.0,B 0.0,C 180.0}
+DECL E6POS XP2={X 500.0,Y 20.0,Z 300.0,A 180.0,B 0.0,C 180.0}
+ENDDAT
+""",
+}
+PULSE_ON_THE_WAY = """DEF CHECKS( )
+DECL BOOL DURING
+BAS(#INITMOV,0)
+PTP {A1 0,A2 -90,A3 90,A4 0,A5 60,A6 0}
+$VEL.CP=0.1
+TRIGGER WHEN DISTANCE=1 DELAY=-200 DO PULSE($OUT[5],TRUE,0.4)
+LIN_REL {Y 100.0}
+WAIT SEC 0.1
+DURING=$OUT[5]
+WAIT SEC 0.6
+IF DURING AND NOT $OUT[5] THEN
+  $OUT[1]=TRUE
+ENDIF
+END
+"""
+PROGRAMS: dict[str, tuple[str | dict[str, str], int]] = {
+    "older path data": (OLDER_DATA, 1),
+    "a pulse on the way": (PULSE_ON_THE_WAY, 1),
+}
+CELLS: dict[str, str] = {}
+# What a language cannot say: (program, target) -> expectations that are missed, losses that say so.
+REFUSED: dict[tuple[str, str], tuple[set[int], set[str]]] = {
+    ("a pulse on the way", "inform"): ({1}, {"inform-path-event-lost"}),
+}
+
+
+def cell_of(name: str) -> Cell | None:
+    return parse_cell(CELLS[name]) if name in CELLS else None
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_every_expectation_is_met_on_the_own_arm(name: str) -> None:
+    assert missed(*PROGRAMS[name], cell_of(name)) == set()
+
+
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_every_expectation_is_met_in_other_languages(name: str, target: str) -> None:
+    assert missed_in(*PROGRAMS[name], target, cell_of(name)) == REFUSED.get((name, target), (set(), set()))
