@@ -41,6 +41,7 @@ class Stored:
     joints: FloatArray
     piece: Piece | None
     queue: list[Drive]
+    stopped: bool
 
 
 class MotionQueue(RobotState):
@@ -533,7 +534,7 @@ class MotionQueue(RobotState):
             raise ProgramError("path_not_stored", "the robot must stand before the path is stored")
         if self.model is not None:
             assert self.joints is not None
-            self.stored.append(Stored(self.joints, self.halted, self.queue[:]))
+            self.stored.append(Stored(self.joints, self.halted, self.queue[:], self.stopped))
         self.halted = None
         self.queue.clear()
         self.planned_joints, self.planned_external = self.joints, self.external
@@ -541,7 +542,8 @@ class MotionQueue(RobotState):
         self.task.busy = False
 
     def restore(self) -> None:
-        """Take the stored path up again: the robot goes back to where it left it, then waits for the start."""
+        """Take the stored path up again: the robot goes back to where it left it, then waits for the start. Where
+        nothing was stopped or left over, as after a search without success, there is nothing to start."""
         if self.model is None:
             return
         if not self.stored:
@@ -550,8 +552,10 @@ class MotionQueue(RobotState):
         self.halted, self.queue = stored.piece, stored.queue
         last = self.queue[-1] if self.queue else None
         self.planned_joints = last.plan.end_joints if last is not None and last.plan is not None else stored.joints
-        self.stopped = True
         self.task.busy = bool(self.queue) or self.halted is not None
+        self.stopped = stored.stopped or self.task.busy
+        if not self.stopped:
+            self.planned_joints = self.joints
 
     def finish(self) -> None:
         """The run ends: show the move that was cut off."""

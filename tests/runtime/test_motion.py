@@ -227,6 +227,22 @@ def test_stop_store_and_start_of_a_path_in_a_trap() -> None:
     assert result.joints == pytest.approx(free.joints, abs=1e-5)
 
 
+def test_a_search_without_success_moves_aside_and_is_done_again() -> None:
+    """The manual's handler of a search: the path is stored, the robot moves away, and the search is tried again."""
+    data = DATA + "VAR num tries;"
+    more = (
+        "FUNC num Height() VAR robtarget hit;\nSearchL\\SStop,di1,hit,Offs(p0,0,0,-40),v50,tPen;\nRETURN hit.trans.z;\n"
+        "ERROR IF ERRNO=ERR_WHLSEARCH AND tries=0 THEN tries:=1; StorePath; MoveL p0,v50,fine,tPen; RestoPath; SetDO do2,1;\n"
+        "RETRY; ENDIF RETURN 0; ENDFUNC"
+    )
+    body = TO_P0 + "IF Height()<p0.trans.z-5 SetDO do1,1;\nMoveL p0,v50,fine,tPen;\nSetDO do3,1;"
+    cell = "[[reaction]]\nwhen='do2'\nafter=0.4\nsignal='di1'\nvalue=true\n"
+    result = rapid(body, data, more, robot=ABB, cell=cell)
+    assert result.status == "finished", result.fault
+    assert [name for _, name, _ in result.outputs] == ["do2", "do1", "do3"]
+    assert result.outputs[2][0] - result.outputs[1][0] > 0.2
+
+
 def test_a_stationary_tool_moves_the_part() -> None:
     data = DATA + (
         "PERS tooldata tFix:=[FALSE,[[400,100,300],[0,0,1,0]],[0.5,[0,0,50],[1,0,0,0],0,0,0]];\n"
