@@ -136,7 +136,7 @@ class _Whole:
         self.declared.append(ir.Variable(name, type, scope="routine"))
         if start is None:
             self.stop_before(done)
-            start = ir.System("actual_joints" if joints else "actual_pose")
+            start = ir.System("actual_joints") if joints else _here(move)
         later = replace(move.origin, comments=())
         steps: list[ir.Statement] = [ir.Assign(ir.Name(name), start, origin=move.origin)]
         for component, value in target.entries:
@@ -191,7 +191,7 @@ class _Whole:
         start = self.last_target(done, move) or self.noted(done, move)
         if start is None:
             self.stop_before(done)
-            start = ir.System("actual_pose")
+            start = _here(move)
         function = "tool_offset" if move.relative == "tool" else "offset"
         steps = tuple(values.get(name, ir.RealLiteral(0.0)) for name in _POSITION)
         return [replace(move, target=ir.Builtin(function, (start, *steps)), relative=None)]
@@ -276,7 +276,7 @@ class _Whole:
         start = self.last_target(before, move)
         if start is None:
             self.stop_before(before)
-            start = ir.System("actual_pose")
+            start = _here(move)
 
         def note(statement: ir.Statement) -> ir.Body:
             if isinstance(statement, ir.Move):
@@ -303,6 +303,13 @@ class _Whole:
 
 _BLOCKS = (ir.If, ir.Switch, ir.For, ir.While, ir.Repeat, ir.Loop)
 _UNKNOWN_MOVES = (ir.CallRoutine, ir.Call, ir.Goto, ir.Label, ir.Spline, ir.MoveExternal)
+
+
+def _here(move: ir.Move) -> ir.Expression:
+    """Where the robot stands, with the tool and in the frame that the move has."""
+    if move.tool is None and move.frame is None:
+        return ir.System("actual_pose")
+    return ir.Builtin("current_target", (move.tool or ir.System("tool"), move.frame or ir.System("base")))
 
 
 def _passes(statement: ir.Statement) -> bool:
