@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from inform_helpers import job
+
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import read_sources
 from rpl.simulation import run_program
