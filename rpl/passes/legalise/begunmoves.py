@@ -59,12 +59,12 @@ def _looked_at(rest: ir.Body) -> bool:
         for node in walk(statement):
             if isinstance(node, _UNKNOWN):
                 return False
-            if _looks(node):
+            if looks(node):
                 return True
     return False
 
 
-def _looks(node: object) -> bool:
+def looks(node: object) -> bool:
     match node:
         case ir.System(name=name):
             return name in _OF_NOW
@@ -149,4 +149,4 @@ class _Ahead:
 
 
 def _stops(node: object) -> bool:
-    return isinstance(node, ir.Signal | ir.Wait | ir.WaitUntil) or _looks(node)
+    return isinstance(node, ir.Signal | ir.Wait | ir.WaitUntil) or looks(node)

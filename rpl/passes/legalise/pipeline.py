@@ -13,6 +13,7 @@ from rpl.passes.legalise.arithmetic import arithmetic
 from rpl.passes.legalise.arrays import array_bases, array_sizes
 from rpl.passes.legalise.background import background_tasks
 from rpl.passes.legalise.begunmoves import begun_moves, moves_ahead
+from rpl.passes.legalise.begunoutputs import begun_outputs
 from rpl.passes.legalise.bitgroups import groups_to_bits, shared_groups_to_bits
 from rpl.passes.legalise.calledtasks import called_tasks
 from rpl.passes.legalise.calls import rewrite_calls
@@ -182,6 +183,7 @@ PASSES: tuple[Pass, ...] = (
     without_aliases,
     stop_blends,
     begun_moves,
+    begun_outputs,
     triggers,
     held_motion,
     reactions,
