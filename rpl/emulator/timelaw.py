@@ -5,6 +5,7 @@ near a singularity alike, and evaluates exactly in both directions. Every move g
 controller with another way of accelerating has one place to go to.
 """
 
+from bisect import bisect_right
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,6 +39,18 @@ class TimeLaw:
         local = t - self.times[i]
         inside = self.fractions[i] + self.speeds[i] * local + 0.5 * acceleration * local * local
         return np.asarray(np.where(t >= self.duration, 1.0, np.clip(inside, 0.0, 1.0)))
+
+    def fraction_at(self, time_s: float) -> float:
+        """What `at` gives for one time, many times faster."""
+        times, fractions, speeds = self.times.tolist(), self.fractions.tolist(), self.speeds.tolist()
+        t = min(max(time_s, 0.0), times[-1])
+        if t >= times[-1]:
+            return 1.0
+        i = min(max(bisect_right(times, t) - 1, 0), len(times) - 2)
+        acceleration = (speeds[i + 1] - speeds[i]) / max(times[i + 1] - times[i], 1e-300)
+        local = t - times[i]
+        inside: float = fractions[i] + speeds[i] * local + 0.5 * acceleration * local * local
+        return min(max(inside, 0.0), 1.0)
 
     def speed_at(self, time_s: ArrayLike) -> FloatArray:
         """Speeds of the path fraction, 1/s, at times (...)."""

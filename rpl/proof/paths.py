@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 TURN_LEVER_MM = 100.0
 _POINTS = 65
+_STEPS, _NEAR = 5, 0.1  # how far from a rotation (as the worst element of R^T R - 1) and how often steps are taken
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +70,17 @@ def _sampled(poses: FloatArray, shares: FloatArray) -> FloatArray:
 
 
 def _upright(rotations: FloatArray) -> FloatArray:
-    """The nearest rotations to averaged ones."""
+    """The nearest rotations to averaged ones: by Newton's steps where they are near, else by singular values."""
+    identity = np.eye(3)
+    found = rotations
+    for _ in range(_STEPS):
+        excess = found.swapaxes(-1, -2) @ found - identity
+        worst = float(np.abs(excess).max(initial=0.0))
+        if worst > _NEAR:
+            break
+        if worst < 1e-13:
+            return np.asarray(found)
+        found = found @ (identity - 0.5 * excess)
     left, _, right = np.linalg.svd(rotations)
     return np.asarray(left @ right)
 

@@ -165,7 +165,7 @@ class _Way:
 def _fractions(leg: Leg, gone_s: float) -> tuple[float, float]:
     """The part of the planned geometry that the leg has driven after so many seconds."""
     law, (begin, end) = leg.plan.law, leg.plan.span
-    first, last = float(law.at(leg.offset_s)), float(law.at(leg.offset_s + gone_s))
+    first, last = law.fraction_at(leg.offset_s), law.fraction_at(leg.offset_s + gone_s)
     return begin + (end - begin) * first, begin + (end - begin) * last
 
 

@@ -97,7 +97,7 @@ def place_of(piece: Piece, now: float) -> tuple[float, float]:
     begin, end = piece.plan.span
     t = min(max(now - piece.start_s, 0.0), piece.plan.duration_s)
     law = piece.plan.law
-    return begin + (end - begin) * float(law.at(t)), (end - begin) * float(law.speed_at(t))
+    return begin + (end - begin) * law.fraction_at(t), (end - begin) * float(law.speed_at(t))
 
 
 def part(move: PlannedMove, span: tuple[float, float], law: TimeLaw) -> PlannedMove:

@@ -310,3 +310,10 @@ def test_a_half_circle_along_the_path_does_not_turn_the_tool_round(side: float, 
     assert arc is not None
     turned = [float(rotation_angle(pose[:3, :3] @ down.T)) for pose in arc.poses(np.linspace(0.0, 1.0, 9))]
     assert max(turned) < 1e-6
+
+
+@given(speed=st.floats(0.01, 100), acceleration=st.floats(0.01, 1000), share=st.floats(-1.0, 2.0))
+def test_one_time_is_looked_up_as_many_are(speed: float, acceleration: float, share: float) -> None:
+    law = travel(speed, acceleration)
+    for time_s in (share * law.duration, *law.times.tolist()):
+        assert law.fraction_at(time_s) == float(law.at(time_s))
