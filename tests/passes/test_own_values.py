@@ -42,3 +42,31 @@ def test_the_report_says_what_is_asked_for(target: str) -> None:
     translate_program(read, target, None, None, diagnostics)
     codes = {item.code.name for item in diagnostics.of(Severity.LOSS)}
     assert "other-controllers-instruction" in codes and not any("guarded" in code for code in codes), codes
+
+
+FOREIGN = {
+    "a function of the controller": (
+        "rapid",
+        "x:=GetMotorTorque(4);\nIF GetMotorTorque(4)>3 THEN\nSetDO do1,1;\nENDIF",
+    ),
+    "more data than there is room": ("rapid", "FOR i FROM 1 TO 1500 DO\nmany{i}:=i+x;\nENDFOR\nx:=many{7};"),
+}
+
+
+@pytest.mark.parametrize("target", [name for name in registry.target_names() if name not in ("rapid", "rpl")])
+@pytest.mark.parametrize("name", FOREIGN)
+def test_what_can_be_written_is_written_and_reads(name: str, target: str) -> None:
+    language, steps = FOREIGN[name]
+    text = f"MODULE m\nVAR num x:=2.5;\nVAR num many{{1500}};\nPROC main()\n{steps}\nENDPROC\nENDMODULE\n"
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("m.mod", text)], language, diagnostics)
+    files = translate_program(read, target, None, None, diagnostics).files
+    assert not diagnostics.of(Severity.ERROR)
+    losses = {item.code.name for item in diagnostics.of(Severity.LOSS)}
+    assert losses <= {"other-controllers-value", "registers-exceeded", "undeclared-place", f"{target}-guarded-stop"} | {
+        f"{target}-lost-declaration"
+    }
+    again = Diagnostics()
+    programs = [file for file in files if not file.path.endswith(".csv")]
+    read_sources([source_from_bytes(file.path, file.data) for file in programs], target, again)
+    assert not again.of(Severity.ERROR)

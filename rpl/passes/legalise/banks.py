@@ -23,8 +23,9 @@ from rpl.source import NOWHERE, Origin
 
 FULL = code(
     "registers-exceeded",
-    Severity.ERROR,
+    Severity.LOSS,
     "the program needs {needed} numbers of {bank}, which has {count} ({first} to {last}); {name} gets none",
+    "the program stops where it is used; make arrays smaller, or share variables",
 )
 MORE = code(
     "registers-set-up",

@@ -75,7 +75,7 @@ def _rewritten(editor: Editor, routine: ir.Routine, results: dict[int, str]) -> 
         return (call, ir.Assign(kept, ir.Name(results[id(called)]))), kept
 
     done = edit_bodies(routine, Hoister(editor, rule).body)
-    _report_left(editor, done, results)
+    done = _without_left(editor, done, results)
     own = results.get(id(routine))
     if own is not None:
         done = edit_bodies(done, lambda body: _assigned(body, own))
@@ -83,15 +83,20 @@ def _rewritten(editor: Editor, routine: ir.Routine, results: dict[int, str]) -> 
     return _direct(editor, done, names)
 
 
-def _report_left(editor: Editor, routine: ir.Routine, results: dict[int, str]) -> None:
-    for body in bodies(routine):
-        for statement in statements_in(body):
-            for child in children(statement):
-                for one in everything(child):
-                    if isinstance(one, ir.Call):
-                        called = editor.scope.routine(one.name)
-                        if called is not None and id(called) in results:
-                            editor.context.diagnostics.report(CALL_LEFT, statement.origin, name=one.name)
+def _without_left(editor: Editor, routine: ir.Routine, results: dict[int, str]) -> ir.Routine:
+    """Calls where no statement can stand in front are reported; the target has no such value."""
+
+    def change(statement: ir.Statement) -> ir.Body:
+        def expression(one: ir.Expression) -> ir.Expression:
+            called = editor.scope.routine(one.name) if isinstance(one, ir.Call) else None
+            if isinstance(one, ir.Call) and called is not None and id(called) in results and called.returns is not None:
+                editor.context.diagnostics.report(CALL_LEFT, statement.origin, name=one.name)
+                return ir.VendorValue(editor.context.source, f"{one.name}(...)", called.returns, origin=one.origin)
+            return rewrite_parts(one, expression)
+
+        return (rewrite_parts(statement, expression, lambda body: map_body(body, change)),)
+
+    return edit_bodies(routine, lambda body: map_body(body, change))
 
 
 # ---- the function's own side

@@ -11,6 +11,7 @@ from dataclasses import replace
 from rpl import ir, registry
 from rpl.passes.fold import constant, literal
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.usage import usage_of
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
@@ -30,6 +31,7 @@ def link_prelude(program: ir.Program, context: Context) -> ir.Program:
             continue
         prelude = normalise(ir.Program((replace(prelude, dialect=dialect),)), context.diagnostics).modules[0]
         modules = _inlined(modules, prelude, usage_of(program).assigned)
+        modules = _with_own_values(modules, prelude)
         linked = _used_part(prelude, [module for module in modules if module.dialect == dialect], context)
         if linked is not None:
             modules.append(linked)
@@ -52,6 +54,38 @@ def _inlined(modules: list[ir.Module], prelude: ir.Module, assigned: set[str]) -
         replace(
             module, routines=tuple(replace(routine, body=inliner.body(routine.body)) for routine in module.routines)
         )
+        if module.dialect == prelude.dialect
+        else module
+        for module in modules
+    ]
+
+
+def _with_own_values(modules: list[ir.Module], prelude: ir.Module) -> list[ir.Module]:
+    """Functions that only the source's controller has are values of its own, no routines to be brought along."""
+    lone = {
+        routine.name.lower(): routine.returns
+        for routine in prelude.routines
+        if routine.returns is not None and routine.open_ended and isinstance(routine.body[0], ir.Vendor)
+    }
+    for module in modules:
+        for routine in module.routines:
+            lone.pop(routine.name.lower(), None)
+
+    def expression(one: ir.Expression) -> ir.Expression:
+        done = rewrite_parts(one, expression)
+        returns = lone.get(done.name.lower()) if isinstance(done, ir.Call) else None
+        if isinstance(done, ir.Call) and returns is not None:
+            text = one.origin.text or f"{done.name}(...)"
+            return ir.VendorValue(prelude.dialect, text, returns, origin=done.origin)
+        return done
+
+    def body(statements: ir.Body) -> ir.Body:
+        return tuple(rewrite_parts(statement, expression, body) for statement in statements)
+
+    if not lone:
+        return modules
+    return [
+        replace(module, routines=tuple(edit_bodies(routine, body) for routine in module.routines))
         if module.dialect == prelude.dialect
         else module
         for module in modules
