@@ -49,11 +49,50 @@ IF DURING AND NOT $OUT[5] THEN
 ENDIF
 END
 """
+# A door that opens stops a relative move; it goes on to the same end when the door is shut.
+DOOR = """DEF CHECKS( )
+INTERRUPT DECL 12 WHEN $IN[21]==TRUE DO OPENED( )
+BAS(#INITMOV,0)
+$OUT[10]=FALSE
+PTP {A1 0,A2 -90,A3 90,A4 0,A5 60,A6 0}
+WAIT SEC 0
+BEGAN=$POS_ACT.Y
+$VEL.CP=0.05
+INTERRUPT ON 12
+$OUT[38]=TRUE
+LIN_REL {Y 120.0}
+WAIT SEC 0
+INTERRUPT OFF 12
+IF (DOORS==1) AND (STOOD-BEGAN>10.0) AND (STOOD-BEGAN<100.0) AND (ABS($POS_ACT.Y-BEGAN-120.0)<0.5) THEN
+  $OUT[1]=TRUE
+ENDIF
+END
+DEF OPENED( )
+BRAKE
+STOOD=$POS_ACT.Y
+DOORS=DOORS+1
+$OUT[38]=FALSE
+WAIT FOR NOT $IN[21]
+END
+"""
+DOOR_DATA = "DEFDAT CHECKS\nDECL REAL BEGAN=0.0\nDECL REAL STOOD=0.0\nDECL INT DOORS=0\nENDDAT\n"
+
+
+def answers(output: int, signal: int, after: float) -> str:
+    """A cell whose input follows an output."""
+    return "".join(
+        f'[[reaction]]\nwhen = "do{output}"\nbecomes = {value}\nafter = {after}\nsignal = "$IN[{signal}]"\n'
+        f"value = {value}\n"
+        for value in ("true", "false")
+    )
+
+
 PROGRAMS: dict[str, tuple[str | dict[str, str], int]] = {
     "older path data": (OLDER_DATA, 1),
     "a pulse on the way": (PULSE_ON_THE_WAY, 1),
+    "a door": ({"checks.src": DOOR, "checks.dat": DOOR_DATA}, 1),
 }
-CELLS: dict[str, str] = {}
+CELLS = {"a door": answers(38, 21, 0.9)}
 # What a language cannot say: (program, target) -> expectations that are missed, losses that say so.
 REFUSED: dict[tuple[str, str], tuple[set[int], set[str]]] = {
     ("a pulse on the way", "inform"): ({1}, {"inform-path-event-lost"}),

@@ -12,7 +12,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.beside import tidy
 from rpl.passes.legalise.editing import Editor, negation
-from rpl.passes.legalise.heldmotion import not_again, path_differs
+from rpl.passes.legalise.heldmotion import not_again, path_differs, with_kept_target
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.served import Served
 
@@ -66,6 +66,9 @@ class EndedMoves(Served):
         """The move, which ends where the condition comes; what was only stopped begins again from there. Where the
         condition holds from the start the interrupt has come before and the move is one as any other."""
         (move,) = moves
+        first: ir.Body = ()
+        if self.again:
+            first, move = with_kept_target(editor, move)
         if self.again and path_differs(move):
             return not_again(move, path_differs(move), self.context)
         if not isinstance(move.blend, ir.BlendStop | None):
@@ -83,7 +86,7 @@ class EndedMoves(Served):
         again: ir.Body = () if watch.declared.stops else (self.onward(hit, bare),)
         tried: ir.Body = (ended, ir.If(((hit, (look, *again)),)))
         told = self.leaving(move, (look,), True)
-        return (*told, *self.leaving(bare, (ir.If(((comes, tried),), (bare,)),), True))
+        return (*first, *told, *self.leaving(bare, (ir.If(((comes, tried),), (bare,)),), True))
 
     def onward(self, hit: ir.Expression, move: ir.Move) -> ir.Statement:
         """The rest of the move, unless the level was left."""

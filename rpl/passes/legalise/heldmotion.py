@@ -15,7 +15,7 @@ from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.beside import closure, tidy
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import edit_bodies, edit_routines
+from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.effects import statements_in
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.usage import called_below
@@ -50,6 +50,8 @@ _TIME = (
     *(ir.Move, ir.MoveExternal, ir.Spline, ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.StopMotion),
     *(ir.StartMotion, ir.ClearMotion, ir.StoreMotion, ir.Halt),
 )
+_POSITION = ("x", "y", "z")
+_OFFSETS = {"base": "offset", "tool": "tool_offset"}
 _LEAVING = (ir.Return, ir.Goto, ir.Raise, ir.Retry, ir.TryNext, ir.ResumeLevel, ir.ClearMotion, ir.StartMotion)
 
 
@@ -81,8 +83,38 @@ def path_differs(move: ir.Move) -> str:
     """Why a move that begins again from its middle is another one; empty when it is not."""
     if move.kind not in ("joint", "linear"):
         return "an arc has another centre then"
-    reads = any(isinstance(node, ir.Builtin) and node.function.startswith("current_") for node in walk(move.target))
-    return "its target counts from where it begins" if reads or move.relative is not None else ""
+    return "its target counts from where it begins" if _reads_place(move) or move.relative is not None else ""
+
+
+def _reads_place(move: ir.Move) -> bool:
+    for node in walk(move.target):
+        match node:
+            case ir.Builtin(function=function) if function.startswith("current_"):
+                return True
+            case ir.System(name="actual_pose" | "actual_joints"):
+                return True
+    return False
+
+
+def with_kept_target(editor: Editor, move: ir.Move) -> tuple[ir.Body, ir.Move]:
+    """A straight or joint move that counts from where it begins, with its end in a variable that is set in front of it:
+    so it can begin again. The robot stands there. A way that also turns the tool, or of single axes, stays as it is."""
+    if move.kind not in ("joint", "linear") or not (_reads_place(move) or move.relative in _OFFSETS):
+        return (), move
+    place: ir.Expression = move.target
+    type = editor.type_of(place)
+    if move.relative is not None:
+        if not isinstance(place, ir.Aggregate) or not all(name in _POSITION for name, _ in place.entries):
+            return (), move
+        steps = dict(place.entries)
+        offsets = tuple(steps.get(name, ir.RealLiteral(0.0)) for name in _POSITION)
+        place = ir.Builtin(_OFFSETS[move.relative], (ir.System("actual_pose"), *offsets))
+        type = ir.TargetType(editor.scope.rules.name)
+    if type is None:
+        return (), move
+    kept = editor.temporary("rpl_goal", type)
+    first = (ir.WaitForMotion(origin=move.origin), ir.Assign(kept, place, origin=_bare(move).origin))
+    return first, replace(_bare(move), target=kept, relative=None)
 
 
 def not_again(move: ir.Move, reason: str, context: Context) -> ir.Body:

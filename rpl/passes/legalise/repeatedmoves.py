@@ -14,7 +14,7 @@ from rpl.passes.legalise.beside import tidy
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
 from rpl.passes.legalise.endedmoves import CORNER
-from rpl.passes.legalise.heldmotion import ANOTHER, not_again, path_differs
+from rpl.passes.legalise.heldmotion import ANOTHER, not_again, path_differs, with_kept_target
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.reach import armed_statements
 from rpl.passes.legalise.support import with_support
@@ -93,7 +93,7 @@ class _Repeated:
     def routine(self, editor: Editor, routine: ir.Routine) -> ir.Routine:
         if routine.name.lower() in self.handlers:
             return edit_bodies(routine, self.handler)
-        return edit_bodies(routine, self.body)
+        return edit_bodies(routine, lambda body: map_body(body, lambda one: self.statement(editor, one)))
 
     def handler(self, body: ir.Body) -> ir.Body:
         """A brake is noted; one that drops the move for good takes the note back."""
@@ -109,16 +109,14 @@ class _Repeated:
                 done.append(inside(statement, self.handler))
         return tuple(done)
 
-    def body(self, body: ir.Body) -> ir.Body:
-        return map_body(body, self.statement)
-
-    def statement(self, statement: ir.Statement) -> ir.Body:
+    def statement(self, editor: Editor, statement: ir.Statement) -> ir.Body:
         if id(statement) in self.marked:
             if isinstance(statement, ir.Move):
-                return self.move(statement)
+                first, move = with_kept_target(editor, statement)
+                return (*first, *self.move(move))
             if isinstance(statement, ir.Spline | ir.MoveExternal):
                 self.context.diagnostics.report(ANOTHER, statement.origin, reason="it is no single move")
-        return (inside(statement, self.body),)
+        return (inside(statement, lambda body: map_body(body, lambda one: self.statement(editor, one))),)
 
     def move(self, move: ir.Move) -> ir.Body:
         reason = _reason(move)

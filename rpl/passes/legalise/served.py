@@ -14,7 +14,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.beside import Beside, closure, tidy
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, expansion, map_body, negation
-from rpl.passes.legalise.heldmotion import not_again, path_differs
+from rpl.passes.legalise.heldmotion import not_again, path_differs, with_kept_target
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.movers import Movers
 from rpl.passes.legalise.movesettings import plain
@@ -141,13 +141,17 @@ class Served:
 
     def drive(self, editor: Editor, moves: list[ir.Move]) -> ir.Body:
         assert self.here is not None  # set with the routine
+        first: ir.Body = ()
+        if self.again:
+            first, moves[0] = with_kept_target(editor, moves[0])
         other = next(filter(None, map(path_differs, moves)), "")
         if self.again and other:
             return (*not_again(moves[0], other, self.context), *moves[1:])
         begun = self.movers.begin(editor, self.here, moves)
         comments = tuple(comment for move in moves for comment in move.origin.comments)
         call = ir.CallRoutine(self.name("rpl_drive"), origin=tidy(moves[0].origin))
-        return self.leaving(replace(moves[0], origin=replace(moves[0].origin, comments=comments)), (*begun, call), True)
+        head = replace(moves[0], origin=replace(moves[0].origin, comments=comments))
+        return (*first, *self.leaving(head, (*begun, call), True))
 
     def handler(self, statement: ir.Statement) -> ir.Body:
         """In the routine of an interrupt."""
