@@ -26,6 +26,7 @@ _FEWEST, _MOST = 9, 600
 # Waits shorter than this make nobody wait; those up to a slow controller's cycle are looks of a polling loop.
 _SHORTEST_WAIT_S, _CYCLE_S = 1e-4, 0.02
 _STANDING_MM = 1e-3
+_COUNTED = frozenset(("output", "message", "wait", "fault", "end"))
 
 
 def record_of(result: RunResult, program: ir.Program, robot: RobotModel | None = None) -> Record:
@@ -44,7 +45,8 @@ def record_of(result: RunResult, program: ir.Program, robot: RobotModel | None =
             if one is not None
         ]
         tasks[task] = tuple(_without_polling(kept))
-    motion = {way.mover: way.stretches() for way in ways.values() if way.moves}
+    moving = {way.mover: way for way in ways.values() if way.moves}  # several tasks may see one robot
+    motion = {mover: way.stretches() for mover, way in moving.items()}
     return Record(result.status, result.time_s, tasks, motion, robot.name if robot else "", language)
 
 
@@ -78,6 +80,8 @@ def _by_task(trace: Sequence[Event]) -> dict[str, list[Event]]:
 
 def _happening(event: Event, way: _Way, stuck: Place) -> Happening | None:
     """The event as a happening; None when it does not count. `stuck`: where the run could not go on, if so."""
+    if event.kind not in _COUNTED:
+        return None
     along, moving = way.at(event.t)
     place = place_of(event.origin)
     match event.kind:

@@ -25,8 +25,7 @@ from rpl.diagnostics import Diagnostic, Diagnostics, Severity
 from rpl.errors import RplError
 from rpl.ir.walk import rewrite
 from rpl.project import ReadProgram, read_program, read_sources
-from rpl.proof.record import Record
-from rpl.proof.recording import record_of
+from rpl.proof.record import signal_names
 from rpl.proof.wiring import in_words_of, with_signal_names
 from rpl.runtime.trace import RunResult
 from rpl.simulation import entry_name, run_program
@@ -113,14 +112,17 @@ def cell_of(name: str) -> Cell | None:
     return read_cell(str(path)) if path.exists() else None
 
 
-def switched_on(record: Record) -> set[int]:
+def switched_on(result: RunResult) -> set[int]:
     """Numbers of the digital outputs that are on at the end."""
     state: dict[int, bool] = {}
-    happenings = [each for happenings in record.tasks.values() for each in happenings if each.kind == "output"]
-    for happening in sorted(happenings, key=lambda each: each.t):
-        for key in happening.names:
+    for event in result.trace:
+        if event.kind != "output":
+            continue
+        kind, index, last, _ = event.port or (None, None, None, None)
+        known = [str(name) for name in (event.data.get("signal"), *event.names) if name]
+        for key in signal_names(kind, known, index, last):
             if found := re.fullmatch(r"digital_out:(\d+)", key):
-                state[int(found[1])] = bool(happening.value)
+                state[int(found[1])] = bool(event.data.get("value"))
     return {number for number, on in state.items() if on}
 
 
@@ -133,7 +135,7 @@ def own_run(name: str) -> tuple[str, set[int]]:
     """How the project ends on its own arm, and the expectations that are met."""
     project, read = PROJECTS[name], read_project(name)
     result = run_program(read.program, project.robot, cell_of(name), project.entry, LIMIT_S)
-    return _end(result), switched_on(record_of(result, read.program))
+    return _end(result), switched_on(result)
 
 
 def pair_of(name: str, target: str) -> Pair:
@@ -156,7 +158,7 @@ def pair_of(name: str, target: str) -> Pair:
         )
     except RplError as error:
         return Pair(everything, end=f"error: {type(error).__name__}: {error}")
-    on = switched_on(record_of(result, named))
+    on = switched_on(result)
     losses = sorted({_told(item) for item in diagnostics.of(Severity.LOSS)})
     return Pair(tuple(number for number in everything if number not in on), tuple(losses), _end(result))
 
