@@ -162,6 +162,8 @@ class Expressions:
                 return self.place(expression)
             case ir.System(name="timer" | "flag"):
                 return self.place(expression)
+            case ir.System(name=name, indices=()) if name in tables.SYSTEM_VARIABLES:
+                return tables.SYSTEM_VARIABLES[name]
             case ir.Builtin(function="clock_seconds", arguments=(clock,)):
                 return self.place(clock)
             case ir.Quantity(value=value_of, unit=unit) if ir.UNITS[unit] == 1:

@@ -144,17 +144,31 @@ class Idioms:
         return 0
 
     def search(self, body: ir.Body) -> int:
-        """`... Skip,LBL[9]`."""
-        jump = single_jump(body[1]) if len(body) > 1 else None
+        """`... Skip,LBL[9]`, also with the joints that it stopped at: `Skip,LBL[9],PR[3]=JPOS`."""
         match body[0]:
-            case ir.Move(search=ir.Search(hit=hit)) as move if hit is not None and jump is not None:
-                if not self.private(hit) or jump[0] not in (hit, ir.Unary("not", hit)):
+            case ir.Move(search=ir.Search(hit=hit, found=found)) as move if hit is not None and self.private(hit):
+                kept = self.kept_joints(body[1], hit) if len(body) > 2 and found is None else ""
+                count = 3 if kept else 2
+                jump = single_jump(body[count - 1]) if len(body) >= count else None
+                if jump is None or jump[0] not in (hit, ir.Unary("not", hit)):
                     return 0
                 word = "SkipJump" if jump[0] == hit else "Skip"
-                self.printer.comments_only(body[1].origin)
-                self.printer.searching(move, self.printer.labels.number(jump[1]), word=word)
-                return self.done(body, 2)
+                for statement in body[1:count]:
+                    self.printer.comments_only(statement.origin)
+                self.printer.searching(move, self.printer.labels.number(jump[1]), word=word, kept=kept)
+                return self.done(body, count)
         return 0
+
+    def kept_joints(self, statement: ir.Statement, hit: ir.Expression) -> str:
+        """`PR[3]=JPOS` where the statement keeps the joints of a search that found something."""
+        match statement:
+            case ir.If(branches=((condition, (ir.Assign(target=target, value=value),)),), otherwise=()) if (
+                condition == hit
+            ):
+                place = self.printer.expressions.element(target)
+                if place is not None and place.startswith("PR[") and _is_joints_now(value):
+                    return f"{place}=JPOS"
+        return ""
 
     # ---- motion
 
@@ -341,4 +355,11 @@ def _same(value: ir.Expression, wanted: ir.Binary) -> bool:
                 and left == wanted.left
                 and without_trunc(right) in (ir.IntLiteral(1), ir.RealLiteral(1.0))
             )
+    return False
+
+
+def _is_joints_now(value: ir.Expression) -> bool:
+    match value:
+        case ir.System(name="actual_joints") | ir.Builtin(function="current_joints", arguments=()):
+            return True
     return False

@@ -451,13 +451,14 @@ class Printer(StatementPrinter[Line]):
             if not chosen.isdigit() or chosen != in_force:
                 self.select(name, value, Origin())
 
-    def searching(self, move: ir.Move, label: int, flag: str = "", word: str = "Skip") -> None:
+    def searching(self, move: ir.Move, label: int, flag: str = "", word: str = "Skip", kept: str = "") -> None:
+        """`kept`: what a search that found something keeps besides its place."""
         search = move.search
         if search is None:
             raise CannotSayError("a search without a condition")
         if search.stop == "none":
             raise CannotSayError("a search that does not stop the robot")
-        found = ""
+        found = f",{kept}" if kept else ""
         if search.found is not None:
             place = self.expressions.element(search.found)
             if place is None or not place.startswith("PR["):

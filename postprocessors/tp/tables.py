@@ -66,6 +66,8 @@ POSITION_FUNCTIONS: Final = frozenset(
     )
 )
 
+# System variables that are read by their names.
+SYSTEM_VARIABLES: Final[Mapping[str, str]] = {"override": "$MCR.$GENOVERRIDE"}
 # Counts as delivered; program limits at a controlled start give more (SpotTool+ manual: PR up to 2000 for one group).
 R: Final = Bank("R", 1, 200, most=999)  # M: the largest number of R
 PR: Final = Bank("PR", 1, 100, most=2000)

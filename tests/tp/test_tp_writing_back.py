@@ -52,6 +52,8 @@ SAME = [
     "R[1]=STRLEN SR[1]",
     "R[1]=FINDSTR SR[1],SR[2]",
     "SKIP CONDITION DI[5]=ON\nL P[1:home] 50mm/sec FINE Skip,LBL[9],PR[7]=LPOS\nLBL[9]",
+    "SKIP CONDITION DI[5]=ON OR R[4]=1\nL P[1:home] 50mm/sec FINE Skip,LBL[9],PR[9]=JPOS\nLBL[9]",
+    "R[95]=$MCR.$GENOVERRIDE",
     "IF R[1]=5 AND DI[2]=ON,JMP LBL[3]\nLBL[3]",
     "IF (!DI[1] AND (F[1] OR RI[2])) THEN\nCALL A\nCALL A\nELSE\nEND\nENDIF",
     "SELECT R[1]=1,CALL A\n=2,JMP LBL[9]\nELSE,CALL B(1,'x',R[3])\nLBL[9]",

@@ -19,6 +19,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.datalists import calls_of, never_called, reached
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
 from rpl.passes.legalise.effects import blocks, children, everything, statements_in
+from rpl.passes.legalise.heldtexts import HeldTexts
 from rpl.passes.legalise.support import default_value
 from rpl.passes.legalise.usage import bodies
 from rpl.passes.rewrite import rewrite_parts
@@ -367,6 +368,7 @@ class _Dynamic:
         self.editor = editor
         can = editor.capabilities
         self.itself = can.dynamic_calls and names_stay(editor.scope.program.program, can.names)
+        self.held: HeldTexts | None = None
 
     def body(self, body: ir.Body) -> ir.Body:
         return map_body(body, self.statement)
@@ -420,8 +422,11 @@ class _Dynamic:
         return (ir.Message("error", text, origin=origin), ir.Halt("exit", origin=origin))
 
     def candidates(self, statement: ir.CallRoutine, name: ir.Expression) -> list[str]:
-        """Names of procedures that take these arguments, by what is known of the text's beginning."""
+        """Names of procedures that take these arguments, by what is known of the text or of its beginning."""
         scope = self.editor.scope
+        self.held = self.held or HeldTexts.of(scope.program.program)
+        texts = self.held.of_name(name.id) if isinstance(name, ir.Name) else None
+        held = None if texts is None else {scope.fold(text.rpartition(":")[2]) for text in texts}
         start, whole = _beginning(name)
         start = scope.fold(start.rpartition(":")[2])
         found: dict[str, str] = {}
@@ -429,6 +434,8 @@ class _Dynamic:
             for routine in module.routines:
                 key = scope.fold(routine.name)
                 if routine.kind != "procedure" or scope.routine(routine.name) is not routine:
+                    continue
+                if held is not None and key not in held:
                     continue
                 if (key == start if whole else key.startswith(start)) and self.takes(routine, statement.arguments):
                     found.setdefault(key, routine.name)

@@ -161,3 +161,37 @@ def test_a_program_that_may_be_called_by_name_stays_the_first(body: str, more: s
     after, _ = legalised(program, PLAIN, fit_parameters)
     assert after.entry == entry
     assert ("start_here" in never_called(after)) == (not entry)
+
+
+_HELD = """MODULE m
+  VAR string job:="lift";
+  VAR num n:=0;
+  PROC main()
+    %s
+    %%job%%;
+  ENDPROC
+  PROC lift()
+    Set do1;
+  ENDPROC
+  PROC lower()
+    Set do2;
+  ENDPROC
+  PROC other()
+    Set do3;
+  ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize(
+    ("first", "candidates"),
+    [
+        ('IF n=0 job:="lower";', 2),
+        ('job:="lower";', 2),
+        ("", 1),
+        ('job:="lo"+"wer";', 4),
+    ],
+)
+def test_a_text_that_only_ever_holds_some_names(first: str, candidates: int) -> None:
+    after = same_run(read("rapid", _HELD % first), PLAIN, fit_parameters, check_errors, decide_logic)
+    assert count(after, lambda node: isinstance(node, ir.Builtin) and node.function == "text_equal") == candidates
