@@ -133,3 +133,31 @@ def test_the_circle_through_three_points() -> None:
     assert circle.angle(rigid.Vector(0.0, 0.0, 0.0)) == pytest.approx(180.0)
     line = [rigid.Vector(x, 0.0, 0.0) for x in (0.0, 1.0, 2.0)]
     assert circle_through(*line) is None
+
+
+HALF = """MODULE Half
+  CONST robtarget p:=[[450,90,310],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    MoveJ Offs(p,0,0,50),v200,fine,tool0;
+    MoveL p,v100,z5,tool0;
+    MoveC Offs(p,30,{side},0),Offs(p,60,0,0),v100,fine,tool0;
+    SetDO do1,1;
+  ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize("target", ["krl", "tp", "urscript", "vplus", "inform"])
+@pytest.mark.parametrize("side", [30, -30])
+def test_half_a_circle_keeps_the_tool_as_it_is(target: str, side: int) -> None:
+    """Not once round: a tool with the same rotation at both ends is not turned on the way."""
+    read = read_sources([source_from_text("Half.mod", HALF.format(side=side))], "rapid", Diagnostics())
+    diagnostics = Diagnostics()
+    written = translate_program(read, target, "abb_irb1200_5_90", None, diagnostics)
+    assert "arc-in-parts" not in [item.code.name for item in diagnostics]
+    back = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, Diagnostics())
+    named = with_signal_names(back.program, written.program)
+    entry = written.renamed.get("main", "main")
+    arm = "abb_irb1200_5_90"
+    result = prove_programs(read.program, named, arm, arm, None, entry="main", to_entry=entry)
+    assert result.equal, result.as_text()

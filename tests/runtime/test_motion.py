@@ -232,8 +232,8 @@ def test_a_search_without_success_moves_aside_and_is_done_again() -> None:
     data = DATA + "VAR num tries;"
     more = (
         "FUNC num Height() VAR robtarget hit;\nSearchL\\SStop,di1,hit,Offs(p0,0,0,-40),v50,tPen;\nRETURN hit.trans.z;\n"
-        "ERROR IF ERRNO=ERR_WHLSEARCH AND tries=0 THEN tries:=1; StorePath; MoveL p0,v50,fine,tPen; RestoPath; SetDO do2,1;\n"
-        "RETRY; ENDIF RETURN 0; ENDFUNC"
+        "ERROR IF ERRNO=ERR_WHLSEARCH AND tries=0 THEN tries:=1; StorePath; MoveL p0,v50,fine,tPen; RestoPath; "
+        "SetDO do2,1; RETRY; ENDIF RETURN 0; ENDFUNC"
     )
     body = TO_P0 + "IF Height()<p0.trans.z-5 SetDO do1,1;\nMoveL p0,v50,fine,tPen;\nSetDO do3,1;"
     cell = "[[reaction]]\nwhen='do2'\nafter=0.4\nsignal='di1'\nvalue=true\n"

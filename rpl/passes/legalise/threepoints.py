@@ -51,6 +51,7 @@ CORNER_MM = 1.0
 _NOTICED_DEG = 0.01
 _MOST_TURN_DEG = 150.0  # in one part: at half a turn either way around is the shortest
 _FLAT = 1e-9
+_HALF_TURN = 1e-4  # rad: turns that near to half a turn have two ways
 _PLACES = 9  # of mm and degrees: a millionth of what any controller keeps
 _COUNTS = (1, 2, 3, 4, 6, 8, 12)
 _MODAL = ("tool", "base")
@@ -86,11 +87,13 @@ class Circle:
 
     def rotations(self, angle: float, begin: rigid.Rotation, end: rigid.Rotation, turns: bool) -> Rotations:
         """The tool's rotation at each fraction of an arc: from `begin` to `end` by the shortest turn, as seen from the
-        base, or from the tangent when it `turns` with the path."""
+        base, or from the tangent when it `turns` with the path. Of the two equal ways on a half circle with the same
+        rotation at both ends the one that turns the tool back is taken, not the one once more round."""
         goal = self.turned(-angle).then(end) if turns else end
+        about = self.axis if angle > 0.0 else self.axis.times(-1.0)
 
         def at(fraction: float) -> rigid.Rotation:
-            seen = _between(begin, goal, fraction)
+            seen = _between(begin, goal, fraction, about if turns else None)
             return self.turned(angle * fraction).then(seen) if turns else seen
 
         return at
@@ -350,13 +353,18 @@ def _apart(circle: Circle, angle: float, begin: rigid.Rotation, end: rigid.Rotat
     return _turn(base, path)
 
 
-def _between(one: rigid.Rotation, other: rigid.Rotation, fraction: float) -> rigid.Rotation:
-    """Part of the shortest turn from one rotation to the other."""
+def _between(
+    one: rigid.Rotation, other: rigid.Rotation, fraction: float, about: rigid.Vector | None = None
+) -> rigid.Rotation:
+    """Part of the shortest turn from one rotation to the other; of half a turn, the way that is not `about`."""
     w, x, y, z = one.inverse.then(other).quaternion
     if w < 0.0:
         w, x, y, z = -w, -x, -y, -z
     sine = math.sqrt(x * x + y * y + z * z)
-    half = fraction * math.atan2(sine, w)
+    whole = math.atan2(sine, w)
+    if about is not None and 2.0 * whole > math.pi - _HALF_TURN and one.turn(rigid.Vector(x, y, z)).dot(about) > 0.0:
+        whole -= math.pi
+    half = fraction * whole
     scale = math.sin(half) / sine if sine > 1e-12 else 0.0
     part = rigid.Rotation((math.cos(half), x * scale, y * scale, z * scale))
     return one.then(part)
