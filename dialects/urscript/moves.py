@@ -144,7 +144,12 @@ def _rates(calls: Calls, value: Expr | None, time: Expr | None) -> tuple[list[ir
         return None
     span = calls.value(time, REAL)
     listed = list(value.items) if isinstance(value, ListOf | PoseOf) else None
-    return [ir.Binary("*", part, span) for part in found], listed
+    none = ir.RealLiteral(0.0)
+    return [none if _is_zero(part) else ir.Binary("*", part, span) for part in found], listed
+
+
+def _is_zero(value: ir.Expression) -> bool:
+    return isinstance(value, ir.IntLiteral | ir.RealLiteral) and value.value == 0
 
 
 def _top(parts: list[ir.Expression]) -> ir.Expression:
@@ -181,6 +186,10 @@ def _speedl(calls: Calls, bound: Bound) -> Made | None:
     goal = pose_literal(ways[0])
     listed = ways[1]
     straight = listed is not None and all(literal(item) == 0 for item in listed[3:])
+    if straight:
+        turns = tuple((name, ir.RealLiteral(0.0)) for name in "abc")
+        steps = tuple((name, ir.Quantity(way, "m")) for name, way in zip("xyz", ways[0], strict=False))
+        goal = ir.Aggregate((*steps, *turns), "pose")
     if straight and listed is not None and not _is_short(bound["t"]) and any(literal(x) != 0 for x in listed[:3]):
         # Speed times time is the way of the ramp up, of the even part, and of the ramp down behind it.
         top = ir.Quantity(_top([calls.value(item, REAL) for item in listed[:3]]), "m/s")

@@ -40,6 +40,7 @@ CAPABILITIES = Capabilities(
     named_aggregates=True,
     partial_aggregates=False,
     constant_aggregates=True,
+    untyped_places=True,
     relative_moves=True,
     function_routines=False,
     parameters="none",

@@ -56,6 +56,7 @@ CAPABILITIES = Capabilities(
     named_aggregates=True,
     partial_aggregates=True,
     constant_aggregates=True,
+    untyped_places=True,
     relative_moves=True,
     for_real=True,
     else_if=False,

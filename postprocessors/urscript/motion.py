@@ -6,6 +6,7 @@ percent are percent of the slowest axis of the arm, which then leads.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rpl import ir
@@ -39,6 +40,8 @@ class Motion:
 
     def move(self, move: ir.Move, blended: bool = True) -> str:
         """The call. `blended` False: what follows wants the robot to stand."""
+        if move.relative in ("base", "joints"):
+            return self.rates(move)
         self.refuse(move)
         word = _WORDS.get(move.kind)
         if word is None:
@@ -54,6 +57,22 @@ class Motion:
         if move.kind == "circular" and move.circle_orientation == "path":
             settings.append("mode=1")
         return f"{word}({', '.join((*places, *settings))})"
+
+    def rates(self, move: ir.Move) -> str:
+        """`speedl` and `speedj`: a way that is written as speeds times one time."""
+        self.refuse(replace(move, relative=None))
+        joints, speed = move.relative == "joints", move.speed or ir.Speed()
+        found = [_rate(one) for one in _ways(move.target)]
+        known = [one for one in found if one is not None]
+        spans = {span for _, span in known} - {_NO_TIME}
+        if len(known) != _WAYS or move.kind != ("joint" if joints else "linear") or len(spans) != 1:
+            raise CannotSayError("a move with a relative move")
+        rates = ", ".join(self.expressions.text(rate) for rate, _ in known)
+        given = speed.axis_acceleration if joints else speed.path_acceleration
+        usual = tables.USUAL_ACCELERATION["joint" if joints else "linear"]
+        acceleration = usual if given is None else self.number(given, "rad/s2" if joints else "m/s2")
+        (span,) = spans
+        return f"{'speedj' if joints else 'speedl'}([{rates}], a={acceleration}, t={self.expressions.text(span)})"
 
     def refuse(self, move: ir.Move) -> None:
         """What URScript has no argument for."""
@@ -175,3 +194,29 @@ def _literal(value: ir.Expression) -> bool:
     if isinstance(value, ir.Unary | ir.Convert):
         return _literal(value.operand)
     return isinstance(value, ir.IntLiteral | ir.RealLiteral)
+
+
+_WAYS = 6
+_NO_TIME = ir.RealLiteral(0.0)
+
+
+def _ways(target: ir.Expression) -> list[ir.Expression]:
+    """The six ways of a relative move as numbers in metres and radians."""
+    match target:
+        case ir.Aggregate(entries=entries):
+            parts = [value for _, value in entries]
+        case ir.Builtin(function="pose_from_rotation_vector", arguments=arguments):
+            parts = list(arguments)
+        case _:
+            return []
+    return [one.value if isinstance(one, ir.Quantity) and one.unit in ("m", "rad") else one for one in parts]
+
+
+def _rate(way: ir.Expression) -> tuple[ir.Expression, ir.Expression] | None:
+    """A speed and the time it lasts; a way of nothing at all lasts any time."""
+    match way:
+        case ir.Binary(op="*", left=rate, right=span):
+            return rate, span
+        case ir.RealLiteral(value=0.0):
+            return ir.IntLiteral(0), _NO_TIME
+    return None

@@ -35,6 +35,8 @@ SCRIPT_FUNCTIONS = words(
     wrench_trans write_output_boolean_register zero_ftsensor list int float bool string"""
 )
 RESERVED = KEYWORDS | SCRIPT_FUNCTIONS
+# What movej and movel take when nothing is said: rad/s2, m/s2 (script manual 5.2).
+USUAL_ACCELERATION = {"joint": "1.4", "linear": "1.2"}
 LONGEST_NAME = 63  # M: no manual states a limit
 
 # M: precedence as in Python. Only `not` over comparisons and `and` over `or` have examples in the manual, so logical

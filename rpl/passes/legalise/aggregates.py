@@ -224,7 +224,7 @@ class _Aggregates(Rewriter):
 
     def spread(self, target: ir.Expression, value: ir.Aggregate, type: ir.Type) -> list[ir.Statement]:
         """One assignment for each component, and for each of what is inside where that cannot be a constant."""
-        done: list[ir.Statement] = []
+        done = self.begun_joints(target, value, type)
         for name, one in self.given(value, type).items():
             inner = component_type(type, name, self.scope)
             place = ir.Field(target, _written(name, component_names(type, self.scope)))
@@ -238,6 +238,15 @@ class _Aggregates(Rewriter):
             else:
                 done.append(ir.Assign(place, self.expression(one)))
         return done
+
+    def begun_joints(self, target: ir.Expression, value: ir.Aggregate, type: ir.Type) -> list[ir.Statement]:
+        """Joints that say that the place holds joints, where it could hold a pose until now."""
+        if not self.context.capabilities.untyped_places or not isinstance(type, ir.JointsType):
+            return []
+        if not self.is_complete(value, type):
+            return []
+        entries = tuple((name, ir.RealLiteral(0.0)) for name in self.given(value, type) if name.startswith("j"))
+        return [ir.Assign(target, ir.Aggregate(entries, type_name=type_word(type)))] if entries else []
 
     def array(
         self, statement: ir.Assign, target: ir.Expression, value: ir.Expression, type: ir.ArrayType

@@ -11,6 +11,7 @@ from rpl.passes.legalise.aliases import without_aliases
 from rpl.passes.legalise.arcpoints import whole_arc_points
 from rpl.passes.legalise.arithmetic import arithmetic
 from rpl.passes.legalise.arrays import array_bases, array_sizes
+from rpl.passes.legalise.atrest import at_rest
 from rpl.passes.legalise.background import background_tasks
 from rpl.passes.legalise.begunmoves import begun_moves, moves_ahead
 from rpl.passes.legalise.begunoutputs import begun_outputs
@@ -92,6 +93,7 @@ from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.rotationvectors import rotation_vectors
 from rpl.passes.legalise.routineclocks import clocks_of_routines
 from rpl.passes.legalise.saidtwice import said_once
+from rpl.passes.legalise.sameunits import same_units
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
 from rpl.passes.legalise.seenplaces import posed_places, seen_places
@@ -139,6 +141,7 @@ from rpl.passes.typing import normalise
 # name to add.
 PASSES: tuple[Pass, ...] = (
     drop_untyped,
+    same_units,
     shared_task_data,
     cyclic_flags,
     task_names,
@@ -158,6 +161,7 @@ PASSES: tuple[Pass, ...] = (
     searches,
     reaction_searches,
     search_parts,
+    at_rest,
     without_empty_reactions,
     link_prelude,
     possible_cases,
