@@ -132,6 +132,8 @@ class Functions(Expressions):
             case "shift", [place, *shift] if place is not None and len(shift) <= 3:
                 moved = [shift[n] or zero if n < len(shift) else zero for n in range(3)]
                 return self.built("offset", place, *moved)
+            case "scale", [place, factor] if place is not None and factor is not None:
+                return self.scaled(place, factor)
             case "distance", [one, two] if one is not None and two is not None:
                 return self.built("distance", self.position(one), self.position(two))
             case "frame", [one, two, three, origin] if one and two and three and origin:
@@ -185,6 +187,15 @@ class Functions(Expressions):
             case "task", [ir.IntLiteral(value=tables.TASK_STATE), number]:
                 return self.task_state(number)
         return None
+
+    def scaled(self, place: ir.Expression, factor: ir.Expression) -> ir.Expression:
+        """SCALE(place BY factor): its position so many times as far from the origin, its orientation as it is."""
+        one = ir.IntLiteral(1)
+        more: ir.Expression = ir.Binary("-", factor, one, origin=self.origin)
+        if isinstance(factor, ir.IntLiteral | ir.RealLiteral):
+            more = ir.RealLiteral(factor.value - 1.0)
+        shift = [ir.Binary("*", ir.Field(place, part, origin=self.origin), more, origin=self.origin) for part in "xyz"]
+        return self.built("offset", place, *shift)
 
     def task_state(self, number: ir.Expression) -> ir.Expression | None:
         """TASK(1, n): whether the programs that are executed in task n run; None when the project does not tell."""

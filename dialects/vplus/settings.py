@@ -44,7 +44,7 @@ class Settings(Motion):
 
     def kept(self, given: Instruction) -> ir.Vendor:
         """An instruction that nothing here can feel."""
-        return ir.Vendor("vplus", code_of(given.origin.text), "none", origin=given.origin)
+        return ir.Vendor("vplus", code_of(given.origin.text), "tuning", origin=given.origin)
 
     # ---- modal settings
 
@@ -282,7 +282,7 @@ class Settings(Motion):
                 continue
             harmless = name in tables.SWITCHES_WITHOUT_EFFECT
             statement = f"{given.word.upper()} {text.upper()}"
-            done.append(ir.Vendor("vplus", statement, "none" if harmless else "unknown", origin=origin))
+            done.append(ir.Vendor("vplus", statement, "tuning" if harmless else "unknown", origin=origin))
         if not done:
             raise StatementError(f"{given.word.upper()} needs a switch", 0)
         return tuple(done)
@@ -300,7 +300,7 @@ class Settings(Motion):
             found = self.setting(word, places, values[0], origin)
             if found is not None:
                 return found
-        effect = "none" if word in ("defbelt", "setbelt", "parameter") else "unknown"
+        effect = "none" if word in ("defbelt", "setbelt") else "tuning" if word == "parameter" else "unknown"
         if word == "parameter" and re.search(r"\bhand\.time\b", origin.text, re.IGNORECASE):
             effect = "tuning"  # what waits for the hand has its time already
         return ir.Vendor("vplus", code_of(origin.text), effect, origin=origin)

@@ -322,6 +322,9 @@ class Statements(Functions):
         number = self.expression(given)
         key = str(number.value) if isinstance(number, ir.IntLiteral) else (root_name(number) or "").lower()
         programs = sorted(self.facts.executed.get(key, frozenset()))
+        elsewhere = {name for task, names in self.facts.executed.items() if task != key for name in names}
+        if op == "stop" and len(programs) > 1 and not elsewhere & set(programs):  # that of them which runs
+            return tuple(ir.TaskControl(op, self.name(program), origin=origin) for program in programs)
         if len(programs) != 1:
             self.diagnostics.report(UNKNOWN_TASK, origin, task=key or "?", count=len(programs))
             return ir.Vendor("vplus", code_of(origin.text), "unknown", origin=origin)

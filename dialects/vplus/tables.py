@@ -98,8 +98,8 @@ CONTROLLER_VALUES: dict[str, ir.Type] = {
 
 # Instructions that only the controller can carry out, by their first word, with what a run must know of them.
 RAW_EFFECTS: dict[str, str] = {
-    **dict.fromkeys(("select", "fclose", "calibrate"), "none"),
-    **dict.fromkeys(("attach", "detach", "payload", "noop"), "tuning"),
+    "fclose": "none",
+    **dict.fromkeys(("attach", "detach", "payload", "noop", "select", "calibrate"), "tuning"),
     "mcs": "message",
     "write": "message",
 }

@@ -435,6 +435,8 @@ class Machine:
             if given.lower() not in names:
                 raise RunError(f"{self.cell.path}: the dialog {text!r} has no key {given!r}")
             given = names.index(given.lower()) + 1
+        elif kind == "number" and isinstance(given, str):
+            given = self._number(text, given)
         self.message(task, "dialog", text, origin, keys=keys, answer=given)
         write(values, given)
         if late is not None:
@@ -442,6 +444,14 @@ class Machine:
         if answer.after_s > 0.0:
             return task.block(Wait("time", here, next, self.token(), self.now, self.now + answer.after_s))
         return next
+
+    def _number(self, text: str, given: str) -> float:
+        """A number that the cell file gives as a text."""
+        try:
+            number = float(given)
+        except ValueError:
+            raise RunError(f"{self.cell.path}: the dialog {text!r} takes a number, not {given!r}") from None
+        return int(number) if number.is_integer() else number
 
     def _answer(self, text: str) -> Answer | None:
         """The first answer for this text; else the next of those for any dialog."""

@@ -3,7 +3,7 @@
 import pytest
 from helpers import krl, rapid
 
-from rpl.errors import UsageError
+from rpl.errors import RplError, UsageError
 
 
 def test_initial_values_of_variables_records_and_elements() -> None:
@@ -44,6 +44,10 @@ def test_answers_by_text_and_after_a_time() -> None:
     body = 'TPReadNum n,"how many parts?";\nTPReadNum m,"what else?";\nTPWrite NumToStr(n*10+m,0);'
     result = rapid(body, "VAR num n;\nVAR num m;", cell=cell)
     assert result.messages == ("how many parts?", "what else?", "23") and result.time_s == 1.5
+    typed = rapid(body, "VAR num n;\nVAR num m;", cell=cell.replace("answer = 3", "answer = '3'"))
+    assert typed.messages == result.messages
+    with pytest.raises(RplError, match="takes a number"):
+        rapid(body, "VAR num n;\nVAR num m;", cell=cell.replace("answer = 3", "answer = 'three'"))
 
 
 def test_the_value_of_a_vendor_function() -> None:

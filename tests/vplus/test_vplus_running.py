@@ -103,6 +103,11 @@ HOLDS = [
         "the sign of a signal number in a variable",
         "n = -1005\nIF SIG(n) THEN\nn = 1005\nIF NOT SIG(n) THEN\nSIGNAL 1\nEND\nEND",
     ),
+    (
+        "SCALE leaves the orientation",
+        "n = 3\nSET p = SCALE(TRANS(10,20,30,0,180,40) BY 0.5)\nSET q = SCALE(p BY n)\n"
+        "IF (DX(p) == 5) AND (DZ(q) == 45) AND (DISTANCE(q:TRANS(0,0,1), TRANS(15,30,44)) < 0.001) THEN\nSIGNAL 1\nEND",
+    ),
     ("SHIFT moves in the world", "SET p = SHIFT(RZ(90) BY 5,0,0)\nIF DX(p) == 5 THEN\nSIGNAL 1\nEND"),
 ]
 
