@@ -75,6 +75,39 @@ $OUT[38]=FALSE
 WAIT FOR NOT $IN[21]
 END
 """
+# A search: the routine of the interrupt asks where the robot was, brakes, and leaves the move.
+CONTACT = """DEF CHECKS( )
+DECL E6AXIS STAND
+INTERRUPT DECL 10 WHEN $IN[22]==TRUE DO TOUCHED( )
+BAS(#INITMOV,0)
+PTP {A1 0,A2 -90,A3 90,A4 0,A5 60,A6 0}
+WAIT SEC 0
+BEGAN=$POS_ACT.Z
+$VEL.CP=0.05
+INTERRUPT ON 10
+DOWN( )
+INTERRUPT OFF 10
+STAND=$AXIS_ACT
+IF (BEGAN-TOUCH>20.0) AND (BEGAN-TOUCH<70.0) AND (ABS(TOUCH-$POS_ACT.Z)<5.0) THEN
+  $OUT[1]=TRUE
+ENDIF
+IF ABS(TOUCH_A2-STAND.A2)<2.0 THEN
+  $OUT[2]=TRUE
+ENDIF
+END
+DEF DOWN( )
+$OUT[39]=TRUE
+LIN_REL {Z -100.0}
+WAIT SEC 0
+END
+DEF TOUCHED( )
+BRAKE
+TOUCH=$POS_INT.Z
+TOUCH_A2=$AXIS_INT.A2
+RESUME
+END
+"""
+CONTACT_DATA = "DEFDAT CHECKS\nDECL REAL BEGAN=0.0\nDECL REAL TOUCH=0.0\nDECL REAL TOUCH_A2=0.0\nENDDAT\n"
 DOOR_DATA = "DEFDAT CHECKS\nDECL REAL BEGAN=0.0\nDECL REAL STOOD=0.0\nDECL INT DOORS=0\nENDDAT\n"
 
 
@@ -90,9 +123,10 @@ def answers(output: int, signal: int, after: float) -> str:
 PROGRAMS: dict[str, tuple[str | dict[str, str], int]] = {
     "older path data": (OLDER_DATA, 1),
     "a pulse on the way": (PULSE_ON_THE_WAY, 1),
+    "a contact": ({"checks.src": CONTACT, "checks.dat": CONTACT_DATA}, 2),
     "a door": ({"checks.src": DOOR, "checks.dat": DOOR_DATA}, 1),
 }
-CELLS = {"a door": answers(38, 21, 0.9)}
+CELLS = {"a door": answers(38, 21, 0.9), "a contact": answers(39, 22, 0.9)}
 # What a language cannot say: (program, target) -> expectations that are missed, losses that say so.
 REFUSED: dict[tuple[str, str], tuple[set[int], set[str]]] = {
     ("a pulse on the way", "inform"): ({1}, {"inform-path-event-lost"}),

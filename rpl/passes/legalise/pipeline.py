@@ -49,6 +49,7 @@ from rpl.passes.legalise.groups import name_groups
 from rpl.passes.legalise.handles import known_handles
 from rpl.passes.legalise.heldmotion import held_motion
 from rpl.passes.legalise.homes import home_positions
+from rpl.passes.legalise.interruptplaces import interrupt_places
 from rpl.passes.legalise.interrupts import interrupts
 from rpl.passes.legalise.joinedmoves import joined_moves
 from rpl.passes.legalise.joins import joins
@@ -163,6 +164,7 @@ PASSES: tuple[Pass, ...] = (
     search_parts,
     at_rest,
     without_empty_reactions,
+    interrupt_places,
     link_prelude,
     possible_cases,
     constant_orientations,
