@@ -32,6 +32,7 @@ class Notes:
     taken: set[str] = field(default_factory=set)
     own: set[str] = field(default_factory=set)  # names made here
     tasks: Mapping[str, int] = field(default_factory=dict)  # numbers of the programs that are executed beside
+    parts: dict[str, str] = field(default_factory=dict)  # a location that steps before took apart -> its array
 
     def temporary(self, stem: str) -> str:
         """A new variable of the program's own (with its sign)."""
@@ -43,6 +44,17 @@ class Notes:
         self.taken.add(f"{plain}{number}")
         self.own.add(f"{plain}{number}")
         return f"{sign}{plain}{number}"
+
+    def forget(self) -> None:
+        """Steps in front that were noted down are not written."""
+        self.before.clear()
+        self.parts.clear()
+
+    def back_to(self, steps: int, autos: int) -> None:
+        """As it was when there were so many steps in front and so many variables."""
+        del self.before[steps:]
+        del self.autos[autos:]
+        self.parts = {value: name for value, name in self.parts.items() if f"{name}[5]" in self.autos}
 
     def step(self, line: str) -> None:
         if not self.steps:
@@ -227,11 +239,9 @@ class Expressions:
         known = len(self.notes.before), len(self.notes.autos)
         text = self.text(value)
         while len(text) > room and self.notes.steps:
-            del self.notes.before[known[0] :]
-            del self.notes.autos[known[1] :]
+            self.notes.back_to(*known)
             parts = [(len(self.text(part)), at) for at, part in enumerate(_operands(value))]
-            del self.notes.before[known[0] :]
-            del self.notes.autos[known[1] :]
+            self.notes.back_to(*known)
             if not parts or max(parts)[0] <= _NAME:
                 return self.text(value)
             at = max(parts)[1]

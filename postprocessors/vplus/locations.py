@@ -92,9 +92,13 @@ class Locations:
         """One number of a location or of joints, by DECOMPOSE into an array of the program's own."""
         notes = self.expressions.notes
         value = self.expressions.text(base)
-        name = notes.temporary("part")
-        notes.step(f"DECOMPOSE {name}[0] = {value}")
-        notes.autos.append(f"{name}[5]")
+        name = notes.parts.get(value)
+        if name is None:
+            name = notes.temporary("part")
+            notes.step(f"DECOMPOSE {name}[0] = {value}")
+            notes.autos.append(f"{name}[5]")
+            if isinstance(base, ir.Name):
+                notes.parts[value] = name
         return f"{name}[{at}]"
 
     def euler(self, base: ir.Expression, name: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
@@ -30,6 +31,7 @@ GUARDED = code(
 )
 TEXT_CHANGED = code("vplus-text", Severity.WARNING, "a text is written in plain ASCII: {text}")
 STEP, FIRST = "    ", "        "
+_ASSIGNED_NUMBER = re.compile(r"[a-z][\w.]*(\[[^\]=]*\])? = ", re.IGNORECASE)
 _ROOM = tables.LONGEST_LINE - 12  # of a condition between its words
 
 
@@ -100,6 +102,8 @@ class Printer(StatementPrinter[str]):
                 else:
                     whole += behind
             self.lines.append(whole)
+        if not _ASSIGNED_NUMBER.match(text):
+            self.notes.parts.clear()
 
     def fitted(self, text: str) -> str:
         """The step, indented as far as the line is long enough."""
@@ -148,7 +152,9 @@ class Printer(StatementPrinter[str]):
     def captured(self, statement: ir.Statement) -> list[str]:
         """The lines of a simple statement, to stand elsewhere."""
         kept = len(self.lines)
+        self.notes.parts.clear()
         self.actions.write(statement)
+        self.notes.parts.clear()
         found = [line.strip() for line in self.lines[kept:]]
         del self.lines[kept:]
         return found
@@ -161,8 +167,7 @@ class Printer(StatementPrinter[str]):
         except CannotSayError:
             found = None  # each is then guarded on its own
         if found is None or len(found[0]) > tables.LONGEST_LINE:
-            self.notes.before.clear()
-            del self.notes.autos[known:]
+            self.notes.back_to(0, known)
             return 0
         text, count = found
         for statement in body[:count]:
@@ -198,7 +203,7 @@ class Printer(StatementPrinter[str]):
             self.diagnostics.report(TEXT_CHANGED, statement.origin, text=text)
 
     def taken_back(self) -> None:
-        self.notes.before.clear()
+        self.notes.forget()
         self.notes.steps = True
 
     def written(self, statement: ir.Statement) -> None:
@@ -215,6 +220,7 @@ class Printer(StatementPrinter[str]):
                 self.comments_only(origin)  # programs of V+ always run ahead
             case ir.Label(name=name):
                 self.motion.forget()
+                self.notes.parts.clear()
                 self.comments_only(statement.origin)
                 self.lines.append(f" {self.labels.get(name.lower(), name)}")
             case ir.Goto(label=label):

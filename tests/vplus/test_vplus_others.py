@@ -141,7 +141,7 @@ def test_what_comes_right_behind_the_arming_of_a_reaction_counts(condition: str)
 def test_one_joint_is_changed_in_a_step_of_its_own() -> None:
     text = "def prog():\n  q = get_actual_joint_positions()\n  q[0] = q[0] + d2r(8)\n  movej(q)\nend\n"
     lines, difference = proved(text, "p.script", "urscript", "ur5e", "prog")
-    assert "SET #q = #PPOINT(part2[0], part2[1], part2[2], part2[3], part2[4], part2[5])" in lines
+    assert "SET #q = #PPOINT(part1[0], part1[1], part1[2], part1[3], part1[4], part1[5])" in lines
     assert not difference
 
 
