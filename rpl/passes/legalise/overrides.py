@@ -1,7 +1,7 @@
 """Setting the operator's override to full, for controllers whose programs cannot set it.
 
 Where a program only ever sets it to 100 percent, nothing but the operator's own choice differs: the statement is left
-out with a warning. What slows the robot down is no such thing and stays refused.
+out with a warning. What slows the robot down is no such thing: `scaledspeeds` makes it a factor of the moves' speeds.
 """
 
 from __future__ import annotations

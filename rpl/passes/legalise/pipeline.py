@@ -95,6 +95,7 @@ from rpl.passes.legalise.rotationvectors import rotation_vectors
 from rpl.passes.legalise.routineclocks import clocks_of_routines
 from rpl.passes.legalise.saidtwice import said_once
 from rpl.passes.legalise.sameunits import same_units
+from rpl.passes.legalise.scaledspeeds import scaled_override
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
 from rpl.passes.legalise.seenplaces import posed_places, seen_places
@@ -248,6 +249,7 @@ PASSES: tuple[Pass, ...] = (
     moves_ahead,
     explicit_to_modal,
     settings_at_moves,
+    scaled_override,
     stand_first,
     path_points,
     seen_places,

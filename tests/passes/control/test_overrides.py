@@ -21,9 +21,9 @@ CASES = [
     ("OVERRIDE=100%", "urscript", False, True),
     ("OVERRIDE=100%", "inform", False, True),
     ("R[1]=1\nOVERRIDE=100%\nOVERRIDE=100%", "inform", False, True),
-    ("OVERRIDE=30%", "inform", True, False),
-    ("OVERRIDE=30%\nOVERRIDE=100%", "inform", True, False),
-    ("OVERRIDE=R[1]", "urscript", True, False),
+    ("OVERRIDE=30%", "inform", False, False),
+    ("OVERRIDE=30%\nOVERRIDE=100%", "inform", False, False),
+    ("OVERRIDE=R[1]", "urscript", False, False),
     ("OVERRIDE=100%", "krl", False, False),
     ("OVERRIDE=100%", "tp", False, False),
 ]
