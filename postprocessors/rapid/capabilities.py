@@ -32,6 +32,7 @@ CAPABILITIES = Capabilities(
     names=NameRules(32, False, RESERVED, predefined=PREDEFINED),
     modal_motion=False,
     concurrent_moves="moves",
+    line_ends=True,
     paths_to_joints=False,
     notation="rapid",
     rotation="quaternion",

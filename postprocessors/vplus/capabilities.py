@@ -48,6 +48,7 @@ CAPABILITIES = Capabilities(
     ),
     modal_motion=True,
     concurrent_moves="moves",
+    line_ends=True,
     notation="vplus",
     rotation="zyx",
     conversions=tables.words("real round_half_away trunc bit truth minus_bit floor code char"),

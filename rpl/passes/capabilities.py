@@ -90,7 +90,8 @@ class Capabilities:
 
     Data: banks: where variables of a type (class name) are kept, when they have numbers and no names; types may share a
     bank. points: taught points that live in a routine. records, arrays (False only with banks: consecutive numbers),
-    texts: whether there are any. longest_message: characters of a message's line (0: any).
+    texts: whether there are any. line_ends: they may have line ends (else a message is shown line by line).
+    longest_message: characters of a message's line (0: any).
     computed_messages: a message may show computed text (else it names the registers of its values). text_case:
     comparisons of texts tell capital letters from small ones. text_find_from: text_find begins at any position.
     text_parts: without numbered storage as well, helpers read numbers from texts and search them by cutting and
@@ -201,6 +202,7 @@ class Capabilities:
     records: bool = True
     arrays: bool = True
     texts: bool = True
+    line_ends: bool = False
     longest_message: int = 0
     computed_messages: bool = True
     text_find_from: bool = True

@@ -1,4 +1,4 @@
-"""Messages that are longer than a line of the target's screen, as several messages one behind the other.
+"""Messages of several lines, or longer than a line of the target's screen, as several messages one behind the other.
 
 A computed message is taken apart: its constant words and its computed parts are put together to lines as far as they
 are sure to fit, so that nothing of it is cut off and no text grows beyond what a variable can hold.
@@ -22,6 +22,7 @@ SPLIT = code(
 )
 # The longest texts of a whole number of 32 bits and of a real number.
 _WHOLE, _REAL = 11, 16
+_ENDS = re.compile(r"\r\n|\r|\n")
 _WORDS = re.compile(r"\s*\S+\s*|\s+")
 
 
@@ -40,6 +41,46 @@ def split_messages(program: ir.Program, context: Context) -> ir.Program:
         return edit_bodies(routine, lambda body: map_body(body, change))
 
     return edit_routines(program, context, work)
+
+
+def message_lines(program: ir.Program, context: Context) -> ir.Program:
+    """A message for each line of one, where texts of the target have no line ends; empty lines are not shown."""
+    if context.capabilities.line_ends:
+        return program
+
+    def change(statement: ir.Statement) -> ir.Body:
+        if isinstance(statement, ir.Message) and statement.kind != "clear":
+            return _lines(statement)
+        return (inside(statement, lambda inner: map_body(inner, change)),)
+
+    modules = tuple(
+        replace(
+            module,
+            routines=tuple(edit_bodies(one, lambda body: map_body(body, change)) for one in module.routines),
+        )
+        for module in program.modules
+    )
+    return replace(program, modules=modules)
+
+
+def _lines(message: ir.Message) -> ir.Body:
+    pieces = _pieces(message.text)
+    if not any(isinstance(piece, ir.TextLiteral) and _ENDS.search(piece.value) for piece in pieces):
+        return (message,)
+    lines: list[list[ir.Expression]] = [[]]
+    for piece in pieces:
+        if not isinstance(piece, ir.TextLiteral):
+            lines[-1].append(piece)
+            continue
+        first, *others = _ENDS.split(piece.value)
+        lines[-1].append(ir.TextLiteral(first))
+        lines.extend([ir.TextLiteral(other)] for other in others)
+    full = [line for line in lines if any(piece != ir.TextLiteral("") for piece in line)] or lines[:1]
+    later = replace(message.origin, comments=())
+    return tuple(
+        replace(message, text=_joined(line), origin=message.origin if at == 0 else later)
+        for at, line in enumerate(full)
+    )
 
 
 def _split(message: ir.Message, most: int, editor: Editor) -> ir.Body:

@@ -63,7 +63,7 @@ from rpl.passes.legalise.locks import critical_flags
 from rpl.passes.legalise.logic import decide_logic
 from rpl.passes.legalise.lookahead import stop_blends
 from rpl.passes.legalise.loops import fit_loops
-from rpl.passes.legalise.messages import split_messages
+from rpl.passes.legalise.messages import message_lines, split_messages
 from rpl.passes.legalise.mixedspeeds import mixed_speeds
 from rpl.passes.legalise.modal import modal_to_explicit
 from rpl.passes.legalise.movesettings import settings_at_moves
@@ -233,6 +233,7 @@ PASSES: tuple[Pass, ...] = (
     poll_waits,
     unroll_switches,
     decide_logic,
+    message_lines,
     values_beside_messages,
     rewrite_calls,
     split_messages,
