@@ -192,6 +192,8 @@ def define_trigger(statement: ir.DefineTrigger, expressions: Expressions) -> str
     target = expressions.text(statement.target)
     place, switch = _place(trigger, expressions)
     if statement.interrupt is not None:
+        if trigger.delay is not None and switch != "\\Time":
+            raise CannotSayError("an interrupt at a time before a place on the path")
         return f"TriggInt {target},{place}{switch},{expressions.text(statement.interrupt)}"
     match trigger.action:
         case ir.Assign(target=ir.Signal(kind=kind) as signal, value=value) if kind in _OPTIONS:

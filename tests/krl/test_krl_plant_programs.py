@@ -108,6 +108,26 @@ RESUME
 END
 """
 CONTACT_DATA = "DEFDAT CHECKS\nDECL REAL BEGAN=0.0\nDECL REAL TOUCH=0.0\nDECL REAL TOUCH_A2=0.0\nENDDAT\n"
+# A call some time behind the start of a move, and an output at a place of the path.
+ON_THE_WAY = """DEF CHECKS( )
+BAS(#INITMOV,0)
+PTP {A1 0,A2 -90,A3 90,A4 0,A5 60,A6 0}
+LIN {X 500.0,Y 0.0,Z 400.0,A 180.0,B 0.0,C 180.0}
+WAIT SEC 0
+$VEL.CP=0.1
+TRIGGER WHEN PATH=-30.0 DELAY=0 DO $OUT[5]=TRUE
+TRIGGER WHEN DISTANCE=0 DELAY=500 DO NOTE_PLACE( ) PRIO=-1
+LIN {X 500.0,Y 120.0,Z 400.0}
+WAIT SEC 0
+IF (NOTED>30.0) AND (NOTED<60.0) AND $OUT[5] THEN
+  $OUT[1]=TRUE
+ENDIF
+END
+DEF NOTE_PLACE( )
+NOTED=$POS_ACT.Y
+END
+"""
+ON_THE_WAY_DATA = "DEFDAT CHECKS\nDECL REAL NOTED=0.0\nENDDAT\n"
 DOOR_DATA = "DEFDAT CHECKS\nDECL REAL BEGAN=0.0\nDECL REAL STOOD=0.0\nDECL INT DOORS=0\nENDDAT\n"
 
 
@@ -124,11 +144,14 @@ PROGRAMS: dict[str, tuple[str | dict[str, str], int]] = {
     "older path data": (OLDER_DATA, 1),
     "a pulse on the way": (PULSE_ON_THE_WAY, 1),
     "a contact": ({"checks.src": CONTACT, "checks.dat": CONTACT_DATA}, 2),
+    "a call on the way": ({"checks.src": ON_THE_WAY, "checks.dat": ON_THE_WAY_DATA}, 1),
     "a door": ({"checks.src": DOOR, "checks.dat": DOOR_DATA}, 1),
 }
 CELLS = {"a door": answers(38, 21, 0.9), "a contact": answers(39, 22, 0.9)}
 # What a language cannot say: (program, target) -> expectations that are missed, losses that say so.
 REFUSED: dict[tuple[str, str], tuple[set[int], set[str]]] = {
+    ("a call on the way", "tp"): ({1}, {"tp-guarded-stop"}),
+    ("a call on the way", "vplus"): ({1}, {"vplus-guarded-stop"}),
     ("a pulse on the way", "inform"): ({1}, {"inform-path-event-lost"}),
 }
 

@@ -27,16 +27,19 @@ def triggers(program: ir.Program, context: Context) -> ir.Program:
 
 
 class _Stored:
-    """Trigger statements become variables of trigger type; calls become interrupts with trap routines."""
+    """Trigger statements become variables of trigger type; calls become interrupts with trap routines. A call some time
+    behind its place is that of a second interrupt, by a timer that the first one starts."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
+        self.scope: Scope | None = None
         self.declarations: list[ir.Declaration] = []
         self.routines: list[ir.Routine] = []
 
     def program(self, program: ir.Program) -> ir.Program:
+        scopes = ProgramScope(program)
         modules = tuple(
-            replace(module, routines=tuple(replace(r, body=self.body(r.body)) for r in module.routines))
+            replace(module, routines=tuple(self.routine(r, scopes.routine(module, r)) for r in module.routines))
             for module in program.modules
         )
         program = replace(program, modules=modules)
@@ -52,6 +55,10 @@ class _Stored:
             program = exposed(program, called_names(self.routines))
             program = replace(program, modules=(*program.modules, home))
         return program
+
+    def routine(self, routine: ir.Routine, scope: Scope) -> ir.Routine:
+        self.scope = scope
+        return replace(routine, body=self.body(routine.body))
 
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
@@ -83,16 +90,30 @@ class _Stored:
         self.declarations.append(ir.Variable(name, ir.TriggerType(), scope="global"))
         names.append(ir.Name(name))
         later = replace(trigger.origin, comments=())
+        delay = None if trigger.delay is None or self.scope is None else constant_number(trigger.delay, self.scope)
+        if delay == 0:
+            trigger = replace(trigger, delay=None)
         if isinstance(trigger.action, ir.Assign):
             return [ir.DefineTrigger(ir.Name(name), replace(trigger, origin=later), origin=trigger.origin)]
+        steps: list[ir.Statement] = []
+        action: ir.Statement = trigger.action
+        if delay is not None and delay > 0 and trigger.delay is not None:
+            timer = self.interrupt(action, steps, trigger)
+            action = ir.OrderInterrupt(timer, "timer", time=trigger.delay, once=True, origin=later)
+            trigger = replace(trigger, delay=None)
+        handle = self.interrupt(action, steps, trigger)
+        steps[0] = replace(steps[0], origin=trigger.origin)
+        return [*steps, ir.DefineTrigger(ir.Name(name), replace(trigger, origin=later), handle, origin=later)]
+
+    def interrupt(self, action: ir.Statement, steps: list[ir.Statement], trigger: ir.Trigger) -> ir.Name:
+        """An interrupt whose trap does the action; `steps` connect it."""
         handle, trap = self.context.fresh("rpl_trigger_interrupt"), self.context.fresh("rpl_trigger_trap")
         self.declarations.append(ir.Variable(handle, ir.InterruptType(), scope="global"))
-        self.routines.append(ir.Routine(trap, "trap", body=(trigger.action,)))
-        return [
-            ir.ControlInterrupt("delete", ir.Name(handle), origin=trigger.origin),
-            ir.ConnectInterrupt(ir.Name(handle), trap, origin=later),
-            ir.DefineTrigger(ir.Name(name), replace(trigger, origin=later), ir.Name(handle), origin=later),
-        ]
+        self.routines.append(ir.Routine(trap, "trap", body=(action,)))
+        later = replace(trigger.origin, comments=())
+        steps.append(ir.ControlInterrupt("delete", ir.Name(handle), origin=later))
+        steps.append(ir.ConnectInterrupt(ir.Name(handle), trap, origin=later))
+        return ir.Name(handle)
 
 
 class _AtMoves:
