@@ -1,6 +1,8 @@
 """The rooms of the house: arrows go downwards, no circles, files stay readable, the core knows no vendor."""
 
 import ast
+from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -43,41 +45,74 @@ def modules() -> dict[str, Path]:
 MODULES = modules()
 
 
+@dataclass(frozen=True)
+class Facts:
+    """What the tests ask of one module. Every module is parsed once: there are many, and many tests ask."""
+
+    lines: int
+    head: str | None
+    anywhere: frozenset[str]  # modules of the package that it imports, but for type checking only
+    loading: frozenset[str]  # those that it imports while it is loaded itself
+    functions: tuple[tuple[str, int], ...]  # name and number of lines
+    words: tuple[tuple[str, int], ...]  # texts in the code, no docstrings, and their lines
+    handlers: tuple[tuple[str, int], ...]  # what is caught, and where
+
+
 @cache
+def facts(name: str) -> Facts:
+    text = MODULES[name].read_text("utf-8")
+    tree = ast.parse(text)
+    anywhere: set[str] = set()
+    loading: set[str] = set()
+    functions, words, handlers = [], [], []
+    # What is left to look at; an import inside a function happens when it is called, not while modules are loaded.
+    ahead: list[tuple[ast.AST, bool, bool]] = [(tree, False, False)]
+    while ahead:
+        node, called, typing = ahead.pop()
+        match node:
+            case ast.If(test=test) if "TYPE_CHECKING" in ast.dump(test):
+                typing = True
+            case ast.Import() | ast.ImportFrom() if not typing:
+                found = set(imported(name, node))
+                anywhere |= found
+                loading |= set() if called else found
+            case ast.FunctionDef() | ast.AsyncFunctionDef():
+                functions.append((node.name, (node.end_lineno or node.lineno) - node.lineno + 1))
+                called = True
+            case ast.Expr(value=ast.Constant()):
+                continue
+            case ast.Constant(value=str(word)):
+                words.append((word, node.lineno))
+            case ast.ExceptHandler(type=kind):
+                handlers.append((ast.unparse(kind) if kind else "", node.lineno))
+        ahead += [(inner, called, typing) for inner in ast.iter_child_nodes(node)]
+    return Facts(
+        len(text.splitlines()),
+        ast.get_docstring(tree),
+        frozenset(anywhere),
+        frozenset(loading),
+        tuple(functions),
+        tuple(words),
+        tuple(handlers),
+    )
+
+
+def imported(name: str, node: ast.Import | ast.ImportFrom) -> Iterator[str]:
+    """Dotted names of the package's modules that the statement imports."""
+    package = name if MODULES[name].name == "__init__.py" else name.rpartition(".")[0]
+    names = [alias.name for alias in node.names]
+    if isinstance(node, ast.ImportFrom):
+        base = node.module or ""
+        if node.level:
+            root = package.split(".")[: len(package.split(".")) - node.level + 1]
+            base = ".".join([*root, base] if base else root)
+        names = [whole if (whole := f"{base}.{one}") in MODULES else base for one in names]
+    return (target for target in names if target.split(".")[0] == "rpl" and target in MODULES)
+
+
 def imports(name: str, runtime_only: bool = False) -> frozenset[str]:
     """Dotted names of the package's modules that a module imports (anywhere in it; not for type checking only)."""
-    path = MODULES[name]
-    tree = ast.parse(path.read_text("utf-8"))
-    skipped = {
-        id(inner)
-        for node in ast.walk(tree)
-        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test)
-        for inner in ast.walk(node)
-    }
-    if runtime_only:  # an import inside a function happens when it is called, not while modules are loaded
-        skipped |= {
-            id(inner)
-            for node in ast.walk(tree)
-            if isinstance(node, ast.FunctionDef)
-            for inner in ast.walk(node)
-            if inner is not node
-        }
-    found = set()
-    package = name if path.name == "__init__.py" else name.rpartition(".")[0]
-    for node in ast.walk(tree):
-        if id(node) in skipped:
-            continue
-        if isinstance(node, ast.Import):
-            found.update(alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            base = node.module or ""
-            if node.level:
-                root = package.split(".")[: len(package.split(".")) - node.level + 1]
-                base = ".".join([*root, base] if base else root)
-            for alias in node.names:
-                whole = f"{base}.{alias.name}"
-                found.add(whole if whole in MODULES else base)
-    return frozenset(target for target in found if target.split(".")[0] == "rpl" and target in MODULES)
+    return facts(name).loading if runtime_only else facts(name).anywhere
 
 
 def room_of(name: str) -> str:
@@ -150,36 +185,25 @@ def test_no_circles_between_modules() -> None:
 
 @pytest.mark.parametrize("name", list(MODULES))
 def test_files_and_functions_stay_readable(name: str) -> None:
-    text = MODULES[name].read_text("utf-8")
-    tree = ast.parse(text)
-    assert len(text.splitlines()) <= MOST_LINES, f"{name} is too long"
-    for node in ast.walk(tree):
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
-            length = (node.end_lineno or node.lineno) - node.lineno + 1
-            assert length <= MOST_FUNCTION_LINES, f"{name}.{node.name} has {length} lines"
+    assert facts(name).lines <= MOST_LINES, f"{name} is too long"
+    for function, length in facts(name).functions:
+        assert length <= MOST_FUNCTION_LINES, f"{name}.{function} has {length} lines"
 
 
 @pytest.mark.parametrize("name", list(MODULES))
 def test_every_module_says_what_it_is_for(name: str) -> None:
-    assert ast.get_docstring(ast.parse(MODULES[name].read_text("utf-8"))), f"{name} has no module head"
+    assert facts(name).head, f"{name} has no module head"
 
 
 @pytest.mark.parametrize("name", CORE)
 def test_the_core_names_no_language_in_its_code(name: str) -> None:
     """Names of dialects may stand in comments and docstrings as examples, never in what is executed."""
     languages = {folder.name for folder in (ROOT / "dialects").iterdir() if folder.is_dir()} - {"__pycache__", "rpl"}
-    tree = ast.parse(MODULES[name].read_text("utf-8"))
-    docs = {
-        id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
-    }
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docs:
-            assert node.value.lower() not in languages, f"{name}:{node.lineno} names {node.value}"
+    for word, line in facts(name).words:
+        assert word.lower() not in languages, f"{name}:{line} names {word}"
 
 
 def test_broad_exceptions_are_caught_nowhere() -> None:
-    for name, path in MODULES.items():
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-            if isinstance(node, ast.ExceptHandler):
-                kind = ast.unparse(node.type) if node.type else ""
-                assert kind not in ("", "Exception", "BaseException"), f"{name}:{node.lineno} catches everything"
+    for name in MODULES:
+        for kind, line in facts(name).handlers:
+            assert kind not in ("", "Exception", "BaseException"), f"{name}:{line} catches everything"
