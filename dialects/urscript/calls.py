@@ -11,7 +11,7 @@ from .expressions import BUILTINS, Expressions
 from .functions import BindError, Builtin, bind
 from .kinds import BOOL, INT, REAL, Kind, is_joints, is_number
 from .nodes import Expr
-from .rules import FIRST_REGISTER, FIRST_SIGNAL, LEGACY_ANALOG, LEGACY_DIGITAL, POSE_DIST_COUNTS_ANGLE, STEP_TIME_S
+from .rules import FIRST_REGISTER, FIRST_SIGNAL, LEGACY_ANALOG, LEGACY_DIGITAL, POSE_DIST_COUNTS_ANGLE
 from .scopes import Function
 
 Bound = dict[str, Expr | None]
@@ -354,7 +354,7 @@ VALUES: dict[str, Make] = {
     "get_inverse_kin": _inverse("target_to_joints_near"),
     "get_inverse_kin_has_solution": _inverse("is_reachable"),
     "is_steady": lambda calls, bound: ir.Unary("not", ir.System("moving")),
-    "get_steptime": lambda calls, bound: ir.RealLiteral(STEP_TIME_S, str(STEP_TIME_S)),
+    "get_steptime": lambda calls, bound: ir.System("step_time"),
     "time": lambda calls, bound: ir.System("time"),
     "pose_trans": lambda calls, bound: ir.Binary(":", calls.pose(bound["p_from"]), calls.pose(bound["p_from_to"])),
     "pose_inv": lambda calls, bound: ir.Builtin("inverse", (calls.pose(bound["p_from"]),)),

@@ -41,6 +41,7 @@ CAPABILITIES = Capabilities(
     partial_aggregates=False,
     constant_aggregates=True,
     untyped_places=True,
+    shortest_wait_s=0.01,
     relative_moves=True,
     function_routines=False,
     parameters="none",

@@ -57,6 +57,7 @@ CAPABILITIES = Capabilities(
     partial_aggregates=True,
     constant_aggregates=True,
     untyped_places=True,
+    shortest_wait_s=0.01,
     relative_moves=True,
     for_real=True,
     else_if=False,

@@ -291,6 +291,8 @@ class Places:
                 return Printed("not is_steady()", tables.NOT)
             case "time", ():
                 return "time()"
+            case "step_time", ():
+                return "get_steptime()"
             case "actual_joint", (ir.IntLiteral(value=axis),) if 1 <= axis <= 6:
                 return f"r2d(get_actual_joint_positions()[{axis - 1}])"
             case "tool", ():

@@ -229,6 +229,7 @@ SYSTEM_VARIABLES: dict[str, SystemVariable] = _system(
     mode            | x | r  | - |       | - | operating mode
     simulated       | b | r  | - |       | - | TRUE: no real robot
     time            | n | r  | - | s     | - | time since the start of the run
+    step_time       | n | r  | - | s     | - | one cycle of the controller, the shortest wait (URScript get_steptime)
     date            | x | r  | - |       | - | date and time record
     moving          | b | r  | - |       | s | is the robot moving
     posture_shoulder | x | rw | - |     | - | asked of joint moves to poses without flags: front, back or empty

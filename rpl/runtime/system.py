@@ -13,6 +13,7 @@ from rpl.runtime.faults import ProgramError
 from rpl.runtime.functions import identity
 from rpl.runtime.tasks import robot_of
 from rpl.runtime.values import Member, StopWatch, Value, copied, whole
+from rpl.runtime.waits import CYCLE_S
 
 if TYPE_CHECKING:
     from rpl.runtime.motion import MotionQueue
@@ -180,6 +181,7 @@ _SPECIAL: dict[str, Read] = {
     "mode": lambda task, index: Member("automatic"),
     "simulated": lambda task, index: True,
     "time": _time,
+    "step_time": lambda task, index: _rules(task).wait_poll_s or CYCLE_S,
     "date": lambda task, index: task.machine.now,
     "moving": _moving,
 }

@@ -109,6 +109,7 @@ from rpl.passes.legalise.splines import straight_splines
 from rpl.passes.legalise.standing import stand_first
 from rpl.passes.legalise.statics import static_variables
 from rpl.passes.legalise.steps import steps
+from rpl.passes.legalise.steptimes import step_times
 from rpl.passes.legalise.stoppedtasks import stopped_tasks
 from rpl.passes.legalise.structure import labels_to_structure
 from rpl.passes.legalise.subscripts import joined_subscripts
@@ -143,6 +144,7 @@ from rpl.passes.typing import normalise
 # name to add.
 PASSES: tuple[Pass, ...] = (
     drop_untyped,
+    step_times,
     same_units,
     shared_task_data,
     cyclic_flags,

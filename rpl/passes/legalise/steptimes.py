@@ -1,0 +1,27 @@
+"""The cycle of the source's controller as a number, for targets that cannot ask for theirs.
+
+Programs wait for a cycle and count its time. Where the target's shortest wait is longer, that is what they count.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.ir.walk import rewrite, walk
+from rpl.passes.legalise.context import Context, rules_of
+
+_STEP = ir.System("step_time")
+
+
+def step_times(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets without such a system variable."""
+    if _STEP.name in context.capabilities.system_variables or _STEP not in list(walk(*program.modules)):
+        return program
+    seconds = max(rules_of(context.source).wait_poll_s, context.capabilities.shortest_wait_s)
+    known = ir.RealLiteral(seconds)
+    modules = tuple(rewrite(module, lambda node: known if node == _STEP else node) for module in program.modules)
+    return replace(program, modules=modules)
+
+
+__all__ = ["step_times"]
