@@ -163,7 +163,7 @@ class _File:
             match declaration:
                 case ir.Variable():
                     self.place_values(declaration, scope)
-                    printer.comments_only(origin)
+                    self.remarks_of(declaration, printer)
                 case ir.Initialise(assign=ir.Assign(target=target, value=value)):
                     type = type_of(target, scope)  # the printer sees the first module only
                     if type is None:
@@ -182,6 +182,14 @@ class _File:
             self.lost(declaration, printer, str(error))
         else:
             self.ledger.written(declaration)
+
+    def remarks_of(self, variable: ir.Variable, printer: Printer) -> None:
+        """V+ declares no global data: a remark behind the declaration names what it is about."""
+        for comment in variable.origin.comments:
+            if comment.behind and self.output.facts.foreign:
+                printer.remark(f" {spelling.spelled(variable.name, variable.type)}: {comment.text.strip()}")
+            else:
+                printer.comment(comment)
 
     def place_values(self, variable: ir.Variable, scope: Scope) -> None:
         given = values(variable)

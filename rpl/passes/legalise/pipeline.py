@@ -55,6 +55,7 @@ from rpl.passes.legalise.joinedmoves import joined_moves
 from rpl.passes.legalise.joins import joins
 from rpl.passes.legalise.jointgoals import joint_goals
 from rpl.passes.legalise.knownjoints import known_joints
+from rpl.passes.legalise.labelled import labels_as_remarks
 from rpl.passes.legalise.labels import structure_to_labels
 from rpl.passes.legalise.levels import levels_to_distances
 from rpl.passes.legalise.lists import lists_in_variables
@@ -276,6 +277,7 @@ PASSES: tuple[Pass, ...] = (
     name_errors,
     said_once,
     drop_unused,
+    labels_as_remarks,
     one_spelling,
     truths_to_numbers,
     share_temporaries,
