@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.passes.typing import type_of
@@ -232,6 +232,8 @@ def negative_of(value: ir.Expression) -> ir.Expression | None:
     match value:
         case ir.Unary(op="-", operand=operand):
             return operand
+        case ir.Quantity(value=inner) if (positive := negative_of(inner)) is not None:
+            return replace(value, value=positive)
         case ir.IntLiteral(value=number) if number <= 0:
             return value if number == 0 else ir.IntLiteral(-number)
         case ir.RealLiteral(value=number) if number <= 0:
