@@ -32,6 +32,7 @@ CAPABILITIES = Capabilities(
     ),
     modal_motion=True,
     concurrent_moves="moves",
+    wrist_paths=False,
     notation="inform",
     rotation="zyx",
     conversions=frozenset(("real", "trunc", "round_half_away", "bit", "truth", "floor", "code", "char")),

@@ -139,7 +139,7 @@ class Motion:
                 raise CannotSayError(f"a move has no place for {what}")
         left = {
             "settings of its own": bool(move.settings),
-            "an orientation rule": move.orientation not in (None, "variable", "wrist"),
+            "an orientation rule": move.orientation not in (None, "variable"),
             "a circle's orientation rule": move.circle_orientation not in (None, "base"),
             "an acceleration in mm/s2": move.speed is not None and move.speed.path_acceleration is not None,
             "an acceleration in deg/s2": move.speed is not None and move.speed.axis_acceleration is not None,

@@ -34,6 +34,7 @@ CAPABILITIES = Capabilities(
     concurrent_moves="moves",
     line_ends=True,
     paths_to_joints=False,
+    wrist_paths=False,
     notation="rapid",
     rotation="quaternion",
     for_at_least_once=True,

@@ -41,6 +41,7 @@ CAPABILITIES = Capabilities(
     ),
     modal_motion=True,
     concurrent_moves="moves",
+    wrist_paths=False,
     notation="urscript",
     rotation="zyx",
     short_circuit=True,

@@ -49,6 +49,7 @@ CAPABILITIES = Capabilities(
     modal_motion=True,
     concurrent_moves="moves",
     line_ends=True,
+    wrist_paths=False,
     notation="vplus",
     rotation="zyx",
     conversions=tables.words("real round_half_away trunc bit truth minus_bit floor code char"),

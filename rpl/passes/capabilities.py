@@ -115,6 +115,8 @@ class Capabilities:
     arc may go on for an angle (else it ends at a computed point). paths_to_joints: a straight move may go to joint
     values. place_components: the components of taught points and of the robot's place can be read.
 
+    wrist_paths: the wrist axes of a straight move may go evenly to their end values.
+
     path_points: the smallest corner (mm) of a point that the writer cuts a straight move at for an action on its path;
     where the ends of the move are computed, a pass does it (0: moves are not cut).
 
@@ -173,6 +175,7 @@ class Capabilities:
     partial_targets: bool = False
     flags_by_sign: bool = False
     flags: bool = True
+    wrist_paths: bool = True
     data_lists: bool = False
     aliases: bool = False
     else_if: bool = True

@@ -133,6 +133,7 @@ from rpl.passes.legalise.valuearrays import copy_value_arrays
 from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.legalise.watches import counted_watches
 from rpl.passes.legalise.watching import watching
+from rpl.passes.legalise.wristpaths import wrist_paths
 from rpl.passes.legalise.writeonly import kept_outputs
 from rpl.passes.typing import normalise
 
@@ -172,6 +173,7 @@ PASSES: tuple[Pass, ...] = (
     link_prelude,
     possible_cases,
     constant_orientations,
+    wrist_paths,
     labels_to_structure,
     settings_of_next_move,
     joined_moves,

@@ -129,10 +129,15 @@ class _Searches:
             after.append(ir.If(((ir.Name(hit), (kept,)),), failed, origin=later))
         elif failed:
             after.append(ir.If(((ir.Unary("not", ir.Name(hit)), failed),), origin=later))
-        return [
-            *steps,
+        way: list[ir.Statement] = [
             ir.DeclareInterrupt(number, condition, ir.CallRoutine(react), origin=later),
             ir.CallRoutine(travel, (ir.Argument(move.target),), origin=later),
             ir.ControlInterrupt("off", number, origin=later),
-            *after,
         ]
+        if search.hit is not None and search.edge != "either":  # where the condition holds at once there is no move
+            at_once: list[ir.Statement] = [ir.Assign(ir.Name(hit), ir.BoolLiteral(True), origin=later)]
+            if search.found is not None:
+                at_once.append(ir.Assign(ir.Name(place), ir.System("actual_pose"), origin=later))
+            there = ir.If(((condition, tuple(at_once)),), tuple(way), origin=later)
+            way = [ir.WaitForMotion(origin=later), there]
+        return [*steps, *way, *after]
