@@ -40,6 +40,7 @@ class Control(Motion):
     """One job's lines to statements."""
 
     unread: int = 0
+    shown: ir.Expression | None = None  # by MSG in the lines in front of this one
 
     # ---- bodies
 
@@ -59,6 +60,7 @@ class Control(Motion):
                 return replace(made[0], origin=item.origin), *made[1:]
             return made
         assert isinstance(item, _STATEMENTS)  # labels, comments, what was not read
+        self.shown = None
         return (item,)
 
     def guarded(self, item: ModulePart) -> Statements:
@@ -78,6 +80,8 @@ class Control(Motion):
         self.state = self.flow.before.get(id(command), {})
         head, condition = self.split_condition(command)
         word = command.word
+        if word not in ("MSG", "INPUT"):
+            self.shown = None
         if word in tables.MOVES:
             done = self.on_move(command)
         elif word in _METHODS:
@@ -358,7 +362,16 @@ class Control(Motion):
 
     def on_msg(self, command: Command) -> Statements:
         text = self.value(self.needs(command, 1)[0])
+        self.shown = text if self.shown is None else ir.Binary("&", self.shown, text, origin=self.origin)
         return (ir.Message("notify", text, origin=self.origin),)
+
+    def on_input(self, command: Command) -> Statements:
+        """INPUT B|I|D|R: the operator types a number. M: what MSG in front of it says is the question."""
+        place = self.needs(command, 1)[0]
+        if not isinstance(place, ir.Index) or self.is_position(place):
+            raise StatementError("INPUT needs a numeric variable", len(command.word))
+        text = self.shown or ir.TextLiteral("", origin=self.origin)
+        return (ir.Dialog(self.value(place), text, kind="number", origin=self.origin),)
 
     def on_cls(self, command: Command) -> Statements:
         return (ir.Message("clear", ir.TextLiteral(""), origin=self.origin),)
@@ -457,6 +470,7 @@ _METHODS: dict[str, Callable[[Control, Command], Statements]] = {
     "TIMER": Control.on_timer,
     "WAIT": Control.on_wait,
     "MSG": Control.on_msg,
+    "INPUT": Control.on_input,
     "CLS": Control.on_cls,
     "SETUALM": Control.on_setualm,
     "PSTART": Control.on_pstart,

@@ -86,7 +86,7 @@ VENDOR: dict[str, str] = {
     # other tasks and programs
     "SKILLSND": "message",
     **dict.fromkeys(("LOADJ", "DELETEJ", "LOADV", "SWAIT", "EI", "DI", "VSTART", "VDET", "VWAIT"), "unknown"),
-    **dict.fromkeys(("SETFILE", "GETFILE", "SETPRM", "GETNAME", "INPUT", "DIALOG", "CONVSFT"), "unknown"),
+    **dict.fromkeys(("SETFILE", "GETFILE", "SETPRM", "GETNAME", "DIALOG", "CONVSFT"), "unknown"),
 }
 # Application packages by the beginning of a word, where the word itself is not listed.
 VENDOR_BEGINNINGS: tuple[tuple[str, str], ...] = (

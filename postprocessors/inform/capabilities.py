@@ -11,7 +11,7 @@ CAPABILITIES = Capabilities(
         (
             *("Assign", "CallRoutine", "If", "While", "For", "Label", "Goto", "Return", "Halt", "Wait", "WaitUntil"),
             *("Pulse", "Message", "TaskControl", "Vendor", "Opaque", "Nothing", "Move", "Search", "Trigger"),
-            *("DeclareInterrupt", "ControlInterrupt"),
+            *("DeclareInterrupt", "ControlInterrupt", "Dialog"),
         )
     ),
     functions=frozenset((*tables.FUNCTIONS, *tables.TEXT_FUNCTIONS, *tables.POSITION_FUNCTIONS, "abs", "number_text")),
@@ -73,6 +73,7 @@ CAPABILITIES = Capabilities(
     functions_alone=True,
     index_base=None,
     longest_message=tables.LONGEST_MESSAGE,
+    asks_numbers_only=True,
     move_settings=frozenset(("tool", "frame", "speed", "blend")),
     speeds=frozenset(("joint", "path", "rotation")),
     blends=frozenset(("BlendStop", "BlendDistance", "BlendLevel")),

@@ -171,6 +171,8 @@ class Printer(StatementPrinter[str]):
                 self.waiting(statement)
             case ir.Message():
                 self.message(statement)
+            case ir.Dialog(kind="number", text=ir.TextLiteral(value=""), timeout=None, timed_out=None, answer=answer):
+                self.line(f"INPUT {variable(answer)}", origin)
             case ir.Opaque() | ir.Vendor():
                 self.put([part.strip() for part in self.own_text(statement).splitlines()], origin)
             case _:

@@ -93,7 +93,8 @@ class Capabilities:
     bank. points: taught points that live in a routine. records, arrays (False only with banks: consecutive numbers),
     texts: whether there are any. line_ends: they may have line ends (else a message is shown line by line).
     longest_message: characters of a message's line (0: any).
-    computed_messages: a message may show computed text (else it names the registers of its values). text_case:
+    computed_messages: a message may show computed text (else it names the registers of its values).
+    asks_numbers_only: the operator can type a number, and the question is a message in front of it. text_case:
     comparisons of texts tell capital letters from small ones. text_find_from: text_find begins at any position.
     text_parts: without numbered storage as well, helpers read numbers from texts and search them by cutting and
     comparing parts.
@@ -210,6 +211,7 @@ class Capabilities:
     line_ends: bool = False
     longest_message: int = 0
     computed_messages: bool = True
+    asks_numbers_only: bool = False
     text_find_from: bool = True
     text_parts: bool = False
     text_case: bool = True

@@ -31,6 +31,7 @@ from rpl.passes.legalise.cyclicflags import cyclic_flags
 from rpl.passes.legalise.datalists import set_data_at_start
 from rpl.passes.legalise.defaults import starting_values
 from rpl.passes.legalise.destinations import destinations
+from rpl.passes.legalise.dialogs import number_dialogs
 from rpl.passes.legalise.displacements import displacements
 from rpl.passes.legalise.elementwise import elementwise
 from rpl.passes.legalise.elseif import nest_branches
@@ -238,6 +239,7 @@ PASSES: tuple[Pass, ...] = (
     poll_waits,
     unroll_switches,
     decide_logic,
+    number_dialogs,
     message_lines,
     values_beside_messages,
     rewrite_calls,
