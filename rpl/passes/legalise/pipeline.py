@@ -46,6 +46,7 @@ from rpl.passes.legalise.flagreadings import flag_readings
 from rpl.passes.legalise.flatrecords import flat_records
 from rpl.passes.legalise.functions import functions_to_procedures
 from rpl.passes.legalise.geometry import geometry
+from rpl.passes.legalise.givenarrays import given_arrays
 from rpl.passes.legalise.groups import name_groups
 from rpl.passes.legalise.handles import known_handles
 from rpl.passes.legalise.heldmotion import held_motion
@@ -229,6 +230,7 @@ PASSES: tuple[Pass, ...] = (
     starting_values,
     fit_parameters,
     asked_values,
+    given_arrays,
     asked_elements,
     copy_value_arrays,
     array_sizes,
