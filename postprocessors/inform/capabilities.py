@@ -74,6 +74,7 @@ CAPABILITIES = Capabilities(
     index_base=None,
     longest_message=tables.LONGEST_MESSAGE,
     asks_numbers_only=True,
+    group_sizes=(8, 4),
     move_settings=frozenset(("tool", "frame", "speed", "blend")),
     speeds=frozenset(("joint", "path", "rotation")),
     blends=frozenset(("BlendStop", "BlendDistance", "BlendLevel")),

@@ -133,6 +133,7 @@ class Capabilities:
     declared_groups: a group of signals exists only by a declaration with a name (KRL SIGNAL). signal_groups: a group
     can be named by its first and last signal, or a pass or the writer finds a name for it. Where signals have names
     (signal_prefixes), a group has one of its own; groups of which a part is used otherwise are written bit by bit.
+    group_sizes: a group has so many signals and begins behind a multiple of them (empty: any).
     numbered_groups: groups have numbers of their own beside those of their bits (GO[2]). write_only: kinds of outputs
     that programs set and cannot read back.
     """
@@ -238,6 +239,7 @@ class Capabilities:
     pulse_levels: bool = True
     declared_groups: bool = False
     signal_groups: bool = True
+    group_sizes: tuple[int, ...] = ()
     numbered_groups: bool = False
     write_only: frozenset[str] = frozenset()
     postures: str = "flags"

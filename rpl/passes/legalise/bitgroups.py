@@ -3,6 +3,7 @@
 Written: each bit gets its share of the number. Read: the bits are added up in front of the statement, or where they are
 read when the target takes signals as numbers. Groups with computed numbers stay for the writer. Where signals have
 names, a named group and the names of its bits are different signals: groups that overlap what else is used become bits.
+Where groups have sizes, those of others do.
 """
 
 from __future__ import annotations
@@ -29,10 +30,15 @@ def groups_to_bits(program: ir.Program, context: Context) -> ir.Program:
 
 
 def shared_groups_to_bits(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets whose signals have names: groups of which another statement uses a part."""
-    if not context.capabilities.signal_prefixes:
+    """For targets whose signals have names: groups of which another statement uses a part; for those whose groups have
+    sizes: groups of another size, or that begin elsewhere."""
+    sizes = context.capabilities.group_sizes
+    if context.capabilities.signal_prefixes:
+        apart = _overlapping(program)
+    elif sizes:
+        apart = _odd(program, sizes)
+    else:
         return program
-    apart = _overlapping(program)
     if not apart:
         return program
 
@@ -75,6 +81,16 @@ def _overlapping(program: ir.Program) -> frozenset[Group]:
             one[0] in anywhere
             or any(other != one and other[0] == one[0] and other[1] <= one[2] and one[1] <= other[2] for other in used)
         )
+    )
+
+
+def _odd(program: ir.Program, sizes: tuple[int, ...]) -> frozenset[Group]:
+    """Groups of other sizes, or that do not begin behind a multiple of their size."""
+    found = (_group(node) for node in walk(*program.modules) if isinstance(node, ir.Signal) and node.last is not None)
+    return frozenset(
+        one
+        for one in found
+        if one is not None and not any(one[2] - one[1] == size - 1 and (one[1] - 1) % size == 0 for size in sizes)
     )
 
 
