@@ -18,6 +18,8 @@ from rpl.writing.precedence import ExpressionPrinter, Printed
 from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
+from .geometry import Geometry
+from .places import Places
 
 _WHOLE = re.compile(r"\d+")
 _POSES = (ir.PoseType, ir.TargetType, ir.VectorType, ir.RotationType)
@@ -35,12 +37,10 @@ class Expressions:
     """Prints the expressions of one scope."""
 
     def __init__(self, scope: Scope, notes: Notes) -> None:
-        from .geometry import Geometry
-        from .places import Places
-
         self.scope, self.notes = scope, notes
         self.printer = ExpressionPrinter(tables.OPERATORS, self._hook)
-        self.places, self.geometry = Places(self), Geometry(self)
+        self.geometry = Geometry(self)
+        self.places = Places(self, self.geometry.three)
 
     def text(self, expression: ir.Expression) -> str:
         return self.printer.text(expression)

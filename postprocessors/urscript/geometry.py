@@ -6,7 +6,6 @@ A rotation by itself is a list: its rotation vector `[rx, ry, rz]`, or its angle
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.passes import rigid
@@ -15,9 +14,7 @@ from rpl.writing.precedence import Printed
 
 from . import spelling, tables
 from .places import short
-
-if TYPE_CHECKING:
-    from .expressions import Expressions
+from .saying import Saying
 
 _VECTOR = ("rotation_vector_x", "rotation_vector_y", "rotation_vector_z")
 _ANGLES = ("euler_x", "euler_y", "euler_z")
@@ -26,7 +23,7 @@ _ANGLES = ("euler_x", "euler_y", "euler_z")
 class Geometry:
     """Functions of one scope."""
 
-    def __init__(self, expressions: Expressions) -> None:
+    def __init__(self, expressions: Saying) -> None:
         self.expressions = expressions
 
     # ---- rotations

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 from rpl import ir
 from rpl.passes import rigid
 from rpl.passes.fold import constant, constant_number
+from rpl.passes.scope import Scope
 from rpl.passes.typewords import word_type
 from rpl.passes.values import Target
 from rpl.writing.precedence import Printed
 from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
-
-if TYPE_CHECKING:
-    from rpl.passes.scope import Scope
-
-    from .expressions import Expressions
+from .saying import Saying
 
 _POSES = (ir.PoseType, ir.TargetType, ir.VectorType, ir.RotationType)
 _FLAT = ("x", "y", "z", "a", "b", "c")
@@ -29,13 +26,13 @@ _INTERFACES = {"digital_in": "digital", "digital_out": "digital", "analog_in": "
 
 
 class Places:
-    """Structured values of one scope."""
+    """Structured values of one scope. `three` writes the three components of a rotation as the function that gives
+    them all, where they are that."""
 
-    def __init__(self, expressions: Expressions) -> None:
-        self.expressions = expressions
+    def __init__(self, expressions: Saying, three: Callable[[ir.Aggregate], str | None]) -> None:
+        self.expressions, self.three = expressions, three
 
     def refuse(self, reason: str) -> Exception:
-
         return CannotSayError(reason)
 
     def value(self, expression: ir.Expression) -> str | Printed:
@@ -140,7 +137,7 @@ class Places:
             return f"struct({fields})"
         if named:
             raise self.refuse("a value with some components named and some not")
-        whole = self.expressions.geometry.three(aggregate)
+        whole = self.three(aggregate)
         return whole if whole is not None else f"[{', '.join(self.items(aggregate))}]"
 
     def items(self, aggregate: ir.Aggregate) -> list[str]:
