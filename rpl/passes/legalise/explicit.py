@@ -234,7 +234,8 @@ class Modal:
             wanted["base"] = self.frame_of_work_object(move.frame)
         for name in sorted(self.usual - wanted.keys()):  # another move may have set it
             wanted[name] = ir.System("null_frame")
-        if move.speed is not None:
+        timed = self.timed(move)
+        if move.speed is not None and timed is None:
             self.speed(move, move.speed, wanted)
         blend = self.blend(move, wanted)
         before: list[ir.Statement] = []
@@ -245,7 +246,7 @@ class Modal:
                 before.extend(_set(name, value, replace(origin, comments=())))
         if move.tool is not None and self.is_fixed(move.tool):
             before.insert(0, ir.Halt(origin=replace(origin, comments=())))  # no controller may drive on from here
-        done = replace(move, tool=None, frame=None, load=None, speed=None, blend=blend, configuration=None)
+        done = replace(move, tool=None, frame=None, load=None, speed=timed, blend=blend, configuration=None)
         if before:
             before[0] = replace(before[0], origin=origin)
             done = replace(done, origin=replace(origin, comments=()))
@@ -303,6 +304,14 @@ class Modal:
         if fixed and isinstance(initial, ir.Aggregate):
             return initial
         return self.constant_aggregate(initial) if fixed and isinstance(initial, ir.Name) else None
+
+    def timed(self, move: ir.Move) -> ir.Speed | None:
+        """The time of a move that says one, for targets whose moves can; arcs have their speed everywhere."""
+        can = self.context.capabilities
+        if move.speed is None or move.speed.duration is None or move.kind == "circular":
+            return None
+        kept = "speed" in can.move_settings and "duration" in can.speeds
+        return ir.Speed(duration=move.speed.duration) if kept else None
 
     def speed(self, move: ir.Move, speed: ir.Speed, wanted: dict[str, ir.Expression]) -> None:
         if speed.duration is not None:

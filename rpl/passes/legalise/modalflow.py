@@ -20,7 +20,9 @@ SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distan
 BRAKING = {"blend_speed": 100.0, "path_acceleration": 5000.0, "acceleration_percent": 100.0}
 # How the tool turns on arcs is followed too; setting it again is never left out, for targets start with other rules.
 _TURNS = "circle_orientation"
-_FOLLOWED = SETTINGS | BRAKING.keys() | {"displacement", _TURNS}
+# What all speeds are a share of, and the highest (RAPID VelSet), as a controller has them that says nothing.
+_SHARES = {"speed_percent": 100.0, "speed_limit": 5000.0}
+_FOLLOWED = SETTINGS | BRAKING.keys() | _SHARES.keys() | {"displacement", _TURNS}
 # Setting -> constant; None: it depends on the run. A place that is never reached has no state.
 State = dict[str, "ir.Expression | None"]
 _UNKNOWN: State = dict.fromkeys(_FOLLOWED)
@@ -109,7 +111,7 @@ def _default(name: str, defaults: dict[str, float | bool | str]) -> ir.Expressio
         return ir.System("null_frame")
     if name == _TURNS:
         return ir.EnumLiteral(str(defaults.get(name, "base")))
-    value = defaults.get(name, BRAKING.get(name))
+    value = defaults.get(name, (BRAKING | _SHARES).get(name))
     return ir.RealLiteral(float(value)) if isinstance(value, int | float) else None
 
 

@@ -107,6 +107,7 @@ from rpl.passes.legalise.sharing import share_temporaries
 from rpl.passes.legalise.shown import values_beside_messages
 from rpl.passes.legalise.signals import name_signals, number_signals
 from rpl.passes.legalise.speeds import fit_speeds
+from rpl.passes.legalise.speedshares import speed_shares
 from rpl.passes.legalise.spelling import one_spelling
 from rpl.passes.legalise.splines import straight_splines
 from rpl.passes.legalise.standing import stand_first
@@ -213,6 +214,7 @@ PASSES: tuple[Pass, ...] = (
     stopped_tasks,
     joins,
     task_arguments,
+    speed_shares,
     full_override,
     refuse,
     whole_targets,
