@@ -62,6 +62,7 @@ CAPABILITIES = Capabilities(
     for_real=True,
     else_if=False,
     for_keeps_last=True,
+    for_looks_once=False,
     for_steps="one",
     function_routines=False,
     parameters="numbered",

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.counters import declared_loops, jumps_about, overwritten, used_outside_loops
@@ -26,7 +27,7 @@ from rpl.passes.legalise.editing import (
 )
 from rpl.passes.legalise.effects import everything, is_constant, statements_in
 from rpl.passes.legalise.jumps import entered
-from rpl.passes.legalise.usage import base_name, each_expression
+from rpl.passes.legalise.usage import assigned_in, base_name, each_expression
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 
@@ -136,6 +137,9 @@ class _Loops:
     # ---- For
 
     def counting(self, loop: ir.For) -> ir.Body:
+        if not self.editor.capabilities.for_looks_once and self.bound_changes(loop):
+            last = self.editor.temporary("last", self.editor.type_of(loop.stop) or ir.RealType())
+            return expansion(loop.origin, (ir.Assign(last, loop.stop), *self.counting(replace(loop, stop=last))))
         rule = self.rule(loop)
         if self.fits(loop, rule):
             if loop.keeps_last != self.editor.capabilities.for_keeps_last:
@@ -146,6 +150,14 @@ class _Loops:
         else:
             done = self.as_plain(loop, rule)
         return self.spelled_out(loop, rule) if done is None else done
+
+    def bound_changes(self, loop: ir.For) -> bool:
+        """May the body change what the loop's last value is calculated from?"""
+        names = {one.id.lower() for one in everything(loop.stop) if isinstance(one, ir.Name)}
+        if names & assigned_in(loop.body):
+            return True
+        calls = any(isinstance(one, ir.CallRoutine | ir.Call) for one in walk(*loop.body))
+        return calls and bool(names - set(self.local) - self.editor.own)
 
     def inside(self, loop: ir.For) -> ir.Body:
         with self.editor.counting(loop):
