@@ -285,6 +285,8 @@ class Motion:
         elif speed.path is not None:
             found.append(f"SPEED {self.rounded(speed.path)} MMPS")
         if speed.duration is not None:
+            if not found:
+                found.append("SPEED 100")  # the duration alone decides
             found.append(f"DURATION {self.expressions.measured(speed.duration, 's')}")
         return found
 

@@ -48,6 +48,7 @@ CORNER_OUTPUT = code(
 )
 
 # Settings of the source's controller that only steer how it interpolates or checks; a target without them drops them.
+_TURNS = frozenset(("swivel_speed", "twist_speed"))
 _OF_EACH_AXIS = ("joint_speed", "joint_acceleration")
 _CHECKS = frozenset(
     {
@@ -65,7 +66,7 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     scopes = ProgramScope(program)
     assigned = usage_of(program).assigned
     reported: set[Code] = set()
-    usual = _usual_places(program)
+    usual = _usual_places(program) | _usual_turns(program, context)
     entries = moving_entries(program)
     looks_ahead = "advance" in context.capabilities.system_variables
     on_paths = any(isinstance(node, ir.Move) and node.kind != "joint" for node in walk(*program.modules))
@@ -107,6 +108,19 @@ def _usual_places(program: ir.Program) -> frozenset[str]:
         mixed
         - {node.target.name for node in nodes if isinstance(node, ir.Assign) and isinstance(node.target, ir.System)}
     )
+
+
+def _usual_turns(program: ir.Program, context: Context) -> frozenset[str]:
+    """Turning speeds, where some moves say theirs by itself and no statement sets it: the others have the usual one."""
+    known = _TURNS & context.capabilities.system_variables & rules_of(context.target).system_defaults.keys()
+    said = False
+    for node in walk(*program.modules):
+        match node:
+            case ir.Assign(target=ir.System(name=name)) if name in _TURNS:
+                return frozenset()
+            case ir.Move(speed=ir.Speed(rotation=rotation, path=None, profile=None)) if rotation is not None:
+                said = True
+    return frozenset(known) if said else frozenset()
 
 
 def _looking_ahead(routine: ir.Routine, moves: int) -> ir.Routine:
@@ -232,11 +246,13 @@ class Modal:
             wanted["tool"] = self.frame_of_tool(move.tool, move)
         if move.frame is not None:
             wanted["base"] = self.frame_of_work_object(move.frame)
-        for name in sorted(self.usual - wanted.keys()):  # another move may have set it
+        for name in sorted(self.usual - wanted.keys() - _TURNS):  # another move may have set it
             wanted[name] = ir.System("null_frame")
-        timed = self.timed(move)
-        if move.speed is not None and timed is None:
+        own = self.own_speed(move)
+        if move.speed is not None and own is None:
             self.speed(move, move.speed, wanted)
+        for name in sorted((self.usual & _TURNS) - wanted.keys()) if move.kind != "joint" else ():
+            wanted[name] = ir.RealLiteral(float(rules_of(self.context.target).system_defaults.get(name, 0.0)))
         blend = self.blend(move, wanted)
         before: list[ir.Statement] = []
         origin = move.origin
@@ -246,7 +262,7 @@ class Modal:
                 before.extend(_set(name, value, replace(origin, comments=())))
         if move.tool is not None and self.is_fixed(move.tool):
             before.insert(0, ir.Halt(origin=replace(origin, comments=())))  # no controller may drive on from here
-        done = replace(move, tool=None, frame=None, load=None, speed=timed, blend=blend, configuration=None)
+        done = replace(move, tool=None, frame=None, load=None, speed=own, blend=blend, configuration=None)
         if before:
             before[0] = replace(before[0], origin=origin)
             done = replace(done, origin=replace(origin, comments=()))
@@ -312,6 +328,14 @@ class Modal:
             return None
         kept = "speed" in can.move_settings and "duration" in can.speeds
         return ir.Speed(duration=move.speed.duration) if kept else None
+
+    def own_speed(self, move: ir.Move) -> ir.Speed | None:
+        """A time or a turning speed that the target's moves say themselves, so that it does not become a modal one."""
+        timed, speed, can = self.timed(move), move.speed, self.context.capabilities
+        if timed is not None or speed is None or "speed" not in can.move_settings:
+            return timed
+        alone = speed.path is None and speed.profile is None and speed.rotation is not None and move.kind != "joint"
+        return ir.Speed(rotation=speed.rotation) if alone and "rotation" in can.speeds else None
 
     def speed(self, move: ir.Move, speed: ir.Speed, wanted: dict[str, ir.Expression]) -> None:
         if speed.duration is not None:

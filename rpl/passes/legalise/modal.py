@@ -30,6 +30,8 @@ DROPPED = code("dropped-setting", Severity.WARNING, "the target has no setting f
 
 # A joint move's speed in percent as a tool speed: 100 % is the largest programmable tool speed of the target.
 MM_S_PER_PERCENT = 50.0
+# The path speed of a move that only its turning speed limits: the largest programmable one.
+_FREE_PATH_MM_S = 5000.0
 # A joint blend in percent (of 90 degrees on KUKA) as a zone radius; zones are capped at half the move like the blend.
 ZONE_MM_PER_PERCENT = 4.0
 _STANDARD_EXTERNAL = (ir.RealLiteral(5000.0), ir.RealLiteral(1000.0))
@@ -338,6 +340,9 @@ class _Explicit:
         if speed is not None:
             given = {"joint_speed": speed.joint, "path_speed": speed.path}
             own = {**own, **{name: value for name, value in given.items() if value is not None}}
+            turning = _number(speed.rotation) if speed.rotation is not None and speed.path is None else None
+            if turning is not None and move.kind != "joint":
+                return ir.Speed(profile=_speed(_real(_FREE_PATH_MM_S), turning))
             if speed.rotation is not None:
                 known = {**known, "swivel_speed": speed.rotation}
         return self.speed(move, known, own)
