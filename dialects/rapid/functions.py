@@ -15,6 +15,7 @@ Make = Callable[[Arguments, Signals], ir.Expression | None]
 """make(arguments, expressions): the expression, or None when an option has no neutral form. May raise
 StatementError."""
 
+MOTION_TASK = "T_ROB1"  # the task of the robot on every controller that has one
 _ZERO, _ONE, _BYTE = ir.IntLiteral(0), ir.IntLiteral(1), ir.IntLiteral(255)
 
 
@@ -116,12 +117,25 @@ def _rel_tool(arguments: Arguments, expressions: Signals) -> ir.Expression | Non
     return ir.Builtin("tool_offset", (*positional, *turns))
 
 
+def _of_motion_task(options: dict[str, ir.Expression | None]) -> dict[str, ir.Expression | None]:
+    """The options without the task, where that is the only robot's."""
+    robots = (("taskname", ir.TextLiteral(MOTION_TASK)), ("taskref", ir.Name(f"{MOTION_TASK}Id")))
+    named = [name for name, task in robots if options.get(name) == task]
+    return {name: value for name, value in options.items() if name not in named}
+
+
+def _joints_now(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
+    """CJointT, of the only robot also by its task."""
+    arguments.need(0)
+    return None if _of_motion_task(arguments.options) else ir.Builtin("current_joints", ())
+
+
 def _current(function: str) -> Make:
     """CRobT and CPos: `\\Tool`, `\\WObj`; what is left out is the one in use."""
 
     def make(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
         arguments.need(0)
-        options = arguments.options
+        options = _of_motion_task(arguments.options)
         if set(options) - {"tool", "wobj"}:
             return None
         tool, frame = options.get("tool"), options.get("wobj")
@@ -210,7 +224,7 @@ FUNCTIONS: dict[str, Make] = {
     "reltool": _rel_tool,
     "crobt": _current("current_target"),
     "cpos": _current("current_position"),
-    "cjointt": _plain("current_joints", 0),
+    "cjointt": _joints_now,
     "ctool": _plain("current_tool", 0),
     "cwobj": _plain("current_frame", 0),
     "calcrobt": _kinematics("joints_to_target"),

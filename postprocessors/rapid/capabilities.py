@@ -57,6 +57,7 @@ CAPABILITIES = Capabilities(
     dynamic_calls=True,
     background_tasks="separate",
     moving_tasks=False,
+    places_beside=True,
     no_tool="tool0",
     no_frame="wobj0",
     switch_types=frozenset(("IntType", "RealType", "StringType", "BoolType")),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from rpl import ir
 from rpl.passes.scope import Scope
@@ -12,7 +13,7 @@ from rpl.writing.precedence import ExpressionPrinter, Printed
 from rpl.writing.statements import CannotSayError
 from rpl.writing.text import NumberStyle, number_text
 
-from .functions import FUNCTIONS, TARGETS_FOR_POSITIONS
+from .functions import FUNCTIONS, MOTION_TASK, PLACES_BESIDE, TARGETS_FOR_POSITIONS
 from .tables import (
     COMPONENTS,
     NESTED,
@@ -37,9 +38,9 @@ _SIGNIFICANT = 9
 class Expressions:
     """Prints the expressions of one scope."""
 
-    def __init__(self, scope: Scope, long_texts: list[str] | None = None) -> None:
-        """long_texts: where texts that had to be cut are listed."""
-        self.scope = scope
+    def __init__(self, scope: Scope, long_texts: list[str] | None = None, beside: bool = False) -> None:
+        """long_texts: where texts that had to be cut are listed. beside: the task does not move the robot."""
+        self.scope, self.beside = scope, beside
         self.printer = ExpressionPrinter(OPERATOR_TABLE, self.hook)
         self.long_texts: list[str] = [] if long_texts is None else long_texts
 
@@ -218,6 +219,8 @@ class Expressions:
             arguments[position] = self.target_at(arguments[position])
         if expression.function in ("joints_to_target", "target_to_joints") and arguments[2:] == [ir.Name("wobj0")]:
             arguments.pop()
+        if self.beside and expression.function in PLACES_BESIDE:
+            return self.seen_from_beside(expression.function, arguments)
         if expression.function.startswith("current_") and arguments[:1] == [ir.Builtin("current_tool", ())]:
             pattern = "C" + {"current_target": "RobT", "current_position": "Pos"}[expression.function]
             return f"{pattern}(\\WObj:={self.text(arguments[1])})"
@@ -229,6 +232,14 @@ class Expressions:
         if found is None:
             raise CannotSayError(f"{expression.function} is not known with {len(arguments)} arguments")
         return found.format(*(self.text(argument) for argument in arguments))
+
+    def seen_from_beside(self, function: str, arguments: Sequence[ir.Expression]) -> str:
+        """Where the robot of the motion task is. Tool and work object are always named: this task has none in use."""
+        options = [f"\\TaskName:={text_literal(MOTION_TASK)}"]
+        if function != "current_joints":
+            named = [*arguments[:2], *(ir.Name(name) for name in ("tool0", "wobj0")[len(arguments) :])]
+            options += [f"\\{word}:={self.text(one)}" for word, one in zip(("Tool", "WObj"), named, strict=True)]
+        return f"{PLACES_BESIDE[function]}({''.join(options)})"
 
     def target_at(self, position: ir.Expression) -> ir.Expression:
         """A robtarget at a position, for functions that look at nothing else of it."""

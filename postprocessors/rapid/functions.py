@@ -71,3 +71,6 @@ FUNCTIONS: dict[str, dict[int, str]] = {
 }
 # Arguments that RAPID takes as whole targets although only their position matters.
 TARGETS_FOR_POSITIONS = {"frame_from_points": 3}
+# Functions that a task beside the one that moves asks with the name of that task.
+PLACES_BESIDE = {"current_target": "CRobT", "current_joints": "CJointT"}
+MOTION_TASK = "T_ROB1"  # the name every controller with one robot gives it

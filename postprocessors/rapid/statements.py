@@ -159,7 +159,7 @@ class Statements:
             raise CannotSayError("FOR counts by its own rule")
         head = [self.text(loop.start), self.text(loop.stop), "" if loop.step is None else self.text(loop.step)]
         scope = self.expressions.scope.with_value(ir.Variable(loop.counter, ir.RealType()))
-        inner = Expressions(scope, self.expressions.long_texts)
+        inner = Expressions(scope, self.expressions.long_texts, self.expressions.beside)
         inside = Statements(
             inner,
             self.diagnostics,

@@ -26,8 +26,10 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     scopes = ProgramScope(program)
     header = context.options.get("header", "").lower() in ("yes", "true", "1")
     files = []
+    background = {task.name for task in program.tasks if task.kind == "background"}
     for module in program.modules:
-        writer = _ModuleWriter(module, scopes, context.diagnostics, ledger)
+        beside = module.task != "" and module.task in background
+        writer = _ModuleWriter(module, scopes, context.diagnostics, ledger, beside)
         text = writer.text(header)
         suffix = ".sys" if any(name == "SYSMODULE" for name, _ in module.attributes) else ".mod"
         folder = f"{module.task}/" if module.task else ""
@@ -46,15 +48,20 @@ def _encoded(text: str) -> bytes:
 
 class _ModuleWriter:
     def __init__(
-        self, module: ir.Module, scopes: ProgramScope, diagnostics: Diagnostics, ledger: EmissionLedger
+        self,
+        module: ir.Module,
+        scopes: ProgramScope,
+        diagnostics: Diagnostics,
+        ledger: EmissionLedger,
+        beside: bool,
     ) -> None:
-        self.module, self.scopes = module, scopes
+        self.module, self.scopes, self.beside = module, scopes, beside
         self.diagnostics, self.ledger = diagnostics, ledger
 
     def text(self, header: bool) -> str:
         module = self.module
         self.ledger.written(module)
-        expressions = Expressions(self.scopes.module(module))
+        expressions = Expressions(self.scopes.module(module), beside=self.beside)
         declarations: list[str] = []
         for declaration in _ordered(module.declarations):
             declarations.extend(self.declaration(declaration, expressions))
@@ -108,7 +115,7 @@ class _ModuleWriter:
         raise CannotSayError(f"there is no {declaration.__class__.__name__}")
 
     def routine(self, routine: ir.Routine) -> list[str]:
-        expressions = Expressions(self.scopes.routine(self.module, routine))
+        expressions = Expressions(self.scopes.routine(self.module, routine), beside=self.beside)
         statements = Statements(expressions, self.diagnostics, self.ledger)
         try:
             head, ending = heading(routine, expressions)

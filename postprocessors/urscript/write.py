@@ -138,6 +138,8 @@ class _Script:
                     seconds, runs = self.output.watch(name)
                     printer.line(f"global {seconds}", origin)
                     printer.more(f"global {runs}")
+                case ir.Variable(type=ir.VendorType(dialect="urscript"), initial=None):
+                    printer.comments_only(origin)  # a handle is what the call gives that makes it
                 case ir.Variable():
                     printer.line(variable_line(declaration, printer.expressions, word), origin)
                 case ir.RecordDeclaration() | ir.ExternalDeclaration() | ir.Unread(text=""):

@@ -69,7 +69,7 @@ class Capabilities:
     branches. switch_jumps: a case of a Switch holds one Goto or one call. for_keeps_last: a FOR's counter keeps the
     last value a pass ran with. for_looks_once: the last value is looked at before the first pass only. for_steps:
     `any`, or `one` (only up or down by 1). shortest_wait_s: the smallest time that a wait can be given (0: any).
-    poll_s: time between two looks in a
+    places_beside: a separate background task can ask where the robot is. poll_s: time between two looks in a
     loop that waits for a condition, for targets without WaitUntil. next_move_settings: SetForNextMove can be said;
     otherwise it is attached to the next move. search_results: what a search move gives, `found` (the place) and `hit`
     (whether). task_operations: ops of TaskControl, where that is in `statements`; without it, background_tasks: the
@@ -185,6 +185,7 @@ class Capabilities:
     switch_jumps: bool = False
     poll_s: float = 0.008
     shortest_wait_s: float = 0.0
+    places_beside: bool = False
     for_keeps_last: bool = False
     for_looks_once: bool = True
     for_steps: str = "any"

@@ -38,6 +38,7 @@ _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.WaitForMotion, ir.StopMotion,
 _OTHER = (ir.DeclareInterrupt, ir.ConnectInterrupt, ir.OnError, ir.Critical, ir.TaskControl)
 _SIMPLE = (ir.IntType, ir.RealType, ir.BoolType, ir.StringType, ir.PoseType, ir.TargetType, ir.JointsType)
 _NOT_SHARED = (ir.ClockType, ir.InterruptType, ir.TriggerType)
+_PLACES = frozenset(("tool", "base", "null_frame", "actual_pose", "actual_joints"))
 _WAITS = (ir.Wait, ir.WaitUntil, ir.Pulse)
 _FALSE, _TRUE = ir.BoolLiteral(False), ir.BoolLiteral(True)
 
@@ -165,12 +166,15 @@ class _Maker:
                     yield from self.closure(home, one, seen)
 
     def check(self, module: ir.Module, routine: ir.Routine) -> None:
+        asks = self.context.capabilities.places_beside
         for node in walk(routine):
             match node:
-                case ir.Builtin(function=function) if self.separate and function.startswith("current_"):
+                case ir.Builtin(function=function) if self.separate and function.startswith("current_") and not asks:
                     raise _UnfitError("it asks where the robot is")
                 case ir.System(name="flag"):
                     continue  # flags belong to the whole controller
+                case ir.System(name=name) if asks and name in _PLACES:
+                    continue
                 case ir.System(name=name) if self.separate or not name.startswith(("timer", "actual_")):
                     raise _UnfitError(f"it uses {name.replace('_', ' ')}, which belongs to the task that moves")
             if isinstance(node, _MOTION):

@@ -103,8 +103,19 @@ def modal_to_explicit(program: ir.Program, context: Context) -> ir.Program:
         task = next((module.task for module in program.modules), "")
         name = context.fresh(HOME)
         home = ir.Module(name, program.modules[0].dialect, declarations, task=task)
-        program = replace(program, modules=(*program.modules, home))
+        shared = tuple(one for one in declarations if isinstance(one, ir.Variable) and one.storage == "persistent")
+        modules = tuple(_sharing(module, task, shared) for module in program.modules)
+        program = replace(program, modules=(*modules, home))
     return program
+
+
+def _sharing(module: ir.Module, home: str, shared: tuple[ir.Variable, ...]) -> ir.Module:
+    """The module of another task with the tool and the frame that it asks for: persistent data is one for all tasks."""
+    if module.task == home:
+        return module
+    named = {node.id for node in walk(module) if isinstance(node, ir.Name)}
+    needed = tuple(one for one in shared if one.name in named)
+    return replace(module, declarations=(*module.declarations, *needed)) if needed else module
 
 
 Environment = dict[str, ir.Expression]
