@@ -22,7 +22,7 @@ from .motion import Motion
 from .operands import tags_of
 from .signals import is_digital
 from .split import code_of
-from .syntax import Command, Given, Group, JobName, LabelBy, LabelName, Nest, Operand, Relation, Word
+from .syntax import Bracket, Command, Given, Group, JobName, LabelBy, LabelName, Nest, Operand, Relation, Word
 
 UNKNOWN = code(
     "inform-unknown-instruction",
@@ -339,7 +339,9 @@ class Control(Motion):
         for item in command.items:
             if isinstance(item, Relation) and item.left == Word("T"):
                 limit = self.seconds(item.right)
-            elif isinstance(item, Relation | Word):
+            elif item == Word("FOREXPRESS"):
+                continue
+            elif isinstance(item, Relation | Word | Bracket):
                 conditions.append(item)
             else:
                 result = item

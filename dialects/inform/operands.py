@@ -20,7 +20,7 @@ from . import tables
 from .jobs import Frame, Job
 from .kinds import BASE, DIFFERENT, DIFFERENT_TOOL, JOINTS, MIXED, TARGET, Flow, Kind, Project, State, key_of
 from .signals import is_digital
-from .syntax import Formula, Group, Numbered, Operand, Relation, Word, value_of
+from .syntax import Bracket, Formula, Numbered, Operand, Relation, Word, value_of
 
 MIXED_POSITION = code(
     "inform-mixed-position",
@@ -255,7 +255,7 @@ class Operands:
     # ---- conditions
 
     def condition(self, items: tuple[Operand, ...]) -> ir.Expression:
-        """`a=b ANDEXP c=d OREXP e=f`. M: and binds more tightly than or."""
+        """`a=b ANDEXP c=d OREXP e=f`, with brackets. M: and binds more tightly than or."""
         groups: list[list[ir.Expression]] = [[]]
         for item in items:
             match item:
@@ -265,8 +265,8 @@ class Operands:
                     groups.append([])
                 case Relation():
                     groups[-1].append(self.comparison(item))
-                case Group():
-                    raise StatementError("brackets in a condition are not read", 0)
+                case Bracket(items=inner):
+                    groups[-1].append(self.condition(inner))
                 case _:
                     raise StatementError("a comparison is needed here", 0)
         if not all(groups):

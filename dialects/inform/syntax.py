@@ -82,6 +82,13 @@ class Group:
 
 
 @dataclass(frozen=True, slots=True)
+class Bracket:
+    """`(a=b AND c=d)`: comparisons and brackets with the words between them."""
+
+    items: tuple[Operand, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Joined:
     """`+MOVJ`: what follows moves another group at the same time."""
 
@@ -112,6 +119,7 @@ Operand = (
     | SystemName
     | Relation
     | Group
+    | Bracket
     | Joined
     | Given
     | Formula
@@ -181,6 +189,10 @@ def _mention(item: object, found: list[ir.Index | ir.Signal | Numbered]) -> None
             parts = (number,)
         case Group(values=parts):
             pass
+        case Bracket(items=terms):
+            for term in terms:
+                _mention(term, found)
+            return
         case Relation(left=left, right=right):
             _mention(left, found)
             _mention(right, found)
@@ -323,6 +335,8 @@ class _Reading:
                 return Relation(self.item(left), str(op), self.item(right))
             case "formula":
                 return Formula(self.expression(_tree(first)))
+            case "bracket":
+                return Bracket(tuple(self.term(part) for part in tree.children))
             case "group":
                 return Group(tuple(self.expression(_tree(part)) for part in tree.children))
             case "joined":
@@ -346,6 +360,10 @@ class _Reading:
             case "numbered":
                 return self.numbered(tree)
         return self.expression(tree)
+
+    def term(self, child: object) -> Operand:
+        """A comparison, a bracket or the word between them."""
+        return self.item(child) if isinstance(child, Tree) else Word(self.text(child).upper())
 
     def value(self, operand: Operand) -> ir.Expression:
         return value_of(operand)
