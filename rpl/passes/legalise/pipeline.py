@@ -115,6 +115,7 @@ from rpl.passes.legalise.statics import static_variables
 from rpl.passes.legalise.steps import steps
 from rpl.passes.legalise.steptimes import step_times
 from rpl.passes.legalise.stoppedtasks import stopped_tasks
+from rpl.passes.legalise.storedpaths import stored_paths
 from rpl.passes.legalise.structure import labels_to_structure
 from rpl.passes.legalise.subscripts import joined_subscripts
 from rpl.passes.legalise.switches import unroll_switches
@@ -200,6 +201,7 @@ PASSES: tuple[Pass, ...] = (
     begun_moves,
     begun_outputs,
     triggers,
+    stored_paths,
     held_motion,
     reactions,
     resumes,
