@@ -1,5 +1,5 @@
-"""Paths that a program puts aside where the robot stands and nothing of a path is left (RAPID StorePath and RestoPath in
-the error handler of a search), for targets without.
+"""Paths that a program puts aside where the robot stands and nothing of a path is left (RAPID StorePath and RestoPath
+in the error handler of a search), for targets without.
 
 There is nothing to keep there: the statements go. In what an interrupt does, and in a program that stops its own
 motion, a path may be under way; there they stay for the writer.
