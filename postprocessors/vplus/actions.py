@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import product
-from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
@@ -13,9 +12,7 @@ from rpl.source import Origin
 from rpl.writing.statements import CannotSayError
 
 from . import settings, tables
-
-if TYPE_CHECKING:
-    from .statements import Printer
+from .output import BodyPrinter
 
 KEYS = code(
     "vplus-keys",
@@ -44,7 +41,7 @@ _TOLD = frozenset(("notify", "state", "write", "error", "quit"))
 class Actions:
     """Prints through the printer of a body."""
 
-    def __init__(self, printer: Printer) -> None:
+    def __init__(self, printer: BodyPrinter) -> None:
         self.printer = printer
         self.expressions = printer.expressions
 

@@ -7,16 +7,13 @@ What acts in the corner at a move's end stands behind the next move: that begins
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.writing.statements import CannotSayError
 
 from . import spelling
-
-if TYPE_CHECKING:
-    from .statements import Printer
+from .output import BodyPrinter
 
 CYCLE = code(
     "vplus-path-cycle",
@@ -64,7 +61,7 @@ class PathEvents:
     """Prints the actions on the path of each move. `waiting`: those of the next move; `carried`: those that come in the
     corner at its beginning or behind that; `deferred`: steps that stand behind the next move."""
 
-    def __init__(self, printer: Printer) -> None:
+    def __init__(self, printer: BodyPrinter) -> None:
         self.printer = printer
         self.waiting: list[Event] = []
         self.carried: list[Event] = []

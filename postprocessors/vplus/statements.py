@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from rpl import ir
-from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.scope import Scope
 from rpl.source import Origin
-from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError, StatementPrinter
 from rpl.writing.text import wrapped
 
@@ -19,9 +18,9 @@ from .actions import Actions
 from .corners import deferred
 from .decoding import decoded
 from .expressions import Expressions, Notes
-from .motion import Motion, MotionFacts
+from .motion import Motion
+from .output import Output
 from .pathevents import PathEvents
-from .reactions import Reactions
 
 GUARDED = code(
     "vplus-guarded-stop",
@@ -33,35 +32,6 @@ TEXT_CHANGED = code("vplus-text", Severity.WARNING, "a text is written in plain 
 STEP, FIRST = "    ", "        "
 _ASSIGNED_NUMBER = re.compile(r"[a-z][\w.]*(\[[^\]=]*\])? = ", re.IGNORECASE)
 _ROOM = tables.LONGEST_LINE - 12  # of a condition between its words
-
-
-@dataclass(slots=True)
-class Output:
-    """What all programs of one file share. `tasks`: number of each program that runs beside the main one."""
-
-    ledger: EmissionLedger
-    diagnostics: Diagnostics
-    facts: MotionFacts
-    reactions: Reactions
-    taken: set[str]
-    tasks: dict[str, int] = field(default_factory=dict)
-    helpers: set[str] = field(default_factory=set)
-    delayed: dict[tuple[str, str], str] = field(default_factory=dict)
-    pulses: list[ir.Signal] = field(default_factory=list)
-
-    def later(self, number: str, seconds: str) -> str:
-        """The program that switches a signal after a time."""
-        key = number, seconds
-        return self.delayed.setdefault(key, f"rpl.later.{len(self.delayed) + 1}")
-
-    def helper_task(self, signal: ir.Signal) -> int:
-        """The task that ends the pulses of a signal."""
-        if signal not in self.pulses:
-            self.pulses.append(signal)
-        number = tables.TASKS - self.pulses.index(signal)
-        if number <= len(self.tasks):
-            raise CannotSayError(f"pulses need tasks of their own, and there are {tables.TASKS}")
-        return number
 
 
 class Printer(StatementPrinter[str]):

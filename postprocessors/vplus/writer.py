@@ -26,8 +26,9 @@ from .data import declared, stored, values
 from .helpers import HELPERS, with_needed
 from .motion import MotionFacts
 from .namespace import names_of, one_namespace, starts
+from .output import Output
 from .reactions import Reactions
-from .statements import FIRST, Output, Printer
+from .statements import FIRST, Printer
 
 if TYPE_CHECKING:
     from jinja2 import Environment
