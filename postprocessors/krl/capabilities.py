@@ -36,6 +36,7 @@ CAPABILITIES = Capabilities(
     modal_motion=True,
     concurrent_moves="advance",
     paths_to_joints=False,
+    module_points="list",
     notation="krl",
     rotation="zyx",
     enums=True,

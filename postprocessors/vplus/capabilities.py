@@ -50,6 +50,7 @@ CAPABILITIES = Capabilities(
     concurrent_moves="moves",
     line_ends=True,
     wrist_paths=False,
+    module_points="global",
     notation="vplus",
     rotation="zyx",
     conversions=tables.words("real round_half_away trunc bit truth minus_bit floor code char"),

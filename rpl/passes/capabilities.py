@@ -91,7 +91,9 @@ class Capabilities:
     around calls that lead back). call_depth: how deep calls nest (0: not said).
 
     Data: banks: where variables of a type (class name) are kept, when they have numbers and no names; types may share a
-    bank. points: taught points that live in a routine. records, arrays (False only with banks: consecutive numbers),
+    bank. points: taught points that live in a routine. module_points: they are data of the module: constants
+    (`module`, `global` where all modules share their names) or a data list that the pendant changes (`list`).
+    records, arrays (False only with banks: consecutive numbers),
     texts: whether there are any. line_ends: they may have line ends (else a message is shown line by line).
     longest_message: characters of a message's line (0: any).
     computed_messages: a message may show computed text (else it names the registers of its values).
@@ -209,6 +211,7 @@ class Capabilities:
     moving_tasks: bool = True
     banks: Mapping[str, Bank] = field(default_factory=dict)
     points: Bank | None = None
+    module_points: str = ""
     records: bool = True
     arrays: bool = True
     texts: bool = True

@@ -69,6 +69,7 @@ from rpl.passes.legalise.loops import fit_loops
 from rpl.passes.legalise.messages import message_lines, split_messages
 from rpl.passes.legalise.mixedspeeds import mixed_speeds
 from rpl.passes.legalise.modal import modal_to_explicit
+from rpl.passes.legalise.modulepoints import points_of_modules
 from rpl.passes.legalise.movesettings import settings_at_moves
 from rpl.passes.legalise.nearjoints import near_joints
 from rpl.passes.legalise.nextmove import settings_of_next_move
@@ -287,6 +288,7 @@ PASSES: tuple[Pass, ...] = (
     name_errors,
     said_once,
     drop_unused,
+    points_of_modules,
     labels_as_remarks,
     one_spelling,
     truths_to_numbers,
