@@ -128,6 +128,50 @@ NOTED=$POS_ACT.Y
 END
 """
 ON_THE_WAY_DATA = "DEFDAT CHECKS\nDECL REAL NOTED=0.0\nENDDAT\n"
+# Timers that are stopped, read, and started again; by a routine, and where a choice decides whether they run.
+STOPPED_TIMERS = """DEF CHECKS( )
+DECL BOOL A
+BAS(#INITMOV,0)
+$TIMER[1]=-500
+$TIMER_STOP[1]=FALSE
+WAIT FOR $TIMER_FLAG[1]
+$TIMER_STOP[1]=TRUE
+WAIT SEC 0.7
+IF ($TIMER[1]>=0) AND ($TIMER[1]<200) THEN
+  $OUT[1]=TRUE
+ENDIF
+$TIMER_STOP[1]=FALSE
+WAIT SEC 0.4
+$TIMER_STOP[1]=TRUE
+WAIT SEC 0.4
+IF ($TIMER[1]>350) AND ($TIMER[1]<650) THEN
+  $OUT[2]=TRUE
+ENDIF
+BEGIN_AT(1000)
+WAIT SEC 0.3
+IF ($TIMER[2]>1250) AND ($TIMER[2]<1400) THEN
+  $OUT[3]=TRUE
+ENDIF
+A=$OUT[3]
+IF A THEN
+  $TIMER_STOP[2]=TRUE
+ENDIF
+WAIT SEC 0.5
+IF ($TIMER[2]>1250) AND ($TIMER[2]<1450) THEN
+  $OUT[4]=TRUE
+ENDIF
+$TIMER_STOP[2]=NOT A
+WAIT SEC 0.5
+IF $TIMER[2]>1700 THEN
+  $OUT[5]=TRUE
+ENDIF
+END
+DEF BEGIN_AT(MS:IN)
+DECL INT MS
+$TIMER[2]=MS
+$TIMER_STOP[2]=FALSE
+END
+"""
 DOOR_DATA = "DEFDAT CHECKS\nDECL REAL BEGAN=0.0\nDECL REAL STOOD=0.0\nDECL INT DOORS=0\nENDDAT\n"
 
 
@@ -145,6 +189,7 @@ PROGRAMS: dict[str, tuple[str | dict[str, str], int]] = {
     "a pulse on the way": (PULSE_ON_THE_WAY, 1),
     "a contact": ({"checks.src": CONTACT, "checks.dat": CONTACT_DATA}, 2),
     "a call on the way": ({"checks.src": ON_THE_WAY, "checks.dat": ON_THE_WAY_DATA}, 1),
+    "stopped timers": (STOPPED_TIMERS, 5),
     "a door": ({"checks.src": DOOR, "checks.dat": DOOR_DATA}, 1),
 }
 CELLS = {"a door": answers(38, 21, 0.9), "a contact": answers(39, 22, 0.9)}

@@ -50,6 +50,7 @@ from rpl.passes.legalise.givenarrays import given_arrays
 from rpl.passes.legalise.groups import name_groups
 from rpl.passes.legalise.handles import known_handles
 from rpl.passes.legalise.heldmotion import held_motion
+from rpl.passes.legalise.heldtimers import held_timers
 from rpl.passes.legalise.homes import home_positions
 from rpl.passes.legalise.interruptplaces import interrupt_places
 from rpl.passes.legalise.interrupts import interrupts
@@ -201,6 +202,7 @@ PASSES: tuple[Pass, ...] = (
     stop_blends,
     begun_moves,
     begun_outputs,
+    held_timers,
     triggers,
     stored_paths,
     held_motion,

@@ -46,8 +46,35 @@ def timers_to_clocks(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=(*modules, home))
 
 
+def _in_seconds(value: ir.Expression) -> ir.Expression:
+    """A computed time as a plain number."""
+    match value:
+        case ir.Quantity(value=inner, unit=unit) if not _written(inner):
+            return ir.Binary("*", inner, ir.RealLiteral(ir.UNITS[unit]), origin=value.origin)
+    return value
+
+
+def _written(value: ir.Expression) -> bool:
+    """Is it a number, perhaps with a sign?"""
+    value = value.operand if isinstance(value, ir.Unary) else value
+    return isinstance(value, ir.IntLiteral | ir.RealLiteral)
+
+
 class _Compared(Rewriter):
-    """The flag of a timer is whether the timer is above zero."""
+    """The flag of a timer is whether the timer is above zero; a choice starts or stops one by a condition."""
+
+    def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+        done = super().statement(statement)
+        match done:
+            case [ir.Assign(target=ir.System(name="timer"), value=value) as only]:
+                return [replace(only, value=_in_seconds(value))]
+            case [ir.Assign(target=ir.System(name="timer_stopped"), value=value) as only] if not isinstance(
+                value, ir.BoolLiteral
+            ):
+                later = replace(only.origin, comments=())
+                stop, start = (replace(only, value=ir.BoolLiteral(stopped), origin=later) for stopped in (True, False))
+                return [ir.If(((value, (stop,)),), (start,), origin=only.origin)]
+        return done
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
         done = super().expression(expression)
@@ -96,7 +123,7 @@ class _Clocks:
 
     def setting(self, statement: ir.Assign, watch: _Watch) -> list[ir.Statement]:
         assert isinstance(statement.target, ir.System)
-        value = self.expression(statement.value)
+        value = _in_seconds(self.expression(statement.value))
         clock, later = ir.Name(watch.clock), replace(statement.origin, comments=())
         start: ir.Body = (ir.Clock("start", clock, origin=later),)
         if statement.target.name == "timer":

@@ -1,0 +1,226 @@
+"""Timers that are stopped, for languages whose timers always run (V+): a variable keeps what a stopped timer shows.
+
+Where the course of the program tells whether a timer runs, the timer or the variable is read; elsewhere the value is
+put together from both and a number that is 1 while the timer runs. It stands in front of the passes that make timers
+of their own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.ir.walk import walk
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.usage import base_name, called_below, doing
+from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.values import real
+
+_LOOPS = (ir.While, ir.For, ir.Loop, ir.Repeat)
+Known = dict[int, bool]  # number of a timer -> whether it runs
+
+
+def held_timers(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets with numbered timers that cannot be stopped. Timers of computed numbers stay for the writer."""
+    can = context.capabilities
+    if not can.timers or "timer_stopped" in can.system_variables:
+        return program
+    stopped = {number for node in walk(program) if (number := _stopping(node)) is not None}
+    if not stopped:
+        return program
+    worker = _Held(context, stopped, doing(program, lambda node: _sets(node) is not None))
+    worker.apart = _apart(program)
+    modules = [
+        replace(
+            module,
+            routines=tuple(
+                replace(
+                    routine,
+                    body=worker.body(routine.body, {}),
+                    handlers=tuple(replace(one, body=worker.body(one.body, {})) for one in routine.handlers),
+                )
+                for routine in module.routines
+            ),
+        )
+        for module in program.modules
+    ]
+    unread = {runs.id for _, runs in worker.kept.values()} - worker.asked
+    modules = [replace(one, routines=tuple(_without(routine, unread) for routine in one.routines)) for one in modules]
+    first = modules[0]
+    data = tuple(
+        ir.Variable(name.id, ir.RealType(), real(0.0), scope="global")
+        for number in sorted(worker.kept)
+        for name in worker.kept[number]
+        if name.id not in unread
+    )
+    home = ir.Module(context.fresh("rpl_timers"), first.dialect, data, task=first.task, public=True)
+    return replace(program, modules=(*modules, home))
+
+
+def _sets(node: object) -> int | None:
+    """The timer that a statement sets, starts or stops."""
+    match node:
+        case ir.Assign(target=ir.System(name="timer" | "timer_stopped", indices=(ir.IntLiteral(value=number),))):
+            return number
+    return None
+
+
+def _start(number: int) -> ir.Assign:
+    return ir.Assign(ir.System("timer_stopped", (ir.IntLiteral(number),)), ir.BoolLiteral(False))
+
+
+def _stopping(node: object) -> int | None:
+    """The timer that a statement stops, or may stop."""
+    match node:
+        case ir.Assign(target=ir.System(name="timer_stopped"), value=value) if value != ir.BoolLiteral(False):
+            return _sets(node)
+    return None
+
+
+def _without(routine: ir.Routine, unread: set[str]) -> ir.Routine:
+    """The routine without assignments of these variables."""
+
+    def body(statements: ir.Body) -> ir.Body:
+        kept = [one for one in statements if not (isinstance(one, ir.Assign) and base_name(one.target) in unread)]
+        return tuple(rewrite_parts(one, lambda value: value, body) for one in kept)
+
+    handlers = tuple(replace(one, body=body(one.body)) for one in routine.handlers)
+    return replace(routine, body=body(routine.body), handlers=handlers)
+
+
+def _apart(program: ir.Program) -> set[int]:
+    """Timers that tasks, interrupts or actions on the path set: whether they run may change at any place."""
+    roots = {task.entry.lower() for task in program.tasks if task.kind != "motion"}
+    for node in walk(*program.modules):
+        match node:
+            case (
+                ir.DeclareInterrupt(action=ir.CallRoutine(name=name))
+                | ir.Trigger(action=ir.CallRoutine(name=name))
+                | ir.ConnectInterrupt(routine=name)
+                | ir.TaskControl(task=name)
+            ):
+                roots.add(name.lower())
+    below = called_below(program, roots)
+    bodies = [one.body for module in program.modules for one in module.routines if one.name.lower() in below]
+    return {number for body in bodies for node in walk(body) if (number := _sets(node)) is not None}
+
+
+@dataclass(slots=True)
+class _Held:
+    """`setting`: routines that set timers, with those that call them. `kept`: the value and the running of a timer."""
+
+    context: Context
+    stopped: set[int]
+    setting: frozenset[str]
+    apart: set[int] = field(default_factory=set)
+    kept: dict[int, tuple[ir.Name, ir.Name]] = field(default_factory=dict)
+    asked: set[str] = field(default_factory=set)  # what says that a timer runs, where something looks at it
+
+    def names(self, number: int) -> tuple[ir.Name, ir.Name]:
+        if number not in self.kept:
+            stems = (f"rpl_timer_{number}_held", f"rpl_timer_{number}_runs")
+            self.kept[number] = (ir.Name(self.context.fresh(stems[0])), ir.Name(self.context.fresh(stems[1])))
+        return self.kept[number]
+
+    def body(self, body: ir.Body, known: Known) -> ir.Body:
+        """The body; `known` becomes what is known behind it."""
+        done: list[ir.Statement] = []
+        for at, statement in enumerate(body):
+            number = _sets(statement)
+            if number in self.stopped and isinstance(statement, ir.Assign):
+                begins = at + 1 < len(body) and body[at + 1] == _start(number)
+                done.extend(self.setting_of(statement, number, known, begins))
+                continue
+            changed = self.changed(statement)
+            here = {k: v for k, v in known.items() if k not in changed} if isinstance(statement, _LOOPS) else known
+            inside = _Inside(self, dict(here))
+            done.append(rewrite_parts(statement, inside.read, inside.body))
+            for one in changed:
+                known.pop(one, None)
+        return tuple(done)
+
+    def changed(self, statement: ir.Statement) -> set[int]:
+        """Timers of which it is not known behind a statement whether they run."""
+        found = set(self.apart)
+        for node in walk(statement):
+            match node:
+                case ir.Label():
+                    return set(self.stopped)
+                case ir.CallRoutine(name=name, dynamic=dynamic) if dynamic is not None or name.lower() in self.setting:
+                    return set(self.stopped)
+                case ir.Call(name=name) if name.lower() in self.setting:
+                    return set(self.stopped)
+            number = _sets(node)
+            found |= set() if number is None else {number}
+        return found
+
+    def setting_of(self, statement: ir.Assign, number: int, known: Known, begins: bool) -> list[ir.Statement]:
+        """`begins`: the next statement starts the timer."""
+        held, runs = self.names(number)
+        timer = ir.System("timer", (ir.IntLiteral(number),))
+        value, later = self.read(statement.value, known), replace(statement.origin, comments=())
+        assert isinstance(statement.target, ir.System)  # as the caller has found
+        if statement.target.name == "timer":
+            if begins and number not in self.apart and known.get(number) is None:
+                known[number] = True
+                return [replace(statement, value=value), ir.Assign(runs, real(1.0), origin=later)]
+            if known.get(number) is True:
+                return [replace(statement, value=value)]
+            kept = ir.Assign(held, value, origin=statement.origin)
+            return [kept] if known.get(number) is False else [kept, ir.Assign(timer, held, origin=later)]
+        state = known.get(number)
+        runs_now = runs if state is not None and isinstance(value, ir.BoolLiteral) else self.running(number)
+        stop: ir.Body = (ir.Assign(held, timer, origin=later), ir.Assign(runs, real(0.0), origin=later))
+        start: ir.Body = (ir.Assign(timer, held, origin=later), ir.Assign(runs, real(1.0), origin=later))
+        if not isinstance(value, ir.BoolLiteral):
+            known.pop(number, None)
+            stopping = ir.If(((runs_now, stop),), origin=later)
+            starting = ir.If(((ir.Unary("not", runs_now), start),), origin=later)
+            return [ir.If(((value, (stopping,)),), (starting,), origin=statement.origin)]
+        if number not in self.apart:
+            known[number] = not value.value
+        if state is not None:
+            steps = () if state is not value.value else stop if value.value else start
+            return [ir.Nothing(origin=statement.origin), *steps]
+        asked, then = (runs_now, stop) if value.value else (ir.Unary("not", runs_now), start)
+        return [ir.If(((asked, then),), origin=statement.origin)]
+
+    def running(self, number: int) -> ir.Expression:
+        """Whether the timer runs."""
+        runs = self.names(number)[1]
+        self.asked.add(runs.id)
+        return ir.Binary(">", runs, real(0.5))
+
+    def read(self, value: ir.Expression, known: Known) -> ir.Expression:
+        match value:
+            case ir.System(name="timer_positive", indices=(ir.IntLiteral(value=number),)) if number in self.stopped:
+                return ir.Binary(">", self.read(replace(value, name="timer"), known), ir.IntLiteral(0))
+            case ir.System(name="timer" | "timer_stopped" as name, indices=(ir.IntLiteral(value=number),)) if (
+                number in self.stopped
+            ):
+                held, runs = self.names(number)
+                state = known.get(number)
+                if name == "timer_stopped":
+                    return ir.Unary("not", self.running(number)) if state is None else ir.BoolLiteral(not state)
+                if state is not None:
+                    return value if state else held
+                self.asked.add(runs.id)
+                return ir.Binary("+", held, ir.Binary("*", runs, ir.Binary("-", value, held)))
+        return rewrite_parts(value, lambda part: self.read(part, known))
+
+
+@dataclass(frozen=True, slots=True)
+class _Inside:
+    """Rewrites the parts of a statement; each body in it begins with what is known in front."""
+
+    worker: _Held
+    known: Known
+
+    def read(self, value: ir.Expression) -> ir.Expression:
+        return self.worker.read(value, self.known)
+
+    def body(self, body: ir.Body) -> ir.Body:
+        return self.worker.body(body, dict(self.known))
+
+
+__all__ = ["held_timers"]
