@@ -50,6 +50,7 @@ CAPABILITIES = Capabilities(
     concurrent_moves="moves",
     line_ends=True,
     wrist_paths=False,
+    reads_override=False,
     module_points="global",
     notation="vplus",
     rotation="zyx",

@@ -91,6 +91,7 @@ from rpl.passes.legalise.pulses import fold_pulses
 from rpl.passes.legalise.randomnumbers import random_numbers
 from rpl.passes.legalise.reactions import reactions
 from rpl.passes.legalise.reactionsearches import reaction_searches
+from rpl.passes.legalise.readoverrides import read_overrides
 from rpl.passes.legalise.references import references_as_copies
 from rpl.passes.legalise.refusals import refuse
 from rpl.passes.legalise.repeatedmoves import repeated_moves
@@ -221,6 +222,7 @@ PASSES: tuple[Pass, ...] = (
     task_arguments,
     speed_shares,
     full_override,
+    read_overrides,
     refuse,
     whole_targets,
     set_data_at_start,
