@@ -353,6 +353,7 @@ VALUES: dict[str, Make] = {
     "get_forward_kin": _forward,
     "get_inverse_kin": _inverse("target_to_joints_near"),
     "get_inverse_kin_has_solution": _inverse("is_reachable"),
+    "get_target_payload": lambda calls, bound: ir.Field(ir.System("load"), "mass"),
     "is_steady": lambda calls, bound: ir.Unary("not", ir.System("moving")),
     "get_steptime": lambda calls, bound: ir.System("step_time"),
     "time": lambda calls, bound: ir.System("time"),

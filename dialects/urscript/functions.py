@@ -133,6 +133,7 @@ _MEANT = """
     get_inverse_kin(x:p, qnear:q=?, maxPositionError:n=?, maxOrientationError:n=?, tcp:p=?) q
     get_inverse_kin_has_solution(pose:p, qnear:q=?, maxPositionError:n=?, maxOrientationError:n=?, tcp:p=?) b
     is_steady() b
+    get_target_payload() n
     is_within_safety_limits(pose:m, qnear:q=?) b
     get_steptime() n
     time(mode:i=0) n
@@ -202,7 +203,7 @@ _VENDOR_VALUES = """
     b: socket_open request_boolean_from_primary_client is_freedrive get_freedrive_status
     i: get_conveyor_tick_count tool_contact encoder_get_tick_count modbus_get_error request_integer_from_primary_client
         socket_get_var encoder_unwind_delta_tick_count binary_list_to_integer
-    n: force get_controller_temp get_joint_temp get_target_payload get_tool_current request_float_from_primary_client
+    n: force get_controller_temp get_joint_temp get_tool_current request_float_from_primary_client
         modbus_get_time_since_signal_invalid get_euromap_input
     t: socket_read_string socket_read_line request_string_from_primary_client get_robot_serial
     l: socket_read_ascii_float

@@ -39,6 +39,8 @@ class Places:
         match expression:
             case ir.Index():
                 return self.index(expression)
+            case ir.Field(base=ir.System(name="load"), name="mass"):
+                return "get_target_payload()"
             case ir.Field(base=base, name=name):
                 found = self.component(base, name)
                 if found is None:

@@ -12,7 +12,7 @@ from rpl.runtime.chain import DEFAULTS
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.functions import identity
 from rpl.runtime.tasks import robot_of
-from rpl.runtime.values import Member, StopWatch, Value, copied, whole
+from rpl.runtime.values import Member, Record, StopWatch, Value, copied, whole
 from rpl.runtime.waits import CYCLE_S
 
 if TYPE_CHECKING:
@@ -207,6 +207,8 @@ def _modal_read(name: str, kind: str, indexed: bool) -> Read:
             value = task.modal.get(name)
         if value is None:
             value = DEFAULTS.get(name)
+        if value is None and kind == "L":
+            return Record("load", {"mass": 0.0})
         if value is None:
             return identity(task) if kind == "P" else False if kind == "b" else 0.0
         return Member(value) if kind == "x" and isinstance(value, str) else value

@@ -62,6 +62,7 @@ from rpl.passes.legalise.labelled import labels_as_remarks
 from rpl.passes.legalise.labels import structure_to_labels
 from rpl.passes.legalise.levels import levels_to_distances
 from rpl.passes.legalise.lists import lists_in_variables
+from rpl.passes.legalise.loadreadings import load_readings
 from rpl.passes.legalise.locals import variables_of_routines
 from rpl.passes.legalise.locks import critical_flags
 from rpl.passes.legalise.logic import decide_logic
@@ -154,6 +155,7 @@ from rpl.passes.typing import normalise
 PASSES: tuple[Pass, ...] = (
     drop_untyped,
     step_times,
+    load_readings,
     same_units,
     shared_task_data,
     cyclic_flags,
