@@ -38,7 +38,7 @@ _WORDS: tuple[tuple[str, str], ...] = (
     (r"\bmax_Geschw\.", "max_speed"),
     (r"(?<=mm/)sek\b|(?<=deg/)sek\b|(?<=Grad/)sek\b", "sec"),
     (r"\bGrad/sec\b", "deg/sec"),
-    (r"(?<![A-Za-z])sek\b", "sec"),
+    (r"(?<![A-Za-z])[Ss]ek\b", "sec"),
     (r"\bInterrupt,(?=\s*LBL)", "Skip,"),
     (r"\bENDE\b", "END"),
     (r"\bABBRUCH\b", "ABORT"),

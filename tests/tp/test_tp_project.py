@@ -227,6 +227,7 @@ GERMAN = [
     ("gA[2]=gE[3]", "SET go[2] TO gi[3]"),
     ("WARTE (E[9] [&] !F[2] [+] (TIMER[10]>=0))", "WAIT UNTIL (di[9] AND NOT flag[2]) OR $timer[10] >= 0"),
     ("WARTE    .10(sec)", "WAIT 0.1"),
+    ("WARTE    .10(Sek)", "WAIT 0.1"),
     ("TIMER[3]=STOPP", "$timer_stopped[3] = TRUE"),
     ("AUFRUF MAIN", "MAIN()"),
     ("TRAGLST[1]", 'VENDOR tp "TRAGLST[1]" EFFECT tuning'),
