@@ -32,6 +32,7 @@ CAPABILITIES = Capabilities(
     ),
     modal_motion=True,
     concurrent_moves="moves",
+    ways_from_here=True,
     wrist_paths=False,
     notation="inform",
     rotation="zyx",

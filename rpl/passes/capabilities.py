@@ -129,6 +129,7 @@ class Capabilities:
     on the path may come some time behind the end of a move that stops there (else a task does it).
     concurrent_moves: a program that goes on while a move is driven: `moves` say so (or a task of watching_tasks drives
     them), the program runs `advance` over moves where it is allowed to; empty: it waits, which is named a loss.
+    ways_from_here: a way in joints is worked out from where the robot is, which has to stand for it.
     watching_tasks: path events, searches and interrupts stand in `statements` although moves and the controller have
     none: the passes make tasks of them that watch beside the move (pathevents, watching). watched_interrupts: only
     interrupts are such tasks; one that stops the robot ends its moves by a search. pulse_levels: a Pulse may be to any
@@ -242,6 +243,7 @@ class Capabilities:
     move_triggers: bool = False
     late_triggers: bool = True
     concurrent_moves: str = ""
+    ways_from_here: bool = False
     watching_tasks: bool = False
     watched_interrupts: bool = False
     pulse_levels: bool = True

@@ -6,7 +6,8 @@ import pytest
 
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import read_sources
-from rpl.source import source_from_text
+from rpl.simulation import run_program
+from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
 PROGRAM = """.PROGRAM main()
@@ -20,7 +21,13 @@ PROGRAM = """.PROGRAM main()
 
 @pytest.mark.parametrize(
     ("first", "refused"),
-    [("CPON ALWAYS", False), ("FINE 50 ALWAYS", False), ("ACCEL 80, 80", False), ("CPOFF ALWAYS", True)],
+    [
+        ("CPON ALWAYS", False),
+        ("FINE 50 ALWAYS", False),
+        ("ACCEL 80, 80", False),
+        ("CPOFF ALWAYS", False),
+        ("IF SIG(1001) THEN\nCPOFF ALWAYS\nEND", True),
+    ],
 )
 def test_a_switch_that_says_the_usual_is_no_loss(first: str, refused: bool) -> None:
     diagnostics = Diagnostics()
@@ -29,3 +36,56 @@ def test_a_switch_that_says_the_usual_is_no_loss(first: str, refused: bool) -> N
     assert bool(diagnostics.of(Severity.LOSS)) == refused
     text = "".join(file.data.decode() for file in files)
     assert refused or text.count("MoveAbsJ") == 2
+
+
+LINES = """.PROGRAM main()
+ SPEED 100 MMPS ALWAYS
+ {first}
+ MOVES TRANS(330,50,260,0,180,0)
+ MOVES TRANS(330,90,260,0,180,0)
+ {between}
+ MOVES TRANS(330,130,260,0,180,0)
+ MOVES TRANS(330,130,300,0,180,0)
+ BREAK
+.END
+"""
+STOPS = {
+    "krl": "LIN {X 330,Y {y},Z 260,A 180,B 0,C 180}",
+    "urscript": "movel(p[0.33, {m}, 0.26, 0, 3.141592654, 0], v=0.1)",
+}
+
+
+@pytest.mark.parametrize("target", STOPS)
+@pytest.mark.parametrize(
+    ("first", "between", "stops"),
+    [
+        ("CPON ALWAYS", "", []),
+        ("CPOFF", "", [50]),
+        ("", "CPON ALWAYS", []),
+        ("CPOFF", "CPOFF", [50, 130]),
+        ("CPOFF ALWAYS", "CPON", [50, 90]),
+    ],
+)
+def test_each_move_says_whether_it_is_joined(first: str, between: str, stops: list[int], target: str) -> None:
+    diagnostics = Diagnostics()
+    text = LINES.format(first=first, between=between)
+    read = read_sources([source_from_text("p.v2", text)], "vplus", diagnostics)
+    files = translate_program(read, target, None, None, diagnostics).files
+    assert not diagnostics.of(Severity.LOSS)
+    lines = [line.strip() for file in files for line in file.data.decode().splitlines()]
+    form = STOPS[target]
+    found = [y for y in (50, 90, 130) if form.replace("{y}", str(y)).replace("{m}", f"{y / 1000:g}") in lines]
+    assert found == stops
+
+
+@pytest.mark.parametrize(("between", "warned"), [("", 1), ("BREAK", 0)])
+def test_a_way_from_where_the_robot_is_begins_where_it_stands(between: str, warned: int) -> None:
+    diagnostics = Diagnostics()
+    lines = f".PROGRAM main()\n MOVE #PPOINT(10,-80,170,0,60,0)\n {between}\n DRIVE 1, 15, 50\n BREAK\n HERE #p\n"
+    text = lines + " DECOMPOSE v[1] = #p\n IF ABS(v[1]-25) < 0.02 THEN\n SIGNAL 1\n END\n.END\n"
+    read = read_sources([source_from_text("p.v2", text)], "vplus", diagnostics)
+    files = translate_program(read, "inform", "adept_viper_s650", None, diagnostics).files
+    assert [one.code.name for one in diagnostics.of(Severity.WARNING)].count("relative-move-stands") == warned
+    back = read_sources([source_from_bytes(file.path, file.data) for file in files], "inform", Diagnostics())
+    result = run_program(back.program, "adept_viper_s650", entry="MAIN")
+    assert [value for _, _, value in result.outputs] == [True]

@@ -1,6 +1,6 @@
-"""Whether moves are joined (`blending`, V+ CPON and CPOFF) at the moves themselves, for targets whose moves say so
-themselves: where a program only ever sets it to what the source's controller starts with, every move that says nothing
-is so.
+"""Whether moves are joined (`blending`, V+ CPON and CPOFF) at the moves themselves, for targets without such a switch:
+where a program only ever sets it to what the source's controller starts with, or to one value before all its moves, or
+to something else for one move, every move that says nothing is as that value says.
 
 A program that really changes it keeps the switch, and later passes name what the target makes of it.
 """
@@ -10,32 +10,35 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import edit_bodies, map_body
+from rpl.passes.legalise.effects import blocks
 from rpl.passes.legalise.jumps import inside
+from rpl.passes.legalise.usage import called_names
 
+STANDS = code(
+    "relative-move-stands",
+    Severity.WARNING,
+    "this way in joints is worked out from where the robot is; the robot comes to rest in front of it",
+    "teach the position, so that the move before can go over into this one",
+)
 _JOINED = ir.System("blending")
 
 
 def joined_moves(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets whose moves say all their settings, and where the switch never has another value."""
+    """Only for targets without the switch, and where moves that say nothing find it at one value."""
     start = rules_of(context.source).system_defaults.get("blending")
-    if (
-        context.capabilities.modal_motion
-        or "blending" in context.capabilities.system_variables
-        or not isinstance(start, bool)
-    ):
+    if "blending" in context.capabilities.system_variables or not isinstance(start, bool):
         return program
-    given = [
-        value
-        for node in walk(*program.modules)
-        for setting, value in _settings(node)
-        if isinstance(setting, ir.System) and setting.name == "blending"
+    start = _first_of_all(program, start)
+    settings = [
+        (node, value) for node in walk(*program.modules) for setting, value in _settings(node) if setting == _JOINED
     ]
-    if not given or any(value != ir.BoolLiteral(start) for value in given):
+    usual, own = ir.BoolLiteral(start), (ir.BoolLiteral(True), ir.BoolLiteral(False))
+    if not settings or any(value not in (own if isinstance(node, ir.Move) else (usual,)) for node, value in settings):
         return program
-    blend: ir.Blend = ir.BlendSpeed(ir.IntLiteral(100)) if start else ir.BlendStop()
 
     def change(statement: ir.Statement) -> ir.Body:
         if any(setting == _JOINED for setting, _ in _settings(statement)) and not isinstance(statement, ir.Move):
@@ -46,6 +49,8 @@ def joined_moves(program: ir.Program, context: Context) -> ir.Program:
         if not isinstance(node, ir.Move):
             return node
         kept = tuple(pair for pair in node.settings if pair[0] != _JOINED)
+        joined = next((value for setting, value in node.settings if setting == _JOINED), usual) == ir.BoolLiteral(True)
+        blend: ir.Blend = ir.BlendSpeed(ir.IntLiteral(100)) if joined else ir.BlendStop()
         return replace(node, settings=kept, blend=blend if node.blend is None else node.blend)
 
     modules = tuple(
@@ -55,6 +60,60 @@ def joined_moves(program: ir.Program, context: Context) -> ir.Program:
         for module in program.modules
     )
     return replace(program, modules=tuple(rewrite(module, moved) for module in modules))
+
+
+def stand_before_ways(program: ir.Program, context: Context) -> ir.Program:
+    """Ways in joints, in targets whose programs work them out from where the robot is: it has to stand there."""
+    if not context.capabilities.ways_from_here:
+        return program
+
+    def stood(body: ir.Body) -> ir.Body:
+        done: list[ir.Statement] = []
+        joined = True  # by what was driven before the body
+        for statement in body:
+            statement = inside(statement, stood)
+            if isinstance(statement, ir.Move) and statement.relative == "joints" and joined:
+                if done and isinstance(done[-1], ir.Move):
+                    context.diagnostics.report(STANDS, statement.origin)
+                done.append(ir.WaitForMotion(origin=replace(statement.origin, comments=())))
+            if isinstance(statement, ir.Move):
+                joined = statement.blend not in (None, ir.BlendStop())
+            elif isinstance(statement, ir.WaitForMotion):
+                joined = False
+            elif blocks(statement) or isinstance(statement, ir.CallRoutine | ir.Label):
+                joined = True
+            done.append(statement)
+        return (
+            body
+            if len(done) == len(body) and all(one is two for one, two in zip(done, body, strict=True))
+            else tuple(done)
+        )
+
+    modules = tuple(
+        replace(module, routines=tuple(edit_bodies(one, stood) for one in module.routines))
+        for module in program.modules
+    )
+    return replace(program, modules=modules)
+
+
+def _first_of_all(program: ir.Program, start: bool) -> bool:
+    """The value that the program sets at its very beginning, once and for all; else the controller's."""
+    found = [node for node in walk(*program.modules) if isinstance(node, ir.Assign) and node.target == _JOINED]
+    if len(found) != 1 or not isinstance(found[0].value, ir.BoolLiteral):
+        return start
+    routines = [routine for module in program.modules for routine in module.routines]
+    called = called_names(routines)
+    alone = [one for one in routines if one.name.lower() not in called and _drives(one)]
+    first = [one for one in routines if any(node is found[0] for node in one.body)]
+    if len(first) != 1 or first[0].name.lower() in called or any(one is not first[0] for one in alone):
+        return start
+    before = first[0].body[: next(at for at, node in enumerate(first[0].body) if node is found[0])]
+    quiet = not any(blocks(one) or isinstance(one, ir.CallRoutine | ir.Label) or _drives(one) for one in before)
+    return found[0].value.value if quiet else start
+
+
+def _drives(node: object) -> bool:
+    return any(isinstance(one, ir.Move) for one in walk(node))
 
 
 def _settings(node: object) -> tuple[tuple[ir.Expression, ir.Expression], ...]:
@@ -68,4 +127,4 @@ def _settings(node: object) -> tuple[tuple[ir.Expression, ir.Expression], ...]:
     return ()
 
 
-__all__ = ["joined_moves"]
+__all__ = ["joined_moves", "stand_before_ways"]

@@ -54,7 +54,7 @@ from rpl.passes.legalise.heldtimers import held_timers
 from rpl.passes.legalise.homes import home_positions
 from rpl.passes.legalise.interruptplaces import interrupt_places
 from rpl.passes.legalise.interrupts import interrupts
-from rpl.passes.legalise.joinedmoves import joined_moves
+from rpl.passes.legalise.joinedmoves import joined_moves, stand_before_ways
 from rpl.passes.legalise.joins import joins
 from rpl.passes.legalise.jointgoals import joint_goals
 from rpl.passes.legalise.knownjoints import known_joints
@@ -262,6 +262,7 @@ PASSES: tuple[Pass, ...] = (
     enums_to_constants,
     fit_speeds,
     corners,
+    stand_before_ways,
     accelerations_of_moves,
     settings_of_one_move,
     modal_to_explicit,
