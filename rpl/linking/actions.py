@@ -8,7 +8,7 @@ from rpl import ir
 from rpl.ir.walk import children
 from rpl.linking import interrupts
 from rpl.linking.places import writer
-from rpl.runtime import functions, system, tasks
+from rpl.runtime import answers, functions, system, tasks
 from rpl.runtime.code import SWITCHED, Instruction, Read, Values, Write
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.texts import value_text
@@ -255,8 +255,8 @@ def _dialog(statement: ir.Dialog, linker: RoutineLinker) -> Make:
             task = f[0]
             names = [_shown(key(f)) if key is not None else None for key in keys]
             limit = timeout(f) if timeout is not None else None
-            done: int = task.machine.ask(task, f, _shown(text(f)), names, kind, answer, limit, late, here, next)
-            return done
+            shown = _shown(text(f))
+            return answers.ask(task.machine, task, f, shown, names, kind, answer, limit, late, here, next)
 
         return ask
 
@@ -291,7 +291,7 @@ def _vendor(text: str, effect: str) -> Make:
     def make(here: int, next: int) -> Instruction:
         def run(f: Values) -> int:
             task = f[0]
-            seconds: float = task.machine.vendor(task, text, effect, task.frame.code.origin(here))
+            seconds = answers.vendor(task.machine, task, text, effect, task.frame.code.origin(here))
             done: int = task.sleep(seconds, here, next)
             return done
 

@@ -24,7 +24,7 @@ from rpl.linking.operators import (
 )
 from rpl.linking.types import Types
 from rpl.passes.scope import Scope
-from rpl.runtime import functions, system
+from rpl.runtime import answers, functions, system
 from rpl.runtime.code import Read, Values
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.signals import is_bit_group, key_of, zero_of
@@ -146,7 +146,7 @@ class Compiler:
                 number = place.number
                 return lambda f: f[number] is not None
             case ir.VendorValue(text=text):
-                return lambda f: f[0].machine.vendor_value(text)
+                return lambda f: answers.vendor_value(f[0].machine, text)
             case ir.Call(name=name):
                 raise InternalError(f"the call of {name} was not moved in front of its statement")
         raise InternalError(f"no code for {expression.__class__.__name__}")

@@ -13,6 +13,7 @@ from rpl.linking.expressions import Compiler, Place
 from rpl.linking.flatten import Flattener
 from rpl.linking.places import writer
 from rpl.linking.statements import Statements
+from rpl.runtime import answers
 from rpl.runtime.code import Code, HandlerCode, Instruction, Read, Values
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.values import Value
@@ -41,7 +42,7 @@ class RoutineLinker:
         def make(here: int, next: int) -> Instruction:
             def run(f: Values) -> int:
                 task = f[0]
-                value = task.machine.vendor_value(vendor.text)
+                value = answers.vendor_value(task.machine, vendor.text)
                 if result is not None:
                     f[result] = value
                 return next

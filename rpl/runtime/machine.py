@@ -12,9 +12,8 @@ from collections.abc import Callable
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
-from rpl.errors import RunError
 from rpl.runtime import searching, tasks
-from rpl.runtime.code import Code, Read, Values, Write
+from rpl.runtime.code import Code, Read, Values
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.interrupts import Interrupt
 from rpl.runtime.limits import EVENTS_OF_MOTION, MOST_WAITING, STEPS_OF_EVENT, Limits
@@ -27,7 +26,7 @@ from rpl.runtime.waits import CYCLE_S, Wait, poll_step
 from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
-    from rpl.cell import Answer, Cell
+    from rpl.cell import Cell
     from rpl.emulator.model import RobotModel
     from rpl.runtime.linked import Linked
 
@@ -404,89 +403,6 @@ class Machine:
         if kind != "clear":
             self.messages.append(text)
         self.event("message", {"text": text, "type": kind, **more}, task, origin)
-
-    # ---- operator and vendor statements
-
-    def ask(
-        self,
-        task: Task,
-        values: Values,
-        text: str,
-        keys: list[str | None],
-        kind: str,
-        write: Write,
-        timeout: float | None,
-        late: Write | None,
-        here: int,
-        next: int,
-    ) -> int:
-        """A dialog: the cell file answers, at once or later; without an answer the task waits."""
-        origin = task.frame.code.origin(here)
-        answer = self._answer(text)
-        if answer is None:
-            self.message(task, "dialog", text, origin, keys=keys)
-            deadline = None if timeout is None else self.now + timeout
-            wait = Wait("answer", here, next, self.token(), self.now, deadline, values=values)
-            wait.timed_out, wait.error, wait.subject = late, "dialog_timeout", text
-            return task.block(wait)
-        given = answer.answer
-        if kind == "keys" and isinstance(given, str):
-            names = [key.lower() if key is not None else None for key in keys]
-            if given.lower() not in names:
-                raise RunError(f"{self.cell.path}: the dialog {text!r} has no key {given!r}")
-            given = names.index(given.lower()) + 1
-        elif kind == "number" and isinstance(given, str):
-            given = self._number(text, given)
-        self.message(task, "dialog", text, origin, keys=keys, answer=given)
-        write(values, given)
-        if late is not None:
-            late(values, False)
-        if answer.after_s > 0.0:
-            return task.block(Wait("time", here, next, self.token(), self.now, self.now + answer.after_s))
-        return next
-
-    def _number(self, text: str, given: str) -> float:
-        """A number that the cell file gives as a text."""
-        try:
-            number = float(given)
-        except ValueError:
-            raise RunError(f"{self.cell.path}: the dialog {text!r} takes a number, not {given!r}") from None
-        return int(number) if number.is_integer() else number
-
-    def _answer(self, text: str) -> Answer | None:
-        """The first answer for this text; else the next of those for any dialog."""
-        for answer in self.cell.answers:
-            if answer.text is not None and answer.text.search(text):
-                return answer
-        plain = [answer for answer in self.cell.answers if answer.text is None]
-        if self.answered < len(plain):
-            self.answered += 1
-            return plain[self.answered - 1]
-        return None
-
-    def vendor(self, task: Task, text: str, effect: str, origin: Origin) -> float:
-        """A statement that only one controller has; gives the seconds that it takes."""
-        for meaning in self.cell.vendor:
-            if meaning.match.search(text):
-                if meaning.effect == "message":
-                    self.message(task, "vendor", meaning.message or text, origin)
-                for signal, value in meaning.set:
-                    self.set_input(signal, value)
-                return meaning.seconds
-        if effect == "unknown":
-            raise ProgramError(
-                "vendor", f"nothing says what this stands for: {text[:80]} (see [[vendor]] of a cell file)"
-            )
-        if effect == "message":
-            self.message(task, "vendor", text, origin)
-        return 0.0
-
-    def vendor_value(self, text: str) -> Value:
-        """The value of a function that only one controller has."""
-        for meaning in self.cell.vendor:
-            if meaning.match.search(text) and meaning.value is not None:
-                return meaning.value
-        raise ProgramError("vendor", f"nothing says what {text[:80]} gives (see [[vendor]] of a cell file)")
 
     # ---- ends
 
