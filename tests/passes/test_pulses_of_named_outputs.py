@@ -41,3 +41,34 @@ def test_high_from_low_and_low_from_high(language: str) -> None:
     happenings = [one for task in record_of(result, back).tasks.values() for one in task if one.kind == "output"]
     marks = {name for one in happenings for name in one.names if one.value and name.startswith("digital_out:")}
     assert {f"digital_out:{number}" for number in (1, 2, 3, 4)} <= marks
+
+
+GIVEN = """MODULE Bell
+  PROC main()
+    Ring doBell;
+    WaitTime 0.1;
+    IF DOutput(doBell)=1 SetDO do1,1;
+    WaitTime 0.5;
+    IF DOutput(doBell)=0 SetDO do2,1;
+  ENDPROC
+  PROC Ring(VAR signaldo doWhich)
+    PulseDO\\PLength:=0.3,doWhich;
+  ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize("language", ["tp", "inform"])
+def test_an_output_that_a_routine_is_given(language: str) -> None:
+    """From low it is a pulse; only where it is on already the program would stop."""
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("Bell.mod", GIVEN)], "rapid", diagnostics)
+    translation = translate_program(read, language, None, None, diagnostics)
+    assert [item.origin.line for item in diagnostics.of(Severity.LOSS)] == [10]
+    written = [source_from_bytes(one.path, one.data) for one in translation.files]
+    back = with_signal_names(read_sources(written, language, Diagnostics()).program, translation.program)
+    result = run_program(back, None, None, translation.renamed.get("main", "main"), 60)
+    assert result.status == "finished"
+    happenings = [one for task in record_of(result, back).tasks.values() for one in task if one.kind == "output"]
+    marks = {name for one in happenings for name in one.names if one.value and ":" in name}
+    assert {"digital_out:1", "digital_out:2"} <= marks

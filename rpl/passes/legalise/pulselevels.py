@@ -1,11 +1,12 @@
 """Pulses to low, and to the opposite of what the output is, for targets whose pulses are to high.
 
-A pulse to low is set now, and a task of its own sets the output back after its time.
+A pulse to low is set now, and a task of its own sets the output back after its time. Of an output that is known only in
+the run (one that a routine is given) the pulse to high is written, and the one to low stays for the writer.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.ir.walk import walk
@@ -53,6 +54,10 @@ class _Pulses:
                 if value == ir.Unary("not", signal):
                     return expansion(statement.origin, (ir.If(((signal, low),), high),))
                 return expansion(statement.origin, (ir.If(((value, high),), low),))
+            case ir.Pulse(signal=signal, value=value) if value == ir.Unary("not", signal):
+                high = (ir.Pulse(signal, _HIGH, statement.duration),)
+                stays = (replace(statement, value=_LOW, origin=replace(statement.origin, comments=())),)
+                return expansion(statement.origin, (ir.If(((ir.Unary("not", signal), high),), stays),))
         return (inside(statement, lambda inner: map_body(inner, lambda one: self.statement(one, scope))),)
 
     def low(self, signal: ir.Expression, duration: ir.Expression) -> ir.Body:
