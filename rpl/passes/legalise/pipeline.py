@@ -105,6 +105,7 @@ from rpl.passes.legalise.sameunits import same_units
 from rpl.passes.legalise.scaledspeeds import scaled_override
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
+from rpl.passes.legalise.seenjoints import seen_joints
 from rpl.passes.legalise.seenplaces import posed_places, seen_places
 from rpl.passes.legalise.settingparts import whole_settings
 from rpl.passes.legalise.sharing import share_temporaries
@@ -191,6 +192,7 @@ PASSES: tuple[Pass, ...] = (
     lists_in_variables,
     joined_subscripts,
     array_bases,
+    seen_joints,
     near_joints,
     known_joints,
     joint_goals,
