@@ -41,6 +41,7 @@ from rpl.passes.legalise.errorcodes import name_errors
 from rpl.passes.legalise.errorroutines import error_routines
 from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.explicit import explicit_to_modal
+from rpl.passes.legalise.fewaxes import axes_of_arm
 from rpl.passes.legalise.flagdata import flags_as_data
 from rpl.passes.legalise.flagreadings import flag_readings
 from rpl.passes.legalise.flatrecords import flat_records
@@ -155,6 +156,7 @@ from rpl.passes.typing import normalise
 # name to add.
 PASSES: tuple[Pass, ...] = (
     drop_untyped,
+    axes_of_arm,
     step_times,
     load_readings,
     same_units,
