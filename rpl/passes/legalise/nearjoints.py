@@ -27,6 +27,7 @@ POSTURE = code(
     "look on the controller that the arm comes to this place in the right posture",
 )
 _NEAR = "target_to_joints_near"
+_HERE = "target_to_joints"  # of one place: nearest to where the robot is
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 
 
@@ -35,9 +36,10 @@ def near_joints(program: ir.Program, context: Context) -> ir.Program:
     can = context.capabilities
     if _NEAR in can.functions or can.kinematics is not None:
         return program
-    if not any(isinstance(one, ir.Builtin) and one.function == _NEAR for one in walk(*program.modules)):
+    lacking = {_NEAR, _HERE} - can.functions
+    if not any(isinstance(one, ir.Builtin) and one.function in lacking for one in walk(*program.modules)):
         return program
-    return _Solved(_direct(program), context).program()
+    return _Solved(_direct(program, lacking), context).program()
 
 
 class _Solved(Rewriter):
@@ -53,6 +55,10 @@ class _Solved(Rewriter):
                 name == _NEAR and len(given) == 2
             ):
                 return [self.solved(statement, given[0], given[1])]
+            case ir.Move(kind="joint", relative=None, target=ir.Builtin(function=name, arguments=(place,))) if (
+                name == _HERE and name not in self.context.capabilities.functions
+            ):
+                return [replace(statement, target=place)]  # the controller takes what is nearest to where it is
         return super().statement(statement)
 
     def solved(self, move: ir.Move, place: ir.Expression, near: ir.Expression) -> ir.Move:
@@ -102,7 +108,7 @@ def _written(joints: list[float]) -> ir.Expression:
 # ---- a variable between the calculation and the move
 
 
-def _direct(program: ir.Program) -> ir.Program:
+def _direct(program: ir.Program, functions: set[str]) -> ir.Program:
     """`q := near(...)`, `MOVE q` in a row, where nothing else wants q, becomes one move."""
     shared: dict[str, set[int]] = {}  # name that a routine does not declare itself -> the routines with it
     every = [routine for module in program.modules for routine in module.routines]
@@ -124,7 +130,7 @@ def _direct(program: ir.Program) -> ir.Program:
                 case (
                     ir.Assign(target=ir.Name(id=name), value=ir.Builtin(function=function) as value),
                     [ir.Move(kind="joint", relative=None, target=ir.Name(id=goal)) as move, *behind],
-                ) if function == _NEAR and goal.lower() == name.lower() and alone(name.lower(), tuple(behind)):
+                ) if function in functions and goal.lower() == name.lower() and alone(name.lower(), tuple(behind)):
                     comments = (*first.origin.comments, *move.origin.comments)
                     done.append(replace(move, target=value, origin=replace(move.origin, comments=comments)))
                     body = behind

@@ -1,0 +1,28 @@
+"""Joints calculated of a place and moved to at once: a move to the place, in languages that cannot calculate them."""
+
+from __future__ import annotations
+
+import pytest
+from test_urscript_tasks_elsewhere import OTHERS, translated
+
+SCRIPT = """def main():
+  above = p[0.45, -0.2, 0.4, 3.1416, 0, 0]
+  movej([0.0, -1.5708, -1.5708, -1.5708, 1.5708, 0.0])
+  solution = get_inverse_kin(above)
+  movej(solution, a=1.2, v=0.9)
+  reached = get_actual_tcp_pose()
+  set_standard_digital_out(0, point_dist(above, reached) < 0.001)
+end
+"""
+
+
+@pytest.mark.parametrize("target", OTHERS)
+def test_the_robot_comes_to_the_place(target: str) -> None:
+    result, losses, _ = translated(SCRIPT, target)
+    assert (result.status, losses) == ("finished", [])
+    assert [each[2] for each in result.outputs] == [True]
+
+
+def test_joints_that_are_looked_at_stay_lost() -> None:
+    looked_at = SCRIPT.replace("  reached", "  first = solution[0]\n  reached")
+    assert "kinematics-lost" in translated(looked_at, "vplus")[1]
