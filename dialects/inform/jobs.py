@@ -6,6 +6,7 @@ written; what else stands in the header is kept for writing it again.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import PureWindowsPath
@@ -25,6 +26,14 @@ SEVENTH = code(
     "inform-seventh-axis", Severity.WARNING, "values behind the sixth are read as further axes of the arm (e1 ...)"
 )
 
+CUT_OFF = code(
+    "inform-cut-off",
+    Severity.INFO,
+    "the last job has no END: the file may have been cut off",
+    "compare it with the job on the controller",
+)
+
+_ENDED = re.compile(r"^\s*END\s*\Z", re.MULTILINE | re.IGNORECASE)
 PULSE, ANGLE, POSE = "pulse", "angle", "pose"
 
 
@@ -115,6 +124,9 @@ class JobReader:
                 self.point(item.data, item.origin)
             else:
                 self.job(item.origin).body.append(item)
+        text = self.source.text
+        if self.jobs and not _ENDED.search(text):
+            self.diagnostics.report(CUT_OFF, Origin(self.source, max(len(text) - 1, 0), len(text)))
         return self.jobs
 
     def job(self, origin: Origin) -> Job:

@@ -32,6 +32,12 @@ from .registers import MODULE, Facts, conclude, declarations, survey
 from .split import SHAPE, split
 
 TWICE = code("tp-program-twice", Severity.WARNING, "program {name} stands in two files; the first one is called")
+CUT_OFF = code(
+    "tp-cut-off",
+    Severity.INFO,
+    "the listing has no /END: it may have been cut off",
+    "compare it with the program on the controller",
+)
 NO_NAME = code("tp-no-program-name", Severity.WARNING, "the listing does not name its program; it is read as {name}")
 
 _LABEL = re.compile(r"LBL\s*\[\s*(\d+)\s*\]\s*\Z", re.IGNORECASE)
@@ -82,6 +88,8 @@ def _opened(source: Source, names: set[str], diagnostics: Diagnostics) -> _File:
     name = routine_name(header.name or source.name)
     if not header.name:
         diagnostics.report(NO_NAME, Origin(source), name=name)
+    if not re.search(r"^\s*/END\b", source.text, re.MULTILINE | re.IGNORECASE):
+        diagnostics.report(CUT_OFF, Origin(source, max(len(source.text) - 1, 0), len(source.text)))
     if name.upper() in names:
         diagnostics.report(TWICE, Origin(source), name=name)
     names.add(name.upper())

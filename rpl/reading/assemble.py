@@ -39,7 +39,7 @@ UNREADABLE = code(
 )
 STRAY = code("stray-block-end", Severity.ERROR, "{word} without a block that it could end")
 STRAY_MIDDLE = code("stray-section", Severity.ERROR, "{word} outside of the block it belongs to")
-UNCLOSED = code("missing-block-end", Severity.ERROR, "this {kind} block is never ended")
+UNCLOSED = code("missing-block-end", Severity.ERROR, "this {kind} is never ended")
 TOO_DEEP = code(
     "blocks-too-deep", Severity.ERROR, "blocks nested more than {limit} deep; the inner one is kept as text"
 )
@@ -190,7 +190,9 @@ class _Assembler:
     def end_frames_above(self, at: int) -> None:
         while len(self.frames) - 1 > at:
             opened = self.frames[-1].open
-            self.diagnostics.report(UNCLOSED, opened.origin, kind=opened.kind)
+            self.diagnostics.report(
+                UNCLOSED, opened.origin, kind=opened.kind if opened.kind == "block" else f"{opened.kind} block"
+            )
             self.end_frame(None)
 
     def end_frame(self, close: Close | None) -> None:

@@ -291,7 +291,7 @@ LAYOUTS = [
 @pytest.mark.parametrize("text", LAYOUTS)
 def test_every_character_of_a_file_is_accounted_for(text: str) -> None:
     program, diagnostics = read(text)
-    assert not list(diagnostics), [item.as_text() for item in diagnostics]
+    assert {item.code.name for item in diagnostics} <= {"tp-cut-off"}, [item.as_text() for item in diagnostics]
     assert "SET do[1] TO" in as_rpl(program)
 
 
