@@ -116,8 +116,8 @@ class Statements:
     def guarded(self, statement: ir.Statement, reason: str) -> list[str]:
         """The original as comment lines and the controller's own stop."""
         self.ledger.reported(statement)
-        shown, why = refusal(statement, "rapid") or (NOT_SAID, reason)
-        self.diagnostics.report(shown, statement.origin, reason=why)
+        code, why = refusal(statement, "rapid") or (NOT_SAID, reason)
+        self.diagnostics.report(code, statement.origin, reason=why)
         original = statement.text if isinstance(statement, ir.Opaque | ir.Vendor) else statement.origin.text
         shown = [line.strip() for line in (original or repr(statement)).splitlines()][:_SHOWN_LINES]
         text = _macros().guarded([f"not carried over: {reason}", *shown])
