@@ -8,6 +8,7 @@ Pinocchio, and only inside the functions that read a URDF and solve an arm that 
 
 import itertools
 import xml.etree.ElementTree as ET
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -17,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rpl.emulator.arms import Arm, BoolArray, Branch, Branches, OpwArm, ScaraArm, UrArm
-from rpl.emulator.postures import Fact, posture_facts
+from rpl.emulator.postures import Fact, in_posture, posture_facts
 from rpl.emulator.recognise import OpwFit, fit_opw
 from rpl.emulator.robotfile import (
     Kind,
@@ -234,6 +235,10 @@ class RobotModel:
         """The posture of one joint vector (n,), computed from the geometry by strict signs."""
         branch = self.arm.branch(self.theta(joints))
         return Posture(bool(branch.shoulder), not branch.elbow, bool(branch.elbow), bool(branch.wrist))
+
+    def in_posture(self, flange: FloatArray, near: FloatArray, asked: Mapping[str, str]) -> FloatArray | None:
+        """The joints (n,) for a flange pose (4, 4) in the posture that words ask for (rpl.emulator.postures)."""
+        return in_posture(self, flange, near, asked)
 
     def posture_facts(self) -> dict[str, Fact]:
         """The posture as inequalities over the joints; empty where the arm's build has none."""

@@ -2,10 +2,13 @@
 
 A translated program works the flags of its source language out from the joints, because its own controller writes other
 ones. Only arms with axes 2 and 3 parallel and a spherical wrist have such facts here.
+
+And the posture that words ask for, one by one (V+ LEFTY, ABOVE, FLIP).
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -15,6 +18,11 @@ from rpl.emulator.arms import OpwArm
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
+    from rpl.emulator.rotations import FloatArray
+
+ASKED_POSTURES = ("posture_shoulder", "posture_elbow", "posture_wrist")
+# Which side of a branch a word asks for: 1 is behind axis 1, elbow down (seen from outside), wrist turned over.
+_SIDES = {"front": 0, "back": 1, "up": 0, "down": 1, "noflip": 0, "flip": 1}
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,3 +67,30 @@ def _sine(model: RobotModel, amplitude: float, thetas: tuple[int, ...], offset: 
     ends = np.stack([rows * model.limits[:, 0], rows * model.limits[:, 1]])
     low, high = float(ends.min(axis=0).sum()) + start, float(ends.max(axis=0).sum()) + start
     return Sine(float(amplitude), tuple(float(row) for row in rows), start, low > -180.0 and high < 180.0)
+
+
+def in_posture(model: RobotModel, flange: FloatArray, near: FloatArray, asked: Mapping[str, str]) -> FloatArray | None:
+    """Joints (n,) for a flange pose (4, 4) in the posture asked for; what is not asked for stays as it is at `near`
+    (n,), and each axis takes its shortest way from there. None: out of reach or of an axis's limits."""
+    wanted = _wanted_branch(model, near, asked)
+    for solution in model.inverse(flange, near):
+        branch = solution.branch
+        if (branch.shoulder, branch.elbow, branch.wrist) == wanted:
+            joints = model.nearest_turn(solution.joints, near)
+            if not model.within_limits(joints):
+                return joints
+    return None
+
+
+def _wanted_branch(model: RobotModel, near: FloatArray, asked: Mapping[str, str]) -> tuple[int, int, int]:
+    """Shoulder, joint-sided elbow and wrist: as asked for, else as the arm has them. What an arm cannot choose is
+    ignored; an arm whose only choice is the elbow (SCARA) takes what is asked of the shoulder for it (V+ LEFTY)."""
+    now = model.posture(near).branch
+    shoulder, elbow, wrist = (_SIDES.get(asked.get(name, "")) for name in ASKED_POSTURES)
+    shoulders = {branch.shoulder for branch in model.arm.branches}
+    if len(shoulders) == 1:
+        return now.shoulder, now.elbow if shoulder is None else shoulder, now.wrist
+    if shoulder is None:
+        shoulder = now.shoulder
+    outside = now.elbow ^ now.shoulder if elbow is None else elbow
+    return shoulder, outside ^ shoulder, now.wrist if wrist is None else wrist

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
+from rpl.emulator.postures import ASKED_POSTURES
 from rpl.passes import rigid
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.orders import Modal, Order
@@ -303,7 +304,7 @@ def _configuration(order: Order, plan: Planning) -> dict[str, Value]:
         exact = setting(plan.modal, order.modal, "joint_configuration_check") is not False
         if order.configuration == "nearest" or (order.configuration is None and not exact):
             flags = {}
-        posture = {name: str(setting(plan.modal, order.modal, name) or "") for name in POSTURE}
+        posture = {name: str(setting(plan.modal, order.modal, name) or "") for name in ASKED_POSTURES}
         if any(posture.values()) and not any(value is not None for value in flags.values()):
             return {"select": lambda flange, near: _in_posture(model, flange, near, posture)}
         return {"select": lambda flange, near: notation.select(model, flange, flags, near)}
@@ -317,38 +318,12 @@ def _configuration(order: Order, plan: Planning) -> dict[str, Value]:
     return {"check_end": lambda joints: _mismatch(model, notation, flags, joints)}
 
 
-POSTURE = ("posture_shoulder", "posture_elbow", "posture_wrist")
-# Which side of a branch a word asks for: 1 is behind axis 1, elbow down (seen from outside), wrist turned over.
-_SIDES = {"front": 0, "back": 1, "up": 0, "down": 1, "noflip": 0, "flip": 1}
-
-
-def _wanted_branch(model: RobotModel, near: FloatArray, asked: dict[str, str]) -> tuple[int, int, int]:
-    """Shoulder, joint-sided elbow and wrist: as asked for, else as the arm has them. What an arm cannot choose is
-    ignored; an arm whose only choice is the elbow (SCARA) takes what is asked of the shoulder for it (V+ LEFTY)."""
-    now = model.posture(near).branch
-    shoulder, elbow, wrist = (_SIDES.get(asked[name]) for name in POSTURE)
-    shoulders = {branch.shoulder for branch in model.arm.branches}
-    if len(shoulders) == 1:
-        return now.shoulder, now.elbow if shoulder is None else shoulder, now.wrist
-    if shoulder is None:
-        shoulder = now.shoulder
-    outside = now.elbow ^ now.shoulder if elbow is None else elbow
-    return shoulder, outside ^ shoulder, now.wrist if wrist is None else wrist
-
-
 def _in_posture(model: RobotModel, flange: FloatArray, near: FloatArray, asked: dict[str, str]) -> Selection:
-    """The solution in the posture asked for; what is not asked for stays as the arm has it."""
     from rpl.emulator.configuration import Selection
 
-    wanted = _wanted_branch(model, near, asked)
-    for solution in model.inverse(flange, near):
-        branch = solution.branch
-        if (branch.shoulder, branch.elbow, branch.wrist) == wanted:
-            joints = model.nearest_turn(solution.joints, near)
-            if not model.within_limits(joints):
-                return Selection(joints)
+    joints = model.in_posture(flange, near, asked)
     words = ", ".join(word for word in asked.values() if word)
-    return Selection(None, f"the target cannot be reached with the posture asked for ({words})")
+    return Selection(joints, f"the target cannot be reached with the posture asked for ({words})")
 
 
 def _mismatch(model: RobotModel, notation: Notation, flags: dict[str, int | None], joints: FloatArray) -> str | None:

@@ -28,6 +28,7 @@ POSTURE = code(
 )
 _NEAR = "target_to_joints_near"
 _HERE = "target_to_joints"  # of one place: nearest to where the robot is
+_GIVEN = {_NEAR: 2, _HERE: 1}  # arguments, with the tool and the frame that are set
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 
 
@@ -128,9 +129,14 @@ def _direct(program: ir.Program, functions: set[str]) -> ir.Program:
             first, *rest = body
             match first, rest:
                 case (
-                    ir.Assign(target=ir.Name(id=name), value=ir.Builtin(function=function) as value),
+                    ir.Assign(target=ir.Name(id=name), value=ir.Builtin(function=function, arguments=given) as value),
                     [ir.Move(kind="joint", relative=None, target=ir.Name(id=goal)) as move, *behind],
-                ) if function in functions and goal.lower() == name.lower() and alone(name.lower(), tuple(behind)):
+                ) if (
+                    function in functions
+                    and len(given) == _GIVEN[function]
+                    and goal.lower() == name.lower()
+                    and alone(name.lower(), tuple(behind))
+                ):
                     comments = (*first.origin.comments, *move.origin.comments)
                     done.append(replace(move, target=value, origin=replace(move.origin, comments=comments)))
                     body = behind

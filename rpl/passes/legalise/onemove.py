@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.jumps import inside
@@ -21,14 +20,6 @@ _PATH = frozenset(
     ("path_speed", "swivel_speed", "twist_speed", "path_acceleration", "swivel_acceleration", "twist_acceleration")
 )
 _TURNING = frozenset(("orientation_mode", "circle_orientation"))
-
-_POSTURES = ("posture_shoulder", "posture_elbow", "posture_wrist")
-POSTURE = code(
-    "posture-change-lost",
-    Severity.LOSS,
-    "this move asks for another {name} than moves before; the target has no such setting and keeps the posture",
-    "write the posture into the target of the move",
-)
 
 
 def settings_of_one_move(program: ir.Program, context: Context) -> ir.Program:
@@ -48,7 +39,6 @@ def settings_of_one_move(program: ir.Program, context: Context) -> ir.Program:
 class _Around:
     def __init__(self, editor: Editor, flow: Flow, reported: set[str]) -> None:
         self.editor, self.flow, self.reported = editor, flow, reported
-        self.postures: dict[str, ir.Expression] = {}  # what was asked for first, where the target cannot be asked
 
     def body(self, body: ir.Body) -> ir.Body:
         return map_body(body, self.statement)
@@ -83,8 +73,6 @@ class _Around:
             if name in _JOINT | _PATH | _TURNING and name in self.editor.capabilities.system_variables:
                 if name in used:
                     self.around(ir.System(name), value, move, before, behind)
-            elif name in _POSTURES and self.postures.setdefault(name, value) != value:
-                self.editor.context.diagnostics.report(POSTURE, move.origin, name=name.replace("_", " "))
             elif name not in self.reported:
                 self.reported.add(name)
                 self.editor.context.diagnostics.report(DROPPED, move.origin, name=name.replace("_", " ") or "a setting")

@@ -11,6 +11,7 @@ from rpl.passes.legalise.aliases import without_aliases
 from rpl.passes.legalise.arcpoints import whole_arc_points
 from rpl.passes.legalise.arithmetic import arithmetic
 from rpl.passes.legalise.arrays import array_bases, array_sizes
+from rpl.passes.legalise.askedpostures import asked_postures
 from rpl.passes.legalise.atrest import at_rest
 from rpl.passes.legalise.background import background_tasks
 from rpl.passes.legalise.begunmoves import begun_moves, moves_ahead
@@ -197,6 +198,7 @@ PASSES: tuple[Pass, ...] = (
     seen_joints,
     near_joints,
     known_joints,
+    asked_postures,
     joint_goals,
     partial_places,
     whole_arc_points,

@@ -79,17 +79,13 @@ class _Searches:
             look(move.search.condition)
         return not found
 
-    def search(self, move: ir.Move, search: ir.Search) -> list[ir.Statement]:
-        target = ir.TargetType(self.context.source)
-        hit, place = self.context.fresh("rpl_hit"), self.context.fresh("rpl_found")
-        react, travel = self.context.fresh("rpl_on_hit"), self.context.fresh("rpl_search_move")
-        self.declarations += [
-            ir.Variable(hit, ir.BoolType(), ir.BoolLiteral(False), scope="global"),
-            ir.Variable(place, target, scope="global"),
-        ]
-        number = ir.IntLiteral(_PRIORITY)
-        stops = search.stop != "none"
-        self.routines += [
+    def helpers(
+        self, move: ir.Move, search: ir.Search, hit: str, place: str, react: str, travel: str
+    ) -> tuple[ir.Routine, ir.Routine]:
+        """What runs when the condition comes, and the move that is watched meanwhile."""
+        number, stops = ir.IntLiteral(_PRIORITY), search.stop != "none"
+        goal: ir.Type = ir.JointsType() if self.joints(move.target) else ir.TargetType(self.context.source)
+        return (
             ir.Routine(
                 react,
                 body=(
@@ -102,7 +98,7 @@ class _Searches:
             ),
             ir.Routine(
                 travel,
-                parameters=(ir.Parameter("goal", ir.JointsType() if self.joints(move.target) else target),),
+                parameters=(ir.Parameter("goal", goal),),
                 body=(
                     ir.ControlInterrupt("on", number),
                     replace(move, target=ir.Name("goal"), search=None, blend=ir.BlendStop()),
@@ -111,7 +107,18 @@ class _Searches:
                 ),
                 scope="global",
             ),
+        )
+
+    def search(self, move: ir.Move, search: ir.Search) -> list[ir.Statement]:
+        target = ir.TargetType(self.context.source)
+        hit, place = self.context.fresh("rpl_hit"), self.context.fresh("rpl_found")
+        react, travel = self.context.fresh("rpl_on_hit"), self.context.fresh("rpl_search_move")
+        self.declarations += [
+            ir.Variable(hit, ir.BoolType(), ir.BoolLiteral(False), scope="global"),
+            ir.Variable(place, target, scope="global"),
         ]
+        number = ir.IntLiteral(_PRIORITY)
+        self.routines += self.helpers(move, search, hit, place, react, travel)
         condition = search.condition if search.edge != "falling" else ir.Unary("not", search.condition)
         origin, later = move.origin, replace(move.origin, comments=())
         steps: list[ir.Statement] = [ir.Assign(ir.Name(hit), ir.BoolLiteral(False), origin=origin)]

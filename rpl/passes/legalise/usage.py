@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 from rpl import ir
 from rpl.ir.walk import walk
@@ -66,14 +67,15 @@ class Usage:
     """Routine (folded) -> system variables it may set, directly or through calls."""
     interrupting: set[str] = field(default_factory=set)
     """System variables that an interrupt's routine may set."""
-    copied: dict[str, frozenset[int]] = field(default_factory=dict)
-    """Routine (folded) -> positions of arguments that it only gets the value of, whichever routine of that name."""
+    passed: list[tuple[str, int | None, str]] = field(default_factory=list)
+    """Variables that are arguments: the routine (folded), the argument's position (None: named), the variable."""
 
 
 def usage_of(program: ir.Program) -> Usage:
-    usage = Usage(copied=_copied(program))
+    usage = Usage()
     calls: dict[str, set[str]] = {}
     handlers: set[str] = set()
+    inner: list[tuple[ir.Routine, Usage]] = []
     for module in program.modules:
         for declaration in module.declarations:
             if isinstance(declaration, ir.Initialise):
@@ -82,12 +84,43 @@ def usage_of(program: ir.Program) -> Usage:
             key = routine.name.lower()
             usage.sets.setdefault(key, set())
             calls.setdefault(key, set())
+            own = Usage(sets=usage.sets)
+            inner.append((routine, own))
+            visit = partial(_statement, key=key, usage=own, calls=calls, handlers=handlers)
             for body in bodies(routine):
-                each_statement(body, lambda statement, key=key: _statement(statement, key, usage, calls, handlers))  # type: ignore[misc]
+                each_statement(body, visit)
+    unchanging = _unchanging(inner)
+    for own in (usage, *(one for _, one in inner)):
+        usage.assigned |= own.assigned | _changed(own, unchanging)
     _close(usage.sets, calls)
     for name in handlers:
         usage.interrupting |= usage.sets.get(name, set())
     return usage
+
+
+def _unchanging(inner: list[tuple[ir.Routine, Usage]]) -> dict[str, frozenset[int]]:
+    """Routine (folded) -> positions of arguments that it cannot change, whichever routine of that name: by value, and
+    by reference where it only reads them or passes them on to such."""
+    found: dict[str, frozenset[int]] = {}
+    while True:
+        more: dict[str, frozenset[int]] = {}
+        for routine, own in inner:
+            key, changed = routine.name.lower(), own.assigned | _changed(own, found)
+            kept = frozenset(
+                at
+                for at, one in enumerate(routine.parameters)
+                if one.mode == "value" or one.name.lower() not in changed
+            )
+            if any(one.optional for one in routine.parameters):
+                kept = frozenset()
+            more[key] = kept & more.get(key, kept)
+        if more == found:
+            return found
+        found = more
+
+
+def _changed(own: Usage, unchanging: dict[str, frozenset[int]]) -> set[str]:
+    return {name for routine, at, name in own.passed if at is None or at not in unchanging.get(routine, ())}
 
 
 def assigned_in(body: ir.Body) -> set[str]:
@@ -103,7 +136,7 @@ def assigned_in(body: ir.Body) -> set[str]:
             _arguments(expression.name, expression.arguments, usage)
 
     each_statement(body, look)
-    return usage.assigned
+    return usage.assigned | _changed(usage, {})
 
 
 def _statement(statement: ir.Statement, key: str, usage: Usage, calls: dict[str, set[str]], handlers: set[str]) -> None:
@@ -152,23 +185,13 @@ def _assigned(statement: ir.Statement, usage: Usage) -> None:
             _name(found, usage)
 
 
-def _copied(program: ir.Program) -> dict[str, frozenset[int]]:
-    found: dict[str, frozenset[int]] = {}
-    for module in program.modules:
-        for routine in module.routines:
-            plain = all(not one.optional for one in routine.parameters)
-            by_value = [at for at, one in enumerate(routine.parameters) if plain and one.mode == "value"]
-            key = routine.name.lower()
-            found[key] = frozenset(by_value) & found.get(key, frozenset(by_value))
-    return found
-
-
 def _arguments(name: str, arguments: tuple[ir.Argument, ...], usage: Usage) -> None:
     named = any(argument.name for argument in arguments)
-    copied = frozenset() if named else usage.copied.get(name.lower(), frozenset())
     for at, argument in enumerate(arguments):
-        if at not in copied and isinstance(argument.value, ir.Name | ir.Index | ir.Field):
-            _name(argument.value, usage)
+        if isinstance(argument.value, ir.Name | ir.Index | ir.Field):
+            variable = base_name(argument.value)
+            if variable is not None:
+                usage.passed.append((name.lower(), None if named else at, variable))
 
 
 def _name(value: ir.Expression | None, usage: Usage) -> None:
