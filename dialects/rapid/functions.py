@@ -72,11 +72,11 @@ def _bit_negated(arguments: Arguments, expressions: Signals) -> ir.Expression | 
 
 
 def _byte_of_text(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
-    r"""StrToByte text [\Char]: the code of a character, or a decimal number."""
+    r"""StrToByte text [\Char]: the code of a character, or a decimal number of eight bits."""
     (text,) = arguments.need(1)
     if set(arguments.options) == {"char"}:
         return ir.Builtin("character_code", (text,))
-    return None if arguments.options else ir.Builtin("text_value", (text,))
+    return None if arguments.options else ir.Binary("band", ir.Builtin("text_value", (text,)), _BYTE)
 
 
 def _text_of_byte(arguments: Arguments, expressions: Signals) -> ir.Expression | None:

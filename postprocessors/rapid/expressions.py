@@ -13,7 +13,7 @@ from rpl.writing.precedence import ExpressionPrinter, Printed
 from rpl.writing.statements import CannotSayError
 from rpl.writing.text import NumberStyle, number_text
 
-from .functions import FUNCTIONS, MOTION_TASK, PLACES_BESIDE, TARGETS_FOR_POSITIONS
+from .functions import FUNCTIONS, MOTION_TASK, OWN_FUNCTIONS, PLACES_BESIDE, TARGETS_FOR_POSITIONS
 from .tables import (
     COMPONENTS,
     NESTED,
@@ -146,6 +146,8 @@ class Expressions:
         match expression:
             case ir.Binary("band", ir.Builtin("bit_shift_left", (value, places)), ir.IntLiteral(value=255)):
                 return f"BitLSh({self.text(value)},{self.text(places)})"
+            case ir.Binary("band", ir.Builtin("text_value", (decimal,)), ir.IntLiteral(value=255)):
+                return f"StrToByte({self.text(decimal)})"
             case ir.Binary(op="band", right=ir.Unary(op="bnot", operand=mask)):  # of a byte, as BitClear makes it
                 return f"BitAnd({self.text(left)},BitNeg({self.text(mask)}))"
         if expression.op in functions:
@@ -211,7 +213,7 @@ class Expressions:
         return self.signal(value) if isinstance(value, ir.Signal) else self.text(value)
 
     def builtin(self, expression: ir.Builtin) -> str:
-        patterns = FUNCTIONS.get(expression.function)
+        patterns = FUNCTIONS.get(expression.function) or OWN_FUNCTIONS.get(expression.function)
         if patterns is None:
             raise CannotSayError(f"there is no function {expression.function}")
         arguments = list(expression.arguments)

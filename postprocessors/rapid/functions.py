@@ -69,6 +69,11 @@ FUNCTIONS: dict[str, dict[int, str]] = {
     "date_text": {0: "CDate()"},
     "clock_seconds": {1: "ClkRead({0})"},
 }
+# What a program of RAPID itself may hold besides; what other languages do with texts is rewritten before.
+OWN_FUNCTIONS: dict[str, dict[int, str]] = {
+    "character_code": {1: "StrToByte({0}\\Char)"},
+    "from_code": {1: "ByteToStr({0}\\Char)"},
+}
 # Arguments that RAPID takes as whole targets although only their position matters.
 TARGETS_FOR_POSITIONS = {"frame_from_points": 3}
 # Functions that a task beside the one that moves asks with the name of that task.

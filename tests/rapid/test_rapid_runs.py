@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from rapid_helpers import read_back
 
 from rpl.diagnostics import Diagnostics
+from rpl.passes.typing import normalise
 from rpl.project import read_sources
 from rpl.simulation import run_program
 from rpl.source import source_from_text
@@ -64,5 +66,6 @@ def test_it_holds(name: str, body: str, robot: str | None) -> None:
     diagnostics = Diagnostics()
     read = read_sources([source_from_text("checks.mod", HEAD + body + TAIL)], "rapid", diagnostics)
     assert not [item.as_text() for item in diagnostics]
-    result = run_program(read.program, robot)
-    assert (result.status, [each[1:] for each in result.outputs]) == ("finished", [("do1", True)])
+    for program in (read.program, read_back(normalise(read.program, diagnostics))):  # and when it is written anew
+        result = run_program(program, robot)
+        assert (result.status, [each[1:] for each in result.outputs]) == ("finished", [("do1", True)])
