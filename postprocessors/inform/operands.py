@@ -51,6 +51,8 @@ class Registers:
             for declaration in module.declarations:
                 if isinstance(declaration, ir.Variable):
                     look(ir.Name(declaration.name))
+                elif isinstance(declaration, ir.Initialise):
+                    body((declaration.assign,))
             for routine in module.routines:
                 body(routine.body)
         return found

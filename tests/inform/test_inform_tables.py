@@ -5,6 +5,7 @@ import pytest
 from inform_helpers import body_of, job
 from rpl.dialects.inform import tables
 from rpl.dialects.inform.configuration import NOTATION, is_flip
+from rpl.postprocessors.inform.operands import Registers
 
 from rpl import ir, registry
 from rpl.emulator.model import load_robot
@@ -73,3 +74,10 @@ def test_poses_are_written_and_read() -> None:
     matrix, flags = NOTATION.parse_pose(text)
     assert np.abs(matrix - model.forward(joints)).max() < 1e-4
     assert flags == NOTATION.encode(model, joints)
+
+
+def test_helpers_are_none_of_the_numbers_that_only_the_data_before_the_program_mentions() -> None:
+    """An array that is read with a computed number alone: its elements have no other mention."""
+    first = ir.Assign(ir.Index(ir.Name("D"), (ir.IntLiteral(99),)), ir.IntLiteral(5))
+    program = ir.Program((ir.Module("M", "rpl", (ir.Initialise(first),)),))
+    assert Registers.of(program).helper("D") == "D098"
