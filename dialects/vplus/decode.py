@@ -20,7 +20,20 @@ Lowered = Element | tuple[Element, ...]
 # Marks of jumps that leave several loops: word and count, as no label of V+ can be written.
 LEAVE_MARK = "{word}:{count}"
 # Statements that look at their values once, when they are reached.
-_ONCE = frozenset(("assign", "set", "call_routine", "call_computed", "if_open", "if_goto", "case_open", "for_open")) | {
+_ONCE = frozenset(
+    (
+        "assign",
+        "set",
+        "call_routine",
+        "call_computed",
+        "call_element",
+        "call_text",
+        "if_open",
+        "if_goto",
+        "case_open",
+        "for_open",
+    )
+) | {
     "type_",
     "write",
     "instruction",

@@ -212,6 +212,14 @@ class Statements(Functions):
             name = self.expression(inner)
         return ir.CallRoutine("", arguments, name, origin=origin)
 
+    def on_call_element(self, tree: SyntaxTree, origin: Origin) -> Lowered:
+        element = SyntaxTree("reference", list(tree.children[:2]))
+        return ir.CallRoutine("", self.arguments(subtree(tree.children[2])), self.expression(element), origin=origin)
+
+    def on_call_text(self, tree: SyntaxTree, origin: Origin) -> Lowered:
+        name = ir.TextLiteral(str(tree.children[0])[1:-1], origin=origin)
+        return ir.CallRoutine("", self.arguments(subtree(tree.children[1])), name, origin=origin)
+
     # ---- control flow
 
     def opened(self, origin: Origin, data: object) -> Open:

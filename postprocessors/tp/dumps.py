@@ -18,7 +18,7 @@ from . import tables
 from .configuration import config_text
 from .expressions import constant
 from .positions import position_of
-from .texts import comment
+from .texts import comment, register_comment
 
 Names = Mapping[tuple[str, int], str]
 _ELEMENT = re.compile(r"(R|SR|PR)(\d+)", re.IGNORECASE)
@@ -92,7 +92,7 @@ def _texts(values: Mapping[int, ir.Expression], names: Names) -> OutputFile | No
 def _positions(values: Mapping[int, ir.Expression], names: Names, scope: Scope) -> OutputFile | None:
     lines = [f"[*POSREG*]$POSREG  Storage: SHADOW  Access: RW  : ARRAY[1,{tables.PR.last}] OF Position Reg"]
     for number, value in sorted(values.items()):
-        label = comment(names.get(("PR", number), ""))
+        label = register_comment("PR", names.get(("PR", number), ""))
         lines.extend((f"    [1,{number}] =   '{label}'", *_position(value, scope)))
     return _file("POSREG", lines) if len(lines) > 1 else None
 

@@ -20,7 +20,7 @@ from rpl.writing.refusals import UNDECLARED_PLACE
 from rpl.writing.statements import CannotSayError
 
 from . import tables
-from .texts import ascii_text, comment, number
+from .texts import ascii_text, comment, number, register_comment
 
 _ELEMENT = re.compile(r"(?P<bank>R|PR|SR|F|AR|P|TIMER)\[?(?P<number>\d+)\]?", re.IGNORECASE)
 _NAMED = re.compile(r"(?P<kind>[A-Z]{1,3})\[?(?P<number>\d+)\]?", re.IGNORECASE)
@@ -98,7 +98,7 @@ class Expressions:
             last = limits.most  # the program needs a larger bank, which has been said
         if value != int(value) or not limits.first <= value <= last:
             raise CannotSayError(f"{bank}[{value:g}] is outside of {limits.first}..{last}")
-        name = comment(self.names.get((bank, int(value)), ""))
+        name = register_comment(bank, self.names.get((bank, int(value)), ""))
         return f"{bank}[{int(value)}{':' + name if name else ''}]"
 
     def index(self, index: ir.Expression) -> str:

@@ -24,6 +24,12 @@ def comment(text: str) -> str:
     return shown[: tables.LONGEST_COMMENT].strip()
 
 
+def register_comment(bank: str, text: str) -> str:
+    """The comment of a register. That of a position register has no comma: what stands behind one may be read as the
+    number of a component (`PR[15:slot2,2]`)."""
+    return comment(text.replace(",", "_") if bank == "PR" else text)
+
+
 def remarks(text: str) -> list[str]:
     """The remark as lines of `!`, cut at blanks."""
     found: list[str] = []

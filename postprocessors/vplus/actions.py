@@ -240,7 +240,15 @@ class Actions:
     def call(self, statement: ir.CallRoutine) -> str:
         if statement.dynamic is not None:
             name = self.expressions.text(statement.dynamic)
-            return f"CALLS {name}{self.arguments(statement.name, statement.arguments)}"
+            given = self.arguments(statement.name, statement.arguments)
+            if given == "()":
+                return f"CALLS {name}"
+            if not isinstance(statement.dynamic, ir.Name | ir.Index | ir.TextLiteral):
+                kept = self.expressions.notes.temporary("$routine")
+                self.expressions.notes.step(f"{kept} = {name}")
+                self.expressions.notes.autos.append(kept)
+                name = kept
+            return f"CALLS {name}{given}"
         return f"CALL {statement.name.lower()}{self.arguments(statement.name, statement.arguments)}"
 
     def arguments(self, name: str, given: tuple[ir.Argument, ...]) -> str:

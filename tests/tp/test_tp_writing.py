@@ -59,6 +59,12 @@ def test_an_assignment(given: str, wanted: str) -> None:
     assert lines(given) == [wanted]
 
 
+def test_the_comment_of_a_position_register_has_no_comma() -> None:
+    """`PR[15:slot2,2]` would name component 2 of the register."""
+    found = lines("PR[3] = PR[15]\nR[5] = 1.0", {("PR", 15): "slot2,2", ("R", 5): "a,1"})
+    assert found == ["PR[3]=PR[15:slot2_2]", "R[5:a,1]=1"]
+
+
 FLOW = [
     ("IF R[1] = 5.0 THEN GOTO l7\nLABEL l7", ["IF R[1]=5,JMP LBL[7]", "LBL[7]"]),
     ("IF di[1] AND NOT di[2] THEN GOTO l7\nLABEL l7", ["IF DI[1]=ON AND DI[2]=OFF,JMP LBL[7]", "LBL[7]"]),

@@ -248,3 +248,16 @@ def test_a_called_name_that_the_target_does_not_have(target: str) -> None:
     back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, Diagnostics())
     result = run_program(back.program, "adept_viper_s650", None, translation.renamed.get("main", "main"))
     assert result.status == "finished" and len(result.outputs) == 1
+
+
+@pytest.mark.parametrize("target", ["krl", "rapid", "tp", "inform", "urscript", "vplus", "rpl"])
+@pytest.mark.parametrize("call", ['CALLS "job."+$CHR(55)', "CALLS $names[2]", 'CALLS "job.7"', "CALLS $names[3](2)"])
+def test_a_name_that_is_worked_out_in_the_call(call: str, target: str) -> None:
+    text = '.PROGRAM main()\n$names[1] = "job.8"\n$names[2] = "job.7"\n$names[3] = "put.1"\n'
+    text += f"{call}\n.END\n.PROGRAM put.1(no)\nSIGNAL no\n.END\n"
+    text += ".PROGRAM job.7()\nSIGNAL 2\n.END\n.PROGRAM job.8()\nSIGNAL 3\n.END\n"
+    source = read_sources([source_from_text("main.v2", text)], "vplus", Diagnostics())
+    translation = translate_program(source, target, "adept_viper_s650", None, Diagnostics())
+    back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, Diagnostics())
+    result = run_program(back.program, "adept_viper_s650", None, translation.renamed.get("main", "main"))
+    assert result.status == "finished" and len(result.outputs) == 1

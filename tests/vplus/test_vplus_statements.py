@@ -176,6 +176,10 @@ CONTROL: list[tuple[str, list[str]]] = [
     ("CALL p((n), )", ["p(+n)"]),
     ("CALLS $t", ["CALL BY `$t`"]),
     ("CALLS $t(n)", ["CALL BY `$t` PASSING (n)"]),
+    ('CALLS "job."+$CHR(65)', ['CALL BY "job." & from_code(65)']),
+    ("CALLS $jobs[2]", ["CALL BY `$jobs`[2]"]),
+    ("CALLS $jobs[2](n, 1)", ["CALL BY `$jobs`[2] PASSING (n, 1)"]),
+    ('CALLS "job"(n)', ['CALL BY "job" PASSING (n)']),
     ("EXECUTE 3 alarm()", ["START TASK alarm"]),
     ("EXECUTE 3 alarm\nABORT 3", ["START TASK alarm", "STOP TASK alarm"]),
     (

@@ -44,6 +44,9 @@ def steps(body: str, data: str = "") -> list[str]:
         ("good = n = 1 AND m < 2", ["good = (n == 1) AND (m < 2)"]),
         ("n = to_nearest(x)", ["n = INT(x+0.5*SIGN(x))"]),
         ('s = s & "a"', ['$s = $s+"a"']),
+        ('CALL BY "part" & s', ['CALLS "part"+$s']),
+        ('CALL BY "part" & s PASSING (1)', ['$routine1 = "part"+$s', "CALLS $routine1(1)"]),
+        ("CALL BY s PASSING (n)", ["CALLS $s(n)"]),
     ],
 )
 def test_steps(body: str, wanted: list[str]) -> None:
