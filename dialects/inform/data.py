@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.reading.shapes import StatementError
@@ -48,6 +51,8 @@ class Data(Operands):
             return self.set_position(target, value, kind)
         if isinstance(target, Numbered) and target.word in ("UF", "TL"):
             return (ir.Assign(self.numbered_pose(target), self.position(source)[0], origin=self.origin),)
+        if source == Word("LOGICEXP"):
+            return self.set(target, self.condition(command.items[2:]))
         return self.set(target, self.value(source))
 
     def numbered_pose(self, operand: Numbered) -> ir.Expression:
@@ -80,7 +85,7 @@ class Data(Operands):
         target, source = self.needs(command, 2)[:2]
         op = ARITHMETIC[command.word]
         if self.is_position(target):
-            return self.position_arithmetic(command.word, target, source)
+            return self.position_arithmetic(command.word, target, source, command.items[2:])
         value = self.value(source)
         if (
             op == "/"
@@ -92,7 +97,7 @@ class Data(Operands):
         place = self.value(target)
         return self.set(target, ir.Binary(op, place, value, origin=self.origin))
 
-    def position_arithmetic(self, word: str, target: Operand, source: Operand) -> Statements:
+    def position_arithmetic(self, word: str, target: Operand, source: Operand, rest: tuple[Operand, ...]) -> Statements:
         place, kind = self.position(target)
         if kind.form == "external":
             raise StatementError(f"{word} of base or station positions is not read", 0)
@@ -106,11 +111,28 @@ class Data(Operands):
             return self.set_position(target, self.call(function, place, other), kind)
         if word not in ("MUL", "DIV"):
             raise StatementError("only a position can be added to a position", 0)
+        if isinstance(source, Group):
+            return self.scaled_element(word, target, source, rest)
         factor = self.value(source)
         if word == "DIV":
             one = ir.RealLiteral(1.0)
             factor = ir.Binary("/", one, factor, origin=self.origin)
         return self.set_position(target, self.call("element_product", place, factor), kind)
+
+    def scaled_element(self, word: str, target: Operand, element: Operand, rest: tuple[Operand, ...]) -> Statements:
+        """`MUL P000 (3) 2`, `DIV P000 (3) D000`: one element of a position; like all of them, in whole counts."""
+        if not rest:
+            raise StatementError(f"{word} of an element needs a number", 0)
+        factor = self.value(rest[0])
+        op = "div" if word == "DIV" and self.whole(value_of(rest[0])) else ARITHMETIC[word]
+
+        def scaled(number: int) -> Statements:
+            value: ir.Expression = ir.Binary(op, self.element_of(target, number), factor, origin=self.origin)
+            if not self.whole(value_of(rest[0])):
+                value = ir.Convert("round_half_away", value, origin=self.origin)
+            return self.with_element(target, number, value)
+
+        return self.by_element(element, scaled)
 
     def on_inc(self, command: Command) -> Statements:
         place = self.needs(command, 1)[0]
@@ -244,17 +266,27 @@ class Data(Operands):
 
     # ---- elements of positions
 
-    def element(self, operand: Operand) -> int:
-        if isinstance(operand, Group) and len(operand.values) == 1 and isinstance(operand.values[0], ir.IntLiteral):
-            number = operand.values[0].value
-            if 1 <= number <= 8:
-                return number
+    def by_element(self, operand: Operand, done: Callable[[int], Statements]) -> Statements:
+        """What is done with the element of this number; a variable's value chooses among them."""
+        group = operand.values if isinstance(operand, Group) else ()
+        match group:
+            case (ir.IntLiteral(value=number),) if 1 <= number <= 8:
+                return done(number)
+            case (ir.Index() as variable,):
+                return (self.chosen_element(self.value(variable), done),)
         raise StatementError("the number of an element is needed: (1) to (8)", 0)
+
+    def chosen_element(self, selector: ir.Expression, done: Callable[[int], Statements]) -> ir.Statement:
+        """M: a variable may be the number; one that the position has no element for stops the job."""
+        origin = replace(self.origin, comments=())
+        cases = [ir.Case((ir.IntLiteral(number),), done(number), origin=origin) for number in range(1, 7)]
+        alarm = ir.Message("error", ir.TextLiteral("undefined element"), origin=origin)
+        return ir.Switch(selector, tuple(cases), (alarm, ir.Halt(origin=origin)), origin=self.origin)
 
     def on_gete(self, command: Command) -> Statements:
         """GETE D P (n): in 0.001 mm, 0.0001 deg or pulses."""
         target, source, element = self.needs(command, 3)[:3]
-        return self.set(target, self.element_of(source, self.element(element)))
+        return self.by_element(element, lambda number: self.set(target, self.element_of(source, number)))
 
     def element_of(self, source: Operand, number: int) -> ir.Expression:
         place, kind = self.position(source)
@@ -276,7 +308,11 @@ class Data(Operands):
 
     def on_sete(self, command: Command) -> Statements:
         target, element, source = self.needs(command, 3)[:3]
-        number, value = self.element(element), self.value(source)
+        value = self.value(source)
+        return self.by_element(element, lambda number: self.with_element(target, number, value))
+
+    def with_element(self, target: Operand, number: int, value: ir.Expression) -> Statements:
+        """The position with another value of one element, in the element's unit."""
         place, kind = self.position(target)
         if kind.form == JOINTS:
             pulses = [self.call("joint_pulses", place, ir.IntLiteral(each)) for each in range(1, 7)]

@@ -20,7 +20,7 @@ from . import tables
 from .jobs import Frame, Job
 from .kinds import BASE, DIFFERENT, DIFFERENT_TOOL, JOINTS, MIXED, TARGET, Flow, Kind, Project, State, key_of
 from .signals import is_digital
-from .syntax import Bracket, Formula, Numbered, Operand, Relation, Word, value_of
+from .syntax import Bracket, Formula, Group, Numbered, Operand, Relation, Word, value_of
 
 MIXED_POSITION = code(
     "inform-mixed-position",
@@ -110,9 +110,20 @@ class Operands:
             return self.final(operand.value)
         if isinstance(operand, Numbered) and operand.word in ("MREG", "M"):
             return self.register(operand)
-        if isinstance(operand, Word) and operand.text in ("ON", "OFF"):
-            return ir.BoolLiteral(operand.text == "ON", origin=self.origin)
+        match operand:
+            case Word(text=text) if text in ("ON", "OFF"):
+                return ir.BoolLiteral(text == "ON", origin=self.origin)
+            case Word(text=text) if tables.FLAG.fullmatch(text):
+                return self.flag(text)
+            case Group(values=(value,)):
+                return self.final(value)
         return self.final(value_of(operand))
+
+    def flag(self, name: str) -> ir.Expression:
+        """`FL0010`: a flag of newer controllers, common to all jobs."""
+        name = f"FL{int(name[2:]):04d}"
+        self.shared.used.scalar(name, ir.BoolType(), self.origin)
+        return ir.Name(name, origin=self.origin)
 
     def register(self, register: Numbered) -> ir.Expression:
         self.shared.used.array("MREG", ir.IntType(), LAST_INDEX["M"], self.origin)
@@ -282,7 +293,7 @@ class Operands:
     def comparison(self, relation: Relation) -> ir.Expression:
         """One comparison; a single signal compared with ON or OFF is the signal itself."""
         left, right, op = self.value(relation.left), self.value(relation.right), SIGNED[relation.op]
-        if is_digital(left):
+        if is_digital(left) or isinstance(relation.left, Word):
             if isinstance(right, ir.BoolLiteral) and op in ("=", "<>"):
                 wanted = right.value == (op == "=")
                 return left if wanted else ir.Unary("not", left, origin=self.origin)

@@ -404,6 +404,8 @@ class _Reading:
                 return ir.TextLiteral(self.text(children[0])[1:-1], origin=origin)
             case "numbered":
                 return self.value(self.numbered(tree))
+            case "group" if len(children) == 1:
+                return self.expression(_tree(children[0]))
             case "unary":
                 return ir.Unary("-", self.expression(_tree(children[1])), origin=origin)
             case "binary":

@@ -6,6 +6,8 @@ set otherwise on a controller; each such row has a test that names it.
 
 from __future__ import annotations
 
+import re
+
 # ---- units of numbers without a unit of their own
 
 # M: elements of a position (GETE, SETE, ADD ... by whole numbers): 0.001 mm and 0.0001 deg. Controllers before the
@@ -42,6 +44,8 @@ TOOL_WORDS = ("TF", "TOOL")
 
 AND_WORDS = ("ANDEXP", "ANDIF", "AND", "ANDEXPRESS")
 OR_WORDS = ("OREXP", "ORIF", "OR", "OREXPRESS")
+# M: SET FL0010 ON, SET FL0010 LOGICEXP (condition), FL0010=ON in conditions.
+FLAG = re.compile(r"FL\d{1,4}")
 CONDITION_WORDS = ("IF", "IFEXP", "IFEXPRESS")
 
 # ---- system variables read by GETS
