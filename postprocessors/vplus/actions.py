@@ -143,6 +143,8 @@ class Actions:
                 raise CannotSayError("one character of a text cannot be changed")
         if isinstance(value, ir.Builtin) and value.function == "joints_to_target" and len(value.arguments) == 1:
             value = value.arguments[0]  # SET makes a transformation of a precision point
+        if isinstance(self.expressions.type(value), ir.ArrayType):
+            raise CannotSayError("a list is not a location or a number")
         word = "SET " if isinstance(self.expressions.type(target), _SET) else ""
         place = text(target)
         room = tables.LONGEST_LINE - len(word) - len(place) - 3

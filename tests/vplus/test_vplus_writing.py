@@ -129,6 +129,25 @@ def test_what_cannot_be_said_stops_the_program() -> None:
     assert ";BRAKE\r\n        PAUSE" in file.data.decode("ascii")
 
 
+def test_a_list_in_the_place_of_a_location_is_refused() -> None:
+    source = """def p():
+  v = [0, 0, 0, 0, 0, 0]
+  via = p[0.1, 0.2, 0.3, 0, 0, 0]
+  if read_input_boolean_register(1):
+    via = v
+  end
+  movec(via, p[0.3, 0.2, 0.3, 0, 0, 0], 1, 0.2, 0, 0)
+end
+"""
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("p.script", source)], "urscript", Diagnostics())
+    (file,) = translate_program(read, "vplus", ARM, None, diagnostics).files
+    assert "vplus-guarded-stop" in [item.code.name for item in diagnostics.of(Severity.LOSS)]
+    again = Diagnostics()
+    read_sources([source_from_bytes(file.path, file.data)], "vplus", again)
+    assert not again.of(Severity.ERROR)
+
+
 def test_own_files_are_written_as_they_were() -> None:
     source = """.PROGRAM a(x, $t)
         AUTO n
