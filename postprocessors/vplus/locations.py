@@ -191,8 +191,10 @@ class Locations:
                 return self.decomposed(place, _ZYZ[name])
             case "is_reachable", (place, *_):
                 return Printed(f"INRANGE({text(place)}) == 0", tables.RELATION)
-            case "frame_from_points", (one, two, three, *_) if len(values) == 3 or values[3] == ir.IntLiteral(1):
+            case "frame_from_points", (one, two, three):
                 return f"FRAME({text(one)}, {text(two)}, {text(three)}, {text(one)})"
+            case "frame_from_points", (one, two, three, ir.IntLiteral(value=origin)) if origin in (1, 2):
+                return f"FRAME({text(one)}, {text(two)}, {text(three)}, {text(two if origin == 2 else one)})"
         return None
 
     def in_tool(self, place: ir.Expression, steps: list[ir.Expression]) -> Printed:

@@ -471,7 +471,7 @@ class _ToAngles(Rewriter):
                 return self.whole((number(0),) * 3, self.angles(expression))
             case "normalise", (rotation,):
                 return self.expression(rotation)
-            case "frame_from_points", (one, two, three, *rest) if not can:
+            case "frame_from_points", (one, two, three, *rest) if not (can and _at_a_point(rest)):
                 points = [self.expression(point) for point in (one, two, three)]
                 return self.library.call("from_points", *points, *(map(self.expression, rest or [ir.IntLiteral(1)])))
             case "current_position", _:
@@ -569,6 +569,11 @@ def _mentions(value: ir.Expression, places: list[ir.Field]) -> bool:
 
 def _is_part(value: ir.Expression) -> bool:
     return isinstance(value, ir.Field) and value.name in ("trans", "rot", "robax", "ext", "conf")
+
+
+def _at_a_point(origin: list[ir.Expression]) -> bool:
+    """Does a frame begin at its first or second point, as the functions of every target that has one can say?"""
+    return not origin or origin in ([ir.IntLiteral(1)], [ir.IntLiteral(2)])
 
 
 def _target_type(program: ir.Program, context: Context) -> ir.Type:

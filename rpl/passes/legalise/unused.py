@@ -56,7 +56,8 @@ def drop_unused(program: ir.Program, context: Context) -> ir.Program:
 
 
 def drop_untyped(program: ir.Program, context: Context) -> ir.Program:
-    """The program without routines that nothing calls and whose data has a type of the source controller alone."""
+    """The program without routines that nothing calls and whose data has a type of the source controller alone, and
+    without handles of interrupts and path events that no statement mentions."""
     used = _names(program) | {program.entry.lower()} | {task.entry.lower() for task in program.tasks}
     modules = []
     for module in program.modules:
@@ -69,8 +70,23 @@ def drop_untyped(program: ir.Program, context: Context) -> ir.Program:
                 kept.append(routine)
             else:
                 context.diagnostics.report(NEVER_CALLED, routine.origin, name=routine.name, what=unknown)
-        modules.append(replace(module, routines=tuple(kept)))
+        kept = [replace(one, declarations=_without_handles(one.declarations, used, context)) for one in kept]
+        declarations = _without_handles(module.declarations, used, context)
+        modules.append(replace(module, declarations=declarations, routines=tuple(kept)))
     return replace(program, modules=tuple(modules))
+
+
+def _without_handles(
+    declarations: tuple[ir.Declaration, ...], used: set[str], context: Context
+) -> tuple[ir.Declaration, ...]:
+    """Without names of interrupts and path events that nothing uses and the target has no type for."""
+
+    def idle(one: ir.Declaration) -> bool:
+        if not isinstance(one, ir.Variable) or not isinstance(one.type, ir.InterruptType | ir.TriggerType):
+            return False
+        return one.type.__class__.__name__ not in context.capabilities.types and one.name.lower() not in used
+
+    return tuple(one for one in declarations if not idle(one))
 
 
 def _is_generated(one: ir.Declaration, module: ir.Module, context: Context) -> bool:

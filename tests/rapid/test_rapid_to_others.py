@@ -1,0 +1,78 @@
+"""RAPID programs that switch do1 when an expectation holds: it still holds in each other language, and nothing is
+refused. The arm is the same, so that places and joints compare."""
+
+from __future__ import annotations
+
+import pytest
+
+from rpl import registry
+from rpl.cell import Cell
+from rpl.diagnostics import Diagnostics, Severity
+from rpl.project import read_sources
+from rpl.proof.record import signal_names
+from rpl.proof.wiring import in_words_of, with_signal_names
+from rpl.runtime.trace import Event
+from rpl.simulation import entry_name, run_program
+from rpl.source import source_from_bytes, source_from_text
+from rpl.translation import translate_program
+
+ABB = "abb_irb1200_5_90"
+POINTS = """
+  VAR intnum seen;
+  VAR triggdata gun;
+  VAR triggdata cut;
+  VAR num n:=0;
+  VAR bool ok:=FALSE;
+  VAR pose fr;
+  VAR pos at;
+  VAR robtarget here;
+  CONST robtarget p1:=[[450,0,350],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget c1:=[[400,-150,180],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget c2:=[[480,-90,180],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget c3:=[[410,-80,180],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+"""
+COUNT = "TRAP tCount n:=n+1; ENDTRAP"
+# name, declarations and routines beside main, body of main, targets where a part of it is refused by name
+CASES: list[tuple[str, str, str, frozenset[str]]] = [
+    (
+        "a frame that begins beside its third point",
+        "",
+        """fr:=DefFrame(c1,c2,c3\\Origin:=3); at:=PoseVect(PoseInv(fr),c3.trans);
+        ok:=Abs(at.x)<0.01 AND Abs(at.y-50)<0.01; fr:=DefFrame(c1,c2,c3\\Origin:=2);
+        IF ok AND Distance(fr.trans,c2.trans)<0.01 AND Abs(EulerZYX(\\Z,fr.rot)-36.87)<0.01 SetDO do1,1;""",
+        frozenset(),
+    ),
+]
+
+
+def _keys(event: Event) -> set[str]:
+    kind, index, last, _ = event.port or (None, None, None, None)
+    known = [str(name) for name in (event.data.get("signal"), *event.names) if name]
+    return set(signal_names(kind, known, index, last))
+
+
+TARGETS = [name for name in registry.target_names() if name != "rapid"]
+
+
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize(("name", "others", "body", "refusing"), CASES, ids=[case[0] for case in CASES])
+def test_it_holds_there_too(name: str, others: str, body: str, refusing: frozenset[str], target: str) -> None:
+    text = f"MODULE checks\n{POINTS}{others}\nPROC main()\n{body}\nENDPROC\nENDMODULE\n"
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("checks.mod", text)], "rapid", diagnostics)
+    assert not [item.as_text() for item in diagnostics]
+    translation = translate_program(read, target, ABB, None, diagnostics)
+    losses = [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    assert bool(losses) == (target in refusing), losses
+    if losses:
+        return
+    sources = [source_from_bytes(file.path, file.data) for file in translation.files]
+    back = read_sources(sources, target, diagnostics)
+    named = with_signal_names(back.program, translation.program)
+    entry = entry_name(read.program, None)
+    cell = in_words_of(Cell(), read.program, named)
+    result = run_program(named, ABB, cell, translation.renamed.get(entry or "", entry))
+    assert result.status == "finished", result.fault
+    lamp = {"digital_out:1"}
+    on = [event for event in result.trace if event.kind == "output" and event.data["value"] and lamp & _keys(event)]
+    assert on, translation.files[0].data.decode("latin-1")
