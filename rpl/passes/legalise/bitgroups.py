@@ -14,6 +14,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion
+from rpl.passes.legalise.polling import polled
 
 _WIDEST = 32
 
@@ -121,7 +122,11 @@ class _Bits(Hoister):
         return expression
 
     def ruled(self, expression: ir.Expression) -> Lowered | None:
-        """The group's number, added up beforehand."""
+        """The group's number, added up beforehand; one that is compared with a number that stands there is compared
+        bit by bit, which needs nothing before it."""
+        if isinstance(expression, ir.Binary):
+            compared = self.compared(expression)
+            return None if compared is None else ((), compared)
         bits = self.bits(expression)
         if not bits:
             return None
@@ -132,11 +137,46 @@ class _Bits(Hoister):
             done.append(ir.If(((bit, (more,)),)))
         return tuple(done), number
 
+    def compared(self, expression: ir.Binary) -> ir.Expression | None:
+        """`group = 5`, `group <> 0` and the like by the signals themselves."""
+        match expression:
+            case ir.Binary(op=op, left=group, right=ir.IntLiteral(value=number)):
+                op = {">": "<>", "<=": "="}.get(op, op) if number == 0 else op
+            case ir.Binary(op=op, left=ir.IntLiteral(value=number), right=group):
+                op = {"<": "<>", ">=": "="}.get(op, op) if number == 0 else op
+            case _:
+                return None
+        bits = self.bits(group)
+        if op not in ("=", "<>") or not bits:
+            return None
+        if not 0 <= number < 2 ** len(bits):
+            return ir.BoolLiteral(op == "<>", origin=expression.origin)
+        differs = op == "<>"
+        done: ir.Expression | None = None
+        for place, bit in enumerate(bits):
+            wanted = bool(number >> place & 1) != differs
+            part = bit if wanted else ir.Unary("not", bit, origin=expression.origin)
+            done = part if done is None else ir.Binary("or" if differs else "and", done, part, origin=expression.origin)
+        return done
+
     def statement(self, statement: ir.Statement) -> ir.Body:
         match statement:
+            case ir.WaitUntil() if self.looks(statement.condition):
+                return self.waited(statement)
             case ir.Assign(target=target, value=value) if bits := self.bits(target):
                 return self.written(statement, bits, value)
         return super().statement(statement)
+
+    def looks(self, condition: ir.Expression) -> bool:
+        """Does the condition read a group that is taken apart?"""
+        return any(isinstance(one, ir.Signal | ir.Name) and self.bits(one) for one in walk(condition))
+
+    def waited(self, statement: ir.WaitUntil) -> ir.Body:
+        """A wait for a group: for its signals, or where these say it only by a number, a loop that looks again."""
+        watched = replace(statement, condition=self.flat(statement.condition))
+        if not self.looks(watched.condition) or (statement.timeout is not None and statement.timed_out is None):
+            return (watched,)
+        return self.body(polled(statement, self.editor))
 
     def written(self, statement: ir.Assign, bits: list[ir.Signal], value: ir.Expression) -> ir.Body:
         before, given = self.lower(value)

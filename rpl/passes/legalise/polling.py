@@ -23,7 +23,7 @@ def poll_waits(program: ir.Program, context: Context) -> ir.Program:
             if isinstance(statement, ir.WaitUntil) and _needed(statement, context):
                 if not facts:
                     facts.append(raising_of(program))
-                return _polled(statement, editor, facts[0])
+                return polled(statement, editor, facts[0])
             return (inside(statement, lambda inner: map_body(inner, change)),)
 
         return edit_bodies(routine, lambda body: map_body(body, change))
@@ -41,7 +41,8 @@ def _needed(statement: ir.WaitUntil, context: Context) -> bool:
     return not can.function_routines and any(isinstance(one, ir.Call) for one in everything(statement.condition))
 
 
-def _polled(statement: ir.WaitUntil, editor: Editor, facts: Raising) -> ir.Body:
+def polled(statement: ir.WaitUntil, editor: Editor, facts: Raising | None = None) -> ir.Body:
+    """The wait as a loop. `facts`: only needed for one that ends too late and has nothing to say it by."""
     can = editor.capabilities
     period = ir.RealLiteral(can.poll_s)
     pause = ir.Wait(ir.Quantity(period, "s"))
@@ -64,6 +65,7 @@ def _polled(statement: ir.WaitUntil, editor: Editor, facts: Raising) -> ir.Body:
         before.append(ir.Assign(statement.timed_out, ir.BoolLiteral(False)))
         late.insert(0, ir.Assign(statement.timed_out, ir.BoolLiteral(True)))
     else:
+        assert facts is not None  # who calls gives them for such a wait
         late = [ir.Raise(facts.timeout_code(statement))]
     before.append(ir.Assign(waited, ir.RealLiteral(0.0)))
     check = ir.If(((ir.Binary(">=", waited, limit), tuple(late)),))

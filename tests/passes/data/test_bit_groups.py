@@ -120,3 +120,49 @@ def test_the_proof_knows_where_these_groups_are_wired() -> None:
     cell = parse_cell('[[input]]\nsignal = "gi[1]"\nvalue = 7\ntime = 1.0\n')
     verdict = prove_programs(program, other, cell=cell)
     assert verdict.equal, verdict.as_text()
+
+
+WAITS = """PROCEDURE main()
+VAR n: INT
+n = 165
+WAIT UNTIL di[17 TO 24] = 165
+SET do[1] TO ON
+WAIT UNTIL di[17 TO 24] = n
+SET do[2] TO ON
+WAIT UNTIL di[17 TO 24] <> 165
+SET do[3] TO ON
+WAIT UNTIL di[17 TO 24] = 0
+SET do[4] TO ON
+WAIT UNTIL di[17 TO 24] > 0 AND do[4]
+SET do[5] TO ON
+WAIT UNTIL di[17 TO 20] >= 7 OR di[24]
+SET do[6] TO ON
+WAIT UNTIL di[17 TO 20] <> 16
+SET do[7] TO ON
+END PROCEDURE
+"""
+# Input, from when to when it is on (s).
+CHANGES = [
+    (17, 1.0, 2.0),
+    (19, 1.2, 2.5),
+    (22, 1.3, 2.5),
+    (24, 1.5, 2.5),
+    (18, 3.0, 9.0),
+    (20, 4.0, 9.0),
+    (17, 5.0, 9.0),
+]
+
+
+def test_waits_for_groups() -> None:
+    """A number that stands there is compared bit by bit, others are looked at again and again."""
+    inputs = "".join(
+        f'[[input]]\ntime = {begin}\nsignal = "di[{number}]"\nvalue = true\nduration = {end - begin}\n'
+        for number, begin, end in CHANGES
+    )
+    program = read(WAITS)
+    after = passed(program, (groups_to_bits,), context(program, SINGLE))
+    assert not [node for node in walk(*after.modules) if isinstance(node, ir.Signal) and node.last is not None]
+    wanted, given = (run(one, inputs).outputs for one in (program, after))
+    assert [(round(t, 1), name) for t, name, _ in given] == [(round(t, 1), name) for t, name, _ in wanted]
+    assert len(wanted) == 7
+    assert sum(isinstance(node, ir.Wait) for node in walk(*after.modules)) == 2
