@@ -45,6 +45,7 @@ CAPABILITIES = Capabilities(
     untyped_places=True,
     shortest_wait_s=0.01,
     relative_moves=True,
+    turned_ways=frozenset(("base", "tool")),
     function_routines=False,
     parameters="none",
     locals=False,

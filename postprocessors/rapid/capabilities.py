@@ -35,6 +35,7 @@ CAPABILITIES = Capabilities(
     line_ends=True,
     paths_to_joints=False,
     wrist_paths=False,
+    turned_ways=frozenset(),
     reads_override=False,
     module_points="module",
     notation="rapid",

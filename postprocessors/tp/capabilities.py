@@ -59,6 +59,7 @@ CAPABILITIES = Capabilities(
     untyped_places=True,
     shortest_wait_s=0.01,
     relative_moves=True,
+    turned_ways=frozenset(("tool", "joint")),
     for_real=True,
     else_if=False,
     for_keeps_last=True,

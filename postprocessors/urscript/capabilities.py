@@ -42,6 +42,7 @@ CAPABILITIES = Capabilities(
     modal_motion=True,
     concurrent_moves="moves",
     wrist_paths=False,
+    turned_ways=frozenset(),
     notation="urscript",
     rotation="zyx",
     short_circuit=True,

@@ -120,6 +120,9 @@ class Capabilities:
     arc may go on for an angle (else it ends at a computed point). paths_to_joints: a straight move may go to joint
     values. place_components: the components of taught points and of the robot's place can be read.
 
+    turned_ways: a relative move may turn the tool too, in the axes of the frame (`base`) or of the `tool`, and a `joint`
+    move may go such a way (else it goes to a computed place).
+
     wrist_paths: the wrist axes of a straight move may go evenly to their end values.
 
     path_points: the smallest corner (mm) of a point that the writer cuts a straight move at for an action on its path;
@@ -179,6 +182,7 @@ class Capabilities:
     kinematics: tuple[str, str] | None = None
     carries_rules: bool = False
     relative_moves: bool = False
+    turned_ways: frozenset[str] = frozenset(("base", "tool", "joint"))
     partial_targets: bool = False
     flags_by_sign: bool = False
     flags: bool = True

@@ -14,6 +14,7 @@ from rpl.translation import translate_program
 KUKA = "kuka_kr6r900sixx"
 START = """DEF P()
 DECL E6POS P1,P2
+DECL FRAME F
 P1={X 500.0,Y 50.0,Z 400.0,A 0.0,B 180.0,C 0.0,S 2,T 35}
 P2={X 400.0,Y 50.0,Z 400.0,A 0.0,B 180.0,C 0.0,S 2,T 35}
 BAS(#INITMOV,0)
@@ -27,6 +28,13 @@ CASES = {
     "an arc over a point with some components": "PTP P1\nCIRC {X 450.0,Y 90.0},P2\n",
     "an arc by offsets": "LIN P1\nCIRC_REL {X -50.0,Y 40.0},{X -100.0}\nLIN_REL {Z 20.0}\n",
     "an arc behind another one": "LIN P1\nCIRC {X 450.0,Y 90.0},{X 400.0,Y 50.0}\nCIRC {X 450.0,Y 10.0},P1\n",
+    "turned in the base": "LIN P1\nLIN_REL {Z 10.0,A 15.0} #BASE\nLIN_REL {X 9.0}\n",
+    "turned in the tool": "LIN P1 C_DIS\nLIN_REL {Z -10.0,B 12.0,C 5.0} #TOOL\nLIN_REL {X 9.0} #TOOL\n",
+    "turned from where the robot stands": "P1=$POS_ACT\nLIN_REL {Z 10.0,A 15.0,B 5.0} #BASE\n",
+    "turned in the tool from there": "P1=$POS_ACT\nLIN_REL {Z 10.0,A 15.0,B 5.0} #TOOL\nLIN_REL {C 8.0}\n",
+    "turned by an input": "LIN P2\nLIN_REL {A ($ANIN[1]*10+5)}\nLIN_REL {Y 20.0}\n",
+    "turned by data": "F={X 5.0,Y 0.0,Z 9.0,A 20.0,B 3.0,C 0.0}\nLIN_REL F #TOOL\nF.X=1.0\nLIN_REL F\n",
+    "joint move that turns": "PTP_REL {Z 10.0,A 15.0}\nPTP_REL {X 5.0,C 9.0} #TOOL\n",
     "by an input": "LIN_REL {X ($ANIN[1]*10)}\nLIN_REL {Y 20.0}\n",
 }
 
@@ -40,6 +48,12 @@ def test_relative_moves_end_at_the_same_places(name: str, target: str) -> None:
 @pytest.mark.parametrize("name", [name for name in CASES if "components" in name])
 def test_points_with_some_components_are_whole_in_vplus(name: str) -> None:
     moves_are_equal(CASES[name], "vplus")
+
+
+@pytest.mark.parametrize("target", ["tp", "inform", "vplus"])
+@pytest.mark.parametrize("name", [name for name in CASES if "turn" in name])
+def test_relative_moves_that_turn_the_tool(name: str, target: str) -> None:
+    moves_are_equal(CASES[name], target)
 
 
 def moves_are_equal(moves: str, target: str) -> None:

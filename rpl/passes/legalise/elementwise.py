@@ -75,7 +75,9 @@ class _Worker:
         key = (node.function, one, other)
         if key not in self.names:
             name = self.names[key] = self.context.fresh(f"rpl_{node.function}")
-            self.routines.append(_MAKERS[node.function](name, node.function, one, other))
+            made = _MAKERS[node.function](name, node.function, one, other)
+            whole = self.context.capabilities.rotation == "quaternion" and node.function in _MOVED
+            self.routines.append(_by_wholes(made) if whole else made)
         arguments = tuple(ir.Argument(argument) for argument in node.arguments)
         return ir.Call(self.names[key], arguments, origin=node.origin)
 
@@ -132,6 +134,13 @@ def _displaced(name: str, function: str, one: ir.Type, other: ir.Type) -> ir.Rou
         *(ir.Assign(_part(_DONE, component), _part(_PRODUCT, component)) for component in _POSE),
     )
     return _made(name, one, other, (product,), body)
+
+
+def _by_wholes(made: ir.Routine) -> ir.Routine:
+    """Position and rotation are copied as they are where a rotation is no three angles."""
+    copies = tuple(ir.Assign(_part(_DONE, part), _part(_PRODUCT, part)) for part in ("trans", "rot"))
+    kept = tuple(one for one in made.body if not (isinstance(one, ir.Assign) and isinstance(one.target, ir.Field)))
+    return replace(made, body=(*kept[:-1], *copies, kept[-1]))
 
 
 def _pose_of(name: str, function: str, one: ir.Type, other: ir.Type) -> ir.Routine:

@@ -137,6 +137,7 @@ from rpl.passes.legalise.timers import timers_to_clocks
 from rpl.passes.legalise.tooldata import tool_data
 from rpl.passes.legalise.triggers import triggers
 from rpl.passes.legalise.truths import truths_to_numbers
+from rpl.passes.legalise.turnedways import turned_ways
 from rpl.passes.legalise.undefined import asked_values
 from rpl.passes.legalise.undefinedparts import asked_elements
 from rpl.passes.legalise.unused import drop_untyped, drop_unused
@@ -174,6 +175,7 @@ PASSES: tuple[Pass, ...] = (
     whole_settings,
     changed_places,
     random_numbers,
+    turned_ways,
     elementwise,
     known_handles,
     called_tasks,

@@ -52,7 +52,7 @@ def whole_targets(program: ir.Program, context: Context) -> ir.Program:
     for module in program.modules:
         routines = []
         for routine in module.routines:
-            worker = _Whole(context, scopes.routine(module, routine), unchanged)
+            worker = Whole(context, scopes.routine(module, routine), unchanged)
             body = worker.body(routine.body)
             declarations = (*routine.declarations, *worker.declared)
             routines.append(replace(routine, body=body, declarations=declarations))
@@ -60,7 +60,9 @@ def whole_targets(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=tuple(modules))
 
 
-class _Whole:
+class Whole:
+    """The moves of one routine, and the variables that they need."""
+
     def __init__(self, context: Context, scope: Scope, unchanged: Unchanged) -> None:
         self.context, self.scope, self.unchanged = context, scope, unchanged
         self.declared: list[ir.Declaration] = []
@@ -136,7 +138,7 @@ class _Whole:
         self.declared.append(ir.Variable(name, type, scope="routine"))
         if start is None:
             self.stop_before(done)
-            start = ir.System("actual_joints") if joints else _here(move)
+            start = ir.System("actual_joints") if joints else here(move)
         later = replace(move.origin, comments=())
         steps: list[ir.Statement] = [ir.Assign(ir.Name(name), start, origin=move.origin)]
         for component, value in target.entries:
@@ -191,7 +193,7 @@ class _Whole:
         start = self.last_target(done, move) or self.noted(done, move)
         if start is None:
             self.stop_before(done)
-            start = _here(move)
+            start = here(move)
         function = "tool_offset" if move.relative == "tool" else "offset"
         steps = tuple(values.get(name, ir.RealLiteral(0.0)) for name in _POSITION)
         return [replace(move, target=ir.Builtin(function, (start, *steps)), relative=None)]
@@ -276,7 +278,7 @@ class _Whole:
         start = self.last_target(before, move)
         if start is None:
             self.stop_before(before)
-            start = _here(move)
+            start = here(move)
 
         def note(statement: ir.Statement) -> ir.Body:
             if isinstance(statement, ir.Move):
@@ -305,7 +307,7 @@ _BLOCKS = (ir.If, ir.Switch, ir.For, ir.While, ir.Repeat, ir.Loop)
 _UNKNOWN_MOVES = (ir.CallRoutine, ir.Call, ir.Goto, ir.Label, ir.Spline, ir.MoveExternal)
 
 
-def _here(move: ir.Move) -> ir.Expression:
+def here(move: ir.Move) -> ir.Expression:
     """Where the robot stands, with the tool and in the frame that the move has."""
     if move.tool is None and move.frame is None:
         return ir.System("actual_pose")
