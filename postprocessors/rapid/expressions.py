@@ -317,6 +317,22 @@ def missing(type: ir.Type, name: str) -> str:
             return "[1,0,0,0]"
         case ir.ExternalType(), _:
             return UNSET_AXIS
+        case ir.ToolType(), "held":
+            return "TRUE"
+        case ir.ToolType(), "load":  # as light as the controller allows
+            return "[0.001,[0,0,0.001],[1,0,0,0],0,0,0]"
+        case ir.WorkObjectType(), "held" | "fixed":
+            return "TRUE" if name == "fixed" else "FALSE"
+        case ir.WorkObjectType(), "unit":
+            return '""'
+        case (ir.ToolType(), "frame") | (ir.WorkObjectType(), "user_frame" | "object_frame"):
+            return "[[0,0,0],[1,0,0,0]]"
+        case ir.LoadType(), "axes":
+            return "[1,0,0,0]"
+        case ir.LoadType(), "cog":
+            return "[0,0,0]"
+        case ir.LoadType(), _:
+            return "0.001" if name == "mass" else "0"
         case ir.RotationType(), "q1":
             return "1"
         case ir.VectorType() | ir.AxesType() | ir.ConfigType() | ir.RotationType(), _:

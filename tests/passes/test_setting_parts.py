@@ -5,7 +5,8 @@ import pytest
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.emulator.model import load_robot
 from rpl.project import read_sources
-from rpl.simulation import run_program
+from rpl.proof.prove import prove_programs
+from rpl.simulation import entry_name, run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
@@ -39,3 +40,31 @@ def test_the_robot_ends_where_the_changed_tool_and_frame_say(target: str) -> Non
     assert result.joints is not None and own.joints is not None
     here, there = KUKA.forward(own.joints), KUKA.forward(result.joints)
     assert here == pytest.approx(there, abs=0.01)
+
+
+COMPUTED = """PROCEDURE main()
+    set_tool(60)
+    MOVE TO {x: 450, y: 50, z: 350, a: 0, b: 180, c: 0}
+    set_base(20)
+    MOVE LINEAR TO {x: 450, y: 50, z: 350, a: 0, b: 180, c: 0}
+END PROCEDURE
+PROCEDURE set_tool(length: REAL)
+    $tool = {x: 0, y: 0, z: length, a: 0, b: 0, c: 0}
+END PROCEDURE
+PROCEDURE set_base(height: REAL)
+    $base = {x: 0, y: 0, z: height, a: 0, b: 0, c: 0}
+END PROCEDURE
+"""
+
+
+@pytest.mark.parametrize("target", ["rapid", "urscript", "vplus", "inform", "krl", "tp"])
+def test_a_tool_with_a_computed_component_is_set_as_a_whole(target: str) -> None:
+    source = read_sources([source_from_text("cell.rpl", COMPUTED)], "rpl", Diagnostics())
+    diagnostics = Diagnostics()
+    made = translate_program(source, target, KUKA.name, None, diagnostics)
+    assert not diagnostics.of(Severity.LOSS)
+    again = read_sources([source_from_bytes(f.path, f.data) for f in made.files], target, Diagnostics())
+    entry = made.renamed.get("main", "main")
+    entry = entry_name(again.program, entry) or entry
+    result = prove_programs(source.program, again.program, KUKA.name, entry="main", to_entry=entry)
+    assert result.equal, result.as_text()

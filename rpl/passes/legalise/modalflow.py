@@ -32,6 +32,7 @@ _ROUNDS = 40
 # Functions that give or take a pose in the modal frame where they are not told another.
 IN_FRAME = {
     "current_target": 0,
+    "current_position": 0,
     "joints_to_target": 1,
     "target_to_joints": 1,
     "target_to_joints_near": 2,

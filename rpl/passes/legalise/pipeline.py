@@ -82,6 +82,7 @@ from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.onemove import settings_of_one_move
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.overrides import full_override
+from rpl.passes.legalise.ownplaces import own_places
 from rpl.passes.legalise.parameters import fit_arguments
 from rpl.passes.legalise.partialplaces import partial_places
 from rpl.passes.legalise.pathevents import path_events
@@ -275,6 +276,7 @@ PASSES: tuple[Pass, ...] = (
     settings_of_one_move,
     modal_to_explicit,
     tool_data,
+    own_places,
     mixed_speeds,
     moves_ahead,
     explicit_to_modal,

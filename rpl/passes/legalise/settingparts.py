@@ -1,11 +1,13 @@
-"""One component of a tool or frame in use that is set alone: the whole is read, changed in a variable and set again.
+"""A tool or frame in use that is set by one component, or by computed components: that is done in a variable first.
 
-What follows the settings of a program (speeds, tools, frames in force) thus knows of every change.
+One component alone: the whole is read, changed and set again. What follows the settings of a program (speeds, tools,
+frames in force) thus knows of every change.
 """
 
 from __future__ import annotations
 
 from rpl import ir
+from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.jumps import inside
@@ -36,4 +38,17 @@ def _whole(statement: ir.Statement, editor: Editor) -> ir.Body:
                 ir.Assign(setting, kept),
             )
             return expansion(statement.origin, steps)
+        case ir.Assign(target=ir.System() as setting, value=ir.Aggregate(entries=entries) as value):
+            type = editor.type_of(setting)
+            if not isinstance(type, ir.PoseType) or all(_fixed(one, editor) for _, one in entries):
+                return (statement,)
+            kept = editor.temporary("setting", type)
+            return expansion(statement.origin, (ir.Assign(kept, value), ir.Assign(setting, kept)))
     return (statement,)
+
+
+def _fixed(value: ir.Expression, editor: Editor) -> bool:
+    """Is it the same in every run?"""
+    if isinstance(value, ir.Aggregate):
+        return all(_fixed(one, editor) for _, one in value.entries)
+    return constant(value, editor.scope) is not None
