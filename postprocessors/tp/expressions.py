@@ -236,7 +236,7 @@ class Expressions:
         left: ir.Expression = expression
         while isinstance(left, ir.Binary):
             group = next((one for one in (tables.SUMS, tables.PRODUCTS, frozenset("&")) if left.op in one), None)
-            right = self.simple(left.right)
+            right = self.appended(left.right) if left.op == "&" else self.simple(left.right)
             if group is None or family not in (None, group) or right is None:
                 return None
             family = group
@@ -247,6 +247,12 @@ class Expressions:
         if first is None or not parts or len(parts) > 2 * tables.LONGEST_PLAIN:
             return None
         return first + "".join(parts)
+
+    def appended(self, piece: ir.Expression) -> str | None:
+        """What `SR[1]=SR[2]+..` adds: a text, or a register whose number the controller writes itself."""
+        if isinstance(piece, ir.Builtin) and piece.function == "value_text" and constant(piece.arguments[0]) is None:
+            return self.simple(piece.arguments[0])
+        return self.simple(piece)
 
     def mixed(self, expression: ir.Expression) -> str:
         """Mixed logic without its outer brackets."""

@@ -67,3 +67,32 @@ def test_every_call_switches_its_own_signal(target: str) -> None:
     ours = record_of(run, named)
 
     assert _switched(ours) == _switched(theirs)
+
+
+CALCULATED = """/PROG  LAMPS
+/MN
+   1:  FOR R[1]=1 TO 18 ;
+   2:  DO[R[1]]=ON ;
+   3:  ENDFOR ;
+   4:  RO[1]=OFF ;
+   5:  GO[1]=0 ;
+   6:  DO[3]=OFF ;
+/POS
+/END
+"""
+
+
+@pytest.mark.parametrize("target", ["krl", "tp", "urscript", "vplus", "inform"])
+def test_chosen_numbers_keep_off_calculated_ones(target: str) -> None:
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("LAMPS.LS", CALCULATED)], "tp", diagnostics)
+    translation = translate_program(read, target, "fanuc_lrmate200id", None, diagnostics)
+    back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, diagnostics)
+    assert not diagnostics.has_errors
+    named = with_signal_names(back.program, translation.program)
+    entry = translation.renamed.get("LAMPS", "LAMPS")
+    run = run_program(named, "fanuc_lrmate200id", None, entry, 10.0)
+    assert run.status == "finished"
+    on = {names.pop(): value for names, value in _switched(record_of(run, named)) if len(names) == 1}
+    lamps = {f"digital_out:{number}": number != 3 for number in range(1, 19)}
+    assert {name: on[name] for name in lamps} == lamps

@@ -43,6 +43,7 @@ ASSIGNMENTS = [
     ("R[1] = to_nearest(R[2])", "R[1]=ROUND[R[2]]"),
     ("PULSE do[6] TO ON FOR 0.2 s", "DO[6]=PULSE,0.2sec"),
     ('SR[1] = "abc" & SR[2]', "SR[1]='abc'+SR[2]"),
+    ("SR[1] = SR[1] & value_text(R[2])", "SR[1]=SR[1]+R[2]"),
     ('SR[1] = "abc"', "SR[1]='abc'"),
     ("R[1] = to_real(text_length(SR[1]))", "R[1]=STRLEN SR[1]"),
     ("CLOCK RESET TIMER[2]", "TIMER[2]=RESET"),

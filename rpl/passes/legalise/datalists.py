@@ -114,11 +114,13 @@ def started_tasks(program: ir.Program) -> set[str]:
 
 
 def moving_entries(program: ir.Program) -> set[str]:
-    """Where the task that moves the robot may start: procedures that nothing calls, and that no other task runs."""
+    """Where the task that moves the robot may start: the program's entry, and procedures that nothing calls, and that
+    no other task runs."""
     beside = _background(program)
     foreground = replace(program, modules=tuple(one for one in program.modules if one.name not in beside))
     others = {task.entry.lower() for task in program.tasks if task.kind != "motion" and not task.modules}
-    return never_called(foreground) - started_tasks(program) - others
+    entry = {program.entry.lower()} if program.entry else set()
+    return entry | never_called(foreground) - started_tasks(program) - others
 
 
 def started_first(program: ir.Program) -> set[str]:

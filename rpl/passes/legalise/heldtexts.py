@@ -1,11 +1,12 @@
 """Texts that a variable can hold, where a program only ever gives it literal ones.
 
 Conservative and by name: variables of one name count as one; what is passed on, read in or computed may hold any text.
+What a text begins with is looked for in the statements in front of its use, too.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
@@ -45,6 +46,34 @@ class HeldTexts:
         return None if name.lower() in self.unknown else self.texts.get(name.lower())
 
 
+def as_written_before(text: ir.Expression, before: ir.Body) -> ir.Expression:
+    """A variable as the expression that the statements in front of it, in the same block, have put together in it
+    (`s = "A"`, `s = s & n`: `"A" & n`); the variable itself where a call, a jump or a block stands between."""
+    if not isinstance(text, ir.Name):
+        return text
+    name = text.id.lower()
+    for place in range(len(before) - 1, -1, -1):
+        match before[place]:
+            case ir.Assign(target=ir.Name(id=target), value=value) if target.lower() == name:
+                return _with_first(value, name, before[:place])
+            case ir.Assign(value=value) if not any(isinstance(node, ir.Call) for node in walk(value)):
+                continue
+            case ir.Nothing() | ir.Message():
+                continue
+        return text
+    return text
+
+
+def _with_first(value: ir.Expression, name: str, before: ir.Body) -> ir.Expression:
+    """The joined text, its first part as what stands in front says, where that is the variable of this name."""
+    match value:
+        case ir.Binary(op="&", left=left):
+            return replace(value, left=_with_first(left, name, before))
+        case ir.Name(id=first) if first.lower() == name:
+            return as_written_before(value, before)
+    return value
+
+
 def _without_literals(node: object) -> object:
     match node:
         case ir.Assign(target=ir.Name(), value=ir.TextLiteral()):
@@ -52,4 +81,4 @@ def _without_literals(node: object) -> object:
     return node
 
 
-__all__ = ["HeldTexts"]
+__all__ = ["HeldTexts", "as_written_before"]

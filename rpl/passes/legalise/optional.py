@@ -19,7 +19,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.datalists import calls_of, never_called, reached
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
 from rpl.passes.legalise.effects import blocks, children, everything, statements_in
-from rpl.passes.legalise.heldtexts import HeldTexts
+from rpl.passes.legalise.heldtexts import HeldTexts, as_written_before
 from rpl.passes.legalise.support import default_value
 from rpl.passes.legalise.usage import bodies
 from rpl.passes.rewrite import rewrite_parts
@@ -369,9 +369,15 @@ class _Dynamic:
         can = editor.capabilities
         self.itself = can.dynamic_calls and names_stay(editor.scope.program.program, can.names)
         self.held: HeldTexts | None = None
+        self.before: ir.Body = ()  # of the statement that is looked at, in its block
 
     def body(self, body: ir.Body) -> ir.Body:
-        return map_body(body, self.statement)
+        done: list[ir.Body] = []
+        for place, statement in enumerate(body):
+            self.before = body[:place]
+            done.append(self.statement(statement))
+        pieces = iter(done)
+        return map_body(body, lambda statement: next(pieces))
 
     def statement(self, statement: ir.Statement) -> ir.Body:
         match statement:
@@ -427,7 +433,7 @@ class _Dynamic:
         self.held = self.held or HeldTexts.of(scope.program.program)
         texts = self.held.of_name(name.id) if isinstance(name, ir.Name) else None
         held = None if texts is None else {scope.fold(text.rpartition(":")[2]) for text in texts}
-        start, whole = _beginning(name)
+        start, whole = _beginning(as_written_before(name, self.before))
         start = scope.fold(start.rpartition(":")[2])
         found: dict[str, str] = {}
         for module in scope.program.program.modules:

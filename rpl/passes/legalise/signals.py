@@ -221,11 +221,22 @@ def number_signals(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose signals have numbers."""
     if context.capabilities.signal_prefixes:
         return program
+    computed = _computed(program)
     program, places = parameters_as_numbers(program)
-    return numbers_as_arguments(_with_numbers(program, context), places)
+    return numbers_as_arguments(_with_numbers(program, context, computed), places)
 
 
-def _with_numbers(program: ir.Program, context: Context) -> ir.Program:
+def _computed(program: ir.Program) -> frozenset[str]:
+    """Kinds of single signals whose number a program calculates."""
+    routines = [routine for module in program.modules for routine in module.routines]
+    return frozenset(
+        node.kind
+        for node in walk(*routines)
+        if isinstance(node, ir.Signal) and node.index is not None and node.last is None and not _constant(node.index)
+    )
+
+
+def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str]) -> ir.Program:
     prefixes = _prefixes()
     alone = not context.capabilities.numbered_groups
 
@@ -241,6 +252,9 @@ def _with_numbers(program: ir.Program, context: Context) -> ir.Program:
     names, used = _named_and_numbered(program, known)
     if not names:
         return program
+    for kind in computed:  # any of them may be meant
+        taken = used.setdefault(kind, set())
+        taken.update(range(1, max({_REACH, *taken}) + 1))
     numbers = _numbers(names, prefixes, used)
     declared: list[ir.Declaration] = []
     aliases: dict[tuple[str, str], str] = {}

@@ -83,6 +83,8 @@ def test_a_target_with_optional_parameters_keeps_them() -> None:
         ('%"PART2"%;', 0),
         ('%"part"+NumToStr(n-2,0)%;', 2),
         ('name:="other"; %name%;', 4),
+        ('name:="part"; n:=n-2; name:=name+NumToStr(n,0); %name%;', 2),
+        ('name:="other"; IF n>2 name:="part2"; %name%;', 4),
         ('%"part"+"ly"% 7;', 1),
         ('%"part"+NumToStr(n,0)%;', 2),
     ],
@@ -187,9 +189,9 @@ ENDMODULE
     ("first", "candidates"),
     [
         ('IF n=0 job:="lower";', 2),
-        ('job:="lower";', 2),
+        ('job:="lower";', 1),
         ("", 1),
-        ('job:="lo"+"wer";', 4),
+        ('job:="lo"+"wer";', 1),
     ],
 )
 def test_a_text_that_only_ever_holds_some_names(first: str, candidates: int) -> None:
