@@ -142,6 +142,7 @@ from rpl.passes.legalise.turnedways import turned_ways
 from rpl.passes.legalise.undefined import asked_values
 from rpl.passes.legalise.undefinedparts import asked_elements
 from rpl.passes.legalise.unused import drop_untyped, drop_unused
+from rpl.passes.legalise.usedelements import used_elements
 from rpl.passes.legalise.valuearrays import copy_value_arrays
 from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.legalise.watches import counted_watches
@@ -187,6 +188,7 @@ PASSES: tuple[Pass, ...] = (
     without_empty_reactions,
     interrupt_places,
     link_prelude,
+    used_elements,
     possible_cases,
     constant_orientations,
     wrist_paths,
