@@ -70,7 +70,7 @@ def calls_of(program: ir.Program) -> dict[str, set[str]]:
 
     def look(statement: ir.Statement) -> None:
         match statement:
-            case ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name):
+            case ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name) | ir.OnError(routine=str() as name):
                 called.add(name.lower())
             case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)) | ir.Trigger(action=ir.CallRoutine(name=name)):
                 called.add(name.lower())

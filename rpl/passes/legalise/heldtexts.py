@@ -46,6 +46,38 @@ class HeldTexts:
         return None if name.lower() in self.unknown else self.texts.get(name.lower())
 
 
+def text_beginning(text: ir.Expression) -> tuple[str, bool]:
+    """What the text certainly begins with, and whether that is all of it."""
+    match text:
+        case ir.TextLiteral(value=known):
+            return known, True
+        case ir.Binary(op="&", left=left, right=right):
+            first, whole = text_beginning(left)
+            if not whole:
+                return first, False
+            more, all_known = text_beginning(right)
+            return first + more, all_known
+    return "", False
+
+
+def named_by_texts(program: ir.Program) -> set[str]:
+    """Procedures (folded) that calls by a text are known to mean, as far as anything is known of the text."""
+    calls = [node for node in walk(*program.modules) if isinstance(node, ir.CallRoutine) and node.dynamic is not None]
+    if not calls:
+        return set()
+    names = {one.name.lower() for module in program.modules for one in module.routines if one.kind == "procedure"}
+    held, found = HeldTexts.of(program), set[str]()
+    for call in calls:
+        texts = held.of_name(call.dynamic.id) if isinstance(call.dynamic, ir.Name) else None
+        if texts is not None:
+            found |= {text.rpartition(":")[2].lower() for text in texts}
+        elif call.dynamic is not None:
+            start, whole = text_beginning(call.dynamic)
+            start = start.rpartition(":")[2].lower()
+            found |= {name for name in names if start and (name == start if whole else name.startswith(start))}
+    return found & names
+
+
 def as_written_before(text: ir.Expression, before: ir.Body) -> ir.Expression:
     """A variable as the expression that the statements in front of it, in the same block, have put together in it
     (`s = "A"`, `s = s & n`: `"A" & n`); the variable itself where a call, a jump or a block stands between."""
@@ -81,4 +113,4 @@ def _without_literals(node: object) -> object:
     return node
 
 
-__all__ = ["HeldTexts", "as_written_before"]
+__all__ = ["HeldTexts", "as_written_before", "named_by_texts", "text_beginning"]

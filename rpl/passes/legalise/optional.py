@@ -19,7 +19,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.datalists import calls_of, never_called, reached
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
 from rpl.passes.legalise.effects import blocks, children, everything, statements_in
-from rpl.passes.legalise.heldtexts import HeldTexts, as_written_before
+from rpl.passes.legalise.heldtexts import HeldTexts, as_written_before, text_beginning
 from rpl.passes.legalise.support import default_value
 from rpl.passes.legalise.usage import bodies
 from rpl.passes.rewrite import rewrite_parts
@@ -433,7 +433,7 @@ class _Dynamic:
         self.held = self.held or HeldTexts.of(scope.program.program)
         texts = self.held.of_name(name.id) if isinstance(name, ir.Name) else None
         held = None if texts is None else {scope.fold(text.rpartition(":")[2]) for text in texts}
-        start, whole = _beginning(as_written_before(name, self.before))
+        start, whole = text_beginning(as_written_before(name, self.before))
         start = scope.fold(start.rpartition(":")[2])
         found: dict[str, str] = {}
         for module in scope.program.program.modules:
@@ -462,17 +462,3 @@ class _Dynamic:
             if type is not None and not numbers and type.__class__ is not wanted.__class__:
                 return False
         return True
-
-
-def _beginning(name: ir.Expression) -> tuple[str, bool]:
-    """What the text certainly begins with, and whether that is all of it."""
-    match name:
-        case ir.TextLiteral(value=text):
-            return text, True
-        case ir.Binary(op="&", left=left, right=right):
-            first, whole = _beginning(left)
-            if not whole:
-                return first, False
-            more, all_known = _beginning(right)
-            return first + more, all_known
-    return "", False

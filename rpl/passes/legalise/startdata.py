@@ -8,6 +8,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.datalists import never_called, started_tasks
+from rpl.passes.legalise.heldtexts import named_by_texts
 
 # So many assignments may stand in the routine that starts; more go into a routine of their own.
 _INLINE = 8
@@ -55,6 +56,7 @@ def entries_of(program: ir.Program) -> set[str]:
         return declared & names
     beside = {task.entry.lower() for task in program.tasks} | started_tasks(program)
     uncalled = never_called(program) - beside
+    uncalled = uncalled - named_by_texts(program) or uncalled
     if "main" in uncalled:
         return {"main"}
     return uncalled or set(list(names)[:1])
