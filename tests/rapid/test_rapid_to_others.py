@@ -42,6 +42,29 @@ CASES: list[tuple[str, str, str, frozenset[str]]] = [
         IF ok AND Distance(fr.trans,c2.trans)<0.01 AND Abs(EulerZYX(\\Z,fr.rot)-36.87)<0.01 SetDO do1,1;""",
         frozenset(),
     ),
+    (
+        "a trap at a place of the path, deleted when the arm stands",
+        COUNT,
+        """MoveJ p1,v500,fine,tool0; IDelete seen; CONNECT seen WITH tCount; TriggInt gun,30,seen;
+        TriggL Offs(p1,0,0,-100),v200,gun,fine,tool0; IDelete seen; WaitTime 0.1; IF n=1 SetDO do1,1;""",
+        frozenset(),
+    ),
+    (
+        "a trap that sleeps while the first event comes",
+        COUNT,
+        """MoveJ p1,v500,fine,tool0; CONNECT seen WITH tCount; TriggInt gun,30,seen; ISleep seen;
+        TriggL Offs(p1,0,0,-100),v200,gun,fine,tool0; WaitTime 0.1; ok:=n=0; IWatch seen;
+        TriggL p1,v200,gun,fine,tool0; WaitTime 0.1; IF ok AND n=1 SetDO do1,1;""",
+        frozenset(),
+    ),
+    (
+        "events defined anew before each move",
+        "",
+        """MoveJ p1,v500,fine,tool0; TriggIO gun,30\\DOp:=do2,1; TriggL Offs(p1,0,0,-100),v200,gun,fine,tool0;
+        ok:=DOutput(do2)=1; TriggIO gun,20\\DOp:=do2,0; TriggL p1,v200,gun,fine,tool0;
+        IF ok AND DOutput(do2)=0 SetDO do1,1;""",
+        frozenset(),
+    ),
 ]
 
 

@@ -171,9 +171,11 @@ class _Points:
         return self.context.capabilities.path_points
 
     def is_known(self, move: ir.Move, events: list[_Event]) -> bool:
-        """Are both ends and the places constants?"""
+        """Are both ends and the places constants that the writer sees as such?"""
         if self.last is None or any(one.known is None for one in events):
             return False
+        if any(isinstance(one.target, ir.Builtin) for one in (self.last, move)):
+            return False  # computed from a constant by the program itself
         type = type_of(self.last.target, self.editor.scope)
         start = self.last.target if type is None else in_base(self.last, self.last.target, type)
         ends = (start, in_base(move, move.target, type_of(move.target, self.editor.scope)))

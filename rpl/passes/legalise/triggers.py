@@ -9,7 +9,8 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.usage import base_name, bodies, called_names, each_statement, exposed
+from rpl.passes.legalise.storedevents import events_before_moves
+from rpl.passes.legalise.usage import called_names, exposed
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 
@@ -18,11 +19,11 @@ def triggers(program: ir.Program, context: Context) -> ir.Program:
     """Rewrites towards whichever form the target has."""
     statements = context.capabilities.statements
     if context.capabilities.move_triggers:
-        return _at_moves(_Before(program).program(program))
+        return _at_moves(events_before_moves(program, context))
     if "Trigger" not in statements and "DefineTrigger" in statements:
         return _Stored(context).program(program)
     if "DefineTrigger" not in statements and "Trigger" in statements:
-        return _Before(program).program(program)
+        return events_before_moves(program, context)
     return program
 
 
@@ -177,79 +178,3 @@ def _at_the_move(triggers: tuple[ir.Expression | ir.Trigger, ...]) -> bool:
         return True
     alone = len(triggers) == 1
     return alone and own[0].reference == "middle" and own[0].distance is None and own[0].delay is None
-
-
-class _Before:
-    """Stored triggers go back before the moves that name them, where a variable is defined in one place only."""
-
-    def __init__(self, program: ir.Program) -> None:
-        self.defined: dict[str, ir.DefineTrigger | None] = {}
-        self.trap_of: dict[str, str] = {}
-        for module in program.modules:
-            for routine in module.routines:
-                for body in bodies(routine):
-                    each_statement(body, self.collect)
-
-    def collect(self, statement: ir.Statement) -> None:
-        match statement:
-            case ir.DefineTrigger(target=target):
-                name = base_name(target) or ""
-                self.defined[name] = None if name in self.defined else statement
-            case ir.ConnectInterrupt(handle=handle, routine=routine):
-                self.trap_of.setdefault(base_name(handle) or "", routine)
-
-    def program(self, program: ir.Program) -> ir.Program:
-        modules = tuple(
-            replace(
-                module,
-                routines=tuple(
-                    replace(r, body=self.body(r.body), declarations=self.kept(r.declarations)) for r in module.routines
-                ),
-                declarations=self.kept(module.declarations),
-            )
-            for module in program.modules
-        )
-        return replace(program, modules=modules)
-
-    def kept(self, declarations: tuple[ir.Declaration, ...]) -> tuple[ir.Declaration, ...]:
-        return tuple(one for one in declarations if not self.is_resolved(one))
-
-    def is_resolved(self, declaration: ir.Declaration) -> bool:
-        return (
-            isinstance(declaration, ir.Variable)
-            and isinstance(declaration.type, ir.TriggerType)
-            and self.defined.get(declaration.name.lower()) is not None
-        )
-
-    def body(self, body: ir.Body) -> ir.Body:
-        done: list[ir.Statement] = []
-        for statement in body:
-            match statement:
-                case ir.DefineTrigger(target=target) if self.defined.get(base_name(target) or "") is statement:
-                    if statement.origin.comments:
-                        done.append(ir.Nothing(origin=statement.origin))
-                case ir.Move(triggers=triggers) if triggers:
-                    done.extend(self.move(statement))
-                case _:
-                    done.append(rewrite_parts(statement, lambda expression: expression, self.body))
-        return tuple(done)
-
-    def move(self, move: ir.Move) -> list[ir.Statement]:
-        before: list[ir.Statement] = []
-        kept: list[ir.Expression | ir.Trigger] = []
-        for one in move.triggers:
-            trigger = one if isinstance(one, ir.Trigger) else self.resolved(one)
-            if trigger is None:
-                kept.append(one)
-            else:
-                before.append(replace(trigger, origin=replace(move.origin, comments=())))
-        return [*before, replace(move, triggers=tuple(kept))]
-
-    def resolved(self, name: ir.Expression) -> ir.Trigger | None:
-        defined = self.defined.get(base_name(name) or "")
-        if defined is None:
-            return None
-        if defined.interrupt is None:
-            return defined.trigger
-        routine = self.trap_of.get(base_name(defined.interrupt) or "")
-        return replace(defined.trigger, action=ir.CallRoutine(routine)) if routine else None
