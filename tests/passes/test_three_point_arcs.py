@@ -114,10 +114,20 @@ def test_ends_that_are_known_only_in_a_run_are_computed_there(target: str) -> No
     assert not [one for one in told if "lost" in one or "guarded" in one]
 
 
-def test_a_full_turn_of_points_known_only_in_a_run_is_refused_by_name() -> None:
-    told = translated_text(RUN.replace("CA -45", "CA 400"), "rapid")[1]
-    assert told.count("arc-end-computed") == 1
-    assert "arc-angle-lost" in told
+@pytest.mark.parametrize("target", ["rapid", "tp", "urscript", "vplus", "inform"])
+@pytest.mark.parametrize("angle", [-400, 360])
+def test_a_full_turn_of_points_known_only_in_a_run_is_computed_in_parts(target: str, angle: int) -> None:
+    text = RUN.replace("CA -45", f"CA {angle}").replace("$VEL.CP = 0.3", "$VEL.CP = 0.3\n$CIRC_TYPE = #BASE")
+    result, told = translated_text(text, target)
+    in_corners = result.level == "events" and result.max_path_mm < 0.02  # of 1 mm, which are said
+    assert result.equal or in_corners, result.as_text()
+    assert told.count("arc-end-computed") == 2
+    assert "arc-in-parts" in told
+    assert not [one for one in told if "lost" in one or "guarded" in one]
+
+
+def test_a_full_turn_along_which_the_tool_follows_the_path_is_refused_by_name() -> None:
+    assert "arc-angle-lost" in translated_text(RUN.replace("CA -45", "CA 400"), "rapid")[1]
 
 
 def test_what_is_not_the_same_is_told_with_its_size() -> None:

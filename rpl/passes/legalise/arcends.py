@@ -38,11 +38,16 @@ class _Sizes:
 
 
 def computed_arc(
-    move: ir.Move, places: tuple[tuple[ir.Expression, ir.Type], ...], angle: float, temporary: Temporary
+    move: ir.Move,
+    places: tuple[tuple[ir.Expression, ir.Type], ...],
+    angle: float,
+    temporary: Temporary,
+    count: int = 1,
+    corner: ir.Blend | None = None,
 ) -> ir.Body:
-    """The arc without its angle (deg, less than a turn) and what comes before it. `places`: where it begins, the point
-    on the way and the end, in the same frame, with their types. They are kept first: a start that is read from the
-    robot is read once."""
+    """The arc without its angle (deg) and what comes before it; `count` arcs of less than a turn each, which meet in
+    such corners. `places`: where it begins, the point on the way and the end, in the same frame, with their types. They
+    are kept first: a start that is read from the robot is read once."""
     number = ir.RealType()
     stems = ("begin", "through", "end_at")
     begin, through, end = (temporary(stem, type) for stem, (_, type) in zip(stems, places, strict=True))
@@ -57,24 +62,41 @@ def computed_arc(
     steps.append(ir.Assign(uv, _half(ir.Binary("-", ir.Binary("+", uu, vv), area))))
     square = ir.Binary("-", _times(uu, vv), _times(uv, uv))
     steps.append(ir.Assign(area, ir.Builtin("sqrt", (square,))))
-    first, second = (temporary(stem, number) for stem in ("along_via", "along_end"))
-    goals = []
-    for stem, at in (("arc_via", angle / 2.0), ("arc_end", angle)):
-        goal = temporary(stem, places[2][1])
-        steps += [
-            ir.Assign(first, _share(sizes.vv, sizes.uu, at, sizes)),
-            ir.Assign(second, _share(sizes.uu, sizes.vv, -at, sizes)),
-            ir.Assign(goal, end),
-        ]
-        for axis in _POSITION:
-            ways = (_times(share, _way(begin, to, axis)) for share, to in ((first, through), (second, end)))
-            value: ir.Expression = ir.Field(begin, axis)
-            for way in ways:
-                value = ir.Binary("+", value, way)
-            steps.append(ir.Assign(ir.Field(goal, axis), value))
-        goals.append(goal)
-    arc = replace(move, via=goals[0], target=goals[1], swept=None)
-    return tuple(one if at == 0 else replace(one, origin=later) for at, one in enumerate((*steps, arc)))
+    goals = [
+        _goal(angle * at / (2 * count), (begin, through, end), sizes, (f"arc_{at}", places[2][1]), temporary, steps)
+        for at in range(1, 2 * count + 1)
+    ]
+    arcs = [
+        replace(move, via=via, target=goal, swept=None, blend=move.blend if goal is goals[-1] else corner)
+        for via, goal in zip(goals[::2], goals[1::2], strict=True)
+    ]
+    return tuple(one if at == 0 else replace(one, origin=later) for at, one in enumerate((*steps, *arcs)))
+
+
+def _goal(
+    angle: float,
+    places: tuple[ir.Name, ir.Name, ir.Name],
+    sizes: _Sizes,
+    named: tuple[str, ir.Type],
+    temporary: Temporary,
+    steps: list[ir.Statement],
+) -> ir.Name:
+    """The point at an angle from the start, with the rotation of the end."""
+    begin, through, end = places
+    first, second = (temporary(stem, ir.RealType()) for stem in ("along_via", "along_end"))
+    goal = temporary(*named)
+    steps += [
+        ir.Assign(first, _share(sizes.vv, sizes.uu, angle, sizes)),
+        ir.Assign(second, _share(sizes.uu, sizes.vv, -angle, sizes)),
+        ir.Assign(goal, end),
+    ]
+    for axis in _POSITION:
+        ways = (_times(share, _way(begin, to, axis)) for share, to in ((first, through), (second, end)))
+        value: ir.Expression = ir.Field(begin, axis)
+        for way in ways:
+            value = ir.Binary("+", value, way)
+        steps.append(ir.Assign(ir.Field(goal, axis), value))
+    return goal
 
 
 def _share(factor: ir.Name, other: ir.Name, angle: float, sizes: _Sizes) -> ir.Expression:

@@ -218,7 +218,7 @@ class _Arcs:
         circle = circle_through(start.position, via.position, end.position)
         if circle is None or angle == 0.0:
             return self.lost(move, "its points fix no circle")
-        count = 1 if abs(angle) < 360.0 else math.ceil((abs(angle) + 1.0) / 270.0)
+        count = 1 if abs(angle) < 360.0 else _parts_of(angle)
         if count == 1:
             return self.look(_to(move, circle, angle, end.rotation, self.context.source), self.rule(move))
         rule = self.rule(move)
@@ -240,14 +240,28 @@ class _Arcs:
         places = tuple((one, type) for one in (start, *goals) if (type := self.place(one)) is not None)
         if len(places) != 3 or move.relative is not None:
             return self.lost(move, "its point on the way or its end is not whole, or counted from its start")
-        if abs(angle) >= 360.0 or angle == 0.0:
-            return self.lost(move, "it goes around, and its points are known only in a run")
+        if angle == 0.0:
+            return self.lost(move, "its points fix no circle")
         self.context.diagnostics.report(COMPUTED, move.origin, angle=angle)
+        if abs(angle) >= 360.0:
+            return (*filled, *self.around(move, places, angle))
         done = computed_arc(move, places, angle, self.temporary)
         arc = done[-1]
         assert isinstance(arc, ir.Move)  # computed_arc ends with it
         self.last = None
         return (*filled, *done[:-1], *self.look(arc, self.rule(move)))
+
+    def around(self, move: ir.Move, places: tuple[tuple[ir.Expression, ir.Type], ...], angle: float) -> ir.Body:
+        """An arc of a turn or more in parts that the program computes."""
+        if move.triggers or move.search is not None:
+            return self.lost(move, "it goes around, and actions or a search belong to it")
+        if self.rule(move) != "base":
+            return self.lost(move, "it goes around, and the tool turns with the path")
+        count = math.ceil(abs(angle) / _MOST_TURN_DEG)
+        self.context.diagnostics.report(IN_PARTS, move.origin, angle=angle, count=count, corner=CORNER_MM)
+        self.context.diagnostics.report(TURNS_OTHERWISE, move.origin, how="in its first part, if it turns at all")
+        self.last = None
+        return computed_arc(move, places, angle, self.temporary, count, ir.BlendDistance(ir.RealLiteral(CORNER_MM)))
 
     def filled(
         self, place: ir.Expression, start: ir.Expression, move: ir.Move, steps: list[ir.Statement]
@@ -298,6 +312,11 @@ class _Arcs:
     def lost(self, move: ir.Move, reason: str) -> ir.Body:
         self.context.diagnostics.report(NOT_KNOWN, move.origin, reason=reason)
         return (move,)
+
+
+def _parts_of(angle: float) -> int:
+    """How many arcs of clearly less than a turn make one of so many degrees."""
+    return math.ceil((abs(angle) + 1.0) / 270.0)
 
 
 def _names(place: ir.Expression) -> set[str]:
