@@ -94,6 +94,7 @@ CAPABILITIES = Capabilities(
     signal_groups=False,
     move_settings=frozenset(("speed", "blend")),
     move_triggers=True,
+    concurrent_moves="tasks",
     speeds=frozenset(("joint", "path", "rotation", "duration")),
     move_functions=frozenset((":", "compose", "element_sum", "displaced_in_tool", "joints_to_target", "pose_of")),
     blends=frozenset(("BlendStop", "BlendPercent", "BlendDistance")),

@@ -90,7 +90,9 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     listings = [listing for module in program.modules for listing in writer.module(module)]
     writer.finish(listings)
     ledger.check(program)
-    return [*(_file(listing, writer.frames) for listing in listings), *dump_files(program, writer.names)]
+    beside = _beside(listings)
+    written = (_file(listing, writer.frames, listing.name in beside) for listing in listings)
+    return [*written, *dump_files(program, writer.names)]
 
 
 class _Writer:
@@ -338,9 +340,20 @@ def _entries(program: ir.Program) -> set[str]:
     return started_first(program)
 
 
-def _file(listing: Listing, frames: Frames) -> OutputFile:
+def _beside(listings: list[Listing]) -> set[str]:
+    """Programs that run beside the one that has the arm, and those that these call."""
+    starts = {line.first.removeprefix("  RUN ") for one in listings for line in one.lines if "  RUN " in line.first}
+    calls = {one.name: {_called(line) for line in one.lines} for one in listings}
+    while more := {name for each in starts for name in calls.get(each, ()) if name} - starts:
+        starts |= more
+    return starts
+
+
+def _file(listing: Listing, frames: Frames, beside: bool) -> OutputFile:
+    """`beside`: the program must not ask for the arm, which another one has, only to look where it is (M: that it
+    may)."""
     _settle(listing.points, frames)
-    moves = any(line.first.startswith(_MOTION) or "PR[" in line.first for line in listing.lines)
+    moves = any(line.first.startswith(_MOTION) or ("PR[" in line.first and not beside) for line in listing.lines)
     header = listing.header
     about = header.get("COMMENT", header.get("comment", "")).strip('"')
     text = (

@@ -131,7 +131,8 @@ class Capabilities:
     move_triggers: a move says the actions on its path itself (Move.triggers), and only so. late_triggers: an action
     on the path may come some time behind the end of a move that stops there (else a task does it).
     concurrent_moves: a program that goes on while a move is driven: `moves` say so (or a task of watching_tasks drives
-    them), the program runs `advance` over moves where it is allowed to; empty: it waits, which is named a loss.
+    them), the program runs `advance` over moves where it is allowed to, or `tasks` do what stands beside the move;
+    empty: it waits, which is named a loss.
     ways_from_here: a way in joints is worked out from where the robot is, which has to stand for it.
     watching_tasks: path events, searches and interrupts stand in `statements` although moves and the controller have
     none: the passes make tasks of them that watch beside the move (pathevents, watching). watched_interrupts: only

@@ -7,7 +7,9 @@ import pytest
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.passes.typing import normalise
-from rpl.project import ReadProgram
+from rpl.project import ReadProgram, read_sources
+from rpl.simulation import run_program
+from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
 _SPEED = ir.Speed(path=ir.RealLiteral(100.0))
@@ -73,7 +75,79 @@ def test_outputs_alone_need_no_such_move() -> None:
     assert not lost and not any("\\Conc" in line for line in lines)
 
 
-def test_a_controller_that_always_waits_names_the_loss() -> None:
-    assert _written("tp", "inform", _moved("q", True, ir.BlendStop()), _ON, _HERE)[1] == ["concurrent-move"]
-    assert _written("tp", "vplus", _moved("q"), _COMES, _HERE)[1] == ["concurrent-move"]
-    assert not _written("tp", "vplus", _moved("q"), ir.WaitForMotion(), _HERE)[1]
+def test_a_controller_that_always_waits_does_the_steps_in_a_task() -> None:
+    now = ir.Assign(ir.Name("now"), ir.System("actual_pose"))
+    lines, lost = _written("tp", "inform", _moved("q", True, ir.BlendStop()), _ON, now, ir.WaitForMotion(), _ON)
+    assert not lost
+    code = [line.partition(":")[2].strip(" ;") for line in lines]
+    begin = next(at for at, line in enumerate(code) if line.startswith("RUN "))
+    assert code[begin - 1].endswith("=ON") and code[begin + 1].startswith("L PR[2:q]")
+    flag = code[begin - 1].partition("=")[0]
+    assert code[begin + 2 : begin + 4] == [f"WAIT {flag}=OFF", "DO[1]=ON"]
+    task = code[code.index("DO[1]=ON", begin + 4) :]
+    assert task[1].endswith("=LPOS") and task[2] == f"{flag}=OFF"
+    groups = [line.partition("=")[2].strip(" ;") for line in lines if line.startswith("DEFAULT_GROUP")]
+    assert groups == ["1,*,*,*,*", "*,*,*,*,*"]  # M: a program without the arm may look where it is
+
+
+def test_a_move_without_steps_beside_it_needs_no_task() -> None:
+    lines, lost = _written("tp", "inform", _moved("q", True, ir.BlendStop()), _moved("p"), ir.WaitForMotion())
+    assert not lost and not any("RUN" in line for line in lines)
+
+
+def _job(body: str) -> ReadProgram:
+    text = f"""/JOB
+//NAME BESIDE
+//POS
+///NPOS 2,0,0,0,0,0
+///TOOL 0
+///POSTYPE ROBOT
+///RECTAN
+///RCONF 1,0,0,0,0,0
+C00000=400.000,-100.000,300.000,180.0000,0.0000,0.0000
+C00001=400.000,100.000,300.000,180.0000,0.0000,0.0000
+//INST
+///DATE 2026/01/01 00:00
+///ATTR SC,RW
+///GROUP1 RB1
+///LVARS 1,1,0,0,0,0,0,0
+NOP
+{body}
+END
+"""
+    return read_sources([source_from_text("BESIDE.JBI", text)], "inform", Diagnostics())
+
+
+# A move that the program does not wait for; LI000 is a variable of the routine that the steps change.
+STEPS = {
+    "a place on the way": "MOVL C00001 V=100.0 NWAIT\nTIMER T=0.50\nDOUT OT#(1) ON\nGETS PX001 $PX001\nCWAIT\n"
+    "DOUT OT#(2) ON\nGETE D000 P001 (2)\nDOUT OT#(3) ON IF D000<-40000\nDOUT OT#(4) ON IF D000>-60000",
+    "a variable of the routine": "SET LI000 4\nMOVL C00001 V=100.0 PL=0 NWAIT\nADD LI000 3\nTIMER T=0.20\nINC LI000\n"
+    "MOVL C00000 V=200.0 PL=0\nDOUT OT#(1) ON IF LI000=8",
+    "a choice": "MOVL C00001 V=100.0 PL=0 NWAIT\nTIMER T=0.20\nIFTHEN IN#(1)=ON\nDOUT OT#(1) ON\nELSE\nDOUT OT#(2) ON\n"
+    "ENDIF\nCWAIT\nDOUT OT#(3) ON",
+    "in a loop": "FOR I000=1 TO 2\nMOVL C00001 V=200.0 PL=0 NWAIT\nTIMER T=0.10\nPULSE OT#(1) T=0.20\n"
+    "MOVL C00000 V=200.0 PL=0\nNEXT I000",
+    "steps that take longer": "MOVL C00001 V=1000.0 PL=0 NWAIT\nTIMER T=2.00\nDOUT OT#(1) ON\n"
+    "MOVL C00000 V=200.0 PL=0\nDOUT OT#(2) ON",
+}
+
+
+@pytest.mark.parametrize("name", STEPS)
+def test_the_steps_come_when_they_did(name: str) -> None:
+    read = _job("MOVJ C00000 VJ=50.00 PL=0\n" + STEPS[name])
+    diagnostics = Diagnostics()
+    done = translate_program(read, "tp", "motoman_gp7", None, diagnostics)
+    assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    back = read_sources([source_from_bytes(f.path, f.data) for f in done.files], "tp", Diagnostics())
+    theirs, ours = (run_program(one.program, "motoman_gp7", None, "BESIDE") for one in (read, back))
+    wanted = [(round(t, 1), value) for t, _, value in theirs.outputs]
+    assert wanted and [(round(t, 1), value) for t, _, value in ours.outputs] == wanted
+    assert ours.status == "finished" and any(b"RUN " in file.data for file in done.files)
+
+
+def test_a_jump_out_of_the_steps_waits_for_the_move_and_says_so() -> None:
+    diagnostics = Diagnostics()
+    body = "MOVL C00001 V=100.0 PL=0 NWAIT\nDOUT OT#(1) ON\nRET IF IN#(1)=OFF\nDOUT OT#(2) ON"
+    translate_program(_job(body), "tp", "motoman_gp7", None, diagnostics)
+    assert "concurrent-move-left" in [item.code.name for item in diagnostics.of(Severity.WARNING)]

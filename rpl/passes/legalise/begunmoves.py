@@ -18,6 +18,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.lookahead import touches
+from rpl.passes.legalise.stepsbeside import StepsBeside
 
 WAITED_FOR = code(
     "concurrent-move",
@@ -81,6 +82,8 @@ def moves_ahead(program: ir.Program, context: Context) -> ir.Program:
     beside = Beside(program, context)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        if kind == "tasks":
+            return edit_bodies(routine, StepsBeside(editor, routine, beside).body)
         return edit_bodies(routine, _Ahead(editor, routine, beside, kind == "advance").body)
 
     return beside.placed(edit_routines(program, context, work))

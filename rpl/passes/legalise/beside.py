@@ -87,12 +87,16 @@ class Beside:
         """A new routine in the module of another one."""
         self.made.setdefault(self.homes[id(routine)], []).append(made)
 
-    def task(self, routine: ir.Routine, stem: str, body: ir.Body) -> str:
-        """A routine that is begun as a task; its name."""
+    def task(self, routine: ir.Routine, stem: str, body: ir.Body, own: bool = True) -> str:
+        """A routine that is begun as a task; its name. `own`: it may have variables of its own (else all are the
+        program's, whatever they are called)."""
         name = self.context.fresh(stem)
+        if not own:
+            self.routine(routine, ir.Routine(name, body=body, scope="global"))
+            return name
         used = {node.id for node in walk(*body) if isinstance(node, ir.Name)}
-        own = tuple(ir.Variable(word, type, scope="routine") for word, type in _OWN.items() if word in used)
-        self.routine(routine, ir.Routine(name, declarations=own, body=body, scope="global"))
+        mine = tuple(ir.Variable(word, type, scope="routine") for word, type in _OWN.items() if word in used)
+        self.routine(routine, ir.Routine(name, declarations=mine, body=body, scope="global"))
         return name
 
     def placed(self, program: ir.Program) -> ir.Program:
