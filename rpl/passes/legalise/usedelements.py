@@ -1,5 +1,5 @@
 """Arrays of the source's controller (KRL BASE_DATA) that a program only uses some elements of, by constant numbers: a
-variable for each of these, so that numbered data of a target is not spent on the others."""
+variable for each of these. Numbered data of a target is not spent on the others, nor lists of 32 frames written."""
 
 from __future__ import annotations
 
@@ -15,9 +15,7 @@ Elements = dict[str, dict[tuple[int, ...], str]]  # array (folded) -> numbers of
 
 
 def used_elements(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets whose data has numbers; arrays with a value of their own, or wanted as a whole, stay."""
-    if not context.capabilities.banks:
-        return program
+    """Arrays with a value of their own, or wanted as a whole, stay."""
     arrays = {
         one.name.lower(): one
         for module in program.modules
