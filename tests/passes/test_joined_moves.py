@@ -38,7 +38,14 @@ def test_a_switch_that_says_the_usual_is_no_loss(first: str, refused: bool) -> N
     assert refused or text.count("MoveAbsJ") == 2
 
 
-LINES = """.PROGRAM main()
+LINES = """.PROGRAM off()
+ CPOFF ALWAYS
+.END
+.PROGRAM on()
+ CPON ALWAYS
+.END
+.PROGRAM main()
+ n = 0
  SPEED 100 MMPS ALWAYS
  {first}
  MOVES TRANS(330,50,260,0,180,0)
@@ -64,6 +71,15 @@ STOPS = {
         ("", "CPON ALWAYS", []),
         ("CPOFF", "CPOFF", [50, 130]),
         ("CPOFF ALWAYS", "CPON", [50, 90]),
+        ("CPOFF ALWAYS", "CPON ALWAYS", [50, 90]),
+        ("", "CPOFF ALWAYS", [130]),
+        ("CALL off()", "CALL on()", [50, 90]),
+        ("10 n = n+1\nIF n < 3 GOTO 10\nCPOFF ALWAYS", "CPON ALWAYS", [50, 90]),
+        (
+            "FOR i = 1 TO 2\nCPOFF ALWAYS\nEND\nCPOFF ALWAYS",
+            "IF n > 1 THEN\nCPON ALWAYS\nELSE\nCPON ALWAYS\nEND",
+            [50, 90],
+        ),
     ],
 )
 def test_each_move_says_whether_it_is_joined(first: str, between: str, stops: list[int], target: str) -> None:

@@ -1,8 +1,9 @@
 """Whether moves are joined (`blending`, V+ CPON and CPOFF) at the moves themselves, for targets without such a switch:
 where a program only ever sets it to what the source's controller starts with, or to one value before all its moves, or
-to something else for one move, every move that says nothing is as that value says.
+to something else for one move, every move that says nothing is as that value says. Where a program changes it on its
+way, each move is as the value that it finds, as far as that is the same on every way to it (`modalflow`).
 
-A program that really changes it keeps the switch, and later passes name what the target makes of it.
+A program where a move finds either keeps the switch, and later passes name what the target makes of it.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import edit_bodies, map_body
 from rpl.passes.legalise.effects import blocks
 from rpl.passes.legalise.jumps import inside
+from rpl.passes.legalise.modalflow import Flow
 from rpl.passes.legalise.usage import called_names
 
 STANDS = code(
@@ -36,8 +38,11 @@ def joined_moves(program: ir.Program, context: Context) -> ir.Program:
     settings = [
         (node, value) for node in walk(*program.modules) for setting, value in _settings(node) if setting == _JOINED
     ]
-    usual, own = ir.BoolLiteral(start), (ir.BoolLiteral(True), ir.BoolLiteral(False))
-    if not settings or any(value not in (own if isinstance(node, ir.Move) else (usual,)) for node, value in settings):
+    usual = ir.BoolLiteral(start)
+    if not settings or any(not isinstance(value, ir.BoolLiteral) for _, value in settings):
+        return program
+    found = _found(program, context, start)
+    if found is None:
         return program
 
     def change(statement: ir.Statement) -> ir.Body:
@@ -49,7 +54,8 @@ def joined_moves(program: ir.Program, context: Context) -> ir.Program:
         if not isinstance(node, ir.Move):
             return node
         kept = tuple(pair for pair in node.settings if pair[0] != _JOINED)
-        joined = next((value for setting, value in node.settings if setting == _JOINED), usual) == ir.BoolLiteral(True)
+        own = next((value for setting, value in node.settings if setting == _JOINED), None)
+        joined = (own or found.get(id(node), usual)) == ir.BoolLiteral(True)
         blend: ir.Blend = ir.BlendSpeed(ir.IntLiteral(100)) if joined else ir.BlendStop()
         return replace(node, settings=kept, blend=blend if node.blend is None else node.blend)
 
@@ -94,6 +100,27 @@ def stand_before_ways(program: ir.Program, context: Context) -> ir.Program:
         for module in program.modules
     )
     return replace(program, modules=modules)
+
+
+def _found(program: ir.Program, context: Context, start: bool) -> dict[int, ir.Expression] | None:
+    """What the moves that say nothing find, by their identity: nothing where that is what the program starts with
+    throughout. None where a move finds either."""
+    nodes = (node for node in walk(*program.modules) if not isinstance(node, ir.Move))
+    changes = [(node, value) for node in nodes for name, value in _settings(node) if name == _JOINED]
+    if all(value == ir.BoolLiteral(start) for _, value in changes):
+        return {}
+    if any(isinstance(node, ir.SetForNextMove) for node, _ in changes):
+        return None
+    flow = Flow.of(program, dict(rules_of(context.source).system_defaults))
+    found: dict[int, ir.Expression] = {}
+    for move in (one for one in walk(*program.modules) if isinstance(one, ir.Move)):
+        if id(move) not in flow.moves or move.blend is not None or any(name == _JOINED for name, _ in move.settings):
+            continue
+        value = flow.at(move)["blending"]
+        if value is None:
+            return None
+        found[id(move)] = value
+    return found
 
 
 def _first_of_all(program: ir.Program, start: bool) -> bool:

@@ -6,6 +6,7 @@ Routines are entered with what all their calls have in common, and leave with wh
 
 from __future__ import annotations
 
+from collections.abc import Set
 from dataclasses import dataclass, field
 
 from rpl import ir
@@ -22,7 +23,9 @@ BRAKING = {"blend_speed": 100.0, "path_acceleration": 5000.0, "acceleration_perc
 _TURNS = "circle_orientation"
 # What all speeds are a share of, and the highest (RAPID VelSet), as a controller has them that says nothing.
 _SHARES = {"speed_percent": 100.0, "speed_limit": 5000.0}
-_FOLLOWED = SETTINGS | BRAKING.keys() | _SHARES.keys() | {"displacement", _TURNS}
+# Whether moves are joined at all (V+ CPON): a truth value.
+_JOINED = "blending"
+_FOLLOWED = SETTINGS | BRAKING.keys() | _SHARES.keys() | {"displacement", _TURNS, _JOINED}
 # Setting -> constant; None: it depends on the run. A place that is never reached has no state.
 State = dict[str, "ir.Expression | None"]
 _UNKNOWN: State = dict.fromkeys(_FOLLOWED)
@@ -113,6 +116,8 @@ def _default(name: str, defaults: dict[str, float | bool | str]) -> ir.Expressio
     if name == _TURNS:
         return ir.EnumLiteral(str(defaults.get(name, "base")))
     value = defaults.get(name, (BRAKING | _SHARES).get(name))
+    if isinstance(value, bool):
+        return ir.BoolLiteral(value)
     return ir.RealLiteral(float(value)) if isinstance(value, int | float) else None
 
 
@@ -131,6 +136,8 @@ class _Follower:
         self.setting = _setting_routines(program)
         self.entries: dict[str, State | None] = dict.fromkeys(self.routines)
         self.exits: dict[str, State | None] = dict.fromkeys(self.routines)
+        self.setters = {setting: _setting_routines(program, {setting}) for setting in _FOLLOWED}
+        self.anywhere = dict(_UNKNOWN)
         self.loops: list[_Loop] = []
         self.returns: list[State] = []
         self.noting = False
@@ -163,6 +170,8 @@ class _Follower:
         if entry is None:
             return
         self.scope: Scope = self.scopes.routine(module, routine)
+        # What holds at a label, wherever it is reached from: what the routine was entered with and never sets.
+        self.anywhere = {key: None if name in self.setters[key] else value for key, value in entry.items()}
         self.loops, self.returns = [], []
         end = self.body(routine.body, dict(entry))
         for handler in routine.handlers:
@@ -174,7 +183,7 @@ class _Follower:
     def body(self, body: ir.Body, state: State | None) -> State | None:
         for statement in body:
             if isinstance(statement, ir.Label):
-                state = dict(_UNKNOWN)
+                state = dict(self.anywhere)
             if state is None:
                 continue
             state = self.statement(statement, state)
@@ -240,7 +249,7 @@ class _Follower:
                 return dict(_UNKNOWN)
             case ir.Assign(target=ir.System(name=name), value=value) if name in _FOLLOWED:
                 new = self.stable(value) if name not in self.flow.usage.interrupting else None
-                if name != _TURNS:
+                if name not in (_TURNS, _JOINED):
                     self.note_setting(statement, new is not None and state[name] == new)
                 return {**state, name: new}
         return self.calls(statement, state)
@@ -280,7 +289,7 @@ class _Follower:
     def stable(self, value: ir.Expression) -> ir.Expression | None:
         """The value when it is the same at every place and time."""
         match value:
-            case ir.RealLiteral() | ir.IntLiteral():
+            case ir.RealLiteral() | ir.IntLiteral() | ir.BoolLiteral():
                 return value
             case ir.EnumLiteral(member=member):
                 return ir.EnumLiteral(member.lower())
@@ -317,13 +326,13 @@ def _beside(program: ir.Program) -> set[str]:
     return names
 
 
-def _setting_routines(program: ir.Program) -> frozenset[str]:
-    """Routines that change a setting, themselves or by what they call: behind all others it is as it was before."""
+def _setting_routines(program: ir.Program, settings: Set[str] = _FOLLOWED) -> frozenset[str]:
+    """Routines that change one of the settings, themselves or by what they call; behind others it is as before."""
 
     def sets(node: object) -> bool:
         match node:
             case ir.Assign(target=ir.System(name=setting)):
-                return setting in _FOLLOWED
+                return setting in settings
             case ir.CallRoutine(dynamic=dynamic):
                 return dynamic is not None
         return False
