@@ -115,7 +115,10 @@ class _ToAngles(Rewriter):
         type = self.type_of(target)
         match type:
             case ir.VectorType():
-                return self.parts(statement, _POSITION, list(self.numbers(value)), "trans")
+                numbers = list(self.numbers(value))
+                if isinstance(target, ir.Name) or (isinstance(target, ir.Field) and target.name == "trans"):
+                    return self.parts(statement, _POSITION, numbers, "trans")
+                return self.parts(statement, _FLAT, [*numbers, *[ir.RealLiteral(0.0)] * 3], "")  # it may have no value
             case ir.RotationType():
                 return self.parts(statement, _ANGLES, list(self.angles(value)), "rot")
             case ir.PoseType() if isinstance(value, ir.Aggregate) and constant(value, self.scope) is None:

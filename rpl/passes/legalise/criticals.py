@@ -17,6 +17,7 @@ from rpl.passes.legalise.editing import edit_bodies, map_body
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.usage import base_name, bodies
 from rpl.passes.rewrite import changed
+from rpl.source import NOWHERE
 
 _SAID_APART = (ir.Call, ir.Builtin, ir.Signal, ir.System, ir.VendorValue)
 
@@ -41,8 +42,10 @@ class Facts:
     def __init__(self, program: ir.Program) -> None:
         self.routines = {r.name.lower(): r for module in program.modules for r in module.routines}
         starts = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl) and node.op == "start"]
-        self.started = Counter(node.task.lower() for node in starts)
-        looped = {node.task.lower() for node in _in_loops(program) if node.op == "start"}
+        declared = {node.task.lower() for node in starts if node.origin is NOWHERE}  # starting these again says nothing
+        self.started = Counter(node.task.lower() for node in starts if node.task.lower() not in declared)
+        self.started.update(declared)
+        looped = {node.task.lower() for node in _in_loops(program) if node.op == "start"} - declared
         self.several = looped | {name for name, times in self.started.items() if times > 1}
         self.tasks: dict[str, set[str]] = {name: self.closure({name}) for name in self.started}
         calls = set().union(*(self.called(r) for r in self.routines)) if self.routines else set()

@@ -27,6 +27,12 @@ LOCKED = code(
     Severity.WARNING,
     "the critical section holds only tasks that want to go into one ({flag} is on in it); what others do goes on",
 )
+OPEN = code(
+    "critical-section-open",
+    Severity.WARNING,
+    "the critical section is written without its bounds: no other task changes what it uses, but may see it half done",
+    "let the others look at the last variable that the section changes",
+)
 _TRUE, _FALSE = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
 
@@ -38,8 +44,10 @@ def critical_flags(program: ir.Program, context: Context) -> ir.Program:
         return program
     facts = Facts(program)
     found = _sections(facts)
-    if found is None or len(found) < 2 or not _kept_apart(facts, found):
+    if not found or not _kept_apart(facts, found):
         return program
+    if len(found) == 1:
+        return _opened(program, context)
     ended = {n.task.lower() for n in walk(*program.modules) if isinstance(n, ir.TaskControl) and n.op == "stop"}
     enders = {_home(facts, name) for name, one in facts.routines.items() if _ends(one, ended & found.keys())}
     if None in enders:
@@ -53,6 +61,26 @@ def critical_flags(program: ir.Program, context: Context) -> ir.Program:
     )
     data = [ir.Variable(name, ir.BoolType(), _FALSE, scope="global") for name in flags.values()]
     return with_support(replace(program, modules=modules), context, data, (), modules[0].task)
+
+
+def _opened(program: ir.Program, context: Context) -> ir.Program:
+    """The program with sections of one task only, without their bounds."""
+
+    def change(statement: ir.Statement) -> ir.Body:
+        if isinstance(statement, ir.Critical):
+            if statement.enter:
+                context.diagnostics.report(OPEN, statement.origin)
+            return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
+        return (inside(statement, lambda body: map_body(body, change)),)
+
+    modules = tuple(
+        replace(
+            module,
+            routines=tuple(edit_bodies(one, lambda body: map_body(body, change)) for one in module.routines),
+        )
+        for module in program.modules
+    )
+    return replace(program, modules=modules)
 
 
 def _first(facts: Facts) -> str:

@@ -119,6 +119,7 @@ from rpl.passes.legalise.speedshares import speed_shares
 from rpl.passes.legalise.spelling import one_spelling
 from rpl.passes.legalise.splines import straight_splines
 from rpl.passes.legalise.standing import stand_first
+from rpl.passes.legalise.startedtasks import started_tasks
 from rpl.passes.legalise.statics import static_variables
 from rpl.passes.legalise.steps import steps
 from rpl.passes.legalise.steptimes import step_times
@@ -167,6 +168,7 @@ PASSES: tuple[Pass, ...] = (
     shared_task_data,
     cyclic_flags,
     task_names,
+    started_tasks,
     task_states,
     straight_splines,
     home_positions,
