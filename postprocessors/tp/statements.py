@@ -402,6 +402,8 @@ class Printer(StatementPrinter[Line]):
         before: list[Line] = []
         behind: list[Line] = []
         for kind, value, known in (("UFRAME", frame, self.motion.frame), ("UTOOL", tool, self.motion.tool)):
+            if isinstance(value, ir.System) and value.name in ("tool", "base"):
+                continue  # what is in force is asked for
             lines, chosen = self.frames.select(kind, value, self.expressions)
             register = lines[0].first.partition("=")[2] if len(lines) > 1 else ""
             same = not register or register in self.motion.handed or self.frames.is_kept(register)

@@ -66,7 +66,7 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     scopes = ProgramScope(program)
     assigned = usage_of(program).assigned
     reported: set[Code] = set()
-    usual = _usual_places(program) | _usual_turns(program, context)
+    usual = usual_places(program) | _usual_turns(program, context)
     entries = moving_entries(program)
     looks_ahead = "advance" in context.capabilities.system_variables
     on_paths = any(isinstance(node, ir.Move) and node.kind != "joint" for node in walk(*program.modules))
@@ -97,7 +97,7 @@ def _with_least(program: ir.Program, context: Context) -> ir.Program:
     return helpers.added_to(rewrite(program, change))
 
 
-def _usual_places(program: ir.Program) -> frozenset[str]:
+def usual_places(program: ir.Program) -> frozenset[str]:
     """Tool and base, where some moves name theirs, others none, and no statement sets it: that is then the flange and
     the world (INFORM moves behind SFTOF)."""
     nodes = [*walk(*program.modules)]

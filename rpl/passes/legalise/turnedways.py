@@ -12,10 +12,12 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes import rigid
-from rpl.passes.fold import constant
+from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.explicit import usual_places
 from rpl.passes.legalise.targets import Whole, here
 from rpl.passes.legalise.walk import unchanged_in
+from rpl.passes.scope import Scope
 from rpl.passes.typewords import type_word
 from rpl.passes.values import Target, real
 
@@ -30,12 +32,12 @@ def turned_ways(program: ir.Program, context: Context) -> ir.Program:
         return program
     if not any(isinstance(node, ir.Move) and node.relative in ("base", "tool") for node in walk(program)):
         return program
-    scopes, unchanged = ProgramScope(program), unchanged_in(program)
+    scopes, unchanged, usual = ProgramScope(program), unchanged_in(program), usual_places(program)
     modules = []
     for module in program.modules:
         routines = []
         for routine in module.routines:
-            worker = _Turned(context, scopes.routine(module, routine), unchanged)
+            worker = _Turned(context, scopes.routine(module, routine), unchanged, usual)
             body = worker.body(routine.body)
             declarations = (*routine.declarations, *worker.declared)
             routines.append(replace(routine, body=body, declarations=declarations))
@@ -44,7 +46,11 @@ def turned_ways(program: ir.Program, context: Context) -> ir.Program:
 
 
 class _Turned(Whole):
-    """The moves of one routine."""
+    """The moves of one routine. `usual`: the tool, the frame, that a move has which names none although others do."""
+
+    def __init__(self, context: Context, scope: Scope, unchanged: Unchanged, usual: frozenset[str]) -> None:
+        super().__init__(context, scope, unchanged)
+        self.usual = usual
 
     def needs_work(self, move: ir.Move) -> bool:
         can = self.context.capabilities.turned_ways
@@ -78,7 +84,8 @@ class _Turned(Whole):
         start = self.last_pose(done, move) or self.noted(done, move)
         if start is None:
             self.stop_before(done)
-            start = here(move)
+            tool, frame = (ir.System("null_frame") if name in self.usual else None for name in ("tool", "base"))
+            start = here(replace(move, tool=move.tool or tool, frame=move.frame or frame))
         known, way = self.pose(start), self.way(move.target)
         shift = self.pose(way)
         if known is not None and shift is not None:
