@@ -74,6 +74,7 @@ STOPS = {
         ("CPOFF ALWAYS", "CPON ALWAYS", [50, 90]),
         ("", "CPOFF ALWAYS", [130]),
         ("CALL off()", "CALL on()", [50, 90]),
+        ('CALLS "of"+$CHR(102)', 'CALLS "on"', [50, 90]),
         ("10 n = n+1\nIF n < 3 GOTO 10\nCPOFF ALWAYS", "CPON ALWAYS", [50, 90]),
         (
             "FOR i = 1 TO 2\nCPOFF ALWAYS\nEND\nCPOFF ALWAYS",

@@ -6,6 +6,7 @@ What a text begins with is looked for in the statements in front of its use, too
 
 from __future__ import annotations
 
+from collections.abc import Set
 from dataclasses import dataclass, replace
 
 from rpl import ir
@@ -60,22 +61,48 @@ def text_beginning(text: ir.Expression) -> tuple[str, bool]:
     return "", False
 
 
+def named_by(call: ir.CallRoutine, held: HeldTexts, names: Set[str]) -> set[str]:
+    """Those procedures (folded names) that a call by a text may mean; none where nothing is known of the text."""
+    if call.dynamic is None:
+        return set()
+    texts = held.of_name(call.dynamic.id) if isinstance(call.dynamic, ir.Name) else None
+    if texts is not None:
+        return {text.rpartition(":")[2].lower() for text in texts} & names
+    start, whole = text_beginning(call.dynamic)
+    start = start.rpartition(":")[2].lower()
+    return {name for name in names if start and (name == start if whole else name.startswith(start))}
+
+
 def named_by_texts(program: ir.Program) -> set[str]:
     """Procedures (folded) that calls by a text are known to mean, as far as anything is known of the text."""
-    calls = [node for node in walk(*program.modules) if isinstance(node, ir.CallRoutine) and node.dynamic is not None]
-    if not calls:
-        return set()
-    names = {one.name.lower() for module in program.modules for one in module.routines if one.kind == "procedure"}
-    held, found = HeldTexts.of(program), set[str]()
-    for call in calls:
-        texts = held.of_name(call.dynamic.id) if isinstance(call.dynamic, ir.Name) else None
-        if texts is not None:
-            found |= {text.rpartition(":")[2].lower() for text in texts}
-        elif call.dynamic is not None:
-            start, whole = text_beginning(call.dynamic)
-            start = start.rpartition(":")[2].lower()
-            found |= {name for name in names if start and (name == start if whole else name.startswith(start))}
-    return found & names
+    calls = _calls_by_text(program)
+    held = HeldTexts.of(program) if calls else HeldTexts({}, frozenset())
+    return {name for call in calls for name in named_by(call, held, _procedures(program))}
+
+
+def known_calls(program: ir.Program) -> ir.Program:
+    """The program with a choice of plain calls for each call by a text of which anything is known. Only to be looked
+    at: what decides is left out, and what other statements were stays what it was."""
+    if not _calls_by_text(program):
+        return program
+    held, names = HeldTexts.of(program), _procedures(program)
+
+    def change(node: object) -> object:
+        if not isinstance(node, ir.CallRoutine) or not (found := sorted(named_by(node, held, names))):
+            return node
+        asked, calls = node.dynamic or ir.TextLiteral(""), [replace(node, name=name, dynamic=None) for name in found]
+        branches = tuple((asked, (call,)) for call in calls[:-1])
+        return ir.If(branches, (calls[-1],), origin=node.origin) if branches else calls[-1]
+
+    return replace(program, modules=tuple(rewrite(module, change) for module in program.modules))
+
+
+def _procedures(program: ir.Program) -> set[str]:
+    return {one.name.lower() for module in program.modules for one in module.routines if one.kind == "procedure"}
+
+
+def _calls_by_text(program: ir.Program) -> list[ir.CallRoutine]:
+    return [one for one in walk(*program.modules) if isinstance(one, ir.CallRoutine) and one.dynamic is not None]
 
 
 def as_written_before(text: ir.Expression, before: ir.Body) -> ir.Expression:
@@ -113,4 +140,4 @@ def _without_literals(node: object) -> object:
     return node
 
 
-__all__ = ["HeldTexts", "as_written_before", "named_by_texts", "text_beginning"]
+__all__ = ["HeldTexts", "as_written_before", "known_calls", "named_by_texts", "text_beginning"]

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.datalists import never_called
+from rpl.passes.legalise.heldtexts import known_calls
 from rpl.passes.legalise.usage import Usage, doing, each_expression, usage_of
 from rpl.passes.scope import ProgramScope, Scope
 
@@ -129,6 +130,7 @@ class _Loop:
 
 class _Follower:
     def __init__(self, program: ir.Program, flow: Flow) -> None:
+        program = known_calls(program)
         self.program, self.flow = program, flow
         self.scopes = ProgramScope(program)
         self.routines = {r.name.lower(): (m, r) for m in reversed(program.modules) for r in m.routines}
@@ -139,6 +141,7 @@ class _Follower:
         self.setters = {setting: _setting_routines(program, {setting}) for setting in _FOLLOWED}
         self.anywhere = dict(_UNKNOWN)
         self.loops: list[_Loop] = []
+        self.jumps: dict[str, State] = {}  # what holds where a label (folded) is jumped to
         self.returns: list[State] = []
         self.noting = False
         for name in self.started():
@@ -170,20 +173,34 @@ class _Follower:
         if entry is None:
             return
         self.scope: Scope = self.scopes.routine(module, routine)
-        # What holds at a label, wherever it is reached from: what the routine was entered with and never sets.
+        # What surely holds at a label: what the routine was entered with and never sets.
         self.anywhere = {key: None if name in self.setters[key] else value for key, value in entry.items()}
         self.loops, self.returns = [], []
-        end = self.body(routine.body, dict(entry))
+        end = self.labelled(routine.body, entry)
         for handler in routine.handlers:
             self.returns.extend(state for state in (self.body(handler.body, dict(_UNKNOWN)),) if state is not None)
         self.exits[name] = joined(end, *self.returns)
+
+    def labelled(self, body: ir.Body, entry: State) -> State | None:
+        """The body followed until what its jumps bring to each label stays the same; it is noted then only."""
+        noting, self.noting = self.noting, False
+        self.jumps = {}
+        for _ in range(_ROUNDS):
+            before = dict(self.jumps)
+            self.body(body, dict(entry))
+            if before == self.jumps:
+                break
+        else:
+            self.jumps = {name: dict(self.anywhere) for name in self.jumps}
+        self.noting, self.loops, self.returns = noting, [], []
+        return self.body(body, dict(entry))
 
     # ---- statements
 
     def body(self, body: ir.Body, state: State | None) -> State | None:
         for statement in body:
             if isinstance(statement, ir.Label):
-                state = dict(self.anywhere)
+                state = joined(state, self.jumps.get(statement.name.lower()))
             if state is None:
                 continue
             state = self.statement(statement, state)
@@ -238,7 +255,8 @@ class _Follower:
                 if left is not None:
                     self.returns.append(left)
                 return None
-            case ir.Goto():
+            case ir.Goto(label=label):
+                self.jumps[label.lower()] = joined(self.jumps.get(label.lower()), state) or state
                 return None
             case ir.Move():
                 self.note(statement, state)
