@@ -297,7 +297,8 @@ class Expressions:
     def shifted(self, values: tuple[ir.Expression, ...]) -> Printed:
         count = self.known(values[1])
         if count is None:
-            raise CannotSayError("a shift by a computed count of bits")
+            factor = self.raised(ir.IntLiteral(2), values[1])
+            return Printed(f"{self.printer.text(values[0], tables.PRODUCT)}*{factor}", tables.PRODUCT)
         return Printed(f"{self.printer.text(values[0], tables.PRODUCT)}*{2 ** int(count)}", tables.PRODUCT)
 
     def power(self, values: tuple[ir.Expression, ...]) -> str | Printed:
