@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rpl.emulator.arms import Arm, BoolArray, Branch, Branches, OpwArm, ScaraArm, UrArm
+from rpl.emulator.closedforms import ClosedForm, closed_form
 from rpl.emulator.postures import Fact, in_posture, posture_facts
 from rpl.emulator.recognise import OpwFit, fit_opw
 from rpl.emulator.robotfile import (
@@ -243,6 +244,10 @@ class RobotModel:
     def posture_facts(self) -> dict[str, Fact]:
         """The posture as inequalities over the joints; empty where the arm's build has none."""
         return posture_facts(self)
+
+    def closed_form(self) -> ClosedForm | None:
+        """The inverse as plain numbers (rpl.emulator.closedforms); None where the arm's build has none."""
+        return closed_form(self)
 
     def jacobian(self, joints: ArrayLike) -> FloatArray:
         """Geometric Jacobian (..., 6, n) at the flange origin, base frame: mm/rad (mm/mm) above, rad/rad below.

@@ -23,6 +23,9 @@ def test_the_robot_comes_to_the_place(target: str) -> None:
     assert [each[2] for each in result.outputs] == [True]
 
 
-def test_joints_that_are_looked_at_stay_lost() -> None:
-    looked_at = SCRIPT.replace("  reached", "  first = solution[0]\n  reached")
-    assert "kinematics-lost" in translated(looked_at, "vplus")[1]
+@pytest.mark.parametrize("target", OTHERS)
+def test_joints_that_are_looked_at_are_worked_out(target: str) -> None:
+    looked_at = SCRIPT.replace("point_dist(above, reached) < 0.001", "norm(solution[4] - 1.5708) < 0.01")
+    result, losses, _ = translated(looked_at, target)
+    assert (result.status, losses) == ("finished", [])
+    assert [each[2] for each in result.outputs] == [True]

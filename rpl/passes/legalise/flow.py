@@ -1,4 +1,5 @@
-"""Which tool and frame hold at each move, as far as they are constant, and which moves a written target serves.
+"""Which tool and frame hold at each move and at each question for joints, as far as they are constant, and which moves
+a written target serves.
 
 Tool and frame of a move are its own or the modal ones; those are followed through assignments, branches, loops and
 calls, as far as they are constant. A target reaches moves through variables, arrays, parameters and results.
@@ -10,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import ProgramScope
@@ -21,6 +23,7 @@ from rpl.passes.values import Record, Value, pose_of
 
 _MODAL = ("tool", "base", "robot_root")
 _ROUNDS = 24
+_ASKING = frozenset(("target_to_joints", "target_to_joints_near", "is_reachable", "joints_to_target"))
 State = dict[str, Value]
 
 
@@ -49,7 +52,8 @@ class Use:
 
 
 class ModalFlow:
-    """Follows modal tool and frame through a whole program; `frames` has each move by identity."""
+    """Follows modal tool and frame through a whole program; `frames` has each move by identity, and each function that
+    asks for the joints of a place, or for the place of joints, with what is in use then."""
 
     def __init__(self, program: ir.Program, scopes: ProgramScope) -> None:
         self.scopes, self.unchanged = scopes, unchanged_in(program)
@@ -62,6 +66,7 @@ class ModalFlow:
         self.ends: list[State] = []
         self.routine: ir.Routine | None = None
         self.made: set[str] = set()
+        self.asking = any(isinstance(one, ir.Builtin) and one.function in _ASKING for one in walk(*program.modules))
         every = list(scopes.routines())
         self.scope_of = {id(routine): scopes.routine(module, routine) for module, routine in every}
         self.changed = self.changes(every)
@@ -137,6 +142,8 @@ class ModalFlow:
     def statement(self, statement: ir.Statement, state: State, scope: Scope) -> None:
         for callee in _callees(statement, scope):
             self.call(callee, state, scope)
+        if self.asking:
+            self.questions(statement, state, scope)
         match statement:
             case ir.Move():
                 self.frames[id(statement)] = self.of_move(statement, state, scope)
@@ -155,6 +162,8 @@ class ModalFlow:
                     _join(state, end)
                     if state == old:
                         break
+                if self.asking:  # the condition is asked again behind the body
+                    self.questions(statement, state, scope)
             case ir.Label():
                 self.forget(state)
             case ir.Return():
@@ -163,6 +172,15 @@ class ModalFlow:
                 self.body(inner, state, scope)
             case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
                 self.forget(state)
+
+    def questions(self, statement: ir.Statement, state: State, scope: Scope) -> None:
+        """The frames in use where this statement itself asks for joints."""
+
+        def look(one: ir.Expression) -> None:
+            if isinstance(one, ir.Builtin) and one.function in _ASKING:
+                self.frames[id(one)] = self.in_use(None, None, state, scope)
+
+        each_expression(statement, look)
 
     def forget(self, state: State) -> None:
         """Anything may have run before this place; settings that nothing in the program makes are as at the start."""
@@ -221,8 +239,14 @@ class ModalFlow:
 
     def of_move(self, move: ir.Move, state: State, scope: Scope) -> Frames:
         settings = {place.name: value for place, value in move.settings if isinstance(place, ir.System)}
-        tool = self.part(move.tool or settings.get("tool"), "tool", state, scope)
-        base = self.part(move.frame or settings.get("base"), "base", state, scope)
+        return self.in_use(move.tool or settings.get("tool"), move.frame or settings.get("base"), state, scope)
+
+    def in_use(
+        self, own_tool: ir.Expression | None, own_base: ir.Expression | None, state: State, scope: Scope
+    ) -> Frames:
+        """Those of a statement that may say its own."""
+        tool = self.part(own_tool, "tool", state, scope)
+        base = self.part(own_base, "base", state, scope)
         root = pose_of(state.get("$robot_root", rigid.IDENTITY))
         if base is not None and root is not None and root != rigid.IDENTITY:
             base = root.inverse.then(base)

@@ -7,6 +7,7 @@ module `rpl_support`. Their names are made free in the program.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import replace
 
 from rpl import ir, registry
@@ -372,10 +373,12 @@ END FUNCTION
 class Helpers:
     """The helper routines that a program needs, by the names they get in it."""
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: Context, more: Mapping[str, str] | None = None) -> None:
+        """`more`: texts of routines that only some programs can ask for."""
         self.context = context
         self.names: dict[str, str] = {}
         self.texts = _TEXTS | textparts.TEXTS if textparts.by_parts(context.capabilities) else _TEXTS
+        self.texts = self.texts | dict(more or {})
 
     def name(self, helper: str) -> str:
         """The name under which the program can call this helper."""

@@ -114,6 +114,7 @@ from rpl.passes.legalise.settingparts import whole_settings
 from rpl.passes.legalise.sharing import share_temporaries
 from rpl.passes.legalise.shown import values_beside_messages
 from rpl.passes.legalise.signals import name_signals, number_signals
+from rpl.passes.legalise.solvedplaces import solved_places
 from rpl.passes.legalise.speeds import fit_speeds
 from rpl.passes.legalise.speedshares import speed_shares
 from rpl.passes.legalise.spelling import one_spelling
@@ -205,6 +206,7 @@ PASSES: tuple[Pass, ...] = (
     seen_joints,
     near_joints,
     known_joints,
+    solved_places,
     asked_postures,
     joint_goals,
     partial_places,

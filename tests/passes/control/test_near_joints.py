@@ -65,6 +65,6 @@ def test_what_is_not_constant(body: str, kind: str, warnings: int) -> None:
     arm = load_robot(ROBOT)
     capabilities = registry.target("rapid").capabilities_under({})
     done = legalise(source.program, Context("urscript", "rapid", capabilities, diagnostics, arm, arm))
-    calls = [one for one in walk(*done.modules) if isinstance(one, ir.Builtin) and one.function.endswith("joints_near")]
+    calls = [one for one in walk(*done.modules) if isinstance(one, ir.Call) and one.name == "rpl_near_joints"]
     assert bool(calls) == (kind == "JointsType")
     assert sum(item.code.name == "posture-not-asked" for item in diagnostics.of(Severity.WARNING)) == warnings
