@@ -331,10 +331,11 @@ def _like_its_file(module: ir.Module, routine: ir.Routine) -> bool:
 
 
 def _called(program: ir.Program, caller: ir.Routine) -> set[str]:
-    """Names that other routines call."""
+    """Names that other routines call, themselves or by a text."""
     from rpl.ir.walk import walk
+    from rpl.passes.legalise.heldtexts import named_by_texts
 
-    names: set[str] = set()
+    names = named_by_texts(program)
     for module in program.modules:
         for routine in module.routines:
             if routine is caller:

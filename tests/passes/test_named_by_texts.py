@@ -8,6 +8,7 @@ from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.passes.legalise.heldtexts import named_by_texts
 from rpl.passes.legalise.startdata import entries_of
+from rpl.simulation import entry_name
 from rpl.source import source_from_text
 
 JOBS = """
@@ -31,6 +32,8 @@ def read(body: str) -> ir.Program:
         ('CALL BY "part" & no', {"part1", "part2"}),
         ('CALL BY "part" & "2"', {"part2"}),
         ('job = "PART1"\nCALL BY job', {"part1"}),
+        ('job = "part"\njob = job & no\nCALL BY job', {"part1", "part2"}),
+        ('IF TRUE THEN\njob = "part"\nCALL BY job & no\nEND IF', {"part1", "part2"}),
         ("job = no\nCALL BY job", set()),
         ("CALL BY no & job", set()),
     ],
@@ -45,3 +48,8 @@ def test_a_routine_for_errors_is_no_program() -> None:
     text = "PROCEDURE shift()\nTRAP ERRORS WITH trap\nEND PROCEDURE\nPROCEDURE trap()\nEND PROCEDURE\n"
     program = registry.dialect("rpl").read([source_from_text("p.rpl", text)], Diagnostics()).program
     assert entries_of(program) == {"shift"}
+
+
+def test_a_run_starts_with_none_of_them() -> None:
+    program = read('other()\njob = "part"\njob = job & no\nCALL BY job')
+    assert entry_name(program) == "shift"

@@ -10,6 +10,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.heldtexts import named_by_texts
 from rpl.passes.legalise.usage import bodies, each_expression, each_statement
 from rpl.source import NOWHERE
 
@@ -52,7 +53,8 @@ def set_data_at_start(program: ir.Program, context: Context) -> ir.Program:
 
 
 def never_called(program: ir.Program) -> set[str]:
-    """Procedures without parameters that no other routine calls: any of them may be where a program starts."""
+    """Procedures without parameters that no other routine calls, nor a text that it names: any of them may be where
+    a program starts."""
     calls = calls_of(program)
     found = {
         routine.name.lower()
@@ -60,7 +62,8 @@ def never_called(program: ir.Program) -> set[str]:
         for routine in module.routines
         if routine.kind == "procedure" and not routine.parameters and routine.scope != "module"
     }
-    return {name for name in found if not any(name in named for caller, named in calls.items() if caller != name)}
+    found = {name for name in found if not any(name in named for caller, named in calls.items() if caller != name)}
+    return found - named_by_texts(program) or found
 
 
 def calls_of(program: ir.Program) -> dict[str, set[str]]:

@@ -11,7 +11,9 @@ from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
+from rpl.passes.legalise.effects import blocks
 from rpl.passes.legalise.usage import assigned_in
+from rpl.passes.rewrite import rewrite_parts
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +77,7 @@ def named_by(call: ir.CallRoutine, held: HeldTexts, names: Set[str]) -> set[str]
 
 def named_by_texts(program: ir.Program) -> set[str]:
     """Procedures (folded) that calls by a text are known to mean, as far as anything is known of the text."""
-    calls = _calls_by_text(program)
+    calls = _calls_by_text(_told_texts(program))
     held = HeldTexts.of(program) if calls else HeldTexts({}, frozenset())
     return {name for call in calls for name in named_by(call, held, _procedures(program))}
 
@@ -86,6 +88,7 @@ def known_calls(program: ir.Program) -> ir.Program:
     if not _calls_by_text(program):
         return program
     held, names = HeldTexts.of(program), _procedures(program)
+    program = _told_texts(program)
 
     def change(node: object) -> object:
         if not isinstance(node, ir.CallRoutine) or not (found := sorted(named_by(node, held, names))):
@@ -105,9 +108,33 @@ def _calls_by_text(program: ir.Program) -> list[ir.CallRoutine]:
     return [one for one in walk(*program.modules) if isinstance(one, ir.CallRoutine) and one.dynamic is not None]
 
 
+def _told_texts(program: ir.Program) -> ir.Program:
+    """The program whose calls by a text say what stands in front of them puts together in it."""
+    if not _calls_by_text(program):
+        return program
+
+    def body(statements: ir.Body) -> ir.Body:
+        done: list[ir.Statement] = []
+        for place, one in enumerate(statements):
+            if isinstance(one, ir.CallRoutine) and one.dynamic is not None:
+                done.append(replace(one, dynamic=as_written_before(one.dynamic, statements[:place])))
+            else:
+                done.append(rewrite_parts(one, lambda part: part, body) if blocks(one) else one)
+        return tuple(done)
+
+    def routine(one: ir.Routine) -> ir.Routine:
+        handlers = tuple(replace(handler, body=body(handler.body)) for handler in one.handlers)
+        return replace(one, body=body(one.body), undo=body(one.undo), handlers=handlers)
+
+    modules = (replace(one, routines=tuple(map(routine, one.routines))) for one in program.modules)
+    return replace(program, modules=tuple(modules))
+
+
 def as_written_before(text: ir.Expression, before: ir.Body) -> ir.Expression:
     """A variable as the expression that the statements in front of it, in the same block, have put together in it
     (`s = "A"`, `s = s & n`: `"A" & n`); the variable itself where a call, a jump or a block stands between."""
+    if isinstance(text, ir.Binary) and text.op == "&":
+        return replace(text, left=as_written_before(text.left, before))
     if not isinstance(text, ir.Name):
         return text
     name = text.id.lower()
