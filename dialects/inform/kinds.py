@@ -88,6 +88,7 @@ class Project:
     unified: set[tuple[str, Key]] = field(default_factory=set)
     tools_left: dict[Key, Kind] = field(default_factory=dict)  # with which tool a job ends
     changed: bool = False
+    assuming: bool = False  # nothing else is known of them: variables that are filled by elements are poses
     real_back: bool | None = None
 
     def is_unified(self, job: str, key: Key) -> bool:
@@ -150,13 +151,14 @@ def _settled(project: Project, locals_of: Mapping[str, frozenset[str]]) -> dict[
                 key: Key = (bank, number)
                 project.note(name, key, kind_of_point(point.form, point.frame, point.tool, point.line.origin))
     flows: dict[str, Flow] = {}
-    for _ in range(_ROUNDS):
-        project.changed = False
-        for name, job in project.jobs.items():
-            flows[name] = Flow(project, job, project.indirect | locals_of[name])
-            flows[name].run()
-        if not project.changed:
-            break
+    for project.assuming in (False, True):
+        for _ in range(_ROUNDS + 2 * len(project.jobs)):  # what calls pass on goes one job further each time
+            project.changed = False
+            for name, job in project.jobs.items():
+                flows[name] = Flow(project, job, project.indirect | locals_of[name])
+                flows[name].run()
+            if not project.changed:
+                break
     return flows
 
 
@@ -410,8 +412,8 @@ class Flow:
                 number = items[1].number
                 if isinstance(number, ir.IntLiteral):
                     return self.project.arguments.get((self.job.name.upper(), number.value))
-            case "SETE" if self.kind(items[0], state).form == UNKNOWN and isinstance(items[1], Group):
-                return Kind(TARGET)
+            case "SETE" if self.project.assuming and self.kind(items[0], state).form == UNKNOWN:
+                return Kind(TARGET) if isinstance(items[1], Group) else None
         return None
 
 

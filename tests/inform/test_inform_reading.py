@@ -1,7 +1,7 @@
 """Lines of a job and what they become; what cannot be read costs itself alone."""
 
 import pytest
-from inform_helpers import body_of, job, read
+from inform_helpers import body_of, job, read, run
 
 from rpl import ir, registry
 
@@ -126,3 +126,22 @@ def test_recognised_by_content() -> None:
     recognise = registry.dialect("inform").recognise
     assert recognise("a.txt", job("SET B000 1")) > 90
     assert recognise("a.jbi", "DEF prog()\nEND\n") == 0
+
+
+CHAIN_POINT = "///TOOL 0\n///POSTYPE PULSE\n///PULSE\nC00000=0,0,0,0,-90000,0"
+
+
+@pytest.mark.parametrize("backwards", [False, True])
+def test_what_a_position_holds_is_known_through_long_chains_of_jobs_in_any_order(backwards: bool) -> None:
+    """A variable that is filled element by element holds what its first value held, however many jobs lie between."""
+    count = 14
+    jobs = [job(f"SET P{n:03d} P{n + 1:03d}\nSETE P{n:03d} (1) 1000", name=f"J{n:02d}") for n in range(count)]
+    calls = "\n".join(f"CALL JOB:J{n:02d}" for n in reversed(range(count)))
+    main = job(f"MOVJ C00000 VJ=10.0\nGETS P{count:03d} $PX000\n{calls}\nMOVJ P000 VJ=10.0", CHAIN_POINT)
+    assert run(main, *(reversed(jobs) if backwards else jobs), robot="ur5e").status == "finished"
+    program, diagnostics = read(*jobs, main)
+    assert not diagnostics.has_errors
+    kinds = {
+        one.name: one.type for module in program.modules for one in module.declarations if isinstance(one, ir.Variable)
+    }
+    assert isinstance(kinds["P000"], ir.JointsType)
