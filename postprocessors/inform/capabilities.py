@@ -83,6 +83,7 @@ CAPABILITIES = Capabilities(
     static_locals=True,
     path_points=tables.TAGS["CR"][0],
     watched_interrupts=True,
+    action_arguments=frozenset(("reaction",)),
     pulse_levels=False,
     poll_s=tables.WATCH_STEP_S,
 )

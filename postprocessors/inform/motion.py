@@ -68,6 +68,8 @@ class Goal:
 
 # Instructions that calculate a point: they do not part the points of an arc.
 _PLACE_WORDS = ("MULMAT ", "INVMAT ", "SET ", "GETE ", "SETE ")
+# What parts them.
+_PARTING = ("IF", "ENDIF", "WHILE", "FOR ", "*", "JUMP ", "CALL ", "MOV")
 
 
 @dataclass(slots=True)
@@ -298,12 +300,14 @@ class Motion:
             raise CannotSayError("a circle needs its point on the way")
         via = self.goal(move.via, move, tool)
         retaught = True
-        if self.line_of_last is not None and all(line.startswith(_PLACE_WORDS) for line in self.lines):
+        between_them = [] if self.line_of_last is None else [*done[self.line_of_last + 1 :], *self.lines]
+        if self.line_of_last is not None and not any(line.startswith(_PARTING) for line in between_them):
             line = done[self.line_of_last]
+            kept = all(one.startswith(_PLACE_WORDS) and line.split()[1] not in one.split()[:2] for one in self.lines)
             if line.startswith("MOVC "):
                 done[self.line_of_last] = f"{line} FPT"
                 retaught = False
-            elif line.startswith("MOVL ") and not any(line.split()[1] in one.split()[:2] for one in self.lines):
+            elif kept and line.startswith("MOVL "):
                 between = self.between_arcs(tool, speed) if self.before is not None else []
                 if between is not None:
                     done[self.line_of_last : self.line_of_last + 1] = [*between, f"MOVC {line[5:]}"]

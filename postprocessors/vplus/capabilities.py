@@ -66,6 +66,7 @@ CAPABILITIES = Capabilities(
     text_parts=True,
     stopping_reactions=True,
     interrupt_masks=True,
+    action_arguments=frozenset(("path", "own")),
     places_in_base=True,
     task_operations=frozenset(("start", "stop")),
     records=False,

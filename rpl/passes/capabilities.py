@@ -78,7 +78,9 @@ class Capabilities:
     persistent data by name (`separate`). moving_tasks: a task that the program starts may move the robot.
     stopping_reactions: an interrupt can
     brake the robot and drop its move (DeclareInterrupt `stops`), and the program goes on behind that. interrupt_masks:
-    the less urgent interrupts can be made to wait (ControlInterrupt `mask`).
+    the less urgent interrupts can be made to wait (ControlInterrupt `mask`). single_disables: a single interrupt can be
+    disabled. action_arguments: what an interrupt (`reaction`) or a place on the path (`path`) calls may have arguments,
+    also variables of the routine around it (`own`).
 
     Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
@@ -120,7 +122,7 @@ class Capabilities:
     arc may go on for an angle (else it ends at a computed point). paths_to_joints: a straight move may go to joint
     values. place_components: the components of taught points and of the robot's place can be read.
 
-    turned_ways: a relative move may turn the tool too, in the axes of the frame (`base`) or of the `tool`, and a `joint`
+    turned_ways: a relative move may turn the tool too, in the axes of the frame (`base`) or the `tool`, and a `joint`
     move may go such a way (else it goes to a computed place).
 
     wrist_paths: the wrist axes of a straight move may go evenly to their end values.
@@ -214,6 +216,8 @@ class Capabilities:
     search_results: frozenset[str] = frozenset(("found",))
     stopping_reactions: bool = False
     interrupt_masks: bool = False
+    single_disables: bool = False
+    action_arguments: frozenset[str] = frozenset(("reaction", "path"))
     task_operations: frozenset[str] = frozenset(("start", "stop", "pause", "resume", "join"))
     background_tasks: str = ""
     moving_tasks: bool = True

@@ -171,3 +171,12 @@ def test_half_a_circle_keeps_the_tool_as_it_is(target: str, side: int) -> None:
     arm = "abb_irb1200_5_90"
     result = prove_programs(read.program, named, arm, arm, None, entry="main", to_entry=entry)
     assert result.equal, result.as_text()
+
+
+def test_arcs_in_a_row_stay_arcs_in_a_row_when_their_speeds_are_computed() -> None:
+    """What calculates a speed between two MOVC points does not part them, so no start is taught between them."""
+    text = RUN.replace("CA -45", "CA 360").replace(
+        "$VEL.CP = 0.3", "$VEL.CP = 0.3\n$CIRC_TYPE = #BASE\nFOR I=1 TO 2\n$VEL.CP = 0.1*I\nENDFOR"
+    )
+    result, told = translated_text(text, "inform")
+    assert result.equal, result.as_text()

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.accelerations import accelerations_of_moves
+from rpl.passes.legalise.actionarguments import action_arguments
 from rpl.passes.legalise.aggregates import aggregates
 from rpl.passes.legalise.aliases import without_aliases
 from rpl.passes.legalise.arcpoints import whole_arc_points
@@ -114,6 +115,7 @@ from rpl.passes.legalise.settingparts import whole_settings
 from rpl.passes.legalise.sharing import share_temporaries
 from rpl.passes.legalise.shown import values_beside_messages
 from rpl.passes.legalise.signals import name_signals, number_signals
+from rpl.passes.legalise.singledisables import single_disables
 from rpl.passes.legalise.solvedplaces import solved_places
 from rpl.passes.legalise.speeds import fit_speeds
 from rpl.passes.legalise.speedshares import speed_shares
@@ -221,6 +223,8 @@ PASSES: tuple[Pass, ...] = (
     begun_moves,
     begun_outputs,
     held_timers,
+    single_disables,
+    action_arguments,
     triggers,
     stored_paths,
     held_motion,

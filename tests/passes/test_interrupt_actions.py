@@ -1,0 +1,124 @@
+"""Interrupts that are disabled one by one, and calls with arguments by interrupts and places on the path."""
+
+from __future__ import annotations
+
+import pytest
+
+from rpl.diagnostics import Diagnostics, Severity
+from rpl.project import read_sources
+from rpl.proof.prove import prove_programs
+from rpl.simulation import entry_name
+from rpl.source import source_from_bytes, source_from_text
+from rpl.translation import translate_program
+
+KUKA = "kuka_kr6r900sixx"
+START = """DEF JOB()
+DECL INT N
+INTERRUPT DECL 20 WHEN $FLAG[1] DO COUNT(2)
+INTERRUPT DECL 21 WHEN $FLAG[2] DO COUNT(10)
+BAS(#INITMOV,0)
+TOTAL=0
+PTP {A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}
+"""
+END = """END
+DEF COUNT(K:IN)
+DECL INT K
+TOTAL=TOTAL+K
+END
+DEF RAISE(K:IN)
+DECL INT K
+$FLAG[K]=TRUE
+WAIT SEC 0.1
+$FLAG[K]=FALSE
+WAIT SEC 0.1
+END
+"""
+DATA = "DEFDAT JOB\nDECL INT TOTAL=0\nENDDAT\n"
+DISABLED = {
+    "what comes meanwhile acts once": """INTERRUPT ON 20
+RAISE(1)
+INTERRUPT DISABLE 20
+RAISE(1)
+RAISE(1)
+$OUT[1]=(TOTAL==2)
+INTERRUPT ENABLE 20
+WAIT SEC 0.1
+$OUT[2]=(TOTAL==4)
+RAISE(1)
+$OUT[3]=(TOTAL==6)
+""",
+    "what is switched off meanwhile is forgotten": """INTERRUPT ON 20
+INTERRUPT DISABLE 20
+RAISE(1)
+INTERRUPT OFF 20
+INTERRUPT ENABLE 20
+WAIT SEC 0.1
+$OUT[1]=(TOTAL==0)
+""",
+    "the others act": """INTERRUPT ON 20
+INTERRUPT ON 21
+INTERRUPT DISABLE 20
+RAISE(2)
+$OUT[1]=(TOTAL==10)
+RAISE(1)
+INTERRUPT ENABLE 20
+WAIT SEC 0.1
+$OUT[2]=(TOTAL==12)
+""",
+}
+PATHS = {
+    "constants": """TRIGGER WHEN DISTANCE=1 DELAY=0 DO COUNT(3) PRIO=-1
+LIN_REL {Z -90.0}
+WAIT SEC 0.1
+$OUT[1]=(TOTAL==3)
+""",
+    "variables of the routine": """N=4
+TRIGGER WHEN DISTANCE=1 DELAY=0 DO COUNT(N+1) PRIO=-1
+LIN_REL {Z -90.0}
+WAIT SEC 0.1
+$OUT[1]=(TOTAL==5) AND (N==4)
+""",
+    "the same call twice": """TRIGGER WHEN DISTANCE=1 DELAY=0 DO COUNT(3) PRIO=-1
+LIN_REL {Z -90.0}
+TRIGGER WHEN DISTANCE=1 DELAY=0 DO COUNT(3) PRIO=-1
+LIN_REL {Z 50.0}
+WAIT SEC 0.1
+$OUT[1]=(TOTAL==6)
+""",
+}
+
+
+def translated(body: str, target: str) -> list[str]:
+    """The losses; the translation runs as the source, with every output on."""
+    files = [source_from_text("job.src", START + body + END), source_from_text("job.dat", DATA)]
+    read = read_sources(files, "krl", Diagnostics())
+    told, again = Diagnostics(), Diagnostics()
+    written = translate_program(read, target, KUKA, None, told)
+    back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, again)
+    assert not [item.as_text() for item in again.of(Severity.ERROR)]
+    result = prove_programs(read.program, back.program, KUKA, entry="JOB", to_entry=entry_name(back.program, "JOB"))
+    assert result.equal, result.as_text()
+    return [item.as_text() for item in told.of(Severity.LOSS)]
+
+
+@pytest.mark.parametrize("target", ["rapid", "vplus"])
+@pytest.mark.parametrize("name", DISABLED)
+def test_a_single_interrupt_waits(name: str, target: str) -> None:
+    assert not translated(DISABLED[name], target)
+
+
+@pytest.mark.parametrize("target", ["rapid", "vplus", "tp", "urscript", "inform"])
+@pytest.mark.parametrize("name", PATHS)
+def test_calls_on_the_path_have_arguments(name: str, target: str) -> None:
+    assert not translated(PATHS[name], target)
+
+
+def test_an_interrupt_that_leaves_what_it_interrupted_is_not_called_later() -> None:
+    leaves = "INTERRUPT DISABLE 20\nINTERRUPT ENABLE 20\n"
+    files = [
+        source_from_text("job.src", START + leaves + END.replace("TOTAL=TOTAL+K", "RESUME")),
+        source_from_text("job.dat", DATA),
+    ]
+    told = Diagnostics()
+    translate_program(read_sources(files, "krl", Diagnostics()), "vplus", KUKA, None, told)
+    assert any("a single interrupt cannot be disabled" in item.as_text() for item in told.of(Severity.LOSS))
