@@ -22,7 +22,7 @@ def rename(program: ir.Program, rules: NameRules) -> tuple[ir.Program, dict[str,
     if not changed:
         return program, {}
     folded = {old.lower(): new for old, new in changed.items()}
-    return _Renamer(folded, collector.fields, ProgramScope(program)).program(program), changed
+    return _Renamer(folded, collector.fields, collector.members, ProgramScope(program)).program(program), changed
 
 
 def rename_hiding(program: ir.Program, rules: NameRules) -> tuple[ir.Program, dict[str, str]]:
@@ -40,7 +40,7 @@ def rename_hiding(program: ir.Program, rules: NameRules) -> tuple[ir.Program, di
     if not changed:
         return program, {}
     folded = {old.lower(): new for old, new in changed.items()}
-    return _Renamer(folded, collector.fields, ProgramScope(program)).program(program), changed
+    return _Renamer(folded, collector.fields, collector.members, ProgramScope(program)).program(program), changed
 
 
 def renamed_twice(first: Mapping[str, str], second: Mapping[str, str]) -> dict[str, str]:
@@ -58,6 +58,7 @@ class _Collector:
         self.names: dict[str, None] = {}
         self.declared: dict[str, None] = {}
         self.fields: set[str] = set()
+        self.members: set[str] = set()  # of the program's own enumerations; other words are the controller's
         self.routines: list[str] = []
 
     def add(self, name: str | None) -> None:
@@ -88,6 +89,7 @@ class _Collector:
             case ir.EnumDeclaration(name=name, members=members):
                 for one in (name, *members):
                     self.own(one)
+                self.members.update(one.lower() for one in members)
             case ir.RecordDeclaration(name=name, fields=fields):
                 self.own(name)
                 for field, _ in fields:
@@ -107,7 +109,7 @@ class _Collector:
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
         match expression:
-            case ir.Name(id=name) | ir.Call(name=name) | ir.Signal(name=name) | ir.EnumLiteral(member=name):
+            case ir.Name(id=name) | ir.Call(name=name) | ir.Signal(name=name):
                 self.add(name)
             case ir.Present(name=name):
                 self.add(name)
@@ -127,8 +129,9 @@ class _Collector:
 
 
 class _Renamer:
-    def __init__(self, changed: dict[str, str], fields: set[str], scopes: ProgramScope) -> None:
+    def __init__(self, changed: dict[str, str], fields: set[str], members: set[str], scopes: ProgramScope) -> None:
         self.changed = changed
+        self.members = members
         self.changed_fields = fields & set(changed)
         self.scopes = scopes
         self.scope: Scope | None = None
@@ -209,7 +212,7 @@ class _Renamer:
             case ir.Call(name=name):
                 arguments = tuple(map(self.argument, done.arguments))
                 return replace(done, name=self.new(name), arguments=arguments)
-            case ir.EnumLiteral(member=name):
+            case ir.EnumLiteral(member=name) if name.lower() in self.members:
                 return replace(done, member=self.new(name))
             case ir.Present(name=name):
                 return replace(done, name=self.new(name))
