@@ -17,6 +17,7 @@ from rpl.source import Origin
 from . import tables
 from .arcs import grouped
 from .data import ARITHMETIC, BITS, FUNCTIONS, Statements
+from .early import with_actions
 from .kinds import JOINTS, TARGET, labels_of
 from .motion import Motion
 from .operands import tags_of
@@ -46,8 +47,16 @@ class Control(Motion):
 
     def body(self, items: Iterable[Item]) -> ir.Body:
         done: list[ir.Statement] = []
+        self.early = None
         for item in items:
-            done.extend(self.item(item))
+            early, self.early = self.early, None
+            made = self.item(item)
+            if early is None or all(isinstance(one, ir.Nothing) for one in made):
+                done.extend(made)
+                self.early = self.early or early
+            else:
+                with_actions(done, early, made, self.diagnostics)
+        self.early = None
         return grouped(tuple(done), self.diagnostics)
 
     def item(self, item: Item) -> Statements:

@@ -11,7 +11,7 @@ from rpl.reading.shapes import StatementError
 
 from . import tables
 from .kinds import JOINTS, TARGET, Kind, frame_of, key_of
-from .operands import UNIFIED, Operands, plain_bank
+from .operands import UNIFIED, Operands, plain_bank, tags_of
 from .syntax import Command, Formula, Group, Numbered, Operand, SystemName, Word, value_of
 
 EXTERNAL_ELEMENT = code(
@@ -175,6 +175,9 @@ class Data(Operands):
 
     def on_text(self, command: Command) -> Statements:
         items = self.needs(command, 2)
+        radix = next((relation.right for tag, relation in tags_of(items) if tag == "RADIX"), None)
+        if radix is not None and command.word == "VAL":
+            return self.value_to_base(items[0], self.value(items[1]), self.value(radix))
         values = [self.value(item) for item in items[1:]]
         match command.word, values:
             case "CAT$", [one, other]:
@@ -194,6 +197,35 @@ class Data(Operands):
             case "STRSTR", [text, wanted]:
                 return self.set(items[0], self.call("text_find", text, ir.IntLiteral(1), wanted))
         raise StatementError(f"{command.word} has other operands", 0)
+
+    def value_to_base(self, target: Operand, text: ir.Expression, base: ir.Expression) -> Statements:
+        """`VAL D000 S000 RADIX=16`: digit by digit."""
+        origin = self.origin
+        names = (tables.DIGITS, tables.DIGITS_AT, tables.DIGIT, tables.DIGITS_SUM)
+        for name in names:
+            type: ir.Type = ir.StringType() if name == tables.DIGITS else ir.IntType()
+            self.shared.used.scalar(name, type, origin)
+        whole, at, digit, total = (ir.Name(name, origin=origin) for name in names)
+
+        def put(place: ir.Expression, value: ir.Expression) -> ir.Statement:
+            return ir.Assign(place, value, origin=origin)
+
+        def number(value: int) -> ir.Expression:
+            return ir.IntLiteral(value, origin=origin)
+
+        one = self.call("text_part", whole, at, number(1))
+        known = self.call("text_find", ir.TextLiteral(tables.DIGIT_WORDS, origin=origin), number(1), one)
+        small = ir.Binary(">", digit, number(16), origin=origin)
+        sums = ir.Binary("*", total, base, origin=origin)
+        body = (
+            put(digit, known),
+            ir.If(((small, (put(digit, ir.Binary("-", digit, number(6), origin=origin)),)),), origin=origin),
+            put(total, ir.Binary("+", sums, ir.Binary("-", digit, number(1), origin=origin), origin=origin)),
+            put(at, ir.Binary("+", at, number(1), origin=origin)),
+        )
+        more = ir.Binary("<=", at, self.call("text_length", whole), origin=origin)
+        first = (put(whole, text), put(at, number(1)), put(total, number(0)))
+        return (*first, ir.While(more, body, origin=origin), *self.set(target, total))
 
     # ---- system values and registers
 

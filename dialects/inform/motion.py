@@ -14,6 +14,7 @@ from rpl.reading.shapes import StatementError
 
 from . import tables
 from .data import Data, Statements
+from .early import Early, before
 from .jobs import Frame, Job
 from .kinds import JOINTS, SHIFTED, TARGET, Flow, Kind, frame_of
 from .operands import Shared, plain_bank, tags_of
@@ -49,6 +50,7 @@ class Motion(Data):
     def __init__(self, shared: Shared, job: Job, flow: Flow) -> None:
         super().__init__(shared, job, flow)
         self.points = Points(job, self.diagnostics)
+        self.early: Early | None = None  # the move just read has ENWAIT
 
     # ---- parts
 
@@ -136,6 +138,8 @@ class Motion(Data):
             origin=self.origin,
         )
         self.check(main)
+        if Word("ENWAIT") in main.others:
+            self.early = self.before_the_end(main)
         if search is not None and search.found is not None and frame is not None:
             place = search.found
             in_base = self.call("displaced", place, frame)
@@ -230,9 +234,19 @@ class Motion(Data):
             return ir.Search(condition, found, "path", "rising", ir.Name(hit, origin=self.origin))
         return None
 
+    def before_the_end(self, main: _Segment) -> Early:
+        """`ENWAIT T=0.50`, `ENWAIT DIS=80.0`."""
+        given = {
+            tag: before(self.tagged(tag, relation.right), self.origin) for tag, relation in tags_of(tuple(main.others))
+        }
+        distance, delay = given.get("DIS"), given.get("T")
+        if distance is None and delay is None:
+            raise StatementError("ENWAIT needs T= or DIS=", 0)
+        return Early(distance, delay)
+
     def check(self, main: _Segment) -> None:
         """Nothing at a move is dropped in silence."""
-        searching = Word("SRCH") in main.others or Word("UNTIL") in main.others
+        searching = any(Word(word) in main.others for word in ("SRCH", "UNTIL", "ENWAIT"))
         for item in main.others:
             match item:
                 case Relation(left=Word(text=tag)):
@@ -241,7 +255,7 @@ class Motion(Data):
                         self.report_once(UNKNOWN_TAG, f"tag {tag}", tag=f"{tag}=")
                 case Relation() if searching:
                     continue
-                case Word(text=text) if text in ("NWAIT", "UNTIL", "SRCH") or text in tables.PLAIN_MOVE_WORDS:
+                case Word(text=text) if text in ("NWAIT", "UNTIL", "SRCH", "ENWAIT") or text in tables.PLAIN_MOVE_WORDS:
                     continue
                 case Word() | Numbered() if frame_of(item) is not None:
                     continue

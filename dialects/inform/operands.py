@@ -305,7 +305,7 @@ class Operands:
         """M: a byte that stands for a signal's state means it by its lowest bit."""
         if isinstance(value, ir.IntLiteral):
             return ir.BoolLiteral(bool(value.value & 1), origin=self.origin)
-        bit = ir.Binary("band", value, ir.IntLiteral(1), origin=self.origin)
+        bit = ir.Binary("mod", value, ir.IntLiteral(2), origin=self.origin)
         return ir.Binary("<>", bit, ir.IntLiteral(0), origin=self.origin)
 
     # ---- values with a unit

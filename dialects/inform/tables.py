@@ -66,6 +66,9 @@ WAIT_STATUS = "B014"  # 1: the last WAIT with a time ended by its condition
 # Global data that stand for these.
 SEARCH_FOUND, SEARCH_PLACE, WAIT_LATE, UNTIL_MET = "SEARCH_FOUND", "SEARCH_PLACE", "WAIT_LATE", "UNTIL_MET"
 SHIFT = "SHIFT"
+# While a text is read as a number to another base (VAL ... RADIX=16).
+DIGITS, DIGITS_AT, DIGIT, DIGITS_SUM = "VAL_TEXT", "VAL_AT", "VAL_DIGIT", "VAL_SUM"
+DIGIT_WORDS = "0123456789ABCDEFabcdef"
 # What the last RET with a value gave back (M: kept until the next one): numbers, texts.
 RETURNED = "RV"
 RETURN_VALUE, RETURN_TEXT = "RETURN_VALUE", "RETURN_TEXT"

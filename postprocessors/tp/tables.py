@@ -71,7 +71,7 @@ SYSTEM_VARIABLES: Final[Mapping[str, str]] = {"override": "$MCR.$GENOVERRIDE"}
 # Counts as delivered; program limits at a controlled start give more (SpotTool+ manual: PR up to 2000 for one group).
 R: Final = Bank("R", 1, 200, most=999)  # M: the largest number of R
 PR: Final = Bank("PR", 1, 100, most=2000)
-SR: Final = Bank("SR", 1, 25)
+SR: Final = Bank("SR", 1, 25, most=300)  # M: the largest number of SR
 F: Final = Bank("F", 1, 1024, "flag")
 TIMER: Final = Bank("TIMER", 1, 20, "timer")
 POINTS: Final = Bank("P", 1, 1500)  # M: largest number of a taught position
