@@ -178,5 +178,5 @@ def test_arcs_in_a_row_stay_arcs_in_a_row_when_their_speeds_are_computed() -> No
     text = RUN.replace("CA -45", "CA 360").replace(
         "$VEL.CP = 0.3", "$VEL.CP = 0.3\n$CIRC_TYPE = #BASE\nFOR I=1 TO 2\n$VEL.CP = 0.1*I\nENDFOR"
     )
-    result, told = translated_text(text, "inform")
+    result, _ = translated_text(text, "inform")
     assert result.equal, result.as_text()
