@@ -65,6 +65,22 @@ CASES: list[tuple[str, str, str, frozenset[str]]] = [
         IF ok AND DOutput(do2)=0 SetDO do1,1;""",
         frozenset(),
     ),
+    (
+        "targets put together with the flags and external axes of others",
+        """VAR robtarget there; VAR jointtarget j; VAR pos row{2};
+        FUNC robtarget raised(robtarget p,num z)
+        RETURN [[p.trans.x,p.trans.y,p.trans.z+z],p.rot,p.robconf,p.extax]; ENDFUNC
+        """,
+        """ConfL\\Off; MoveJ p1,v500,fine,tool0; here:=CRobT(\\Tool:=tool0\\WObj:=wobj0); here.trans.y:=20;
+        there:=[[here.trans.x,here.trans.y,here.trans.z-40],p1.rot,p1.robconf,p1.extax]; MoveL there,v200,fine,tool0;
+        here:=there; here.robconf:=p1.robconf; here.extax:=p1.extax; here.extax.eax_a:=9E9; n:=here.trans.z;
+        MoveL raised(here,25),v200,fine,tool0; ok:=Distance(CPos(),[450,20,335])<0.2 AND Abs(n-310)<0.01;
+        j:=CJointT(); j:=[[j.robax.rax_1,j.robax.rax_2,j.robax.rax_3,0,j.robax.rax_5,0],j.extax];
+        MoveAbsJ j,v500,fine,tool0; row{2}:=[430,10,350];
+        here:=[row{2},OrientZYX(180,0,180),[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]; MoveJ here,v500,fine,tool0;
+        IF ok AND Distance(CPos(),[430,10,350])<0.2 SetDO do1,1;""",
+        frozenset(),
+    ),
 ]
 
 

@@ -245,7 +245,13 @@ class _Aggregates(Rewriter):
             return []
         if not self.is_complete(value, type):
             return []
-        entries = tuple((name, ir.RealLiteral(0.0)) for name in self.given(value, type) if name.startswith("j"))
+        given = self.given(value, type)
+        zero: ir.Expression = ir.RealLiteral(0.0)
+        entries = tuple((name, zero) for name in given if name.startswith("j"))
+        if "robax" in given:
+            axes = tuple((name, zero) for name in ir.COMPONENTS[ir.AxesType])
+            zero = ir.Aggregate(axes, type_name=type_word(ir.AxesType()))
+            entries = (("robax", zero),)
         return [ir.Assign(target, ir.Aggregate(entries, type_name=type_word(type)))] if entries else []
 
     def array(

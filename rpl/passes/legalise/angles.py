@@ -14,6 +14,7 @@ from rpl.diagnostics import Severity, code
 from rpl.passes import rigid
 from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.externalaxes import has_external_axes, is_unused
 from rpl.passes.legalise.library import Library, composed, minus, number, plus, times
 from rpl.passes.legalise.records import RECORDS, Records
 from rpl.passes.legalise.tooldata import KINEMATICS
@@ -38,7 +39,6 @@ _FLAT = (*_POSITION, *_ANGLES)
 _QUATERNION = ("q1", "q2", "q3", "q4")
 # Places in positional aggregates of vectors, rotations, poses and targets.
 _ORDER = {"x": 0, "y": 1, "z": 2, "q1": 0, "q2": 1, "q3": 2, "q4": 3, "trans": 0, "rot": 1, "conf": 2, "ext": 3}
-_UNUSED = 9e8  # an external axis that a target does not use stands at 9E9
 Kind = type[object]
 _COMPARED: tuple[Kind, ...] = (ir.VectorType, ir.RotationType, ir.PoseType)
 
@@ -53,6 +53,7 @@ class _ToAngles(Rewriter):
         super().__init__(program, context)
         self.library = Library(context, _target_type(program, context))
         self.records = Records(context)
+        self.external = has_external_axes(program)
 
     def program(self) -> ir.Program:
         done = super().program()
@@ -125,8 +126,15 @@ class _ToAngles(Rewriter):
                 return self.parts(statement, _FLAT, self.six(value), "")
             case ir.AxesType() | ir.ExternalType() if self.nested(target):
                 names = tuple(ir.COMPONENTS[type.__class__])
+                if isinstance(type, ir.ExternalType) and (self.is_unused(value) or not self.external):
+                    return [ir.Nothing(origin=statement.origin)]
                 return self.parts(statement, names, [self.member(value, name) for name in names], "*")
         return [replace(statement, target=self.expression(target), value=self.valued(value, type))]
+
+    def is_unused(self, value: ir.Expression) -> bool:
+        """Are these external axes that no target uses?"""
+        entries = value.entries if isinstance(value, ir.Aggregate) else ()
+        return bool(entries) and all(is_unused(one, self.scope) for _, one in entries)
 
     def nested(self, target: ir.Expression) -> bool:
         """Is it the axes or external axes inside a target or joints value?"""
@@ -422,8 +430,7 @@ class _ToAngles(Rewriter):
         """The numbers of a nested part; external axes that are not used are left out."""
         found: list[tuple[str | None, ir.Expression]] = []
         for at, (written, entry) in enumerate(value.entries):
-            known = constant(entry, self.scope)
-            if kind == "e" and isinstance(known, int | float) and abs(known) >= _UNUSED:
+            if kind == "e" and is_unused(entry, self.scope):
                 continue
             found.append((written or names[at], self.expression(entry)))
         return tuple(found)

@@ -27,6 +27,7 @@ from rpl.passes.legalise.composition import compositions
 from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.constantorientations import constant_orientations
 from rpl.passes.legalise.context import Context, Pass, names_in
+from rpl.passes.legalise.copiedflags import copied_flags
 from rpl.passes.legalise.corners import corners
 from rpl.passes.legalise.criticals import without_criticals
 from rpl.passes.legalise.cyclicflags import cyclic_flags
@@ -165,6 +166,7 @@ from rpl.passes.typing import normalise
 PASSES: tuple[Pass, ...] = (
     drop_untyped,
     axes_of_arm,
+    copied_flags,
     step_times,
     load_readings,
     same_units,
