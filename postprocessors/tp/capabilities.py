@@ -58,6 +58,7 @@ CAPABILITIES = Capabilities(
     constant_aggregates=True,
     untyped_places=True,
     shortest_wait_s=0.01,
+    logic_names=tables.LOGIC_NAMES,
     relative_moves=True,
     turned_ways=frozenset(("tool", "joint")),
     for_real=True,

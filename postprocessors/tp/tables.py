@@ -100,6 +100,7 @@ POSE_ELEMENTS: Final = ("x", "y", "z", "c", "b", "a", "e1", "e2", "e3")
 JOINT_ELEMENTS: Final = ("j1", "j2", "j3", "j4", "j5", "j6", "e1", "e2", "e3")
 
 LONGEST_LINE: Final = 254  # M: characters of one instruction
+LOGIC_NAMES = 8  # registers in one condition: so many fit in a line with their comments
 LONGEST_REMARK: Final = 32
 LONGEST_COMMENT: Final = 16  # of a register, a label, a position and a program
 LONGEST_MESSAGE: Final = 24

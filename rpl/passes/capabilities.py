@@ -109,6 +109,7 @@ class Capabilities:
     of constants and variables. calculated_places: moves, signals, waits take any expression. conditions: `comparisons`
     of two simple operands, joined by and/or.
     condition_terms: how many comparisons such a condition has at most, spelled out without brackets (0: any).
+    logic_names: variables and signals that one condition or truth value names at most, to fit in a line (0: any).
     fixed_arcs: an arc may keep the tool as it is to the arc (else its end is worked out).
     functions_alone: a function only as the whole right side of an assignment.
 
@@ -244,6 +245,7 @@ class Capabilities:
     path_points: float = 0.0
     conditions: str = "any"
     condition_terms: int = 0
+    logic_names: int = 0
     functions_alone: bool = False
     fixed_arcs: bool = False
     move_settings: frozenset[str] = frozenset()

@@ -23,7 +23,7 @@ _NOWHERE = ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ("x", "y",
 
 
 def own_places(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets with modal motion, and programs that set a tool or frame and have moves with one of their own."""
+    """Only for targets with modal motion; programs that set a tool or frame and have moves with one of their own."""
     if not context.capabilities.modal_motion:
         return program
     nodes = [*walk(*program.modules)]

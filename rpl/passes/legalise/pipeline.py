@@ -70,6 +70,7 @@ from rpl.passes.legalise.loadreadings import load_readings
 from rpl.passes.legalise.locals import variables_of_routines
 from rpl.passes.legalise.locks import critical_flags
 from rpl.passes.legalise.logic import decide_logic
+from rpl.passes.legalise.longlogic import long_logic
 from rpl.passes.legalise.lookahead import stop_blends
 from rpl.passes.legalise.loops import fit_loops
 from rpl.passes.legalise.messages import message_lines, split_messages
@@ -309,6 +310,7 @@ PASSES: tuple[Pass, ...] = (
     fit_arguments,
     fit_loops,
     read_components,
+    long_logic,
     steps,
     variables_of_routines,
     nest_branches,

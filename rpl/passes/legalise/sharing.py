@@ -1,7 +1,8 @@
 """Temporaries of routines that are never active at the same time share their numbers, where a bank would run out.
 
 A temporary is a variable that the passes made, that one routine alone uses, and that it sets before it reads it. Two
-routines may share when neither leads to the other by calls and both run in the same thread of the program alone.
+routines may share when neither leads to the other by calls and both run in the same thread of the program alone. So
+may two temporaries of one routine that are not needed at the same time.
 Nothing is shared while the numbers suffice, so that each keeps the name of what it holds.
 """
 
@@ -18,6 +19,7 @@ from rpl.passes.legalise.banks import sizes_of
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.effects import children, everything, statements_in
+from rpl.passes.legalise.lifetimes import companions
 from rpl.passes.legalise.liveness import wanted_at_start
 from rpl.passes.legalise.locals import renamed
 from rpl.passes.legalise.parameters import ARGUMENTS
@@ -44,7 +46,9 @@ def share_temporaries(program: ir.Program, context: Context) -> ir.Program:
     pool = _Pool(context, facts)
     given: dict[int, dict[str, str]] = {}
     for routine, variables in _temporaries(program, facts, short, can.banks):
-        given[id(routine)] = {one.name.lower(): pool.give(id(routine), one) for one in variables}
+        places = companions(routine, variables)
+        used = {one.name: pool.give(id(routine), one) for one in variables if places[one.name.lower()] is one}
+        given[id(routine)] = {name: used[one.name] for name, one in places.items()}
     return _rewritten(program, context, given, pool)
 
 
