@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
 from rpl.passes.legalise.activations import Activations
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies, expansion, map_body
@@ -24,6 +25,12 @@ LOST = code(
     "error-routine-lost",
     Severity.LOSS,
     "from here on errors call {name}; the target has no such routine, and handlers cannot stand for it: {reason}",
+)
+MOTION = code(
+    "error-routine-no-motion",
+    Severity.LOSS,
+    "{name} is not called here for errors of the robot's motion (a place out of reach, a joint limit): they stop it",
+    "ask whether the place can be reached in front of the move",
 )
 _BEFORE = (ir.Nothing, ir.Assign, ir.Message)
 
@@ -53,6 +60,11 @@ def error_routines(program: ir.Program, context: Context) -> ir.Program:
         for _, one in named:
             context.diagnostics.report(LOST, one.origin, name=one.routine, reason=reason)
         return program
+    if any(isinstance(node, ir.Move) for node in walk(*program.modules)):
+        where = next(
+            (one for routine, one in named if routine.name.lower() != (one.routine or "").lower()), named[0][1]
+        )
+        context.diagnostics.report(MOTION, where.origin, name=where.routine)
     if always:
         return _without(_with_handlers(program, named[0][1].routine or ""))
     flag = ir.Name(context.fresh("errors_caught"))
@@ -96,7 +108,8 @@ def _switched_reason(program: ir.Program, homes: set[int], name: str) -> str:
     own, *others = facts.threads or [set()]
     trap = {key for key, routine in facts.routines.items() if routine.name.lower() == name.lower()}
     apart = set().union(*others) if others else set()
-    if not homes <= own or homes & apart:
+    homes = homes - trap  # what it sets itself, it sets while it runs for the errors of the program
+    if not homes <= own or homes & (apart - facts.reached(trap)):
         return "it is set by another task or a reaction"
     if any(facts.routines[key].name for key in (own & apart) - facts.reached(trap)):
         return "other tasks or reactions call the same routines"

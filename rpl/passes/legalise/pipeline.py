@@ -78,6 +78,7 @@ from rpl.passes.legalise.mixedspeeds import mixed_speeds
 from rpl.passes.legalise.modal import modal_to_explicit
 from rpl.passes.legalise.modulepoints import points_of_modules
 from rpl.passes.legalise.movesettings import settings_at_moves
+from rpl.passes.legalise.movetimes import move_times
 from rpl.passes.legalise.nearjoints import near_joints
 from rpl.passes.legalise.nextmove import settings_of_next_move
 from rpl.passes.legalise.numbered import number_data
@@ -203,6 +204,7 @@ PASSES: tuple[Pass, ...] = (
     labels_to_structure,
     settings_of_next_move,
     joined_moves,
+    move_times,
     error_routines,
     list_results,
     lists_in_variables,

@@ -31,6 +31,7 @@ PROGRAM = """.PROGRAM main()
  RETURNE
 .END
 """
+AGAIN = PROGRAM.replace("RETURNE", "REACTE trap\n RETURNE")
 BACKGROUND = ".PROGRAM side()\n CALL root(4)\n.END\n"
 
 
@@ -38,9 +39,10 @@ def read(text: str) -> ReadProgram:
     return read_sources([source_from_text("p.v2", text)], "vplus", Diagnostics())
 
 
+@pytest.mark.parametrize("text", [PROGRAM, AGAIN], ids=["set once", "set again by itself"])
 @pytest.mark.parametrize(("behind", "on"), [("", 3), ("CALL root(-9)", 2)])
-def test_it_holds_between_its_two_statements(behind: str, on: int) -> None:
-    own = read(PROGRAM.format(behind=behind))
+def test_it_holds_between_its_two_statements(text: str, behind: str, on: int) -> None:
+    own = read(text.format(behind=behind))
     diagnostics = Diagnostics()
     written = translate_program(own, "rapid", None, None, diagnostics)
     assert not [item.as_text() for item in diagnostics.of(Severity.LOSS)]
