@@ -75,6 +75,7 @@ class _Configurations(Rewriter):
         self.near = self.foreign and context.capabilities.postures == "joints"
         self.results: dict[int, dict[str, int] | _Refused] = trial.results if trial else {}
         self.exact, self.nearest = False, False  # are there joint moves to converted, to other targets?
+        self.posed = False  # are there path moves to poses, which say nothing about the arm's posture?
         self.uses: Uses
         if trial is not None:
             self.uses, self.scopes = trial.uses, trial.scopes
@@ -103,7 +104,7 @@ class _Configurations(Rewriter):
 
     def checks(self) -> tuple[ir.Statement, ...]:
         """Switch off the checks of the target's controller that the source's did not make."""
-        if not self.results and not self.nearest:
+        if not (self.results or self.nearest or self.posed):
             return ()
         known = rules_of(self.context.source).system_defaults
         joint, path = _CHECKS
@@ -191,6 +192,8 @@ class _Configurations(Rewriter):
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
         if isinstance(statement, ir.Move) and statement.kind == "joint":
             return self.joint_move(statement)
+        if isinstance(statement, ir.Move) and self.foreign:
+            self.posed = self.posed or isinstance(self.type_of(statement.target), ir.PoseType)
         if not self.foreign:
             return super().statement(statement)
         match statement:
