@@ -47,6 +47,7 @@ class _Actions:
     def routine(self, routine: ir.Routine, scope: Scope) -> ir.Routine:
         found = map(_action, walk(routine))
         calls = [call for kind, call in found if call is not None and self.needs_work(kind, call, scope)]
+        routine = self.only_calls(routine)
         used = {name for call in calls for name in _names(call)}
         moved = {name: self.context.fresh(name) for name in sorted(used) if _is_own(name, routine, scope)}
         calls = [call for call in calls if not _names(call) & _fixed(routine) - set(moved)]
@@ -73,6 +74,20 @@ class _Actions:
         self.variables += [replace(one, name=moved[one.name.lower()], scope="module") for one in own]
         kept = tuple(one for one in routine.declarations if one not in own)
         return rewrite(rewrite(replace(routine, declarations=kept), called), change)
+
+    def only_calls(self, routine: ir.Routine) -> ir.Routine:
+        """Other actions than calls and assignments (KRL `DO PULSE(...)`) become a routine too, where calls do."""
+        if "path" in self.context.capabilities.action_arguments:
+            return routine
+
+        def called(node: object) -> object:
+            if not isinstance(node, ir.Trigger) or isinstance(node.action, ir.Assign | ir.CallRoutine):
+                return node
+            name = self.context.fresh("rpl_on_path")
+            self.made.append(ir.Routine(name, body=(node.action,)))
+            return replace(node, action=ir.CallRoutine(name, origin=node.origin))
+
+        return rewrite(routine, called)
 
     def needs_work(self, kind: str, call: ir.CallRoutine, scope: Scope) -> bool:
         """Has the call arguments that the target's cannot have?"""

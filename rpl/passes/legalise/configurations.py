@@ -150,9 +150,10 @@ class _Configurations(Rewriter):
     def entries(self, program: ir.Program) -> set[str]:
         if program.entry:
             return {program.entry.lower()}
-        if program.tasks:
-            return {task.entry.lower() for task in program.tasks if task.kind == "motion"}
-        called: set[str] = set()
+        moving = {task.entry.lower() for task in program.tasks if task.kind == "motion"}
+        if moving:
+            return moving
+        called = {task.entry.lower() for task in program.tasks}  # beside the program, whose first routine is not named
 
         def expression(one: ir.Expression) -> ir.Expression:
             if isinstance(one, ir.Call):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -230,3 +232,13 @@ def test_the_same_language_on_another_arm_keeps_its_form(kuka: RobotModel, abb: 
     assert {name: value for name, value in flags(done, "P1").items() if name in notation.fields} in allowed
     assert variable(done, "P1").type == variable(program, "P1").type
     assert lines(done) == lines(program)
+
+
+def test_a_program_with_a_task_beside_it_goes_unchecked_too(kuka: RobotModel) -> None:
+    text = "DEF t()\nPTP P1\nEND\n====\nDEFDAT t\nDECL POS P1={X 400,Y 0,Z 500,A 0,B 90,C 0}\nENDDAT\n"
+    program = read(text, "krl")
+    beside = ir.Routine("sps", body=(ir.Nothing(),))
+    module = replace(program.modules[0], name="sps", declarations=(), routines=(beside,), task="sps")
+    program = replace(program, modules=(*program.modules, module), tasks=(ir.Task("sps", "sps", "background"),))
+    done = configurations(program, context(program, "krl", kuka))
+    assert lines(done)[:2] == ["$joint_configuration_check := False", "$path_configuration_check := False"]
