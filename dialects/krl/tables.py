@@ -45,6 +45,8 @@ SCALARS: dict[str, tuple[str, str]] = {
     "$cp_vel_type": ("path_limit_rule", ""),
     "$pos_act": ("actual_pose", ""),
     "$axis_act": ("actual_joints", ""),
+    "$tool_c": ("tool_of_moves", ""),  # M: of the main run, also in a submit program, which has no $TOOL
+    "$base_c": ("frame_of_moves", ""),
     "$pos_for": ("end_pose", ""),
     "$pos_back": ("start_pose", ""),
     "$pos_int": ("interrupt_pose", ""),

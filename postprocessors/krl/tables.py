@@ -67,6 +67,8 @@ SYSTEM: dict[str, tuple[str, str]] = {
     "path_limit_rule": ("$CP_VEL_TYPE", ""),
     "actual_pose": ("$POS_ACT", ""),
     "actual_joints": ("$AXIS_ACT", ""),
+    "tool_of_moves": ("$TOOL_C", ""),
+    "frame_of_moves": ("$BASE_C", ""),
     "end_pose": ("$POS_FOR", ""),
     "start_pose": ("$POS_BACK", ""),
     "interrupt_pose": ("$POS_INT", ""),

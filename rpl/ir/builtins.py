@@ -213,6 +213,8 @@ SYSTEM_VARIABLES: dict[str, SystemVariable] = _system(
     actual_pose     | P | r  | - |       | s | tool centre point now
     actual_joints   | J | r  | - |       | s | joints now
     actual_joint    | n | r  | i | deg   | s | one joint now
+    tool_of_moves   | p | r  | - |       | s | the tool of the task that moves the robot, for a task beside it
+    frame_of_moves  | p | r  | - |       | s | the frame of the task that moves the robot, for a task beside it
     start_pose      | P | r  | - |       | s | start of the current move
     end_pose        | P | r  | - |       | s | end of the current move
     interrupt_pose  | P | r  | - |       | s | where the robot was when the interrupt came

@@ -158,7 +158,16 @@ def _home_joints(task: Task, index: int) -> Value:
     return robot.joints_as_value(_rules(task), home)
 
 
+def _of_moves(task: Task, modal: str, used: str) -> Value:
+    """What the task that moves the robot has, as a pose."""
+    given = _robot(task).task.modal
+    value = given.get(modal) if given.get(modal) is not None else given.get(used)
+    return identity(task) if value is None else copied(value)
+
+
 _SPECIAL: dict[str, Read] = {
+    "tool_of_moves": lambda task, index: _of_moves(task, "tool", "tool_in_use"),
+    "frame_of_moves": lambda task, index: _of_moves(task, "base", "frame_in_use"),
     "home_joints": _home_joints,
     "world": lambda task, index: identity(task),
     "null_frame": lambda task, index: identity(task),

@@ -14,6 +14,7 @@ from rpl.diagnostics import Severity, code
 from rpl.passes import rigid
 from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.datalists import routines_beside
 from rpl.passes.legalise.externalaxes import has_external_axes, is_unused
 from rpl.passes.legalise.library import Library, composed, minus, number, plus, times
 from rpl.passes.legalise.records import RECORDS, Records
@@ -54,6 +55,8 @@ class _ToAngles(Rewriter):
         self.library = Library(context, _target_type(program, context))
         self.records = Records(context)
         self.external = has_external_axes(program)
+        known = "tool_of_moves" in context.capabilities.system_variables
+        self.beside = routines_beside(program) if known else set()
 
     def program(self) -> ir.Program:
         done = super().program()
@@ -515,7 +518,9 @@ class _ToAngles(Rewriter):
     def here(self, arguments: tuple[ir.Expression, ...]) -> ir.Expression:
         """Where the robot stands, seen with the given tool and work object."""
         frames = self.tool_and_frame(arguments)
-        return self.library.call("current", *frames) if frames else ir.System("actual_pose")
+        here = self.scope.routine_here
+        beside = here is not None and here.name.lower() in self.beside
+        return self.library.call("beside" if beside else "current", *frames) if frames else ir.System("actual_pose")
 
     def tool_and_frame(self, arguments: tuple[ir.Expression, ...]) -> tuple[ir.Expression, ...]:
         """The poses of the given tool and work object; none where both are the modal ones."""

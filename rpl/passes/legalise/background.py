@@ -81,6 +81,8 @@ class _Maker:
     def __init__(self, program: ir.Program, context: Context, controls: list[ir.TaskControl]) -> None:
         self.program, self.context = program, context
         self.separate = context.capabilities.background_tasks == "separate"
+        known = {"tool_of_moves", "frame_of_moves", "actual_pose"} <= context.capabilities.system_variables
+        self.seen_beside = known and not self.separate
         self.scopes = ProgramScope(program)
         self.operations: dict[str, list[ir.TaskControl]] = {}
         for one in controls:
@@ -171,6 +173,8 @@ class _Maker:
             match node:
                 case ir.Builtin(function=function) if self.separate and function.startswith("current_") and not asks:
                     raise _UnfitError("it asks where the robot is")
+                case ir.System(name="null_frame" | "world") if self.seen_beside:
+                    continue  # of a place that is seen
                 case ir.System(name="flag"):
                     continue  # flags belong to the whole controller
                 case ir.System(name=name) if asks and name in _PLACES:

@@ -116,12 +116,20 @@ def started_tasks(program: ir.Program) -> set[str]:
     return found
 
 
+def routines_beside(program: ir.Program) -> set[str]:
+    """What background programs do, and all that they call, folded."""
+    modules = _background(program)
+    roots = {task.entry.lower() for task in program.tasks if task.kind != "motion" and not task.modules}
+    roots |= {one.name.lower() for module in program.modules if module.name in modules for one in module.routines}
+    calls = calls_of(program) if roots else {}
+    return set().union(*(reached(root, calls) for root in roots))
+
+
 def moving_entries(program: ir.Program) -> set[str]:
     """Where the task that moves the robot may start: the program's entry, and procedures that nothing calls, and that
     no other task runs."""
-    beside = _background(program)
+    beside, others = _background(program), routines_beside(program)
     foreground = replace(program, modules=tuple(one for one in program.modules if one.name not in beside))
-    others = {task.entry.lower() for task in program.tasks if task.kind != "motion" and not task.modules}
     entry = {program.entry.lower()} if program.entry else set()
     return entry | never_called(foreground) - started_tasks(program) - others
 

@@ -161,13 +161,23 @@ def _current(library: Library) -> Made:
     return _otherwise(library, ir.System("actual_pose"))
 
 
-def _otherwise(library: Library, place: ir.Expression, *parameters: ir.Parameter) -> Made:
+def _beside(library: Library) -> Made:
+    """The same in a task beside the one that moves the robot, whose tool and frame these are."""
+    return _otherwise(library, ir.System("actual_pose"), modal=("tool_of_moves", "frame_of_moves"))
+
+
+def _otherwise(
+    library: Library,
+    place: ir.Expression,
+    *parameters: ir.Parameter,
+    modal: tuple[str, str] = ("tool", "base"),
+) -> Made:
     """A place that is known with the modal tool and frame, as it is with others."""
     product = composed(
         function("inverse", ir.Name("reference")),
-        ir.System("base"),
+        ir.System(modal[1]),
         ir.Name("p"),
-        function("inverse", ir.System("tool")),
+        function("inverse", ir.System(modal[0])),
         ir.Name("tcp"),
     )
     body: ir.Body = (
@@ -349,6 +359,7 @@ _MAKERS: dict[str, Callable[[Library], Made]] = {
     "length": _length,
     "pose": _pose,
     "current": _current,
+    "beside": _beside,
     "joints": _joints,
     "as_target": _as_target,
     "target_of_joints": _target_of_joints,
