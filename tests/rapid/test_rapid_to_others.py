@@ -81,6 +81,17 @@ CASES: list[tuple[str, str, str, frozenset[str]]] = [
         IF ok AND Distance(CPos(),[430,10,350])<0.2 SetDO do1,1;""",
         frozenset(),
     ),
+    (
+        "lists of any length that are handed on",
+        """VAR num short{3}:=[3,1,2]; VAR num long{5}:=[5,9,8,7,6];
+        PROC sort(INOUT num list{*}) FOR i FROM 1 TO Dim(list,1)-1 DO FOR k FROM 1 TO Dim(list,1)-i DO
+        IF above(list,k) swap list,k; ENDFOR ENDFOR ENDPROC
+        FUNC bool above(INOUT num list{*},num k) RETURN list{k}>list{k+1}; ENDFUNC
+        PROC swap(INOUT num list{*},num k) VAR num held; held:=list{k}; list{k}:=list{k+1}; list{k+1}:=held; ENDPROC
+        """,
+        "sort short; sort long; IF short{1}=1 AND short{3}=3 AND long{1}=5 AND long{2}=6 AND long{5}=9 SetDO do1,1;",
+        frozenset(("urscript",)),  # by reference, of several sizes
+    ),
 ]
 
 

@@ -11,11 +11,13 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.activations import Activations
+from rpl.passes.legalise.arraycopies import array_copy
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.effects import children, everything, is_constant, statements_in
 from rpl.passes.legalise.jumps import goes_on, inside
 from rpl.passes.legalise.lists import sized
+from rpl.passes.legalise.references import is_open
 from rpl.passes.legalise.support import with_support
 from rpl.passes.legalise.usage import base_name, bodies
 from rpl.passes.rewrite import rewrite_parts
@@ -97,6 +99,7 @@ class ArraySizes:
 
     def __init__(self, program: ir.Program, scopes: ProgramScope) -> None:
         self.found: dict[tuple[int, str], set[ir.Type]] = {}
+        self.handed: dict[tuple[int, str], set[tuple[int, str]]] = {}  # to a parameter from those of its callers
         for module, routine in scopes.routines():
             scope = scopes.routine(module, routine)
             for body in bodies(routine):
@@ -108,6 +111,11 @@ class ArraySizes:
                         for one in everything(child):
                             if isinstance(one, ir.Call):
                                 self.note(scope, one.name, one.arguments)
+        size = -1
+        while size != (size := sum(map(len, self.found.values()))):
+            for key, givers in self.handed.items():
+                for giver in givers:
+                    self.found.setdefault(key, set()).update(self.found.get(giver, ()))
 
     def note(self, scope: Scope, name: str, arguments: tuple[ir.Argument, ...]) -> None:
         routine = scope.routine(name)
@@ -119,7 +127,10 @@ class ArraySizes:
             found = self.found.setdefault((id(routine), parameter.name.lower()), set())
             if isinstance(argument.value, ir.Name):
                 symbol = scope.value(argument.value.id)
-                if symbol is not None:
+                if symbol is not None and symbol.routine is not None and is_open(symbol.type):
+                    giver = (id(symbol.routine), argument.value.id.lower())
+                    self.handed.setdefault((id(routine), parameter.name.lower()), set()).add(giver)
+                elif symbol is not None:
                     found.add(symbol.type)
             elif isinstance(argument.value, ir.Aggregate):
                 found.add(sized(parameter.type, argument.value))
@@ -354,9 +365,9 @@ class _Calls(Hoister):
             place = argument.value
             if parameter.mode == "reference" and isinstance(place, ir.Name | ir.Index | ir.Field):
                 place = self.fixed(place, before)
-                behind.append(ir.Assign(place, ir.Name(variable.name)))
+                behind.extend(_copy(place, ir.Name(variable.name), variable.type))
                 self.warn(name, place, at)
-            before.append(ir.Assign(ir.Name(variable.name), place))
+            before.extend(_copy(ir.Name(variable.name), place, variable.type))
         return tuple(before), tuple(numbered), tuple(behind)
 
     def fixed(self, place: ir.Expression, before: list[ir.Statement]) -> ir.Expression:
@@ -381,6 +392,11 @@ class _Calls(Hoister):
         shared = variable is not None and symbol is not None and symbol.routine is None
         if shared and variable in self.mentions.names.get(name.lower(), ()):
             self.editor.context.diagnostics.report(COPIED, at.origin, name=name, what=variable)
+
+
+def _copy(target: ir.Expression, value: ir.Expression, type: ir.Type) -> tuple[ir.Assign, ...]:
+    base = type.base if isinstance(type, ir.ArrayType) else 0
+    return array_copy(target, value, type, (base, base))
 
 
 def _given_back(body: ir.Body, end: list[ir.Statement]) -> ir.Body:

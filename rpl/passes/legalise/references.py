@@ -58,6 +58,7 @@ class _Facts:
     written: set[Key] = field(default_factory=set)
     passed: dict[Key, ir.Type] = field(default_factory=dict)
     routines: dict[str, ir.Routine] = field(default_factory=dict)
+    differing: set[Key] = field(default_factory=set)  # lists of several sizes are passed: one variable cannot hold them
 
     def __post_init__(self) -> None:
         handed: list[tuple[Key, Key]] = []  # a parameter given on as another one
@@ -76,8 +77,8 @@ class _Facts:
                 for name, arguments in calls_in(routine):
                     for key, value in self.given(name, arguments):
                         type = type_of(value, scope)
-                        if type is not None:
-                            self.passed.setdefault(key, type)
+                        if type is not None and not is_open(type):
+                            self.differing |= {key} if self.passed.setdefault(key, type) != type else set()
                         base = base_name(value)
                         if base in own:
                             handed.append(((routine.name.lower(), base), key))
@@ -87,6 +88,9 @@ class _Facts:
         while size != len(self.written):
             size = len(self.written)
             self.written.update(outer for outer, inner in handed if inner in self.written)
+        for _ in handed:  # the size of a list that is given on is known where the first one passes it
+            self.passed = {inner: self.passed[outer] for outer, inner in handed if outer in self.passed} | self.passed
+            self.differing |= {inner for outer, inner in handed if outer in self.differing}
 
     def given(self, name: str, arguments: tuple[ir.Argument, ...]) -> list[tuple[Key, ir.Expression]]:
         """The reference parameters of a routine and what a call passes for them."""
@@ -112,10 +116,15 @@ class _Facts:
                 if key in results and self.routines.get(key[0]) is not None:
                     type = parameter.type
                     sizes = type.dimensions if isinstance(type, ir.ArrayType) else ()
-                    if None in sizes:
+                    if None in sizes and key not in self.differing:
                         type = self.passed.get(key, type)
                     made.append(ir.Variable(results.pop(key), type, scope="global"))
         return tuple(made)
+
+
+def is_open(type: ir.Type) -> bool:
+    """Is it a list of any length?"""
+    return isinstance(type, ir.ArrayType) and None in type.dimensions
 
 
 def calls_in(routine: ir.Routine) -> list[tuple[str, tuple[ir.Argument, ...]]]:
