@@ -86,6 +86,15 @@ class Geometry:
         vector = self.vector(rotations[0]) if tuple(names) == _ANGLES else None
         return None if vector is None else f"rotvec2rpy({vector})"
 
+    def turned_in_tool(self, place: str, turns: list[ir.Expression]) -> str:
+        """A place turned in the tool about x, then the new y, then the new z (degrees)."""
+        for axis, turn in enumerate(turns):
+            if constant(turn, self.expressions.scope) != 0:
+                about = ["0", "0", "0"]
+                about[axis] = short(self.expressions.measured(turn, "rad"))
+                place = f"pose_trans({place}, p[0, 0, 0, {', '.join(about)}])"
+        return place
+
     # ---- poses and joints
 
     def function(self, name: str, values: tuple[ir.Expression, ...]) -> str | Printed | None:
@@ -98,6 +107,8 @@ class Geometry:
                 return f"pose_trans({self.shift(x, y, z)}, {text(place)})"
             case "tool_offset", (place, x, y, z):
                 return f"pose_trans({text(place)}, {self.shift(x, y, z)})"
+            case "tool_offset", (place, x, y, z, *turns):
+                return self.turned_in_tool(f"pose_trans({text(place)}, {self.shift(x, y, z)})", turns)
             case "displaced", (place, by):
                 return f"pose_trans({text(by)}, {text(place)})"
             case "displaced_in_tool", (place, by):

@@ -33,6 +33,7 @@ _HELPER_FUNCTIONS = {
     "exp": "rpl_exp",
     "log": "rpl_log",
     "power": "rpl_power",
+    "sign": "rpl_sign",
     "bit_shift_left": "rpl_shift_left",
     "bit_shift_right": "rpl_shift_right",
 }

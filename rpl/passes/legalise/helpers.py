@@ -234,6 +234,13 @@ FUNCTION rpl_bxor(a: INT, b: INT): INT
     RETURN a + b - 2 * rpl_band(a, b)
 END FUNCTION
 """,
+    "rpl_sign": """
+FUNCTION rpl_sign(x: REAL): REAL
+    IF x < 0.0 THEN RETURN -1.0
+    IF x > 0.0 THEN RETURN 1.0
+    RETURN 0.0
+END FUNCTION
+""",
     "rpl_shift_left": """
 FUNCTION rpl_shift_left(a: INT, count: INT): INT
     VAR value: INT

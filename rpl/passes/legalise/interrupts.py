@@ -110,7 +110,11 @@ class _Traps:
             return self.source
         for one in declared:
             priority = _priority(one.priority)
-            if priority is not None and priority not in self.traps and _watchable(one.condition):
+            if (
+                priority is not None
+                and priority not in self.traps
+                and (_watchable(one.condition) or self.is_signal(one.condition))
+            ):
                 self.add(priority, one)
         program = _map_bodies(self.source, self.body)
         declarations = tuple(
@@ -124,6 +128,21 @@ class _Traps:
             return program
         program = exposed(program, called_names(self.made))
         return replace(program, modules=(*program.modules, home))
+
+    def is_signal(self, condition: ir.Expression) -> bool:
+        """A declared name of an input or output, or its negation."""
+        match condition:
+            case ir.Unary(op="not", operand=operand) | ir.Binary(op="=" | "<>", left=operand, right=ir.BoolLiteral()):
+                return self.is_signal(operand)
+            case ir.Name(id=name):
+                found = [
+                    one
+                    for module in self.source.modules
+                    for one in module.declarations
+                    if isinstance(one, ir.SignalDeclaration) and one.name.lower() == name.lower()
+                ]
+                return bool(found) and all(one.signal.kind.startswith("digital") for one in found)
+        return False
 
     def add(self, priority: int, declared: ir.DeclareInterrupt) -> None:
         trap = _Trap(

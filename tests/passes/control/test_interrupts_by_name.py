@@ -1,4 +1,4 @@
-"""Conditions and delayed outputs that name signals and data of their module, where the target looks at them elsewhere."""
+"""Conditions and delayed outputs that name signals and data of their module, where others look at them for it."""
 
 from __future__ import annotations
 
