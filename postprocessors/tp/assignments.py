@@ -201,7 +201,7 @@ def set_output(signal: ir.Signal, value: ir.Expression, expressions: Expressions
     """`DO[1]=ON`, `GO[2]=5`."""
     shown = expressions.signal(signal)
     word = shown.partition("[")[0]
-    if word in ("DO", "RO", "SO", "UO", "WO", "WSO", "F", "M"):
+    if word in ("DO", "RO", "SO", "UO", "WO", "WSO", "F", "M", "SEMAPHORE"):
         return f"{shown}={truth(value, expressions)}"
     if word == "GO" and isinstance(value, ir.Convert) and value.how == "trunc":
         value = value.operand  # the controller cuts the number by itself

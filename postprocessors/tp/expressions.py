@@ -23,7 +23,7 @@ from . import tables
 from .texts import ascii_text, comment, number, register_comment
 
 _ELEMENT = re.compile(r"(?P<bank>R|PR|SR|F|AR|P|TIMER)\[?(?P<number>\d+)\]?", re.IGNORECASE)
-_NAMED = re.compile(r"(?P<kind>[A-Z]{1,3})\[?(?P<number>\d+)\]?", re.IGNORECASE)
+_NAMED = re.compile(r"(?P<kind>[A-Z]{1,9})\[?(?P<number>\d+)\]?", re.IGNORECASE)
 _LAST = 99999
 ACTIVE = {"UFRAME_NUM": "$MNUFRAMENUM[1]", "UTOOL_NUM": "$MNUTOOLNUM[1]"}
 
@@ -338,6 +338,8 @@ class Expressions:
                 operand=ir.Builtin(function="text_equal", arguments=(one, other, ir.BoolLiteral(value=True))),
             ):
                 return f"{self.operand(one)}<>{self.operand(other)}"
+            case ir.Signal(name=str() as name) if name.upper().startswith("SEMAPHORE"):
+                return self.place(term)  # `WAIT SEMAPHORE[1]`
             case _ if self.is_truth(term):
                 return f"{self.place(term)}=ON"
         return None

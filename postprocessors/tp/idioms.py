@@ -112,7 +112,7 @@ class Idioms:
             return 0
         place, value = found
         word = place.base.id.upper() if isinstance(place.base, ir.Name) else ""
-        number = self.printer.expressions.operand(place.indices[0])
+        number = self.printer.expressions.operand(without_trunc(place.indices[0]))
         register = self.printer.assignments.register(value)
         self.printer.line(f"{word}[{number}]={register}", body[0].origin)
         return self.done(body, 2)

@@ -92,7 +92,7 @@ SIGNALS: Final[Mapping[str, str]] = {
 }
 # M: last numbers of the signals.
 LAST_SIGNAL: Final[Mapping[str, int]] = {"DI": 32767, "DO": 32767, "AI": 64, "AO": 64, "GI": 100, "GO": 100, "F": 1024}
-NAMED_SIGNALS: Final = ("RI", "RO", "UI", "UO", "SI", "SO", "WI", "WO", "WSI", "WSO", "M")
+NAMED_SIGNALS: Final = ("RI", "RO", "UI", "UO", "SI", "SO", "WI", "WO", "WSI", "WSO", "M", "SEMAPHORE")
 
 LETTERS: Final[Mapping[str, str]] = {"joint": "J", "linear": "L", "circular": "C"}
 # Components of a position register by their number.

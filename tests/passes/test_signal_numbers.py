@@ -96,3 +96,38 @@ def test_chosen_numbers_keep_off_calculated_ones(target: str) -> None:
     on = {names.pop(): value for names, value in _switched(record_of(run, named)) if len(names) == 1}
     lamps = {f"digital_out:{number}": number != 3 for number in range(1, 19)}
     assert {name: on[name] for name in lamps} == lamps
+
+
+GIVES = """/PROG  GIVES
+/MN
+   1:  SEMAPHORE[1]=OFF ;
+   2:  R[3]=5 ;
+   2:  RUN TAKES ;
+   3:  F[R[3]]=ON ;
+   4:  WAIT    .20(sec) ;
+   5:  SEMAPHORE[1]=ON ;
+   6:  WAIT    .20(sec) ;
+   7:  DO[1]=(R[2]=7) ;
+/POS
+/END
+"""
+TAKES = """/PROG  TAKES
+/MN
+   1:  WAIT SEMAPHORE[1] ;
+   2:  R[2]=7 ;
+/POS
+/END
+"""
+
+
+@pytest.mark.parametrize("target", ["rapid", "rpl", "krl", "tp", "urscript", "vplus", "inform"])
+def test_flags_that_have_a_name_are_data(target: str) -> None:
+    diagnostics = Diagnostics()
+    sources = [source_from_text("GIVES.LS", GIVES), source_from_text("TAKES.LS", TAKES)]
+    read = read_sources(sources, "tp", diagnostics)
+    translation = translate_program(read, target, "fanuc_lrmate200id", None, diagnostics)
+    back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, diagnostics)
+    assert not diagnostics.has_errors
+    entry = translation.renamed.get("GIVES", "GIVES") if target != "rapid" else None
+    run = run_program(back.program, "fanuc_lrmate200id", None, entry, 10.0)
+    assert [each[2] for each in run.outputs] == [True]

@@ -57,3 +57,46 @@ def test_nothing_comes_before_the_robot_stands(behind: str, holds: str) -> None:
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], "krl", Diagnostics())
     result = prove_programs(read.program, back.program, KUKA, entry="main", to_entry=entry_name(back.program))
     assert result.equal, result.as_text()
+
+
+FLAGS = """/PROG  MAIN
+/MN
+   1:  R[1]=0 ;
+   2:  F[1]=OFF ;
+   3:  RUN COUNTS ;
+   4:J P[1] 100% FINE    ;
+   5:L P[2] 50mm/sec FINE    ;
+   6:  F[1]=ON ;
+   7:  WAIT    .10(sec) ;
+   8:  DO[1]=(R[1]>10) ;
+/POS
+P[1]{
+   GP1:
+  UF : 0, UT : 0, CONFIG : 'N U T, 0, 0, 0',
+  X = 400 mm, Y = 0 mm, Z = 100 mm, W = 180 deg, P = 0 deg, R = 0 deg
+};
+P[2]{
+   GP1:
+  UF : 0, UT : 0, CONFIG : 'N U T, 0, 0, 0',
+  X = 400 mm, Y = 100 mm, Z = 100 mm, W = 180 deg, P = 0 deg, R = 0 deg
+};
+/END
+"""
+COUNTS = """/PROG  COUNTS
+/MN
+   1:  LBL[1] ;
+   2:  WAIT    .10(sec) ;
+   3:  R[1]=R[1]+1 ;
+   4:  IF F[1]=OFF,JMP LBL[1] ;
+/POS
+/END
+"""
+
+
+def test_a_flag_for_another_task_waits_for_the_robot() -> None:
+    sources = [source_from_text("MAIN.LS", FLAGS)]
+    read = read_sources([*sources, source_from_text("COUNTS.LS", COUNTS)], "tp", Diagnostics())
+    written = translate_program(read, "krl", "fanuc_lrmate200id", None, Diagnostics())
+    back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], "krl", Diagnostics())
+    result = run_program(back.program, "fanuc_lrmate200id", None, written.renamed.get("MAIN", "MAIN"), 60.0)
+    assert [each[2] for each in result.outputs] == [True]

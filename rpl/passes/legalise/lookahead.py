@@ -86,7 +86,7 @@ def touches(statement: ir.Statement, scope: Scope) -> bool:
         nonlocal found
         match expression:
             case ir.Signal():
-                found = True
+                found = found or not is_flag(expression)
             case ir.System(name=name) if name in ir.SYSTEM_VARIABLES:
                 found = found or ir.SYSTEM_VARIABLES[name].stops_advance
             case ir.Name(id=name):
@@ -97,3 +97,11 @@ def touches(statement: ir.Statement, scope: Scope) -> bool:
 
     each_expression(statement, look)
     return found
+
+
+def is_flag(expression: object) -> bool:
+    """A flag of the controller: it is no signal of the machine."""
+    match expression:
+        case ir.Signal(kind="flag") | ir.System(name="flag" | "cyclic_flag"):
+            return True
+    return False

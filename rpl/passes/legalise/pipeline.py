@@ -45,7 +45,7 @@ from rpl.passes.legalise.errorroutines import error_routines
 from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.explicit import explicit_to_modal
 from rpl.passes.legalise.fewaxes import axes_of_arm
-from rpl.passes.legalise.flagdata import flags_as_data
+from rpl.passes.legalise.flagdata import flags_as_data, named_flags
 from rpl.passes.legalise.flagreadings import flag_readings
 from rpl.passes.legalise.flatrecords import flat_records
 from rpl.passes.legalise.functions import functions_to_procedures
@@ -174,6 +174,7 @@ PASSES: tuple[Pass, ...] = (
     same_units,
     shared_task_data,
     cyclic_flags,
+    named_flags,
     task_names,
     started_tasks,
     task_states,

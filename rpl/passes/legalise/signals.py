@@ -232,7 +232,7 @@ def _computed(program: ir.Program) -> frozenset[str]:
     return frozenset(
         node.kind
         for node in walk(*routines)
-        if isinstance(node, ir.Signal) and node.index is not None and node.last is None and not _constant(node.index)
+        if isinstance(node, ir.Signal) and node.last is None and not isinstance(node.index, ir.IntLiteral | None)
     )
 
 

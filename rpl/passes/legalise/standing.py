@@ -13,12 +13,13 @@ from dataclasses import dataclass, replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
-from rpl.passes.legalise.lookahead import touches
+from rpl.passes.legalise.lookahead import is_flag, touches
 from rpl.passes.legalise.usage import base_name, bodies, each_expression, each_statement
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 
 _TIMED = frozenset(("timer", "timer_stopped", "timer_positive"))
+_FLAGS = "a flag"  # in the place of a variable's name
 _MOVES = (ir.Move, ir.MoveExternal, ir.Spline)
 
 
@@ -75,7 +76,7 @@ class _Facts:
             for routine in routines.values()
             for node in walk(*bodies(routine))
             if isinstance(node, ir.DeclareInterrupt | ir.Trigger) and isinstance(node.action, ir.Assign)
-            for name in (base_name(node.action.target),)
+            for name in (_base(node.action.target),)
             if name is not None
         }
         read = frozenset(name for one in beside for name in _looked_at(routines[one]))
@@ -91,13 +92,15 @@ class _Facts:
                 return True
             case ir.CallRoutine(name=name) if name.lower() in self.watchful:
                 return True
-            case ir.Assign(target=target) if (base_name(target) or "").lower() in self.read:
+            case ir.Assign(target=target) if (_base(target) or "").lower() in self.read:
                 return True
         found = False
 
         def look(expression: ir.Expression) -> None:
             nonlocal found
             match expression:
+                case _ if is_flag(expression):
+                    found = found or _FLAGS in self.changed
                 case ir.Name(id=name):
                     found = found or name.lower() in self.changed
                 case ir.System(name=name):
@@ -181,13 +184,18 @@ def _called(routine: ir.Routine) -> set[str]:
     return {n.name.lower() for n in walk(*bodies(routine)) if isinstance(n, ir.CallRoutine | ir.Call)}
 
 
+def _base(target: ir.Expression) -> str | None:
+    """The variable that is assigned; all flags of the controller count as one."""
+    return _FLAGS if is_flag(target) else base_name(target)
+
+
 def _assigned(routine: ir.Routine) -> set[str]:
     own = {d.name.lower() for d in routine.declarations if isinstance(d, ir.Variable)}
     names = set()
     for node in walk(*bodies(routine)):
         match node:
             case ir.Assign(target=target):
-                names.add(base_name(target))
+                names.add(_base(target))
             case ir.Do(arguments=arguments):
                 names |= {base_name(one) for one in arguments if one is not None}
     return {name.lower() for name in names if name is not None} - own
@@ -200,6 +208,8 @@ def _looked_at(routine: ir.Routine) -> set[str]:
     names: set[str] = set()
 
     def look(expression: ir.Expression) -> None:
+        if is_flag(expression):
+            names.add(_FLAGS)
         if isinstance(expression, ir.Name):
             names.add(expression.id.lower())
 
