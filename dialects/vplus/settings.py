@@ -159,7 +159,7 @@ class Settings(Motion):
                 tree = given.operands[0] if given.operands else None
                 return ir.OnError(self.routine_named(tree) if tree is not None else None, origin=origin)
             case "ignore":
-                return ir.ControlInterrupt("delete", self.needed(given, 0, "a signal"), origin=origin)
+                return ir.ControlInterrupt("delete", handle(self.needed(given, 0, "a signal")), origin=origin)
             case "lock":
                 level = self.operand(given, 0) or ir.IntLiteral(0)
                 return ir.ControlInterrupt("mask", urgency(level, origin), origin=origin)
@@ -210,12 +210,12 @@ class Settings(Motion):
             urgency(priority, origin),
             signals.reading([number], self.facts, origin),
             ir.CallRoutine(self.routine_named(tree), origin=origin),
-            identity=number,
+            identity=handle(number),
             everywhere=True,
             stops=given.word == "reacti",
             origin=origin,
         )
-        return declared, ir.ControlInterrupt("on", number, origin=origin)
+        return declared, ir.ControlInterrupt("on", handle(number), origin=origin)
 
     # ---- signals, switches, the rest
 
@@ -371,6 +371,14 @@ def scaled(value: ir.Expression, factor: float, origin: Origin) -> ir.Expression
 def share(percent: ir.Expression, full: float, origin: Origin) -> ir.Expression:
     """A percentage of a full speed."""
     return scaled(percent, full / 100.0, origin)
+
+
+def handle(signal: ir.Expression) -> ir.Expression:
+    """The signal that a reaction goes by; one with a minus (from on to off) is a known number too."""
+    match signal:
+        case ir.Unary(op="-", operand=ir.IntLiteral(value=number)):
+            return ir.IntLiteral(-number, origin=signal.origin)
+    return signal
 
 
 def urgency(priority: ir.Expression, origin: Origin) -> ir.Expression:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from vplus_helpers import as_rpl, program_of, read, reported, steps, variable
 
@@ -261,3 +263,38 @@ def test_a_name_that_is_worked_out_in_the_call(call: str, target: str) -> None:
     back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, Diagnostics())
     result = run_program(back.program, "adept_viper_s650", None, translation.renamed.get("main", "main"))
     assert result.status == "finished" and len(result.outputs) == 1
+
+
+@pytest.mark.parametrize("target", ["krl", "rapid", "tp", "inform", "urscript", "vplus", "rpl"])
+def test_stored_data_beside_a_task_of_its_own(target: str) -> None:
+    """RAPID calls the first routine of every task `main`: the values are still set by the program's own."""
+    text = """.PROGRAM main()
+EXECUTE 2 side()
+$new[3] = $names[1]+$names[2]
+IF ($new[3] == "onetwo") AND (w[1]+w[2] == 3) THEN
+SIGNAL 1
+END
+WAIT SIG(2001)
+SIGNAL 2
+.END
+.PROGRAM side()
+n = w[1]
+SIGNAL 2001
+.END
+.STRINGS
+$names[1]  "one"
+$names[2]  "two"
+.END
+.REALS
+w[1] 1
+w[2] 2
+.END
+"""
+    source = read_sources([source_from_text("main.v2", text)], "vplus", Diagnostics())
+    translation = translate_program(source, target, "adept_viper_s650", None, Diagnostics())
+    back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, Diagnostics())
+    result = run_program(back.program, "adept_viper_s650", None, translation.renamed.get("main", "main"))
+    named = {
+        re.sub(r"\D", "", name) for _, name, value in result.outputs if value and not name.startswith(("F[", "200"))
+    }
+    assert result.status == "finished" and len(named & {"0", "1", "2"}) == 2, result.outputs

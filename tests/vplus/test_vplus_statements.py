@@ -140,7 +140,7 @@ SIGNALS: list[tuple[str, list[str]]] = [
     ),
     (
         "REACTI -1002, alarm()",
-        ["DECLARE INTERRUPT 127 EVERYWHERE BRAKING NAMED -1002 WHEN NOT di[2] DO alarm()", "INTERRUPT ON -1002"],
+        ["DECLARE INTERRUPT 127 EVERYWHERE BRAKING NAMED (-1002) WHEN NOT di[2] DO alarm()", "INTERRUPT ON (-1002)"],
     ),
     ("REACTE alarm", ["TRAP ERRORS WITH alarm"]),
     ("REACTE", ["TRAP ERRORS OFF"]),

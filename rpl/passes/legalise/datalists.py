@@ -130,6 +130,8 @@ def moving_entries(program: ir.Program) -> set[str]:
     no other task runs."""
     beside, others = _background(program), routines_beside(program)
     foreground = replace(program, modules=tuple(one for one in program.modules if one.name not in beside))
+    # A routine of a background module may have the name of one of the foreground (`main` of each of RAPID's tasks).
+    others -= {one.name.lower() for module in program.modules if module.name in beside for one in module.routines}
     entry = {program.entry.lower()} if program.entry else set()
     return entry | never_called(foreground) - started_tasks(program) - others
 
