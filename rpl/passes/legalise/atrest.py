@@ -24,15 +24,16 @@ _MOVING = ir.System("moving")
 
 
 def at_rest(program: ir.Program, context: Context) -> ir.Program:
-    """Only for sources whose moves without a corner have ended before the next statement, and without interrupts."""
+    """Only for sources whose moves without a corner have ended before the next statement, and where interrupts and
+    actions on the way do not move the robot; their routines stay as they are."""
     if rules_of(context.source).advance.runs_ahead_of != "fly_by" or program.tasks:
         return program
     nodes = list(walk(*program.modules))
     if not any(isinstance(n, ir.StopMotion) or n == _MOVING for n in nodes):
         return program
-    if any(isinstance(n, _INTERRUPTS) for n in nodes):
-        return program
     worker = _AtRest(Facts(program))
+    if not worker.beside([n for n in nodes if isinstance(n, _INTERRUPTS)]):
+        return program
     modules = tuple(
         changed(module, routines=tuple(worker.routine(one) for one in module.routines)) for module in program.modules
     )
@@ -44,12 +45,25 @@ class _AtRest:
         self.facts = facts
         self.moves = {name: [n for n in walk(one) if isinstance(n, _MOTION)] for name, one in facts.routines.items()}
         self.rests = False
+        self.interrupting: set[str] = set()  # routines that run while others move the robot
+
+    def beside(self, interrupts: Sequence[object]) -> bool:
+        """Do interrupts and triggers leave the robot where it is?"""
+        names = {n.name.lower() for one in interrupts for n in walk(one) if isinstance(n, ir.CallRoutine | ir.Call)}
+        for one in interrupts:
+            if isinstance(one, ir.OnError):
+                return False
+            if isinstance(one, ir.ConnectInterrupt):
+                names.add(one.routine.lower())
+        self.interrupting = self.facts.closure(names & set(self.moves)) | names
+        moving = any(isinstance(n, _MOTION) for one in interrupts for n in walk(one))
+        return not moving and not any(self.moves.get(name) for name in self.interrupting)
 
     def routine(self, routine: ir.Routine) -> ir.Routine:
         """The routine, where it runs in one task only and no other one moves the robot."""
         name = routine.name.lower()
         homes = [task for task, names in self.facts.tasks.items() if name in names]
-        if len(homes) != 1:
+        if len(homes) != 1 or name in self.interrupting:
             return routine
         others = set[str]().union(*(names for task, names in self.facts.tasks.items() if task != homes[0]))
         if any(self.moves[one] for one in others):
