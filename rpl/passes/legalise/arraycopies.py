@@ -14,7 +14,7 @@ def array_copy(
     target: ir.Expression, value: ir.Expression, type: ir.Type, bases: tuple[int, int], origin: Origin = NOWHERE
 ) -> tuple[ir.Assign, ...]:
     """The assignments that copy an array of that type; one of the whole where its size is not known or too large.
-    `bases`: where the indices of the target and of the value begin. A row of a larger array has some indices already."""
+    `bases`: where the indices of the target and the value begin. A row of a larger array has some indices already."""
     whole = (ir.Assign(target, value, origin=origin),)
     if not isinstance(type, ir.ArrayType) or not isinstance(value, ir.Name | ir.Index):
         return whole

@@ -38,7 +38,9 @@ class Editor:
         self.own: set[str] = set()
 
     def temporary(self, stem: str, type: ir.Type) -> ir.Name:
-        """A new variable of the routine."""
+        """A new variable of the routine. A character is a text where the target has no type of characters."""
+        if isinstance(type, ir.CharType) and "CharType" not in self.capabilities.types:
+            type = ir.StringType()
         variable = ir.Variable(self.context.fresh(stem), type, scope="routine")
         self.added.append(variable)
         self.own.add(variable.name.lower())

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.legalise.arraycopies import array_copy
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.effects import everything
 from rpl.passes.legalise.support import with_support
@@ -112,6 +113,8 @@ class _Flat(Rewriter):
         super().__init__(program, context)
         self.made = Made()
         self.parts: dict[int, dict[Path, ir.Expression]] = {}
+        self.bases: dict[str, int] = {}  # where the indices of arrays of components begin
+        self.behind: list[ir.Statement] = []  # what gives rows back behind a call
 
     # ---- names
 
@@ -238,7 +241,7 @@ class _Flat(Rewriter):
         name = ir.Name(self.name(place.declaration, (*place.path, *path)))
         if not place.indices:
             return name
-        first = place.indices[0][1]
+        first = self.bases[name.id] = place.indices[0][1]
         return ir.Index(name, tuple(_plus(self.expression(index), first - base) for index, base in place.indices))
 
     def values(self, expression: ir.Expression, type: ir.Type) -> list[ir.Expression] | None:
@@ -266,9 +269,20 @@ class _Flat(Rewriter):
         others: tuple[ir.Expression, ...] = tuple(ir.Name(name) for name in names)
         for leaf, value in zip(leaves, (done, *others), strict=False):
             copy = self.temporary(self.type(leaf.type), "part")
-            self.before.append(ir.Assign(copy, value))
+            self.before.extend(self.copy(copy, value, leaf.type))
             copies.append(copy)
         return copies
+
+    def copy(self, target: ir.Expression, value: ir.Expression, type: ir.Type) -> tuple[ir.Assign, ...]:
+        """A component; an array element by element."""
+        base = type.base if isinstance(type, ir.ArrayType) else 0
+        return array_copy(target, value, type, (self.first(target, base), self.first(value, base)))
+
+    def first(self, place: ir.Expression, base: int) -> int:
+        """Where the indices of an array begin; those of a row begin as the whole array's."""
+        if not isinstance(place, ir.Index) or not isinstance(place.base, ir.Name):
+            return base
+        return self.bases.get(place.base.id, base)
 
     # ---- expressions and statements
 
@@ -323,13 +337,25 @@ class _Flat(Rewriter):
             parts = None
             if wanted is not None and argument.value is not None and leaves_of(wanted, self.scope) is not None:
                 parts = self.values(argument.value, wanted)
-            if parts is not None:
-                done.extend(map(ir.Argument, parts))
+            if parts is not None and wanted is not None and routine is not None:
+                leaves = leaves_of(wanted, self.scope) or ()
+                by_reference = routine.parameters[at].mode == "reference"
+                done.extend(self.row(part, leaf, by_reference) for part, leaf in zip(parts, leaves, strict=True))
             elif argument.value is None:
                 done.append(argument)
             else:
                 done.append(replace(argument, value=self.expression(argument.value)))
         return tuple(done)
+
+    def row(self, part: ir.Expression, leaf: Leaf, by_reference: bool) -> ir.Argument:
+        """A component as an argument; a row of an array goes by way of a copy."""
+        if not isinstance(leaf.type, ir.ArrayType) or not isinstance(part, ir.Index):
+            return ir.Argument(part)
+        copy = self.temporary(self.type(leaf.type), "row")
+        self.before.extend(self.copy(copy, part, leaf.type))
+        if by_reference:
+            self.behind.extend(self.copy(part, copy, leaf.type))
+        return ir.Argument(copy)
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
         self.parts = {}
@@ -339,7 +365,10 @@ class _Flat(Rewriter):
                 if place is not None and leaves_of(place.type, self.scope) is not None:
                     return self.assigned(statement, place, value)
             case ir.CallRoutine(name=name, arguments=arguments, dynamic=None):
-                return [replace(statement, arguments=self.arguments(name, arguments))]
+                outer, self.behind = self.behind, []
+                call = replace(statement, arguments=self.arguments(name, arguments))
+                given_back, self.behind = self.behind, outer
+                return [call, *given_back]
             case ir.Return(value=value) if value is not None and self.scope.routine_here is not None:
                 return self.returned(statement, value, self.scope.routine_here)
         return super().statement(statement)
@@ -353,7 +382,8 @@ class _Flat(Rewriter):
             self.context.diagnostics.report(WHOLE_RECORD, statement.origin)
             return [statement]
         names = self.results(routine, leaves)
-        stored: list[ir.Statement] = [ir.Assign(ir.Name(n), part) for n, part in zip(names, parts[1:], strict=True)]
+        others = zip(names, parts[1:], leaves[1:], strict=True)
+        stored = [one for n, part, leaf in others for one in self.copy(ir.Name(n), part, leaf.type)]
         return [*stored, replace(statement, value=parts[0])]
 
     def assigned(self, statement: ir.Assign, place: Place, value: ir.Expression) -> list[ir.Statement]:
@@ -376,9 +406,10 @@ class _Flat(Rewriter):
         if len(pairs) > 1 and isinstance(value, ir.Aggregate) and any(_reads(part, own) for _, part in pairs):
             for at, (leaf, part) in enumerate(pairs):
                 copy = self.temporary(self.type(leaf.type), "part")
-                done.append(ir.Assign(copy, part))
+                done.extend(self.copy(copy, part, leaf.type))
                 pairs[at] = (leaf, copy)
-        done.extend(ir.Assign(self.leaf(place, leaf.path), part) for leaf, part in pairs)
+        for leaf, part in pairs:
+            done.extend(self.copy(self.leaf(place, leaf.path), part, leaf.type))
         return done or [ir.Nothing(origin=statement.origin)]
 
 
