@@ -14,7 +14,7 @@ from rpl.passes.rewrite import rewrite_parts
 
 _SETTINGS = frozenset(("tool", "base", "robot_root"))
 _WHOLE = 6  # components of a whole place
-_QUIET = (ir.Assign, ir.WaitForMotion, ir.Nothing)
+_QUIET = (ir.Assign, ir.WaitForMotion, ir.Nothing, ir.Wait, ir.WaitUntil)
 
 
 def destinations(program: ir.Program, context: Context) -> ir.Program:
@@ -77,7 +77,7 @@ class _Destinations(Rewriter):
             case ir.Assign(target=target) if self.last is not None:
                 changed, used = base_name(target), _names(self.last)
                 return None if changed in used or assigned_in((statement,)) & used else self.last
-            case ir.WaitForMotion() | ir.Nothing():
+            case ir.WaitForMotion() | ir.Nothing() | ir.Wait() | ir.WaitUntil(timed_out=None):
                 return self.last
         return None
 

@@ -43,6 +43,8 @@ def written(text: str, name: str, dialect: str, target: str, robot: str) -> tupl
         ("        SIGNAL 2", True),
         ("        BREAK", True),
         ("        n = 5", True),
+        ("        WAIT SIG(1001)\n        WAIT.EVENT , 0.2", True),
+        ("        WAIT DISTANCE(HERE,DEST) < 50\n        SIGNAL 2", True),
         ("        SET there = SHIFT(there BY 10)", False),
         ("        SPEED 50\n        MOVE there\n        BREAK", True),
         ("        TOOL TRANS(0,0,50)", False),
