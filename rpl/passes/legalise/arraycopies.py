@@ -16,6 +16,11 @@ def array_copy(
     """The assignments that copy an array of that type; one of the whole where its size is not known or too large.
     `bases`: where the indices of the target and the value begin. A row of a larger array has some indices already."""
     whole = (ir.Assign(target, value, origin=origin),)
+    if isinstance(type, ir.ArrayType) and isinstance(value, ir.Aggregate) and isinstance(target, ir.Index):
+        if len(type.dimensions) > 1 or any(name is not None for name, _ in value.entries):
+            return whole
+        parts = enumerate(one for _, one in value.entries)
+        return tuple(ir.Assign(_element(target, (at,), bases[0]), one, origin=origin) for at, one in parts)
     if not isinstance(type, ir.ArrayType) or not isinstance(value, ir.Name | ir.Index):
         return whole
     bounds = [one.value for one in type.dimensions if isinstance(one, ir.IntLiteral)]
