@@ -92,6 +92,19 @@ CASES: list[tuple[str, str, str, frozenset[str]]] = [
         "sort short; sort long; IF short{1}=1 AND short{3}=3 AND long{1}=5 AND long{2}=6 AND long{5}=9 SetDO do1,1;",
         frozenset(("urscript",)),  # by reference, of several sizes
     ),
+    (
+        "where the robot is, with the tool or the frame in use left out",
+        """PERS tooldata tProbe:=[TRUE,[[0,0,110],[1,0,0,0]],[0.8,[0,0,50],[1,0,0,0],0,0,0]];
+        PERS tooldata tOther:=[TRUE,[[0,20,90],[1,0,0,0]],[0.8,[0,0,50],[1,0,0,0],0,0,0]];
+        PERS wobjdata wFix:=[FALSE,TRUE,"",[[480,-120,220],[0.965925826,0,0,0.258819045]],[[10,20,0],[1,0,0,0]]];
+        CONST robtarget pSeat:=[[40,30,60],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+        """,
+        """ConfJ\\Off; MoveJ p1,v500,fine,tProbe; ok:=Distance(CPos(\\Tool:=tProbe),p1.trans)<0.1;
+        MoveJ pSeat,v500,fine,tProbe\\WObj:=wFix; here:=CRobT(\\Tool:=tProbe);
+        ok:=ok AND Distance(here.trans,pSeat.trans)<0.1; at:=CPos(\\WObj:=wobj0); ok:=ok AND Abs(at.z-280)<0.1;
+        at:=CPos(\\Tool:=tOther); IF ok AND Abs(at.z-80)<0.1 SetDO do1,1;""",
+        frozenset(),
+    ),
 ]
 
 

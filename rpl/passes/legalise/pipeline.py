@@ -112,6 +112,7 @@ from rpl.passes.legalise.sameunits import same_units
 from rpl.passes.legalise.scaledspeeds import scaled_override
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
+from rpl.passes.legalise.seenhalf import seen_half
 from rpl.passes.legalise.seenjoints import seen_joints
 from rpl.passes.legalise.seenplaces import posed_places, seen_places
 from rpl.passes.legalise.settingparts import whole_settings
@@ -169,6 +170,7 @@ PASSES: tuple[Pass, ...] = (
     drop_untyped,
     axes_of_arm,
     copied_flags,
+    seen_half,
     step_times,
     load_readings,
     same_units,
