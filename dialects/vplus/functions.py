@@ -138,12 +138,26 @@ class Functions(Expressions):
                 return self.built("distance", self.position(one), self.position(two))
             case "frame", [one, two, three, origin] if one and two and three and origin:
                 return self.frame(one, two, three, origin)
+            case "identical", [ir.Name() | ir.Index() as one, ir.Name() | ir.Index() as two]:
+                if "#" not in (root_name(one) or "#")[:1] + (root_name(two) or "#")[:1]:
+                    return self.identical(one, two)
             case "normal", [place] if place is not None:
                 return self.built("pose_of", place)
             case "inrange", [place] if place is not None:  # M: 0 in reach; which bits say why not is not imitated
                 reached = self.built("is_reachable", place, self.built("current_joints"))
                 return ir.Convert("minus_bit", ir.Unary("not", reached, origin=self.origin), origin=self.origin)
         return None
+
+    def identical(self, one: ir.Expression, two: ir.Expression) -> ir.Expression:
+        """Are all numbers of two transformations the same?"""
+        parts = [
+            ir.Binary("=", ir.Field(one, part), ir.Field(two, part), origin=self.origin)
+            for part in ("x", "y", "z", *"abc")
+        ]
+        done: ir.Expression = parts[0]
+        for part in parts[1:]:
+            done = ir.Binary("and", done, part, origin=self.origin)
+        return done
 
     def position(self, place: ir.Expression) -> ir.Expression:
         return ir.Field(place, "trans", origin=self.origin)
@@ -258,6 +272,10 @@ class Functions(Expressions):
             case "outside", [low, test, high]:
                 below, above = ir.Binary("<", test, low, origin=origin), ir.Binary(">", test, high, origin=origin)
                 return ir.Binary("or", below, above, origin=origin)
+            case "bcd", [value]:  # four decimal digits, each in four bits
+                return self.with_digits(value, 10, 6)
+            case "dcb", [value]:
+                return self.with_digits(value, 16, -6)
             case "bmask", [_, *_]:
                 bits = [self.built("bit_shift_left", ir.IntLiteral(1), signals.less(bit, 1)) for bit in given]
                 mask: ir.Expression = bits[0]
@@ -265,6 +283,18 @@ class Functions(Expressions):
                     mask = ir.Binary("bor", mask, bit, origin=origin)
                 return mask
         return None
+
+    def with_digits(self, value: ir.Expression, base: int, step: int) -> ir.Expression:
+        """The number whose digits (in `base`) stand in the other base, up to four: 6 more (or less) for each carry."""
+        origin, done, weight = self.origin, value, step
+        for power in (1, 2, 3):
+            higher = self.built("trunc", ir.Binary("/", value, ir.IntLiteral(base**power), origin=origin))
+            sign, weight = ("+", weight) if step > 0 else ("-", weight)
+            done = ir.Binary(
+                sign, done, ir.Binary("*", ir.IntLiteral(abs(weight)), higher, origin=origin), origin=origin
+            )
+            weight *= 26 - base
+        return done
 
     # ---- text of a tree
 

@@ -24,6 +24,7 @@ from .functions import joints_of, transformation
 from .inference import Symbol, Symbols, element_type, infer
 from .later import outputs_later
 from .quick import facts_of
+from .resets import resets_as_outputs
 from .resolve import Resolver
 from .settings import Settings
 from .split import SHAPE, Outline, split
@@ -73,7 +74,7 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     }
     finish = _Finish(symbols, lowering, kinds, modes.by_value(programs, symbols))
     modules = tuple(finish.module(file, homes.get(position, [])) for position, file in enumerate(files))
-    return ReadResult(ir.Program(outputs_later(modules)), tuple(reports))
+    return ReadResult(ir.Program(resets_as_outputs(outputs_later(modules), diagnostics)), tuple(reports))
 
 
 def _sorted(

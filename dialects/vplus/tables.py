@@ -82,7 +82,7 @@ TASK_STATE, TASK_EXECUTING = 1, 4
 # Functions whose value only the controller knows; a run stops there unless the cell file gives the value.
 CONTROLLER_VALUES: dict[str, ir.Type] = {
     **dict.fromkeys(
-        """bcd bstatus belt config dblb dcb device error fltb force.read get.event getc getevent id identical int.event
+        """bstatus belt config dblb device error fltb force.read get.event getc getevent id identical int.event
         intb iostat last latched lngb parameter pendant priority sig.ins solve.angles solve.flags speed state strdif
         switch tas task time transb vfeature vlocate vparameter vresult vstate window
         """.split(),  # noqa: SIM905 (a word list reads better)
