@@ -148,6 +148,10 @@ class Control(Motion):
     def for_block(self, nest: Nest, origin: Origin) -> ir.Statement:
         """FOR I000=0 TO 9 [STEP n]. M: behind the loop the counter holds the first value past the end."""
         relation, *rest = nest.head.items or (None,)
+        match rest:  # newer controllers: FOR I000 START=1 TO 9 STEP=2
+            case [Relation(left=Word(text="START"), op="=", right=first), *others] if relation is not None:
+                relation = Relation(relation, "=", first)
+                rest = [one.right if isinstance(one, Relation) else one for one in others]
         numbers = [item for item in rest if not isinstance(item, Word)]
         if not isinstance(relation, Relation) or not numbers:
             raise StatementError("FOR needs a variable, its first and its last value", 0)
@@ -305,7 +309,10 @@ class Control(Motion):
 
     def on_dout(self, command: Command) -> Statements:
         signal, value = self.needs(command, 2)[:2]
-        place, given = self.value(signal), self.value(value)
+        place = self.value(signal)
+        if value == Word("INVERT") and is_digital(place):
+            return (ir.Assign(place, ir.Unary("not", place, origin=self.origin), origin=self.origin),)
+        given = self.value(value)
         if not isinstance(place, ir.Signal):
             return (ir.Vendor("inform", code_of(self.origin.text), "unknown", origin=self.origin),)
         if is_digital(place) and not isinstance(given, ir.BoolLiteral):
@@ -328,7 +335,28 @@ class Control(Motion):
         for tag, relation in tags_of(command.items):
             if tag == "T":
                 time = self.seconds(relation.right)
+        if isinstance(signal, ir.Signal) and signal.last is not None:
+            return self.pulses(signal, command.items[1:], time)
         return (ir.Pulse(signal, ir.BoolLiteral(True), time, origin=self.origin),)
+
+    def pulses(self, group: ir.Signal, rest: tuple[Operand, ...], time: ir.Expression) -> Statements:
+        """`PULSE OG#(3) B000`: of those outputs of the group whose bits are set."""
+        if not rest or isinstance(rest[0], Relation):
+            raise StatementError("PULSE of a group needs a number for its outputs", 0)
+        if not isinstance(group.index, ir.IntLiteral) or not isinstance(group.last, ir.IntLiteral):
+            raise StatementError("PULSE is read for a group with a constant number", 0)
+        number = self.value(rest[0])
+        done: list[ir.Statement] = []
+        for place, index in enumerate(range(group.index.value, group.last.value + 1)):
+            one = ir.Signal("digital_out", ir.IntLiteral(index), origin=self.origin)
+            pulse = ir.Pulse(one, ir.BoolLiteral(True), time, origin=self.origin)
+            if isinstance(number, ir.IntLiteral):
+                done += [pulse] if number.value >> place & 1 else []
+                continue
+            cut = ir.Binary("div", number, ir.IntLiteral(2**place), origin=self.origin) if place else number
+            wanted = self.lowest_bit(cut)
+            done.append(ir.If(((wanted, (pulse,)),), origin=self.origin))
+        return tuple(done)
 
     def on_timer(self, command: Command) -> Statements:
         for tag, relation in tags_of(command.items):

@@ -146,6 +146,8 @@ class Data(Operands):
             return (ir.Vendor("inform", "CLEAR", "none", origin=self.origin),)
         count = command.items[1] if len(command.items) > 1 else ir.IntLiteral(1)
         number = first.indices[0]
+        if count == Word("ALL") and isinstance(number, ir.IntLiteral):
+            count = ir.IntLiteral(max(tables.LAST_VARIABLE - number.value + 1, 1))
         if not isinstance(count, ir.IntLiteral) or not isinstance(number, ir.IntLiteral) or count.value > 100:
             raise StatementError("CLEAR is read with a number of variables up to 100", 0)
         done: list[ir.Statement] = []
@@ -398,7 +400,10 @@ class Data(Operands):
         return pose
 
     def on_mframe(self, command: Command) -> Statements:
-        """MFRAME UF#(n) origin x-axis xy-plane."""
+        """MFRAME UF#(n) origin x-axis xy-plane; newer controllers: MFRAME UF#(n) P BF, the place itself."""
+        match command.items:
+            case (Numbered() as known, origin, Word()) if self.is_position(origin):
+                return (ir.Assign(self.numbered_pose(known), self.in_base(origin), origin=self.origin),)
         target, *points = self.needs(command, 4)[:4]
         vectors = [ir.Field(self.in_base(point), "trans", origin=self.origin) for point in points]
         frame = self.call("frame_from_points", *vectors)

@@ -19,7 +19,7 @@ from .jobs import Frame, Job
 from .kinds import JOINTS, SHIFTED, TARGET, Flow, Kind, frame_of
 from .operands import Shared, plain_bank, tags_of
 from .points import Points
-from .syntax import Command, Joined, Numbered, Operand, Relation, Word
+from .syntax import Command, Joined, LabelName, Numbered, Operand, Relation, Word
 
 COORDINATED = code(
     "inform-coordinated",
@@ -42,6 +42,14 @@ class _Segment:
     word: str
     positions: list[ir.Index] = field(default_factory=list)
     others: list[Operand] = field(default_factory=list)
+
+
+_SEARCHES = (
+    ("UNTIL", tables.UNTIL_MET),
+    ("SRCH", tables.SEARCH_FOUND),
+    ("NSRCH", tables.SEARCH_FOUND),  # M: the place is kept, the move goes on to its end
+)
+_UNDERSTOOD = frozenset(("NWAIT", "UNTIL", "SRCH", "NSRCH", "ENWAIT"))
 
 
 class Motion(Data):
@@ -130,7 +138,7 @@ class Motion(Data):
             frame=frame,
             speed=speed,
             acceleration=acceleration,
-            blend=ir.BlendStop() if search is not None else blend,
+            blend=ir.BlendStop() if search is not None and search.stop != "none" else blend,
             search=search,
             settings=settings,
             concurrent=Word("NWAIT") in main.others,
@@ -216,7 +224,7 @@ class Motion(Data):
 
     def search(self, main: _Segment) -> ir.Search | None:
         """UNTIL stops the move by a condition; SRCH also keeps the place. M: both stop on the path."""
-        for word, hit in (("UNTIL", tables.UNTIL_MET), ("SRCH", tables.SEARCH_FOUND)):
+        for word, hit in _SEARCHES:
             if Word(word) not in main.others:
                 continue
             at = main.others.index(Word(word))
@@ -226,12 +234,13 @@ class Motion(Data):
             condition = self.comparison(relation)
             self.shared.used.scalar(hit, ir.BoolType(), self.origin)
             found: ir.Expression | None = None
-            if word == "SRCH":
+            if word != "UNTIL":
                 self.shared.used.scalar(tables.SEARCH_PLACE, ir.TargetType("inform"), self.origin)
                 found = ir.Name(tables.SEARCH_PLACE, origin=self.origin)
                 if any(tag in ("T", "DIS") for tag, _ in tags_of(tuple(main.others[at + 2 :]))):
                     self.report_once(OVERRUN, "overrun")
-            return ir.Search(condition, found, "path", "rising", ir.Name(hit, origin=self.origin))
+            stop = "none" if word == "NSRCH" else "path"
+            return ir.Search(condition, found, stop, "rising", ir.Name(hit, origin=self.origin))
         return None
 
     def before_the_end(self, main: _Segment) -> Early:
@@ -246,7 +255,7 @@ class Motion(Data):
 
     def check(self, main: _Segment) -> None:
         """Nothing at a move is dropped in silence."""
-        searching = any(Word(word) in main.others for word in ("SRCH", "UNTIL", "ENWAIT"))
+        searching = any(Word(word) in main.others for word in ("SRCH", "NSRCH", "UNTIL", "ENWAIT"))
         for item in main.others:
             match item:
                 case Relation(left=Word(text=tag)):
@@ -255,10 +264,14 @@ class Motion(Data):
                         self.report_once(UNKNOWN_TAG, f"tag {tag}", tag=f"{tag}=")
                 case Relation() if searching:
                     continue
-                case Word(text=text) if text in ("NWAIT", "UNTIL", "SRCH", "ENWAIT") or text in tables.PLAIN_MOVE_WORDS:
+                case Word(text=text) if text in _UNDERSTOOD or text in tables.PLAIN_MOVE_WORDS:
                     continue
-                case Word() | Numbered() if frame_of(item) is not None:
+                case Word() | Numbered() if frame_of(item) is not None and main.word.endswith("IMOV"):
                     continue
+                case LabelName(name=name) if Word("TRAP") in main.others:
+                    self.report_once(UNKNOWN_TAG, f"trap {name}", tag=f"*{name}")
+                case Numbered(word=word):
+                    self.report_once(UNKNOWN_TAG, f"tag {word}", tag=f"{word}#")
                 case Word(text=text):
                     self.report_once(UNKNOWN_TAG, f"tag {text}", tag=text)
                 case _:

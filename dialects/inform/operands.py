@@ -150,7 +150,7 @@ class Operands:
         suffix = self.suffix(index, form) if kind == "P" else ""
         if bank in self.flow.indirect or not isinstance(number, ir.IntLiteral):
             last = number.value if isinstance(number, ir.IntLiteral) else 0
-            used.array(bank + suffix, type, max(last, LAST_INDEX.get(kind, 99)), index.origin)
+            used.array(bank + suffix, type, max(last, LAST_INDEX.get(kind, tables.LAST_VARIABLE)), index.origin)
             place = self.final(number)
             return ir.Index(ir.Name(bank + suffix, origin=index.origin), (place,), origin=index.origin)
         name = f"{bank}{number.value:03d}{suffix}"

@@ -16,6 +16,7 @@ MM_PER_COUNT = 0.001
 DEG_PER_COUNT = 0.0001
 # M: a speed, time or blend that stands in a variable counts in these parts of its unit.
 VARIABLE_UNITS = {"V": 0.1, "VR": 0.1, "VJ": 0.01, "VE": 0.01, "T": 0.01, "CR": 0.1, "DIS": 0.1, "ACC": 1.0, "DEC": 1.0}
+LAST_VARIABLE = 99  # M: of B, I, D, R and S as delivered
 PULSE_S = 0.3  # M: PULSE without a time
 # M: a speed in V= is mm/s (a parameter can make it cm/min, inch/min or mm/min).
 PATH_UNIT = "mm/s"
