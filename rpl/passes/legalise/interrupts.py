@@ -113,10 +113,10 @@ class _Traps:
             if (
                 priority is not None
                 and priority not in self.traps
-                and (_watchable(one.condition) or self.is_signal(one.condition))
+                and (_watchable(one.condition) or self.is_signal(one.condition) or self.looked_at(one.condition))
             ):
                 self.add(priority, one)
-        program = _map_bodies(self.source, self.body)
+        program = self.lasting(_map_bodies(self.source, self.body))
         declarations = tuple(
             ir.Variable(trap.handle, ir.InterruptType(), scope="global") for trap in self.traps.values()
         )
@@ -144,6 +144,45 @@ class _Traps:
                 return bool(found) and all(one.signal.kind.startswith("digital") for one in found)
         return False
 
+    def looked_at(self, condition: ir.Expression) -> ir.Expression | None:
+        """The flag or the truth value of the whole program that a condition looks at: an interrupt comes with each
+        change of it, and its routine looks whether this was the wanted one."""
+        match condition:
+            case ir.Unary(op="not", operand=operand) | ir.Binary(op="=" | "<>", left=operand, right=ir.BoolLiteral()):
+                return self.looked_at(operand)
+            case ir.Name(id=name) if name.lower() in self.truths():
+                return condition
+        return _flag(condition)
+
+    def truths(self) -> set[str]:
+        """Truth values under a name that nothing else in the program has, folded."""
+        routines = [routine for module in self.source.modules for routine in module.routines]
+        declared = [one.declarations for one in self.source.modules] + [one.declarations for one in routines]
+        every = [one for declarations in declared for one in declarations if isinstance(one, ir.Variable)]
+        names = [one.name.lower() for one in every]
+        given = {one.name.lower() for routine in routines for one in routine.parameters}
+        return {
+            one.name.lower()
+            for one in every
+            if isinstance(one.type, ir.BoolType) and one.scope == "global" and names.count(one.name.lower()) == 1
+        } - given
+
+    def lasting(self, program: ir.Program) -> ir.Program:
+        """What such interrupts look at is persistent data."""
+        watched = {
+            base_name(one) for trap in self.traps.values() if (one := self.looked_at(trap.condition)) is not None
+        }
+
+        def changed(one: ir.Declaration) -> ir.Declaration:
+            if isinstance(one, ir.Variable) and one.name.lower() in watched and one.storage == "variable":
+                return replace(one, storage="persistent")
+            return one
+
+        modules = tuple(
+            replace(module, declarations=tuple(map(changed, module.declarations))) for module in program.modules
+        )
+        return replace(program, modules=modules)
+
     def add(self, priority: int, declared: ir.DeclareInterrupt) -> None:
         trap = _Trap(
             self.context.fresh(f"rpl_interrupt_{priority}"),
@@ -153,7 +192,7 @@ class _Traps:
         self.traps[priority] = trap
         # The motion that the action braked goes on when the interrupt routine has ended.
         body: ir.Body = (declared.action, ir.StartMotion()) if self.brakes(declared.action) else (declared.action,)
-        if _flag(declared.condition) is not None:
+        if self.looked_at(declared.condition) is not None:
             body = (ir.If(((declared.condition, body),)),)
         self.made.append(ir.Routine(trap.routine, "trap", body=body, scope="task"))
 
@@ -191,7 +230,7 @@ class _Traps:
                     return [statement]
                 name = ir.Name(trap.handle)
                 if op == "on":
-                    flag = _flag(trap.condition)
+                    flag = self.looked_at(trap.condition)
                     event, watched = ("edge", trap.condition) if flag is None else ("change", flag)
                     return [ir.OrderInterrupt(name, event, watched, origin=statement.origin)]
                 if op == "off":
