@@ -63,6 +63,7 @@ CAPABILITIES = Capabilities(
     function_routines=False,
     recursion=True,
     next_move_settings=True,
+    text_ordering=True,
     text_parts=True,
     stopping_reactions=True,
     interrupt_masks=True,

@@ -101,7 +101,8 @@ class Capabilities:
     longest_message: characters of a message's line (0: any).
     computed_messages: a message may show computed text (else it names the registers of its values).
     asks_numbers_only: the operator can type a number, and the question is a message in front of it. text_case:
-    comparisons of texts tell capital letters from small ones. text_find_from: text_find begins at any position.
+    comparisons of texts tell capital letters from small ones. text_ordering: `<` of texts is their order (else only
+    `=` and `<>` compare them). text_find_from: text_find begins at any position.
     text_parts: without numbered storage as well, helpers read numbers from texts and search them by cutting and
     comparing parts.
     truth: `minus_one` when TRUE is the number -1 and there is no type of truth values.
@@ -235,6 +236,7 @@ class Capabilities:
     text_find_from: bool = True
     text_parts: bool = False
     text_case: bool = True
+    text_ordering: bool = False
     truth: str = "bool"
     index_base: int | None = 1
     expressions: str = "any"

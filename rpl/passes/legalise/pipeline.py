@@ -141,6 +141,7 @@ from rpl.passes.legalise.taskdata import shared_task_data
 from rpl.passes.legalise.tasknames import task_names
 from rpl.passes.legalise.taskreferences import task_references
 from rpl.passes.legalise.taskstates import task_states
+from rpl.passes.legalise.textorders import text_orders
 from rpl.passes.legalise.threepoints import three_point_arcs
 from rpl.passes.legalise.timers import timers_to_clocks
 from rpl.passes.legalise.tooldata import tool_data
@@ -189,6 +190,7 @@ PASSES: tuple[Pass, ...] = (
     whole_settings,
     changed_places,
     random_numbers,
+    text_orders,
     turned_ways,
     elementwise,
     known_handles,
