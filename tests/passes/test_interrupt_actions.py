@@ -128,3 +128,12 @@ def test_an_interrupt_that_leaves_what_it_interrupted_is_not_called_later() -> N
     told = Diagnostics()
     translate_program(read_sources(files, "krl", Diagnostics()), "vplus", KUKA, None, told)
     assert any("a single interrupt cannot be disabled" in item.as_text() for item in told.of(Severity.LOSS))
+
+
+@pytest.mark.parametrize(("target", "told"), [("rapid", True), ("urscript", True), ("vplus", False)])
+def test_an_interrupt_that_waits_for_another_one_is_told(target: str, told: bool) -> None:
+    text = (START + END).replace("DO COUNT(10)", "DO SLOW()") + "DEF SLOW()\nWAIT SEC 0.5\nEND\n"
+    files = [source_from_text("job.src", text), source_from_text("job.dat", DATA)]
+    found = Diagnostics()
+    translate_program(read_sources(files, "krl", Diagnostics()), target, KUKA, None, found)
+    assert ("interrupts-not-nested" in [item.code.name for item in found]) is told

@@ -80,6 +80,7 @@ from rpl.passes.legalise.modulepoints import points_of_modules
 from rpl.passes.legalise.movesettings import settings_at_moves
 from rpl.passes.legalise.movetimes import move_times
 from rpl.passes.legalise.nearjoints import near_joints
+from rpl.passes.legalise.nestedinterrupts import nested_interrupts
 from rpl.passes.legalise.nextmove import settings_of_next_move
 from rpl.passes.legalise.numbered import number_data
 from rpl.passes.legalise.numbers import numbers
@@ -233,6 +234,7 @@ PASSES: tuple[Pass, ...] = (
     begun_moves,
     begun_outputs,
     held_timers,
+    nested_interrupts,
     single_disables,
     action_arguments,
     triggers,
