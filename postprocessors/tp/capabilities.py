@@ -72,6 +72,7 @@ CAPABILITIES = Capabilities(
     recursion=False,
     call_depth=tables.DEEPEST_CALL,
     search_results=frozenset(("found", "hit")),
+    searched_data=True,  # M: SKIP CONDITION takes flags as it takes inputs and registers
     task_operations=frozenset(("start",)),
     moving_tasks=False,
     banks={

@@ -111,7 +111,8 @@ class Capabilities:
     of two simple operands, joined by and/or.
     condition_terms: how many comparisons such a condition has at most, spelled out without brackets (0: any).
     logic_names: variables and signals that one condition or truth value names at most, to fit in a line (0: any).
-    fixed_arcs: an arc may keep the tool as it is to the arc (else its end is worked out).
+    fixed_arcs: an arc may keep the tool as it is to the arc (else its end is worked out). searched_data: a search may
+    look at a truth value, which another task sets, in place of an input.
     functions_alone: a function only as the whole right side of an assignment.
 
     Motion: move_settings: which of `tool`, `frame`, `speed`, `blend` a move says itself, the rest being modal (System
@@ -250,6 +251,7 @@ class Capabilities:
     logic_names: int = 0
     functions_alone: bool = False
     fixed_arcs: bool = False
+    searched_data: bool = False
     move_settings: frozenset[str] = frozenset()
     speeds: frozenset[str] = frozenset()
     blends: frozenset[str] = frozenset()

@@ -23,21 +23,23 @@ CORNER = code(
 )
 
 
-def unending(one: ir.DeclareInterrupt, brakes: bool) -> str:
-    """Why no move can end for it; empty when one can."""
+def unending(one: ir.DeclareInterrupt, brakes: bool, data: bool = False) -> str:
+    """Why no move can end for it; empty when one can. `data`: a move may end at a truth value too."""
     if not brakes and not one.stops:
         return "it takes time while the robot moves on"
-    if not _looks_at_input(one.condition):
+    if not _looks_at_input(one.condition, data):
         return "a move ends at one input only"
     return ""
 
 
-def _looks_at_input(condition: ir.Expression) -> bool:
+def _looks_at_input(condition: ir.Expression, data: bool) -> bool:
     match condition:
+        case ir.Name():
+            return data
         case ir.Signal(kind="digital_in", last=None):
             return True
         case ir.Unary(op="not", operand=operand) | ir.Binary(op="=" | "<>", left=operand, right=ir.BoolLiteral()):
-            return _looks_at_input(operand)
+            return _looks_at_input(operand, data)
     return False
 
 

@@ -206,7 +206,7 @@ class _Watches:
             return ""
         if any(other.served for other in self.watches.values() if other.key != key):
             return "another one stops the robot already, and a move looks at one condition"
-        return unending(one, name in brakes)
+        return unending(one, name in brakes, self.beside.context.capabilities.searched_data)
 
     def takes_time(self, one: ir.DeclareInterrupt) -> bool:
         if one.stops:
