@@ -15,6 +15,7 @@ KUKA = "kuka_kr6r900sixx"
 START = """DEF P()
 DECL E6POS P1,P2
 DECL FRAME F
+DECL AXIS WAYS
 P1={X 500.0,Y 50.0,Z 400.0,A 0.0,B 180.0,C 0.0,S 2,T 35}
 P2={X 400.0,Y 50.0,Z 400.0,A 0.0,B 180.0,C 0.0,S 2,T 35}
 BAS(#INITMOV,0)
@@ -35,6 +36,7 @@ CASES = {
     "turned by an input": "LIN P2\nLIN_REL {A ($ANIN[1]*10+5)}\nLIN_REL {Y 20.0}\n",
     "turned by data": "F={X 5.0,Y 0.0,Z 9.0,A 20.0,B 3.0,C 0.0}\nLIN_REL F #TOOL\nF.X=1.0\nLIN_REL F\n",
     "joint move that turns": "PTP_REL {Z 10.0,A 15.0}\nPTP_REL {X 5.0,C 9.0} #TOOL\n",
+    "joint values of a variable": "WAYS={A1 5.0,A2 0.0,A3 -4.0,A4 0.0,A5 3.0,A6 20.0}\nPTP_REL WAYS\nPTP_REL WAYS\n",
     "by an input": "LIN_REL {X ($ANIN[1]*10)}\nLIN_REL {Y 20.0}\n",
 }
 

@@ -15,6 +15,7 @@ from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Arm, Context, rules_of
 from rpl.passes.legalise.flow import Use, Uses
+from rpl.passes.legalise.impliedflags import Known, implied_flags
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.typewords import component_names, type_word
@@ -28,6 +29,12 @@ NOT_CONVERTED = code(
     Severity.WARNING,
     "the arm configuration is not converted ({reason}); the controller takes the nearest",
     "name the arm with --robot, and give moves constant tools and frames",
+)
+WITHOUT_TURNS = code(
+    "configuration-without-turns",
+    Severity.WARNING,
+    "{reason}, so that the turns of the axes are not known; the posture of the arm is written",
+    "the controller takes the shortest way to it",
 )
 UNREACHABLE = code("unreachable-on-target-arm", Severity.ERROR, "the arm {arm} does not reach this {what}: {reason}")
 JOINTS_LOST = code(
@@ -73,6 +80,8 @@ class _Configurations(Rewriter):
         self.arm, self.to_arm = context.robot, context.to_robot or context.robot
         self.other_arm = bool(self.arm and self.to_arm and self.arm.name != self.to_arm.name)
         self.near = self.foreign and context.capabilities.postures == "joints"
+        self.implications: Known = {}
+        self.unturned = ""  # why the target looked at now has flags, but none of its turns
         self.results: dict[int, dict[str, int] | _Refused] = trial.results if trial else {}
         self.exact, self.nearest = False, False  # are there joint moves to converted, to other targets?
         self.posed = False  # are there path moves to poses, which say nothing about the arm's posture?
@@ -311,6 +320,7 @@ class _Configurations(Rewriter):
         uses = self.uses.found.get(id(expression), set())
         if not uses:
             return _Refused("no move uses it")
+        self.unturned = ""
         flags: dict[str, int] | None = None
         refused: _Refused | None = None
         for use in sorted(uses, key=lambda one: (not one.joint, one.moved is not None, self.uses.order.get(one, 0))):
@@ -328,6 +338,8 @@ class _Configurations(Rewriter):
                 return _Refused("it is used with several tools or frames")
         if not had:
             return _Refused("it has none")
+        if flags and self.unturned and any(use.joint for use in uses):
+            self.context.diagnostics.report(WITHOUT_TURNS, expression.origin, reason=self.unturned)
         return flags if flags else refused or _Refused("it is used with several tools or frames")
 
     def for_use(self, target: Target, use: Use, had: bool) -> dict[str, int] | _Refused:
@@ -336,7 +348,8 @@ class _Configurations(Rewriter):
         flange = use.frames.flange(place.pose) if isinstance(place, Target) else None
         if flange is None:
             which = "tool" if use.frames.tool is None else "frame"
-            return _Refused(f"the {which} of its moves is not constant")
+            reason = f"the {which} of its moves is not constant"
+            return (self.implied(target, reason) if had and use.moved is None else None) or _Refused(reason)
         matrix = _array(flange.matrix)
         notation = _notation(target.type.notation)
         if notation is None:
@@ -356,6 +369,17 @@ class _Configurations(Rewriter):
             return {name: round(float(value)) for name, value in zip(_AXES, joints, strict=False)}
         wanted = _notation(self.target_notation)
         return wanted.encode(_any(self.to_arm), joints) if wanted is not None else {}
+
+    def implied(self, target: Target, reason: str) -> dict[str, int]:
+        """What the source's flags say wherever the place is; empty where the target's hang on it altogether."""
+        notation, wanted = _notation(target.type.notation), _notation(self.target_notation)
+        if self.arm is None or notation is None or wanted is None or self.near or self.other_arm or not self.flat:
+            return {}
+        flags = {name: value for name, value in target.flags if name in notation.fields and value is not None}
+        found = implied_flags(_any(self.arm), notation, flags, wanted, self.implications) if flags else {}
+        if found and set(found) != set(wanted.fields):
+            self.unturned = reason
+        return found
 
     # ---- another arm
 

@@ -118,6 +118,9 @@ class Whole:
     def whole(self, move: ir.Move, done: list[ir.Statement]) -> list[ir.Statement]:
         if isinstance(move.target, ir.Aggregate) and move.target.type_name == "joints":
             return self.from_here(move, move.target, ir.JointsType(), done)
+        if isinstance(self.type_of(move.target), ir.JointsType) and move.relative == "joints":
+            axes = tuple((name, ir.Field(move.target, name)) for name in _AXES)
+            return self.from_here(move, ir.Aggregate(axes, type_name="joints"), ir.JointsType(), done)
         if not isinstance(move.target, ir.Aggregate):
             return self.shifted(move, done)
         if move.relative is not None:
