@@ -105,6 +105,16 @@ CASES: list[tuple[str, str, str, frozenset[str]]] = [
         at:=CPos(\\Tool:=tOther); IF ok AND Abs(at.z-80)<0.1 SetDO do1,1;""",
         frozenset(),
     ),
+    (
+        "a record that holds an array of records",
+        """RECORD dose string what; num grams; bool hot; ENDRECORD
+        RECORD batch num total; dose parts{2}; pos spot; ENDRECORD
+        VAR batch b1; VAR batch b2:=[3,[["sand",5,FALSE],["dye",7,TRUE]],[1,2,3]];""",
+        """b1.parts{1}:=["resin",20,TRUE]; b1.total:=b1.parts{1}.grams+b2.parts{2}.grams; ok:=b1.total=27;
+        b1:=b2; ok:=ok AND b1.parts{2}.hot AND b1.spot.z=3; b1:=[4,[["a",1,FALSE],["b",2,TRUE]],[7,8,9]];
+        IF ok AND b1.total=4 AND StrLen(b1.parts{2}.what)=1 AND b1.spot.x=7 SetDO do1,1;""",
+        frozenset(),
+    ),
 ]
 
 

@@ -31,6 +31,9 @@ def aggregates(program: ir.Program, context: Context) -> ir.Program:
     return _Aggregates(program, context).program()
 
 
+_Placed = tuple[ir.Expression, ir.Expression, ir.Type]  # a place, its value, its type
+
+
 class _Aggregates(Rewriter):
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
@@ -56,6 +59,8 @@ class _Aggregates(Rewriter):
                 resolved = self.scope.resolve(type)
                 if isinstance(resolved, ir.ArrayType) and not self.whole_arrays:
                     return self.listed(declaration, initial, resolved)
+                if self.holds_list(initial, resolved):
+                    return self.with_lists(declaration, initial, resolved)
                 return [replace(declaration, initial=self.complete(initial, resolved))]
             case ir.Initialise(assign=assign):
                 done = self.assignment(assign)
@@ -66,12 +71,50 @@ class _Aggregates(Rewriter):
         """An array that gets its values element by element: in the data list, or at the start of the routine."""
         bare = replace(declaration, initial=None)
         pairs = self.elements(ir.Name(declaration.name), initial, type)
-        later = replace(declaration.origin, comments=())
-        assigns = [ir.Assign(place, self.member(value, inner), origin=later) for place, value, inner in pairs]
+        return self.valued_later(bare, [one for pair in pairs for one in self.apart(*pair)])
+
+    def with_lists(self, declaration: ir.Variable, initial: ir.Aggregate, type: ir.Type) -> list[ir.Declaration]:
+        """A record that holds arrays: these get their values element by element, the rest stays with the record."""
+        (_, rest, _), *lists = self.apart(ir.Name(declaration.name), initial, type)
+        bare = replace(declaration, initial=self.complete(rest, type) if _entries(rest) else None)
+        return self.valued_later(bare, lists)
+
+    def valued_later(self, bare: ir.Variable, values: list[_Placed]) -> list[ir.Declaration]:
+        later = replace(bare.origin, comments=())
+        assigns = [ir.Assign(place, self.member(value, inner), origin=later) for place, value, inner in values]
         if self.scope.routine_here is None:
             return [bare, *(ir.Initialise(one, origin=later) for one in assigns)]
         self.start.extend(assigns)
         return [bare]
+
+    def holds_list(self, value: ir.Expression, type: ir.Type | None) -> bool:
+        """Is an array written out inside of a record, for a target that has no form for that?"""
+        if self.whole_arrays or not isinstance(value, ir.Aggregate) or not isinstance(type, ir.NamedType):
+            return False
+        if "NamedType" not in self.context.capabilities.types:
+            return False  # records come apart later
+        members = [(component_type(type, name, self.scope), one) for name, one in self.given(value, type).items()]
+        return any(isinstance(inner, ir.ArrayType) or self.holds_list(one, inner) for inner, one in members)
+
+    def apart(self, place: ir.Expression, value: ir.Expression, type: ir.Type) -> list[_Placed]:
+        """A value without the arrays inside of it, and behind it their elements, each in the same way."""
+        if not self.holds_list(value, type) or not isinstance(value, ir.Aggregate):
+            return [(place, value, type)]
+        kept: list[tuple[str | None, ir.Expression]] = []
+        found: list[_Placed] = []
+        for name, one in self.given(value, type).items():
+            inner = component_type(type, name, self.scope)
+            written = _written(name, component_names(type, self.scope))
+            here = ir.Field(place, written)
+            if isinstance(inner, ir.ArrayType) and isinstance(one, ir.Aggregate):
+                found.extend(part for element in self.elements(here, one, inner) for part in self.apart(*element))
+            elif inner is not None and self.holds_list(one, inner):
+                (_, rest, _), *lists = self.apart(here, one, inner)
+                kept.extend([(written, rest)] if _entries(rest) else [])
+                found.extend(lists)
+            else:
+                kept.append((written, one))
+        return [(place, replace(value, entries=tuple(kept)), type), *found]
 
     def elements(
         self, place: ir.Expression, value: ir.Aggregate, type: ir.ArrayType
@@ -177,7 +220,7 @@ class _Aggregates(Rewriter):
             return [replace(statement, target=target, value=self.complete(value, type))]
         if isinstance(type, _GEOMETRIC) and self.is_complete(value, type):
             return [replace(statement, target=target, value=self.expression(value))]
-        whole = self.is_complete(value, type) or self.partial
+        whole = (self.is_complete(value, type) or self.partial) and not self.holds_list(value, type)
         if whole and (not self.constant or self.is_constant(value)):
             return [replace(statement, target=target, value=self.arranged(value, type, fill=False))]
         return self.by_component(statement, target, value, type)
@@ -293,6 +336,10 @@ class _Aggregates(Rewriter):
         copy = self.temporary(type)
         self.before.extend(self.spread(copy, expression, type))
         return copy
+
+
+def _entries(value: ir.Expression) -> bool:
+    return isinstance(value, ir.Aggregate) and bool(value.entries)
 
 
 def _same_place(value: ir.Expression, target: ir.Expression, part: str) -> bool:
