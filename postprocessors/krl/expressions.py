@@ -120,6 +120,10 @@ class Expressions:
                 return self.signal(expression)
             case ir.VendorValue(dialect="krl", text=text):
                 return text
+            case ir.Convert(how="code", operand=ir.TextLiteral(value=sign)) if len(sign) == 1:
+                return printer.printed(ir.IntLiteral(ord(sign)))
+            case ir.Convert(how="char", operand=ir.IntLiteral(value=number)) if number in range(32, 127):
+                return printer.printed(ir.TextLiteral(chr(number)))
             case ir.Convert(how=how, operand=operand) if how in tables.SILENT_CONVERSIONS:
                 return printer.printed(operand)
             case ir.Quantity(value=value, unit=unit):

@@ -6,6 +6,7 @@ routine (see helpers); what needs statements is done in front of the statement (
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -286,6 +287,10 @@ class _Calls(TextHoister):
                 return ir.Builtin("floor", (operand,))
             case "floor":
                 return self.helpers.call("rpl_floor", operand)
+            case "code" if isinstance(operand, ir.TextLiteral) and len(operand.value) == 1:
+                return ir.IntLiteral(ord(operand.value))
+            case "char" if isinstance(operand, ir.IntLiteral) and operand.value in range(32, 127):
+                return ir.TextLiteral(chr(operand.value))
             case "code" if self.can("character_code"):
                 return ir.Builtin("character_code", (operand,))
             case "char" if self.can("from_code"):
@@ -304,6 +309,18 @@ class _Calls(TextHoister):
                 return done
         helper = _HELPER_FUNCTIONS.get(e.function)
         return self.helpers.call(helper, *e.arguments) if helper else None
+
+
+def _log10(calls: _Calls, arguments: tuple[ir.Expression, ...]) -> ir.Expression | None:
+    """By the natural logarithm."""
+    natural = ir.Builtin("log", arguments) if calls.can("log") else calls.helpers.call("rpl_log", *arguments)
+    return ir.Binary("/", natural, ir.RealLiteral(math.log(10.0)))
+
+
+def _capacity(calls: _Calls, arguments: tuple[ir.Expression, ...]) -> ir.Expression | None:
+    """The declared capacity of a text, where it is written in its declaration."""
+    type = calls.editor.type_of(arguments[0])
+    return type.capacity if isinstance(type, ir.StringType) and isinstance(type.capacity, ir.IntLiteral) else None
 
 
 def _real(value: ir.Expression) -> ir.Expression:
@@ -459,4 +476,6 @@ _FUNCTIONS: dict[str, Callable[[_Calls, Arguments], ir.Expression | None]] = {
     "dimension": _size,
     "text_equal": _equal,
     "fraction": _fraction,
+    "log10": _log10,
+    "text_capacity": _capacity,
 }
