@@ -28,6 +28,7 @@ from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.constantorientations import constant_orientations
 from rpl.passes.legalise.context import Context, Pass, names_in
 from rpl.passes.legalise.copiedflags import copied_flags
+from rpl.passes.legalise.cornerleads import corner_leads
 from rpl.passes.legalise.corners import corners
 from rpl.passes.legalise.criticals import without_criticals
 from rpl.passes.legalise.cyclicflags import cyclic_flags
@@ -296,6 +297,7 @@ PASSES: tuple[Pass, ...] = (
     stand_before_ways,
     accelerations_of_moves,
     settings_of_one_move,
+    corner_leads,
     modal_to_explicit,
     tool_data,
     own_places,
