@@ -62,6 +62,7 @@ POSTURE = code(
 )
 _WORDS = {"joint": "MOVE", "linear": "MOVES"}
 _AXIS_DEG_S = 180.0  # M: stands in for the slowest axis where no arm is named
+_LONG_SUM = 80  # characters of the joints in one line, from which they are added up before
 
 
 @dataclass(slots=True)
@@ -255,6 +256,10 @@ class Motion:
         for at, axis in enumerate(tables.AXES):
             change = f"+{self.number(steps[axis])}" if axis in steps else ""
             given.append(f"{part}[{at}]{change}")
+        if sum(map(len, given)) > _LONG_SUM:
+            for at, value in enumerate(given):
+                notes.step(f"{part}[{at}] = {value}")
+            given = [f"{part}[{at}]" for at in range(len(given))]
         return f"#PPOINT({', '.join(given)})"
 
     def number(self, value: ir.Expression) -> str:

@@ -53,6 +53,11 @@ def test_points_with_some_components_are_whole_in_vplus(name: str) -> None:
 
 
 @pytest.mark.parametrize("target", ["tp", "inform", "vplus"])
+def test_joint_values_of_a_variable(target: str) -> None:
+    moves_are_equal(CASES["joint values of a variable"], target)
+
+
+@pytest.mark.parametrize("target", ["tp", "inform", "vplus"])
 @pytest.mark.parametrize("name", [name for name in CASES if "turn" in name])
 def test_relative_moves_that_turn_the_tool(name: str, target: str) -> None:
     moves_are_equal(CASES[name], target)
