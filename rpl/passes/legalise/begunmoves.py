@@ -89,6 +89,37 @@ def moves_ahead(program: ir.Program, context: Context) -> ir.Program:
     return beside.placed(edit_routines(program, context, work))
 
 
+def polled_ahead(program: ir.Program, context: Context) -> ir.Program:
+    """Waits beside a move that have become loops since: each step in them that would wait for the robot comes early."""
+    beside = rules_of(context.source).advance.runs_ahead_of == "begun"
+    if not beside or context.capabilities.concurrent_moves != "advance":
+        return program
+
+    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        def early(body: ir.Body) -> ir.Body:
+            done: list[ir.Statement] = []
+            for statement in body:
+                if isinstance(statement, ir.Wait | ir.WaitUntil) or touches(statement, editor.scope):
+                    done.append(ir.LookAhead(origin=tidy(statement.origin)))
+                done.append(inside(statement, early))
+            return tuple(done)
+
+        def loops(body: ir.Body) -> ir.Body:
+            done: list[ir.Statement] = []
+            for statement in body:
+                if isinstance(statement, ir.Loop) and done and isinstance(done[-1], ir.LookAhead):
+                    allowed = any(isinstance(node, ir.LookAhead) for node in walk(*statement.body))
+                    done.append(statement if allowed else inside(statement, early))
+                else:
+                    done.append(inside(statement, loops))
+            same = len(done) == len(body) and all(new is old for new, old in zip(done, body, strict=True))
+            return body if same else tuple(done)
+
+        return edit_bodies(routine, loops)
+
+    return edit_routines(program, context, work)
+
+
 class _Ahead:
     """Rewrites one routine. `going`: the move that is driven; `owed`: the program has not waited yet for its begin."""
 

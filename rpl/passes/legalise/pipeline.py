@@ -15,7 +15,7 @@ from rpl.passes.legalise.arrays import array_bases, array_sizes
 from rpl.passes.legalise.askedpostures import asked_postures
 from rpl.passes.legalise.atrest import at_rest
 from rpl.passes.legalise.background import background_tasks
-from rpl.passes.legalise.begunmoves import begun_moves, moves_ahead
+from rpl.passes.legalise.begunmoves import begun_moves, moves_ahead, polled_ahead
 from rpl.passes.legalise.begunoutputs import begun_outputs
 from rpl.passes.legalise.bitgroups import groups_to_bits, shared_groups_to_bits
 from rpl.passes.legalise.calledtasks import called_tasks
@@ -328,6 +328,7 @@ PASSES: tuple[Pass, ...] = (
     structure_to_labels,
     steps,
     name_errors,
+    polled_ahead,
     said_once,
     drop_unused,
     points_of_modules,
