@@ -12,6 +12,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.fold import constant_number
+from rpl.passes.legalise import scanning
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, Lowered, edit_bodies, edit_routines, expansion
 from rpl.passes.legalise.effects import Effects, is_constant
@@ -111,6 +112,8 @@ class _Calls(TextHoister):
                 value = ir.Binary("&", target, text)
             case "format_into", arguments:
                 return self.formatted(statement, arguments)
+            case "scan_from", arguments:
+                return self.scanned(statement, arguments)
             case ("parse_number" | "parse_value") as name, arguments:
                 read = self.parsed(name, arguments)
                 unused = self.editor.temporary("unused", ir.BoolType())
@@ -118,6 +121,16 @@ class _Calls(TextHoister):
             case _:
                 return None
         return (ir.Assign(target, value, origin=statement.origin),)
+
+    def scanned(self, statement: ir.Do, arguments: tuple[ir.Expression | None, ...]) -> ir.Body | None:
+        """Numbers read by a format, where they can be read at all."""
+        if not self.cuts and "parse_number" not in self.capabilities.procedures:
+            return None
+        done = scanning.scanned(arguments, self.helpers.call, self.editor.temporary, self.whole)
+        if done is None:
+            return None
+        self.editor.context.diagnostics.report(scanning.NO_STATE, statement.origin)
+        return expansion(statement.origin, done)
 
     def formatted(self, statement: ir.Do, arguments: tuple[ir.Expression | None, ...]) -> ir.Body | None:
         """Formatted values behind the first `offset` characters of a text."""

@@ -13,7 +13,7 @@ from dataclasses import replace
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.errors import InternalError
-from rpl.passes.legalise import textparts
+from rpl.passes.legalise import scanning, textparts
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.support import with_support
 from rpl.passes.rewrite import rewrite_parts
@@ -384,7 +384,11 @@ class Helpers:
         """`more`: texts of routines that only some programs can ask for."""
         self.context = context
         self.names: dict[str, str] = {}
-        self.texts = _TEXTS | textparts.TEXTS if textparts.by_parts(context.capabilities) else _TEXTS
+        by_parts = textparts.by_parts(context.capabilities)
+        read = "rpl_parse_number(" if by_parts else "parse_number("
+        found = scanning.TEXT if by_parts else scanning.TEXT.replace("rpl_text_find(", "text_match(")
+        scan = {scanning.SCAN: found.replace("rpl_parse_number(", read)}
+        self.texts = (_TEXTS | textparts.TEXTS if by_parts else _TEXTS) | scan
         self.texts = self.texts | dict(more or {})
 
     def name(self, helper: str) -> str:
