@@ -115,6 +115,14 @@ CASES: list[tuple[str, str, str, frozenset[str]]] = [
         IF ok AND b1.total=4 AND StrLen(b1.parts{2}.what)=1 AND b1.spot.x=7 SetDO do1,1;""",
         frozenset(),
     ),
+    (
+        "an event behind the start and one before the end, of a computed place",
+        COUNT,
+        """MoveJ p1,v500,fine,tool0; CONNECT seen WITH tCount; ISignalDO do2,1,seen; TriggIO gun,30\\Start\\DOp:=do2,1;
+        TriggIO cut,30\\DOp:=do2,0; TriggL Offs(p1,0,0,-100),v100,gun\\T2:=cut,fine,tool0; WaitTime 0.1;
+        IF n=1 AND DOutput(do2)=0 SetDO do1,1;""",
+        frozenset(),
+    ),
 ]
 
 

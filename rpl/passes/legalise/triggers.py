@@ -7,12 +7,16 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.passes.fold import constant_number
+from rpl.passes import rigid
+from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.storedevents import events_before_moves
-from rpl.passes.legalise.usage import called_names, exposed
+from rpl.passes.legalise.usage import called_names, exposed, usage_of
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.values import Target
+
+_ARM_STANDS = ir.ConnectInterrupt | ir.ControlInterrupt | ir.OrderInterrupt | ir.Wait | ir.Clock | ir.Message
 
 
 def triggers(program: ir.Program, context: Context) -> ir.Program:
@@ -121,12 +125,13 @@ class _AtMoves:
     """Trigger statements become part of the move behind them. What comes a time behind the start of a move comes that
     time behind the end of the one before, where the two follow each other."""
 
-    def __init__(self, scope: Scope) -> None:
-        self.scope = scope
+    def __init__(self, scope: Scope, unchanged: Unchanged) -> None:
+        self.scope, self.unchanged = scope, unchanged
 
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
         waiting: list[ir.Trigger] = []
+        begins: ir.Move | None = None  # the move before, at whose end the next one begins
         last: int | None = None  # the place in `done` of the move before, while nothing stands between that takes time
         for statement in body:
             match statement:
@@ -143,7 +148,8 @@ class _AtMoves:
                         moved = [replace(one, reference="end") for one in own if self.behind_the_start(one)]
                         done[last] = replace(before, triggers=(*before.triggers, *moved)) if moved else before
                         own = [one for one in own if not self.behind_the_start(one)]
-                    last, waiting = len(done), []
+                    own = [self.from_end(one, begins, statement) for one in own]
+                    last, waiting, begins = len(done), [], statement
                     done.append(replace(statement, triggers=(*own, *statement.triggers)) if own else statement)
                     continue
                 case ir.Assign() | ir.Nothing() | ir.LookAhead():
@@ -151,8 +157,27 @@ class _AtMoves:
                     continue
             done.extend(waiting)  # no move follows here: left for the writer to report
             last, waiting = None, []
+            begins = begins if isinstance(statement, _ARM_STANDS) else None
             done.append(rewrite_parts(statement, lambda expression: expression, self.body))
         return (*done, *waiting)
+
+    def from_end(self, trigger: ir.Trigger, begins: ir.Move | None, move: ir.Move) -> ir.Trigger:
+        """What comes some way behind the start of a straight move, counted from its end where both are constants."""
+        if trigger.reference != "start" or trigger.delay is not None or trigger.distance is None or begins is None:
+            return trigger
+        behind = constant_number(trigger.distance, self.scope)
+        same = begins.frame == move.frame and begins.tool == move.tool and begins.search is None
+        if not behind or not same or move.kind != "linear" or move.relative or begins.relative:
+            return trigger
+        ends = [constant(one.target, self.scope, self.unchanged) for one in (begins, move)]
+        places = [one.pose if isinstance(one, Target) else one for one in ends]
+        if not all(isinstance(one, rigid.Pose) for one in places):
+            return trigger
+        first, second = (one.position for one in places if isinstance(one, rigid.Pose))
+        left = behind - second.plus(first, -1.0).length
+        if left > 0:
+            return trigger
+        return replace(trigger, reference="end", distance=ir.RealLiteral(float(f"{left:.9g}")))
 
     def behind_the_start(self, trigger: ir.Trigger) -> bool:
         """Does it come a time behind the start itself?"""
@@ -164,9 +189,12 @@ class _AtMoves:
 
 def _at_moves(program: ir.Program) -> ir.Program:
     scopes = ProgramScope(program)
+    unchanged = Unchanged(usage_of(program).assigned)
     modules = []
     for module in program.modules:
-        routines = [replace(r, body=_AtMoves(scopes.routine(module, r)).body(r.body)) for r in module.routines]
+        routines = [
+            replace(r, body=_AtMoves(scopes.routine(module, r), unchanged).body(r.body)) for r in module.routines
+        ]
         modules.append(replace(module, routines=tuple(routines)))
     return replace(program, modules=tuple(modules))
 
