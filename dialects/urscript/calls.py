@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from rpl import ir
+from rpl.ir.walk import walk
 
 from . import nodes
 from .expressions import BUILTINS, Expressions
@@ -230,6 +231,18 @@ def _to_vector(calls: Calls, bound: Bound) -> ir.Expression | None:
     return ir.Aggregate(tuple((None, part) for part in found))
 
 
+def _bits(calls: Calls, bound: Bound) -> ir.Expression | None:
+    """integer_to_binary_list: the 32 bits of a whole number, the lowest first. floor(x / 2^n) is odd where bit n is
+    set, for negative numbers (two's complement) too."""
+    number = _given(calls, bound, "x", INT)
+    if any(isinstance(node, ir.Call) for node in walk(number)):
+        return None  # it would be called 32 times
+    shares = [number, *(ir.Binary("/", number, ir.RealLiteral(float(2**n))) for n in range(1, 32))]
+    whole = [shares[0], *(ir.Convert("floor", one) for one in shares[1:])]
+    odd = [ir.Binary("<>", ir.Binary("mod", one, ir.IntLiteral(2)), ir.IntLiteral(0)) for one in whole]
+    return ir.Aggregate(tuple((None, one) for one in odd))
+
+
 def _log(calls: Calls, bound: Bound) -> ir.Expression:
     base, value = _given(calls, bound, "b"), _given(calls, bound, "f")
     return ir.Binary("/", ir.Builtin("log", (value,)), ir.Builtin("log", (base,)))
@@ -366,6 +379,7 @@ VALUES: dict[str, Make] = {
     "interpolate_pose": lambda calls, bound: ir.Builtin(
         "interpolate_pose", (calls.pose(bound["p_from"]), calls.pose(bound["p_to"]), _given(calls, bound, "alpha"))
     ),
+    "integer_to_binary_list": _bits,
     "rotvec2rpy": _to_angles,
     "rpy2rotvec": _to_vector,
     "d2r": lambda calls, bound: ir.Magnitude(_given(calls, bound, "d"), "rad"),

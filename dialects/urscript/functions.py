@@ -2,7 +2,7 @@
 
 A parameter is `name:letter` with `=default` where it may be left out: b bool, i whole number, n number, t text,
 p pose, q joints, m joints or pose, l list, x anything. Results: the same letters, h a handle, - none, ? unknown,
-l3 and l6 lists of three and six numbers, m6 a matrix, li and lb lists of whole numbers and of bools.
+l3 and l6 lists of three and six numbers, m6 a matrix, li lists of whole numbers, lb of 32 bools.
 What has an effect word (none, message, time, unknown) is a Vendor statement or value; all others have a neutral meaning
 in `calls`, `moves` or `procedures`. Sources: script manuals 3.5 and 5.2; defaults of moves from there.
 """
@@ -50,7 +50,7 @@ RESULTS: dict[str, Kind | None] = {
     "l3": list_of(REAL, 3),
     "l6": list_of(REAL, 6),
     "li": list_of(INT, None),
-    "lb": list_of(BOOL, None),
+    "lb": list_of(BOOL, 32),
     "m6": list_of(list_of(REAL, 6), 6),
 }
 # The kind that a parameter of this letter tells of a name whose kind nothing else tells.
@@ -146,6 +146,7 @@ _MEANT = """
     interpolate_pose(p_from:p, p_to:p, alpha:n) p
     rotvec2rpy(rotation_vector:l) l3
     rpy2rotvec(rpy_vector:l) l3
+    integer_to_binary_list(x:i) lb
     d2r(d:n) n
     r2d(r:n) n
     sin(f:n) n
@@ -212,7 +213,6 @@ _VENDOR_VALUES = """
         get_joint_torques wrench_trans get_coriolis_and_centrifugal_torques get_target_payload_inertia
     m6: get_jacobian get_jacobian_time_derivative get_mass_matrix
     li: socket_read_binary_integer socket_read_byte_list
-    lb: integer_to_binary_list
     q: get_actual_joint_positions_history
     h: rpc_factory serial_factory rtsi_factory eip_reader_factory eip_writer_factory
     p: get_target_tcp_pose_along_path
