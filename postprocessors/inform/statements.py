@@ -8,6 +8,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.legalise.effects import blocks
 from rpl.source import NOWHERE, Origin
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.refusals import UNKNOWN_ROUTINE
@@ -488,10 +489,30 @@ class Printer(StatementPrinter[str]):
         self.put([f'MSG "{part}"' for part in parts], message.origin)
 
 
+# Routines that programs bring along and that only calculate.
+_CALCULATING = frozenset(("rpl_length", "rpl_min", "rpl_max", "rpl_trunc", "rpl_floor", "rpl_frame", "rpl_tool_offset"))
+
+
 def _awaited(body: ir.Body, at: int) -> bool:
-    """Does the program wait for the end of this move?"""
-    behind = (one for one in body[at + 1 :] if not isinstance(one, ir.Nothing))
+    """Does the program wait for the end of this move, with nothing but calculations of variables in front of that?"""
+    behind = (one for one in body[at + 1 :] if not _calculates(one))
     return isinstance(next(behind, None), ir.WaitForMotion)
+
+
+def _calculates(statement: ir.Statement) -> bool:
+    """Neither signals, the controller's own variables nor the robot have a part in it."""
+    match statement:
+        case ir.Nothing():
+            return True
+        case ir.Assign() | ir.If():
+            inner = [one for body in blocks(statement) for one in body]
+        case ir.CallRoutine(name=name, dynamic=None) if name.lower() in _CALCULATING:
+            inner = []
+        case _:
+            return False
+    alone = not any(isinstance(one, ir.Signal | ir.System | ir.Call | ir.VendorValue) for one in walk(statement))
+    seen = any(isinstance(one, ir.Builtin) and one.function.startswith("current_") for one in walk(statement))
+    return alone and not seen and all(_calculates(one) for one in inner)
 
 
 def _plain(condition: ir.Expression) -> bool:
