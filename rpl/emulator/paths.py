@@ -93,7 +93,11 @@ class Arc:
 
     @property
     def turn_rad(self) -> float:
-        return float(rotation_angle(self.start[:3, :3].T @ self._goal()))
+        """How far the tool turns: with the circle and against it at once where it follows the path, so not at all
+        where it stays as it is. The two speeds keep their angle to each other, so that their sum is even."""
+        if not self.follow_path:
+            return float(rotation_angle(self.start[:3, :3].T @ self._goal()))
+        return float(np.linalg.norm(self.sweep_rad * self.axis + self.start[:3, :3] @ self._own_turn()))
 
     def _goal(self) -> FloatArray:
         if not self.follow_path:
@@ -108,16 +112,20 @@ class Arc:
             return pose_matrix(position, slerp(self.start, self._goal(), s))
         return pose_matrix(position, around @ self._against_arc(s))
 
-    def _against_arc(self, s: FloatArray) -> FloatArray:
-        """Rotations relative to the tangent frame. Half a turn against it (a half circle with the same orientation at
-        both ends) has two equal ways: the one that turns the tool back, not round once more, is taken."""
+    def _own_turn(self) -> FloatArray:
+        """Rotation vector relative to the tangent frame. Half a turn against it (a half circle with the same
+        orientation at both ends) has two equal ways: the one that turns the tool back, not round once more, is taken."""
         first = self.start[:3, :3]
         turn = matrix_to_rotation_vector(first.T @ self._goal())
         angle = float(np.linalg.norm(turn))
         with_arc = float((first @ turn) @ self.axis) > 0.0
         if with_arc and angle > np.pi - _HALF_TURN:
             turn = turn * (1.0 - 2.0 * np.pi / angle)
-        return np.asarray(first @ rotation_vector_to_matrix(s[..., None] * turn))
+        return np.asarray(turn)
+
+    def _against_arc(self, s: FloatArray) -> FloatArray:
+        """Rotations relative to the tangent frame."""
+        return np.asarray(self.start[:3, :3] @ rotation_vector_to_matrix(s[..., None] * self._own_turn()))
 
     def tangent(self, fraction: float) -> FloatArray:
         around = rotation_vector_to_matrix(fraction * self.sweep_rad * self.axis)

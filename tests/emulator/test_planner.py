@@ -169,6 +169,7 @@ def test_orientation_turns_with_the_circle() -> None:
     assert arc is not None
     start, quarter = arc.poses(np.array([0.0, 0.5]))
     assert rotation_angle(start[:3, :3].T @ quarter[:3, :3]) == pytest.approx(np.pi / 2)
+    assert arc.turn_rad == pytest.approx(np.pi)
 
 
 def test_points_on_a_line_make_no_circle() -> None:
@@ -310,6 +311,7 @@ def test_a_half_circle_along_the_path_does_not_turn_the_tool_round(side: float, 
     assert arc is not None
     turned = [float(rotation_angle(pose[:3, :3] @ down.T)) for pose in arc.poses(np.linspace(0.0, 1.0, 9))]
     assert max(turned) < 1e-6
+    assert arc.turn_rad < 1e-6  # so that no limit of turning slows it down
 
 
 @given(speed=st.floats(0.01, 100), acceleration=st.floats(0.01, 1000), share=st.floats(-1.0, 2.0))
