@@ -113,8 +113,8 @@ class Arc:
         return pose_matrix(position, around @ self._against_arc(s))
 
     def _own_turn(self) -> FloatArray:
-        """Rotation vector relative to the tangent frame. Half a turn against it (a half circle with the same
-        orientation at both ends) has two equal ways: the one that turns the tool back, not round once more, is taken."""
+        """Rotation vector relative to the tangent frame. Half a turn against it (a half circle with equal orientations
+        at both ends) has two equal ways: the one that turns the tool back, not round once more, is taken."""
         first = self.start[:3, :3]
         turn = matrix_to_rotation_vector(first.T @ self._goal())
         angle = float(np.linalg.norm(turn))
