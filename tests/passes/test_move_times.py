@@ -55,3 +55,57 @@ def test_a_move_takes_its_time(setting: str, target: str) -> None:
     assert ("move-time-by-speed" in [item.code.name for item in found]) == (
         target in ("krl", "inform") or "MMPS" in setting
     )
+
+
+TIMED = """MODULE t
+  PERS tooldata tGrip:=[TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+  CONST robtarget p:=[[500,150,400],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget q:=[[500,-50,400],[0,0,1,0],[-1,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST jointtarget j0:=[[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST jointtarget j1:=[[40,10,5,0,70,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  VAR clock c;
+  PROC check(num n)
+    ClkStop c;
+    IF ClkRead(c)>2.9 AND ClkRead(c)<3.5 THEN
+      IF n=1 SetDO do1,1;
+      IF n=2 SetDO do2,1;
+      IF n=3 SetDO do3,1;
+    ENDIF
+    ClkReset c;
+    ClkStart c;
+  ENDPROC
+  PROC main()
+    VAR jointtarget j;
+    MoveAbsJ j0,v1000,fine,tGrip;
+    ClkReset c;
+    ClkStart c;
+    MoveAbsJ j1,v1000\\T:=3,fine,tGrip;
+    check 1;
+    j:=CJointT();
+    j.robax.rax_1:=j.robax.rax_1-55;
+    ClkReset c;
+    ClkStart c;
+    MoveAbsJ j,v1000\\T:=3,fine,tGrip;
+    check 2;
+    MoveJ p,v1000,fine,tGrip;
+    ClkReset c;
+    ClkStart c;
+    MoveL q,v1000\\T:=3,fine,tGrip;
+    check 3;
+  ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize("target", ["krl", "vplus", "tp", "inform", "urscript"])
+def test_the_time_of_one_move(target: str) -> None:
+    """Between constant joints, to joints that the run works out, and between constant places."""
+    source = read_sources([source_from_text("t.mod", TIMED)], "rapid", Diagnostics())
+    found = Diagnostics()
+    translation = translate_program(source, target, "abb_irb1200_5_90", None, found)
+    back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, Diagnostics())
+    own = run_program(source.program, "abb_irb1200_5_90", None, "main")
+    theirs = run_program(back.program, "abb_irb1200_5_90", None, translation.renamed.get("main", "main"))
+    assert [run.status for run in (own, theirs)] == ["finished"] * 2
+    assert [len(run.outputs) for run in (own, theirs)] == [3, 3]
+    assert "approximated-move-time" not in [item.code.name for item in found]
