@@ -2,7 +2,7 @@
 
 Where the course of the program tells whether a timer runs, the timer or the variable is read; elsewhere the value is
 put together from both and a number that is 1 while the timer runs. It stands in front of the passes that make timers
-of their own.
+of their own; stop watches that become timers are treated as soon as they are (passes.legalise.waits).
 """
 
 from __future__ import annotations
@@ -20,12 +20,15 @@ _LOOPS = (ir.While, ir.For, ir.Loop, ir.Repeat)
 Known = dict[int, bool]  # number of a timer -> whether it runs
 
 
-def held_timers(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets with numbered timers that cannot be stopped. Timers of computed numbers stay for the writer."""
+def held_timers(program: ir.Program, context: Context, only: frozenset[int] | None = None) -> ir.Program:
+    """Only for targets with numbered timers that cannot be stopped. Timers of computed numbers stay for the writer.
+    `only`: the timers to look at, where others have been treated."""
     can = context.capabilities
     if not can.timers or "timer_stopped" in can.system_variables:
         return program
     stopped = {number for node in walk(program) if (number := _stopping(node)) is not None}
+    if only is not None:
+        stopped &= only
     if not stopped:
         return program
     worker = _Held(context, stopped, doing(program, lambda node: _sets(node) is not None))
@@ -77,6 +80,24 @@ def _stopping(node: object) -> int | None:
     return None
 
 
+def _without_needless_stops(body: ir.Body) -> ir.Body:
+    """What stops a timer that is set to a time and started at once does nothing."""
+    done: list[ir.Statement] = []
+    for at, statement in enumerate(body):
+        number, behind = _sets(statement), body[at + 1 : at + 3]
+        if (
+            number is not None
+            and statement == ir.Assign(ir.System("timer_stopped", (ir.IntLiteral(number),)), ir.BoolLiteral(True))
+            and behind[1:] == (_start(number),)
+            and _sets(behind[0]) == number
+            and _stopping(behind[0]) is None
+        ):
+            done.append(ir.Nothing(origin=statement.origin))
+        else:
+            done.append(statement)
+    return tuple(done)
+
+
 def _without(routine: ir.Routine, unread: set[str]) -> ir.Routine:
     """The routine without assignments of these variables."""
 
@@ -125,6 +146,7 @@ class _Held:
     def body(self, body: ir.Body, known: Known) -> ir.Body:
         """The body; `known` becomes what is known behind it."""
         done: list[ir.Statement] = []
+        body = _without_needless_stops(body)
         for at, statement in enumerate(body):
             number = _sets(statement)
             if number in self.stopped and isinstance(statement, ir.Assign):

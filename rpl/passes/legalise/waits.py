@@ -13,6 +13,7 @@ from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
 from rpl.passes.legalise.effects import blocks, children, everything, is_constant, root, statements_in
+from rpl.passes.legalise.heldtimers import held_timers
 from rpl.passes.legalise.usage import bodies
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
@@ -28,7 +29,9 @@ def fit_waits(program: ir.Program, context: Context) -> ir.Program:
     """The program with only the waits, delayed outputs and stop watches of the target."""
     timers = _Timers(program, context)
     if "ClockType" not in context.capabilities.types and "timer" in context.capabilities.system_variables:
+        taken = frozenset(timers.used)
         program = _without_clocks(program, context, timers)
+        program = held_timers(program, context, frozenset(timers.used) - taken)
     trapped = _reached_from_interrupts(program)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
