@@ -18,6 +18,7 @@ from rpl import ir, registry
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.errors import UsageError
 from rpl.passes.collector import paused_cycle_collector
+from rpl.passes.hiddentypes import hidden_types
 from rpl.passes.typing import normalise
 from rpl.reading.ledger import FileReport
 from rpl.source import Origin, Source, source_from_bytes
@@ -101,6 +102,7 @@ def _read(groups: dict[str, list[Source]], diagnostics: Diagnostics) -> ReadProg
         )
         files.extend(result.files)
     program = normalise(raw, diagnostics)
+    hidden_types(program, diagnostics)
     every = tuple(source for sources in groups.values() for source in sources)
     return ReadProgram(program, raw, every, tuple(files), tuple(groups))
 

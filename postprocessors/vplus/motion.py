@@ -184,7 +184,7 @@ class Motion:
             if move.via is None:
                 raise CannotSayError("a circle needs its point on the way")
             self.facts.once(ARC, move.origin)
-            return f"MOVEC {text(self.placed(move.via, frame))}, {text(self.placed(target, frame))}"
+            return self.fitting("MOVEC", self.placed(move.via, frame), self.placed(target, frame))
         word = _WORDS.get(move.kind)
         if word is None:
             raise CannotSayError(f"there is no {move.kind} move")
@@ -196,7 +196,16 @@ class Motion:
             case ir.Builtin(function="tool_offset", arguments=(place, x, y, z)) if self.zero(x) and self.zero(y):
                 suffix = "S" if word == "MOVES" else ""
                 return f"APPRO{suffix} {text(self.placed(place, frame))}, {text(_negated(z))}"
-        return f"{word} {text(self.placed(target, frame))}"
+        return self.fitting(word, self.placed(target, frame))
+
+    def fitting(self, word: str, *places: ir.Expression) -> str:
+        """The step to these places; the longest of them are kept by a SET before it where the line is too short."""
+        texts = [self.expressions.text(one) for one in places]
+        for at in sorted(range(len(texts)), key=lambda one: -len(texts[one])):
+            if len(word) + 1 + len(", ".join(texts)) > tables.LONGEST_LINE:
+                stem = "#p" if isinstance(self.expressions.type(places[at]), ir.JointsType) else "p"
+                texts[at] = self.expressions.kept(texts[at], stem, "SET ")
+        return f"{word} {', '.join(texts)}"
 
     def zero(self, value: ir.Expression) -> bool:
         return self.expressions.known(value) == 0
