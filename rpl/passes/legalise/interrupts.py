@@ -6,13 +6,21 @@ What a target's interrupts cannot watch (a computed condition, a timer) is left 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from types import UnionType
 
 from rpl import ir
+from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.reconnected import one_trap_each
 from rpl.passes.legalise.usage import base_name, called_names, each_statement, exposed
 from rpl.passes.rewrite import rewrite_parts
 
+ANY_CHANGE = code(
+    "interrupt-at-any-change",
+    Severity.WARNING,
+    "the target looks at this condition each time that its data change, and acts when it has become true",
+)
+_COMPARISONS = frozenset(("=", "<>", "<", "<=", ">", ">="))
 _FIRST_PRIORITY = 10  # KRL allows 1..39 and 81..128; the lower ones are left to the user
 
 
@@ -79,6 +87,12 @@ def _flag(condition: ir.Expression) -> ir.Expression | None:
     return None
 
 
+def _literal(value: ir.Expression) -> bool:
+    if isinstance(value, ir.Unary) and value.op == "-":
+        value = value.operand
+    return isinstance(value, ir.IntLiteral | ir.RealLiteral | ir.BoolLiteral)
+
+
 # ---- priority -> trap
 
 
@@ -87,6 +101,7 @@ class _Trap:
     handle: str
     routine: str
     condition: ir.Expression
+    held: str = ""  # remembers that the condition was true, where the data also changes without making it true
 
 
 @dataclass(slots=True)
@@ -117,8 +132,10 @@ class _Traps:
             ):
                 self.add(priority, one)
         program = self.lasting(_map_bodies(self.source, self.body))
-        declarations = tuple(
-            ir.Variable(trap.handle, ir.InterruptType(), scope="global") for trap in self.traps.values()
+        traps = self.traps.values()
+        declarations = (
+            *(ir.Variable(trap.handle, ir.InterruptType(), scope="global") for trap in traps),
+            *(ir.Variable(one.held, ir.BoolType(), ir.BoolLiteral(False), scope="global") for one in traps if one.held),
         )
         first = program.modules[0]
         home = ir.Module(
@@ -150,12 +167,31 @@ class _Traps:
         match condition:
             case ir.Unary(op="not", operand=operand) | ir.Binary(op="=" | "<>", left=operand, right=ir.BoolLiteral()):
                 return self.looked_at(operand)
-            case ir.Name(id=name) if name.lower() in self.truths():
+            case ir.Name(id=name) if name.lower() in self.watched_data(ir.BoolType):
                 return condition
+            case ir.Binary(op=op, left=left, right=right) if op in _COMPARISONS and _literal(right):
+                return self.compared(left)
+            case ir.Binary(op=op, left=left, right=right) if op in _COMPARISONS and _literal(left):
+                return self.compared(right)
         return _flag(condition)
 
-    def truths(self) -> set[str]:
-        """Truth values under a name that nothing else in the program has, folded."""
+    def compared(self, value: ir.Expression) -> ir.Expression | None:
+        """A number of the whole program, or an element of such an array with constant numbers."""
+        match value:
+            case ir.Name(id=name):
+                return value if name.lower() in self.watched_data(ir.IntType | ir.RealType) else None
+            case ir.Index(base=ir.Name(id=name), indices=indices) if all(map(_literal, indices)):
+                return value if name.lower() in self.watched_data(ir.IntType | ir.RealType, array=True) else None
+        return None
+
+    def watched_data(self, kind: type | UnionType, array: bool = False) -> set[str]:
+        """Data (or arrays) of this kind under a name that nothing else in the program has, folded."""
+
+        def fits(type: ir.Type) -> bool:
+            return isinstance(type.element if isinstance(type, ir.ArrayType) else type, kind) and (
+                isinstance(type, ir.ArrayType) == array
+            )
+
         routines = [routine for module in self.source.modules for routine in module.routines]
         declared = [one.declarations for one in self.source.modules] + [one.declarations for one in routines]
         every = [one for declarations in declared for one in declarations if isinstance(one, ir.Variable)]
@@ -164,7 +200,7 @@ class _Traps:
         return {
             one.name.lower()
             for one in every
-            if isinstance(one.type, ir.BoolType) and one.scope == "global" and names.count(one.name.lower()) == 1
+            if fits(one.type) and one.scope == "global" and names.count(one.name.lower()) == 1
         } - given
 
     def lasting(self, program: ir.Program) -> ir.Program:
@@ -189,12 +225,29 @@ class _Traps:
             self.context.fresh(f"rpl_trap_{priority}"),
             declared.condition,
         )
+        watched = self.looked_at(declared.condition)
+        if watched is not None and not self.is_truth(declared.condition):
+            trap.held = self.context.fresh(f"rpl_held_{priority}")
+            self.context.diagnostics.report(ANY_CHANGE, declared.origin)
         self.traps[priority] = trap
         # The motion that the action braked goes on when the interrupt routine has ended.
         body: ir.Body = (declared.action, ir.StartMotion()) if self.brakes(declared.action) else (declared.action,)
-        if self.looked_at(declared.condition) is not None:
+        if trap.held:
+            held = ir.Name(trap.held)
+            first = ir.If(((ir.Unary("not", held), (ir.Assign(held, ir.BoolLiteral(True)), *body)),))
+            body = (ir.If(((declared.condition, (first,)),), (ir.Assign(held, ir.BoolLiteral(False)),)),)
+        elif watched is not None:
             body = (ir.If(((declared.condition, body),)),)
         self.made.append(ir.Routine(trap.routine, "trap", body=body, scope="task"))
+
+    def is_truth(self, condition: ir.Expression) -> bool:
+        """Is it the value of a flag or a truth value itself, which changes only when the condition does?"""
+        match condition:
+            case ir.Unary(op="not", operand=operand) | ir.Binary(op="=" | "<>", left=operand, right=ir.BoolLiteral()):
+                return self.is_truth(operand)
+            case ir.Name(id=name):
+                return name.lower() in self.watched_data(ir.BoolType)
+        return _flag(condition) is not None
 
     def brakes(self, action: ir.Statement) -> bool:
         if not isinstance(action, ir.CallRoutine):
@@ -232,11 +285,21 @@ class _Traps:
                 if op == "on":
                     flag = self.looked_at(trap.condition)
                     event, watched = ("edge", trap.condition) if flag is None else ("change", flag)
-                    return [ir.OrderInterrupt(name, event, watched, origin=statement.origin)]
+                    return [
+                        *self.remembered(trap, statement),
+                        ir.OrderInterrupt(name, event, watched, origin=statement.origin),
+                    ]
                 if op == "off":
                     return self.connect(trap, statement)
-                return [replace(statement, handle=name)]
+                before = self.remembered(trap, statement) if op == "enable" else []
+                return [*before, replace(statement, handle=name)]
         return [rewrite_parts(statement, lambda expression: expression, self.body)]
+
+    def remembered(self, trap: _Trap, statement: ir.Statement) -> list[ir.Statement]:
+        """A condition that is true already when the interrupt begins to look does not become true then."""
+        if not trap.held:
+            return []
+        return [ir.Assign(ir.Name(trap.held), trap.condition, origin=replace(statement.origin, comments=()))]
 
     def connect(self, trap: _Trap, statement: ir.Statement) -> list[ir.Statement]:
         """An identity is connected once; deleting it first makes that true on every pass."""
