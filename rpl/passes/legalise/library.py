@@ -300,38 +300,42 @@ def _from_points(library: Library) -> Made:
     """The frame through three points: x from the first to the second, y towards the third; origin 1 first, 2 second
     point, 3 the point of the line nearest to the third."""
 
+    def axis(word: str, n: str) -> ir.Name:
+        """Of a direction, in numbers: positions may be kept to a thousandth only."""
+        return ir.Name(word + n)
+
     def square(word: str) -> ir.Expression:
-        return plus(*(times(part(word, n), part(word, n)) for n in ("x", "y", "z")))
+        return plus(*(times(axis(word, n), axis(word, n)) for n in ("x", "y", "z")))
 
     def cross(left: str, right: str) -> tuple[ir.Expression, ...]:
         pairs = (("y", "z"), ("z", "x"), ("x", "y"))
         return tuple(
-            minus(times(part(left, m), part(right, n)), times(part(left, n), part(right, m))) for m, n in pairs
+            minus(times(axis(left, m), axis(right, n)), times(axis(left, n), axis(right, m))) for m, n in pairs
         )
 
     def scaled(word: str) -> list[ir.Statement]:
         """Make it of length one."""
-        unit = [_set(f"{word}.{n}", ir.Binary("/", part(word, n), ir.Name("l"))) for n in ("x", "y", "z")]
+        unit = [_set(f"{word}{n}", ir.Binary("/", axis(word, n), ir.Name("l"))) for n in ("x", "y", "z")]
         return [_set("l", function("sqrt", square(word))), *unit]
 
-    ends = [_set(f"u.{n}", minus(part("p2", n), part("p1", n))) for n in ("x", "y", "z")]
-    side = [_set(f"v.{n}", minus(part("p3", n), part("p1", n))) for n in ("x", "y", "z")]
-    along = _set("k", plus(*(times(part("u", n), part("v", n)) for n in ("x", "y", "z"))))
-    normal = [_set(f"w.{n}", one) for n, one in zip(("x", "y", "z"), cross("u", "v"), strict=True)]
-    third = [_set(f"v.{n}", one) for n, one in zip(("x", "y", "z"), cross("w", "u"), strict=True)]
+    ends = [_set(f"u{n}", minus(part("p2", n), part("p1", n))) for n in ("x", "y", "z")]
+    side = [_set(f"v{n}", minus(part("p3", n), part("p1", n))) for n in ("x", "y", "z")]
+    along = _set("k", plus(*(times(axis("u", n), axis("v", n)) for n in ("x", "y", "z"))))
+    normal = [_set(f"w{n}", one) for n, one in zip(("x", "y", "z"), cross("u", "v"), strict=True)]
+    third = [_set(f"v{n}", one) for n, one in zip(("x", "y", "z"), cross("w", "u"), strict=True)]
     first = tuple(_set(f"f.{n}", part("p1", n)) for n in ("x", "y", "z"))
     second = tuple(_set(f"f.{n}", part("p2", n)) for n in ("x", "y", "z"))
-    foot = tuple(_set(f"f.{n}", plus(part("p1", n), times(ir.Name("k"), part("u", n)))) for n in ("x", "y", "z"))
+    foot = tuple(_set(f"f.{n}", plus(part("p1", n), times(ir.Name("k"), axis("u", n)))) for n in ("x", "y", "z"))
     which = ir.Name("origin")
     place = ir.If(
         ((ir.Binary("=", which, ir.IntLiteral(2)), second), (ir.Binary("=", which, ir.IntLiteral(3)), foot)), first
     )
-    level = function("sqrt", plus(times(part("u", "x"), part("u", "x")), times(part("u", "y"), part("u", "y"))))
+    level = function("sqrt", plus(times(axis("u", "x"), axis("u", "x")), times(axis("u", "y"), axis("u", "y"))))
     regular = (
-        _set("f.a", function("atan2", part("u", "y"), part("u", "x"))),
-        _set("f.c", function("atan2", part("v", "z"), part("w", "z"))),
+        _set("f.a", function("atan2", axis("u", "y"), axis("u", "x"))),
+        _set("f.c", function("atan2", axis("v", "z"), axis("w", "z"))),
     )
-    gimbal = (_set("f.a", function("atan2", ir.Unary("-", part("v", "x")), part("v", "y"))), _set("f.c", number(0)))
+    gimbal = (_set("f.a", function("atan2", ir.Unary("-", axis("v", "x")), axis("v", "y"))), _set("f.c", number(0)))
     body: ir.Body = (
         *ends,
         *side,
@@ -343,11 +347,11 @@ def _from_points(library: Library) -> Made:
         place,
         _set("l", level),
         ir.If(((ir.Binary(">", ir.Name("l"), number(1e-6)), regular),), gimbal),
-        _set("f.b", function("atan2", ir.Unary("-", part("u", "z")), ir.Name("l"))),
+        _set("f.b", function("atan2", ir.Unary("-", axis("u", "z")), ir.Name("l"))),
         ir.Return(ir.Name("f")),
     )
     points = tuple(ir.Parameter(name, _POSE) for name in ("p1", "p2", "p3"))
-    local = (*_local("u v w f", _POSE), *_local("k l", _REAL))
+    local = (*_local("f", _POSE), *_local("ux uy uz vx vy vz wx wy wz k l", _REAL))
     return (*points, ir.Parameter("origin", ir.IntType())), _POSE, local, body
 
 
