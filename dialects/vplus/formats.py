@@ -18,7 +18,17 @@ from rpl.source import Origin
 DEFAULT = "% .8g"
 _CONTROL = re.compile(r"/([A-Za-z])(\d*)(?:\.(\d+))?")
 _TEXT_FUNCTIONS = frozenset(
-    ("from_code", "text_part", "format", "error_text", "time_text", "date_text", "text_upper", "value_text")
+    (
+        "from_code",
+        "text_part",
+        "format",
+        "error_text",
+        "time_text",
+        "date_text",
+        "text_upper",
+        "value_text",
+        "number_bytes",
+    )
 )
 
 

@@ -233,6 +233,12 @@ class Functions(Expressions):
             case "asc", [text, *at] if text is not None and len(at) <= 1:
                 place = (at[0] if at else None) or None
                 return self.built("character_code", self.part(text, place, one) if place is not None else text)
+            case (("$intb" | "$lngb"), [value]) if value is not None:
+                return self.built("number_bytes", value, ir.IntLiteral(tables.BYTES[name]))
+            case (("intb" | "lngb"), [text, *at]) if text is not None and len(at) <= 1:
+                first = (at[0] if at else None) or one
+                first = one if first == ir.IntLiteral(0) else first
+                return self.built("bytes_number", text, first, ir.IntLiteral(tables.BYTES[name]))
             case "val", [ir.TextLiteral(value=digits)] if digits.startswith("^"):
                 return based(digits)
             case "$mid", [text, first, count] if text is not None:

@@ -72,6 +72,9 @@ FUNCTIONS: dict[str, tuple[str, int]] = {
     "#phere": ("current_joints", 0),
 }
 
+# Whole numbers in binary: how many bytes, most significant first (V+ language reference). M: real numbers are rounded.
+BYTES: dict[str, int] = {"$intb": 2, "intb": 2, "$lngb": 4, "lngb": 4}
+
 # Numbers to another base: binary, hexadecimal, octal. M: VAL reads them in a text as well.
 NUMBER_MARKS: dict[str, int] = {"^b": 2, "^h": 16, "^": 8}
 
@@ -83,7 +86,7 @@ TASK_STATE, TASK_EXECUTING = 1, 4
 CONTROLLER_VALUES: dict[str, ir.Type] = {
     **dict.fromkeys(
         """bstatus belt config dblb device error fltb force.read get.event getc getevent id identical int.event
-        intb iostat last latched lngb parameter pendant priority sig.ins solve.angles solve.flags speed state strdif
+        iostat last latched parameter pendant priority sig.ins solve.angles solve.flags speed state strdif
         switch tas task time transb vfeature vlocate vparameter vresult vstate window
         """.split(),  # noqa: SIM905 (a word list reads better)
         REAL,
@@ -91,7 +94,7 @@ CONTROLLER_VALUES: dict[str, ir.Type] = {
     **dict.fromkeys(("latch", "scale", "solve.trans", "transb", "vlocation"), POSE),
     "#platch": JOINTS,
     **dict.fromkeys(
-        "$intb $lngb $fltb $dblb $transb $id $symbol $system $truncate $unpack".split(),  # noqa: SIM905
+        "$fltb $dblb $transb $id $symbol $system $truncate $unpack".split(),  # noqa: SIM905
         TEXT,
     ),
 }

@@ -45,6 +45,7 @@ CAPABILITIES = Capabilities(
     ),
     names=NameRules(longest=36, case_sensitive=False, reserved=tables.RESERVED),
     modal_motion=True,
+    printable_texts=True,
     notation="tp",
     rotation="zyx",
     conversions=frozenset(("real", "trunc", "round_half_away")),

@@ -58,6 +58,7 @@ CAPABILITIES = Capabilities(
     watching_tasks=True,
     fixed_arcs=True,
     text_parts=True,
+    printable_texts=True,
     places_in_base=True,
     poll_s=0.002,
     search_results=frozenset(("found", "hit")),

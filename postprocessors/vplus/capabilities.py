@@ -30,6 +30,8 @@ CAPABILITIES = Capabilities(
                 "value_text",
                 "format",
                 "message_text",
+                "number_bytes",
+                "bytes_number",
             ),
             *("text_upper", "text_lower", "text_map"),
             *("is_uninitialised", "bit_shift_left", "power", "task_runs"),

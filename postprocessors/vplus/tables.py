@@ -83,6 +83,7 @@ FUNCTIONS = {
     "character_code": "ASC",
     "error_text": "$ERROR",
 }
+BYTES = {2: "INTB", 4: "LNGB"}  # whole numbers in so many bytes of a text
 # Spelled without an argument.
 VALUES = {
     "random": "RANDOM",

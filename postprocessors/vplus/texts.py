@@ -157,6 +157,12 @@ class Texts:
             case "text_find", (text, start, wanted):
                 tail = "" if start == ir.IntLiteral(1) else f", {expressions.text(start)}"
                 return f"POS({expressions.text(text)}, {expressions.text(wanted)}{tail})"
+            case "number_bytes", (value, ir.IntLiteral(value=count)) if count in tables.BYTES:
+                return f"${tables.BYTES[count]}({expressions.text(value)})"
+            case "bytes_number", (text, ir.IntLiteral(value=1), ir.IntLiteral(value=count)) if count in tables.BYTES:
+                return f"{tables.BYTES[count]}({expressions.text(text)})"
+            case "bytes_number", (text, first, ir.IntLiteral(value=count)) if count in tables.BYTES:
+                return f"{tables.BYTES[count]}({expressions.text(text)}, {expressions.text(first)})"
             case (("text_upper" | "text_lower" | "text_map"), (text, *further)):
                 return self.made(f"rpl.{name.removeprefix('text_')}", text, further)
             case "text_equal", (one, other, ir.BoolLiteral(value=True)):

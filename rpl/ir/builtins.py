@@ -94,6 +94,8 @@ FUNCTIONS: dict[str, Function] = _table(
     text_value     | t        | n | number written in the text; error when none
     character_code | c        | i | code of the first character
     from_code      | i        | t | character of a code
+    number_bytes   | ni       | t | the number, rounded, as so many bytes (two's complement), most significant first
+    bytes_number   | tii      | i | signed whole number in `third` bytes of the text from position `second` (1-based)
     clock_seconds  | x        | n | time shown by a stop watch in s
     time_text      |          | t | time of day as text
     date_text      |          | t | date as text

@@ -103,6 +103,7 @@ class Capabilities:
     asks_numbers_only: the operator can type a number, and the question is a message in front of it. text_case:
     comparisons of texts tell capital letters from small ones. text_ordering: `<` of texts is their order (else only
     `=` and `<>` compare them). text_find_from: text_find begins at any position.
+    printable_texts: a text holds only the printable signs of ASCII, so no bytes.
     text_parts: without numbered storage as well, helpers read numbers from texts and search them by cutting and
     comparing parts.
     truth: `minus_one` when TRUE is the number -1 and there is no type of truth values.
@@ -236,6 +237,7 @@ class Capabilities:
     asks_numbers_only: bool = False
     text_find_from: bool = True
     text_parts: bool = False
+    printable_texts: bool = False
     text_case: bool = True
     text_ordering: bool = False
     truth: str = "bool"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Iterator, Mapping
 from decimal import ROUND_HALF_UP, Decimal, InvalidOperation
@@ -286,6 +287,22 @@ def _code(text: str) -> int:
     return ord(text[0])
 
 
+def _number_bytes(number: float, count: Value) -> str:
+    size = whole(count)
+    limit = 1 << 8 * size
+    value = math.floor(abs(number) + 0.5) * (-1 if number < 0 else 1)
+    if not -limit // 2 <= value < limit:
+        raise ProgramError("out_of_range", f"{value} does not fit into {size} bytes")
+    return (value % limit).to_bytes(size, "big").decode("latin-1")
+
+
+def _bytes_number(text: str, position: Value, count: Value) -> int:
+    codes = [ord(one) for one in _part(text, position, count)]
+    if any(code > 255 for code in codes):
+        raise ProgramError("out_of_range", f"{text!r} is no row of bytes")
+    return int.from_bytes(bytes(codes), "big", signed=True)
+
+
 PURE: dict[str, Callable[..., Value]] = {
     "text_length": len,
     "text_part": _part,
@@ -304,4 +321,6 @@ PURE: dict[str, Callable[..., Value]] = {
     "message_text": message_text,
     "character_code": _code,
     "from_code": lambda code: chr(whole(code)),
+    "number_bytes": _number_bytes,
+    "bytes_number": _bytes_number,
 }

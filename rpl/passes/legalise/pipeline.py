@@ -143,6 +143,7 @@ from rpl.passes.legalise.taskdata import shared_task_data
 from rpl.passes.legalise.tasknames import task_names
 from rpl.passes.legalise.taskreferences import task_references
 from rpl.passes.legalise.taskstates import task_states
+from rpl.passes.legalise.textbytes import text_bytes
 from rpl.passes.legalise.textorders import text_orders
 from rpl.passes.legalise.threepoints import three_point_arcs
 from rpl.passes.legalise.timers import timers_to_clocks
@@ -150,6 +151,7 @@ from rpl.passes.legalise.tooldata import tool_data
 from rpl.passes.legalise.triggers import triggers
 from rpl.passes.legalise.truths import truths_to_numbers
 from rpl.passes.legalise.turnedways import turned_ways
+from rpl.passes.legalise.turningtimes import turning_times
 from rpl.passes.legalise.undefined import asked_values
 from rpl.passes.legalise.undefinedparts import asked_elements
 from rpl.passes.legalise.unused import drop_untyped, drop_unused
@@ -193,6 +195,7 @@ PASSES: tuple[Pass, ...] = (
     changed_places,
     random_numbers,
     text_orders,
+    text_bytes,
     turned_ways,
     elementwise,
     known_handles,
@@ -212,6 +215,7 @@ PASSES: tuple[Pass, ...] = (
     settings_of_next_move,
     joined_moves,
     move_times,
+    turning_times,
     error_routines,
     list_results,
     lists_in_variables,
