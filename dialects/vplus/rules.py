@@ -19,6 +19,7 @@ RULES = Rules(
     components={"PoseType": _XYZABC, "TargetType": _XYZABC},
     text_plus=True,
     number_marks=tables.NUMBER_MARKS,
+    leading_numbers=True,  # M: VAL stops at the first sign that is no part of a number
     undefined=True,
     wait_poll_s=tables.CYCLE_S,
     # SPEED 100,100 ALWAYS, ACCEL 100,100, continuous path: the state in which every program starts.

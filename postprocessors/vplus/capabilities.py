@@ -67,6 +67,7 @@ CAPABILITIES = Capabilities(
     next_move_settings=True,
     text_ordering=True,
     text_parts=True,
+    leading_numbers=True,
     stopping_reactions=True,
     interrupt_masks=True,
     action_arguments=frozenset(("path", "own")),

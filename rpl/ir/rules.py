@@ -40,7 +40,8 @@ class Rules:
     system_defaults: modal system variables at the start of a run, in base units. errors: names of error numbers.
     blend_levels: distance in mm of each numbered blend level (INFORM PL). array_base: index of the first element of a
     list that is written out. number_marks: what stands before the digits of a number to another base, also in a text
-    that is read as a number (longest first, in small letters). message_numbers, message_texts: of a controller whose
+    that is read as a number (longest first, in small letters). leading_numbers: such a text may go on behind its
+    number. message_numbers, message_texts: of a controller whose
     messages show constant text only: regular expressions for what names a register of numbers, or any other register,
     in such a text.
     """
@@ -62,5 +63,6 @@ class Rules:
     blend_levels: tuple[float, ...] = ()
     array_base: int = 1
     number_marks: Mapping[str, int] = field(default_factory=dict)
+    leading_numbers: bool = False
     message_numbers: str = ""
     message_texts: str = ""

@@ -327,7 +327,9 @@ OF_TASK: dict[str, Callable[..., Value]] = {
     "time_text": _time_text,
     "date_text": _date_text,
     "random": lambda task: task.machine.random.random(),
-    "text_value": lambda task, text: texts.text_value(text, task.frame.code.rules.number_marks),
+    "text_value": lambda task, text: texts.text_value(
+        text, task.frame.code.rules.number_marks, task.frame.code.rules.leading_numbers
+    ),
     "task_runs": lambda task, name: tasks.runs(task, str(name)),
     "error_text": lambda task, number: name_of(number, task.frame.code.rules.errors),
 }

@@ -82,8 +82,9 @@ def _parts(value: Value) -> Iterator[Value]:
             raise ProgramError("wrong_kind", "this value has no text")
 
 
-def text_value(text: str, marks: Mapping[str, int] = _NO_MARKS) -> float:
-    """The number written in the text. `marks`: what stands before the digits of a number to another base."""
+def text_value(text: str, marks: Mapping[str, int] = _NO_MARKS, leading: bool = False) -> float:
+    """The number written in the text. `marks`: what stands before the digits of a number to another base. `leading`:
+    the text may go on behind a decimal number."""
     plain = text.strip().lower()
     for mark, base in marks.items():
         if plain.startswith(mark):
@@ -91,7 +92,7 @@ def text_value(text: str, marks: Mapping[str, int] = _NO_MARKS) -> float:
                 return int(plain[len(mark) :], base)
             except ValueError:
                 continue
-    match = _NUMBER.fullmatch(text)
+    match = _NUMBER.match(text) if leading else _NUMBER.fullmatch(text)
     if match is None:
         raise ProgramError("wrong_kind", f"{text!r} is no number")
     return plain_number(match[1])

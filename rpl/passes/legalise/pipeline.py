@@ -65,6 +65,7 @@ from rpl.passes.legalise.jointgoals import joint_goals
 from rpl.passes.legalise.knownjoints import known_joints
 from rpl.passes.legalise.labelled import labels_as_remarks
 from rpl.passes.legalise.labels import structure_to_labels
+from rpl.passes.legalise.leadingnumbers import leading_numbers
 from rpl.passes.legalise.levels import levels_to_distances
 from rpl.passes.legalise.lists import lists_in_variables
 from rpl.passes.legalise.loadreadings import load_readings
@@ -196,6 +197,7 @@ PASSES: tuple[Pass, ...] = (
     random_numbers,
     text_orders,
     text_bytes,
+    leading_numbers,
     turned_ways,
     elementwise,
     known_handles,
