@@ -153,7 +153,6 @@ from rpl.passes.legalise.triggers import triggers
 from rpl.passes.legalise.truths import truths_to_numbers
 from rpl.passes.legalise.turnedways import turned_ways
 from rpl.passes.legalise.turningtimes import turning_times
-from rpl.passes.legalise.turningtimes import turning_times
 from rpl.passes.legalise.undefined import asked_values
 from rpl.passes.legalise.undefinedparts import asked_elements
 from rpl.passes.legalise.unused import drop_untyped, drop_unused
@@ -218,7 +217,6 @@ PASSES: tuple[Pass, ...] = (
     settings_of_next_move,
     joined_moves,
     move_times,
-    turning_times,
     turning_times,
     error_routines,
     list_results,
