@@ -38,7 +38,7 @@ def scripts(files: dict[str, tuple[str, ...]], entry: str = "") -> dict[str, str
 
 def test_the_program_that_chooses_is_the_script() -> None:
     files = {"ADDTEN": ADDTEN, "START": (*CHOICE, "CALL SR[1]", "DO[1]=(R[1]=15)")}
-    assert list(scripts(files, "START")) == ["start_program.script"]
+    assert list(scripts(files, "START")) == ["start.script"]
 
 
 def test_the_program_that_leads_to_the_choice_is_the_script() -> None:
@@ -47,7 +47,7 @@ def test_the_program_that_leads_to_the_choice_is_the_script() -> None:
         "CHOOSE": (*CHOICE, "CALL SR[1]"),
         "START": ("CALL CHOOSE", "DO[1]=(R[1]=15)"),
     }
-    assert list(scripts(files, "START")) == ["start_program.script"]
+    assert list(scripts(files, "START")) == ["start.script"]
 
 
 def test_scripts_bring_what_they_call_along() -> None:

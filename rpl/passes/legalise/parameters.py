@@ -365,10 +365,20 @@ class _Calls(Hoister):
             place = argument.value
             if parameter.mode == "reference" and isinstance(place, ir.Name | ir.Index | ir.Field):
                 place = self.fixed(place, before)
-                behind.extend(_copy(place, ir.Name(variable.name), variable.type))
+                behind.extend(self.copy(place, ir.Name(variable.name), variable.type, place))
                 self.warn(name, place, at)
-            before.extend(_copy(ir.Name(variable.name), place, variable.type))
+            before.extend(self.copy(ir.Name(variable.name), place, variable.type, place))
         return tuple(before), tuple(numbered), tuple(behind)
+
+    def copy(
+        self, target: ir.Expression, value: ir.Expression, type: ir.Type, given: ir.Expression
+    ) -> tuple[ir.Assign, ...]:
+        """To or from a variable of that type; of a list that has room for more, what the given one has."""
+        own = self.editor.type_of(given)
+        if isinstance(type, ir.ArrayType) and isinstance(own, ir.ArrayType) and not is_open(own):
+            type = replace(type, dimensions=own.dimensions)
+        base = type.base if isinstance(type, ir.ArrayType) else 0
+        return array_copy(target, value, type, (base, base))
 
     def fixed(self, place: ir.Expression, before: list[ir.Statement]) -> ir.Expression:
         """The same place before and behind the call: subscripts are evaluated once."""
@@ -392,11 +402,6 @@ class _Calls(Hoister):
         shared = variable is not None and symbol is not None and symbol.routine is None
         if shared and variable in self.mentions.names.get(name.lower(), ()):
             self.editor.context.diagnostics.report(COPIED, at.origin, name=name, what=variable)
-
-
-def _copy(target: ir.Expression, value: ir.Expression, type: ir.Type) -> tuple[ir.Assign, ...]:
-    base = type.base if isinstance(type, ir.ArrayType) else 0
-    return array_copy(target, value, type, (base, base))
 
 
 def _given_back(body: ir.Body, end: list[ir.Statement]) -> ir.Body:
