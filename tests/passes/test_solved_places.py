@@ -97,3 +97,41 @@ def test_computed_places_are_solved_in_every_language(target: str) -> None:
     back = read_sources([source_from_bytes(file.path, file.data) for file in translation.files], target, diagnostics)
     result = run_program(back.program, "ur5e", None, translation.renamed.get("main", "main"))
     assert [value for _, _, value in result.outputs] == [True]
+
+
+SEEN = """ENTRY main
+MODULE m
+VAR nozzle: TOOL = {{held: TRUE, frame: {{x: 0, y: 0, z: 90, a: 0, b: 0, c: 0}}}}
+PROCEDURE main()
+    VAR at: TARGET
+    VAR p, q: POSE
+    VAR j, k: JOINTS
+    $tool = {{x: 0, y: 0, z: 90, a: 0, b: 0, c: 0}}
+    MOVE TO joints {{j1: 0, j2: -90, j3: 90, j4: 0, j5: 90, j6: 0}}
+    at = {written}
+    j = current_joints()
+    k = target_to_joints_near({place}, j)
+    MOVE TO k
+    p = pose_of(current_target())
+    k.j1 = k.j1 + 5
+    q = pose_of(joints_to_target(k, nozzle))
+    MOVE TO k
+    SET do[1] TO abs(p.z - at.z - 20) < 0.1 AND abs(k.j1 - j.j1) < 6 AND distance(q.trans, current_position()) < 0.1
+END PROCEDURE
+END MODULE
+"""
+
+
+@pytest.mark.parametrize("place", ["offset(current_target(), 0, 0, 20)", "offset(at, 0, 0, 20)"])
+@pytest.mark.parametrize("target", ["vplus", "tp", "inform"])
+def test_places_that_were_read_are_solved_near_the_joints(target: str, place: str) -> None:
+    diagnostics = Diagnostics()
+    text = SEEN.format(place=place, written="current_target()")
+    read = read_sources([source_from_text("m.rpl", text)], "rpl", diagnostics)
+    assert [value for _, _, value in run_program(read.program, "kuka_kr6r900sixx").outputs] == [True]
+    translation = translate_program(read, target, "kuka_kr6r900sixx", None, diagnostics)
+    assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    assert "posture-by-joints" in {item.code.name for item in diagnostics.of(Severity.WARNING)}
+    back = read_sources([source_from_bytes(file.path, file.data) for file in translation.files], target, diagnostics)
+    result = run_program(back.program, "kuka_kr6r900sixx", None, translation.renamed.get("main", "main"))
+    assert [value for _, _, value in result.outputs] == [True]

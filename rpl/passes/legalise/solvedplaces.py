@@ -2,24 +2,27 @@
 program brings along, for targets whose programs cannot ask their controller.
 
 The arm must have a closed form (rpl.emulator.closedforms), and the tool and the frame in use be known where the program
-asks. What stays is refused by `refuse`.
+asks. A place that was read is taken without its arm configuration, with a warning; one with a written configuration is
+not. What stays is refused by `refuse`.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from rpl import ir
+from rpl import ir, registry
+from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.flow import Frames, ModalFlow
+from rpl.passes.legalise.flow import Frames, ModalFlow, Uses
 from rpl.passes.legalise.helpers import Helpers
 from rpl.passes.legalise.solvertexts import FLANGE, NEAR, REACHED, solver_texts
 from rpl.passes.legalise.usage import bodies, each_expression, each_statement
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.values import literal
+from rpl.source import NOWHERE
 
 _ROUTINES = {
     "target_to_joints": NEAR,
@@ -29,6 +32,14 @@ _ROUTINES = {
 }
 _PLACE = "joints_to_target"
 _OWN = {"target_to_joints": 1, "target_to_joints_near": 2, "is_reachable": 2, "joints_to_target": 1}  # arguments
+NEAREST = code(
+    "posture-by-joints",
+    Severity.WARNING,
+    "the joints are those nearest to the given ones; the source takes the posture that was read with the place",
+    "look that the given joints are of the posture in which the place is to be reached",
+)
+# Components of a place that say nothing of the arm's posture.
+_PARTS = frozenset(("x", "y", "z", "a", "b", "c", "trans", "rot", "external", *ir.COMPONENTS[ir.ExternalType]))
 
 
 def solved_places(program: ir.Program, context: Context) -> ir.Program:
@@ -59,8 +70,14 @@ class _Solved(Rewriter):
         can = context.capabilities
         self.looked_at = _looked_at(program) if can.banks else set()
         self.kept = set(_OWN) - can.functions if can.banks else set()
+        self.read, self.here = program, NOWHERE
+        self.uses: Uses | None = None
+        # Numbered positions are read in the frame of the last move: only where no move has one of its own.
+        self.framed = can.banks and any(isinstance(one, ir.Move) and (one.frame or one.tool) for one in walk(program))
+        self.sets_flags = _sets_flags(program)
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+        self.here = statement.origin
         match statement:
             case ir.Move(target=ir.Builtin(function="target_to_joints_near" | "joints_to_target")):
                 return [statement]
@@ -78,12 +95,53 @@ class _Solved(Rewriter):
         name, count = expression.function, _OWN.get(expression.function)
         if name not in self.lacking or count is None:
             return done
-        given = expression.arguments
-        poses = given[count:] if name == _PLACE else (given[0], *given[count:])
-        if not all(isinstance(self.type_of(one), ir.PoseType) for one in poses):
+        around = self.poses(expression, done, count)
+        if around is None:
             return done
-        found = self.place(done, frames) if name == _PLACE else self.joints(done, count, frames)
-        return done if found is None else replace(found, origin=expression.origin)
+        done = replace(done, arguments=(*done.arguments[:count], *around))
+        if name == _PLACE:
+            found = self.place(done, frames)
+        else:
+            place = self.pose(expression, done.arguments[0])
+            if place is None:
+                return expression
+            found = self.joints(replace(done, arguments=(place, *done.arguments[1:])), count, frames)
+            if found is not None and place is not done.arguments[0]:
+                self.context.diagnostics.report(NEAREST, expression.origin if expression.origin.source else self.here)
+        return expression if found is None else replace(found, origin=expression.origin)
+
+    def pose(self, asked: ir.Builtin, place: ir.Expression) -> ir.Expression | None:
+        """The place without its arm configuration; None where one was written, which may be far from the joints."""
+        match self.type_of(asked.arguments[0]):
+            case ir.PoseType():
+                return place
+            case ir.TargetType() if not (
+                asked.function == "target_to_joints" or self.framed or self.postured(asked.arguments[0])
+            ):
+                return ir.Builtin("pose_of", (place,), origin=place.origin)
+        return None
+
+    def postured(self, place: ir.Expression) -> bool:
+        """May a written arm configuration come to this place? One that was read there is that of the arm."""
+        if self.uses is None:
+            self.uses = Uses.of(self.read, self.scopes)
+        reached = self.uses.reach(place, self.scope)
+        written = (one for one in self.uses.keep if id(one) in reached and isinstance(one, ir.Aggregate))
+        return self.sets_flags or any(name not in _PARTS for one in written for name, _ in one.entries)
+
+    def poses(self, asked: ir.Builtin, done: ir.Builtin, count: int) -> list[ir.Expression] | None:
+        """The tool and the frame that are given, as poses; data of tools and frames only where it is constant."""
+        found: list[ir.Expression] = []
+        for at, one in enumerate(asked.arguments[count:]):
+            if isinstance(self.type_of(one), ir.PoseType):
+                found.append(done.arguments[count + at])
+                continue
+            known = self.flow.part(one, ("tool", "base")[at], {}, self.scope)
+            pose = None if known is None else literal(known)
+            if pose is None:
+                return None
+            found.append(pose)
+        return found
 
     def joints(self, asked: ir.Builtin, own: int, frames: Frames) -> ir.Expression | None:
         """The joints of a place near given ones, else near those that the robot stands at."""
@@ -121,6 +179,15 @@ def _around(
     if (not given and frames.tool is None) or (len(given) < 2 and frames.base is None):
         return None
     return given[0] if given else tool, given[1] if len(given) > 1 else frame
+
+
+def _sets_flags(program: ir.Program) -> bool:
+    """Does the program set parts of an arm configuration?"""
+    flags = {"conf"}.union(*(registry.dialect(module.dialect).notation_fields for module in program.modules))
+    return any(
+        isinstance(one, ir.Assign) and isinstance(one.target, ir.Field) and one.target.name in flags
+        for one in walk(*program.modules)
+    )
 
 
 def _looked_at(program: ir.Program) -> set[str]:
