@@ -46,7 +46,7 @@ def number_text(value: float, decimals: int | None = None, style: NumberStyle = 
         raise InternalError(f"the number {value} cannot be written")
     if value == 0:
         return "0.0" if style.always_point else "0"
-    exact = Decimal(repr(value))
+    exact = Decimal(repr(float(value)))
     if decimals is not None:
         rounded = round_decimal(exact, decimals)
         exact = rounded if rounded else significant(exact, 3)

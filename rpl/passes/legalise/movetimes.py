@@ -155,7 +155,7 @@ class _Times:
             if arm is None or here is None or there is None:
                 return None
             way = max(abs(to - of) / top for of, to, top in zip(here, there, arm.speeds, strict=False)) * 100.0
-            return ir.RealLiteral(round(min(way / seconds, 100.0), 4)) if way > 0.0 else None
+            return ir.RealLiteral(round(float(min(way / seconds, 100.0)), 4)) if way > 0.0 else None
         here_pose, there_pose = pose_of(start), pose_of(goal)
         same = (before.tool, before.frame) == (move.tool, move.frame)
         if move.kind != "linear" or here_pose is None or there_pose is None or not same:
