@@ -227,6 +227,7 @@ PASSES: tuple[Pass, ...] = (
     near_joints,
     known_joints,
     solved_places,
+    elementwise,
     asked_postures,
     joint_goals,
     partial_places,
