@@ -77,6 +77,15 @@ PROJECTS = {
     "tp_more_backup": Project(FANUC, 18, "FOLGE1"),
     "inform_more_frames": Project(YASKAWA, 19),
     "inform_more_backup": Project("motoman_mh24", 17, "MASTER"),
+    "krl_more_rims": Project(KUKA, 20, "RIMTEST"),
+    "rapid_more_gauging": Project(ABB, 20),
+    "rapid_more_dosing": Project(ABB, 20),
+    "tp_more_gauging": Project(FANUC, 20, "FATMAIN"),
+    "urscript_more_bolting": Project(UR, 16),
+    "urscript_more_washing": Project(UR, 16),
+    "vplus_more_bench": Project(VIPER, 20, "bench"),
+    "inform_more_deburring": Project("motoman_mh24", 20, "DEBURR"),
+    "rpl_more_grinding": Project(KUKA, 20),
 }
 TARGETS = list(registry.target_names())
 
