@@ -4,6 +4,7 @@ project has been read (see `typing`).
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 
 from lark import Token, Tree
@@ -70,7 +71,7 @@ def significant(text: str) -> str:
     return sigil + text[len(sigil) : len(sigil) + tables.NAME_LENGTH].lower()
 
 
-class Expressions:
+class Expressions(ABC):
     """Lowers expression trees; base of the statement lowering. `numbers` and `origin` are those of the statement at
     hand."""
 
@@ -206,9 +207,9 @@ class Expressions:
     def optional(self, tree: SyntaxTree) -> ir.Expression | None:
         return self.expression(subtree(tree.children[0])) if tree.children else None
 
+    @abstractmethod
     def call(self, tree: SyntaxTree) -> ir.Expression:
         """A built-in function; V+ knows no others."""
-        raise NotImplementedError
 
 
 def _executing(state: ir.Expression, number: ir.Expression) -> ir.Expression | None:

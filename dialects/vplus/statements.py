@@ -6,6 +6,7 @@ stand in their own files.
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -364,11 +365,13 @@ class Statements(Functions):
             operands.pop()
         return Instruction(word, operands, brackets, unit, always, origin)
 
+    @abstractmethod
     def instruction(self, given: Instruction) -> Lowered:
-        raise NotImplementedError
+        """A step that begins with a word of its own."""
 
+    @abstractmethod
     def on_setting(self, tree: SyntaxTree, origin: Origin) -> Lowered:
-        raise NotImplementedError
+        """A setting of the controller."""
 
     def operand(self, given: Instruction, position: int) -> ir.Expression | None:
         """An operand's value; None when it is left out."""

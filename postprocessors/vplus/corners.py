@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 
 from rpl import ir
 from rpl.ir.walk import expressions, walk
@@ -53,7 +54,7 @@ class Corners:
         moves: list[Followed] = []
         for key, routine in found.routines.items():
             found.current = key
-            found.collect(routine.body, lambda key=key: found.after(key), moves)  # type: ignore[misc]
+            found.collect(routine.body, partial(found.after, key), moves)
         for one in moves:
             found.decide(one)
         return found
@@ -143,7 +144,7 @@ class Corners:
                         return found
                 case ir.If() | ir.Switch():
                     behind = body[at + 1 :]
-                    return self.choice(statement, lambda behind=behind: self.first(behind, rest))  # type: ignore[misc]
+                    return self.choice(statement, partial(self.first, behind, rest))
                 case ir.While() | ir.For() | ir.Repeat() | ir.Loop():
                     found = self.around(statement, lambda: ENDS)()
                     if found != ENDS:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import partial
 
 from rpl import ir
 from rpl.ir.walk import walk
@@ -91,7 +92,7 @@ class ModalFlow:
         for _, routine in every:
             scope = self.scope_of[id(routine)]
             for body in bodies(routine):
-                each_statement(body, lambda one, scope=scope: found.update(map(id, _callees(one, scope))))  # type: ignore[misc]
+                each_statement(body, partial(_note_callees, scope=scope, found=found))
         return found
 
     def changes(self, every: list[tuple[ir.Module, ir.Routine]]) -> dict[int, set[str] | None]:
@@ -314,6 +315,10 @@ def _outside(state: State, scope: Scope) -> State:
     return {name: value for name, value in state.items() if name.startswith("$") or not own(name)}
 
 
+def _note_callees(statement: ir.Statement, scope: Scope, found: set[int]) -> None:
+    found.update(map(id, _callees(statement, scope)))
+
+
 def _callees(statement: ir.Statement, scope: Scope) -> list[ir.Routine]:
     names: list[str] = []
     if isinstance(statement, ir.CallRoutine) and statement.dynamic is None:
@@ -414,7 +419,7 @@ class Uses:
                 inner = scopes.routine(module, routine)
                 uses.declared(routine.declarations, inner)
                 for body in bodies(routine):
-                    each_statement(body, lambda one, s=inner, r=routine: uses.statement(one, s, r, flow))  # type: ignore[misc]
+                    each_statement(body, partial(uses.statement, scope=inner, routine=routine, flow=flow))
         uses.spread()
         return uses
 
