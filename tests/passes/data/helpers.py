@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from rpl import ir
-from rpl.diagnostics import Diagnostics
+from rpl.diagnostics import Diagnostics, Severity
 from rpl.passes.capabilities import Capabilities, NameRules
 from rpl.passes.legalise.context import Context, names_in
 from rpl.project import read_sources
-from rpl.source import source_from_text
+from rpl.proof.prove import prove_programs
+from rpl.simulation import entry_name
+from rpl.source import source_from_bytes, source_from_text
+from rpl.translation import translate_program
 
 NAMES = NameRules(longest=24, case_sensitive=False, reserved=frozenset())
 SIMPLE = ("IntType", "RealType", "BoolType", "CharType", "StringType", "NamedType", "ArrayType")
@@ -59,6 +62,18 @@ def read(text: str, dialect: str, name: str = "t") -> ir.Program:
     found = read_sources(sources, dialect, diagnostics)
     assert not diagnostics.has_errors, [item.as_text() for item in diagnostics]
     return found.program
+
+
+def means_the_same(text: str, target: str, robot: str = "kuka_kr6r900sixx") -> None:
+    """The RPL program `main` is written without a loss, and what was written is proved to mean the same."""
+    read = read_sources([source_from_text("p.rpl", text)], "rpl", Diagnostics())
+    diagnostics = Diagnostics()
+    written = translate_program(read, target, robot, None, diagnostics)
+    assert not [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
+    entry = entry_name(back.program, written.renamed.get("main", "main"))
+    result = prove_programs(read.program, back.program, robot, entry="main", to_entry=entry)
+    assert result.equal, result.as_text()
 
 
 def context(program: ir.Program, source: str, robot: object = None, to_robot: object = None) -> Context:

@@ -4,12 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rpl.diagnostics import Diagnostics, Severity
-from rpl.project import read_sources
-from rpl.proof.prove import prove_programs
-from rpl.simulation import entry_name
-from rpl.source import source_from_bytes, source_from_text
-from rpl.translation import translate_program
+from .helpers import means_the_same
 
 PROGRAM = """PROCEDURE main()
     VAR x: REAL = -4.0
@@ -25,11 +20,4 @@ END PROCEDURE
 
 @pytest.mark.parametrize("target", ["krl", "rapid", "urscript", "vplus", "inform", "tp"])
 def test_signs_and_turns(target: str) -> None:
-    read = read_sources([source_from_text("p.rpl", PROGRAM)], "rpl", Diagnostics())
-    diagnostics = Diagnostics()
-    written = translate_program(read, target, "kuka_kr6r900sixx", None, diagnostics)
-    assert not [item.as_text() for item in diagnostics.of(Severity.LOSS)]
-    back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
-    entry = entry_name(back.program, written.renamed.get("main", "main"))
-    result = prove_programs(read.program, back.program, "kuka_kr6r900sixx", entry="main", to_entry=entry)
-    assert result.equal, result.as_text()
+    means_the_same(PROGRAM, target)
