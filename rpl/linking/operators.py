@@ -6,6 +6,7 @@ import math
 import operator
 from collections.abc import Callable
 
+from rpl.passes.numeric import round_half_away
 from rpl.runtime import functions
 from rpl.runtime.code import Read, Values
 from rpl.runtime.faults import ProgramError
@@ -27,7 +28,7 @@ def _truth(value: Value) -> bool:
 
 _CONVERSIONS: dict[str, Callable[[Value], Value]] = {
     "real": float,
-    "round_half_away": lambda v: v if v.__class__ is int else functions.round_half_away(v),
+    "round_half_away": lambda v: v if v.__class__ is int else round_half_away(v),
     "trunc": int,
     "bit": int,
     "truth": _truth,

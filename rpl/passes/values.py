@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from rpl import ir, registry
 from rpl.passes import rigid
+from rpl.passes.numeric import NUMERIC, round_half_away
 from rpl.passes.typewords import type_word
 
 
@@ -185,11 +186,6 @@ def converted(how: str, value: Value | None) -> Value | None:
     return None
 
 
-def round_half_away(value: float) -> int:
-    """To the nearest whole number, halves away from zero."""
-    return math.floor(value + 0.5) if value >= 0 else -math.floor(-value + 0.5)
-
-
 def _whole_division(one: float, other: float) -> float:
     quotient = math.trunc(one / other)
     return quotient if isinstance(one, int) and isinstance(other, int) else float(quotient)
@@ -292,42 +288,12 @@ def pure(function: str, values: list[Value], given: int) -> Value | None:
     if len(values) != given:
         return None
     numbers = [value for value in values if isinstance(value, int | float) and not isinstance(value, bool)]
-    if len(numbers) == given and function in _NUMERIC and given:
+    if len(numbers) == given and function in NUMERIC and given:
         try:
-            return _NUMERIC[function](*numbers)
+            return NUMERIC[function](*numbers)
         except (ValueError, TypeError, ZeroDivisionError, OverflowError):
             return None
     return _geometric(function, values, [float(number) for number in numbers])
-
-
-def _rounding(whole: Callable[[float], float]) -> Callable[..., float]:
-    def to_decimals(value: float, decimals: float = 0) -> float:
-        scale = 10.0 ** int(decimals)
-        return whole(value * scale) / scale
-
-    return to_decimals
-
-
-_NUMERIC: dict[str, Callable[..., float]] = {
-    "abs": abs,
-    "sqrt": math.sqrt,
-    "sin": lambda v: math.sin(math.radians(v)),
-    "cos": lambda v: math.cos(math.radians(v)),
-    "tan": lambda v: math.tan(math.radians(v)),
-    "asin": lambda v: math.degrees(math.asin(v)),
-    "acos": lambda v: math.degrees(math.acos(v)),
-    "atan": lambda v: math.degrees(math.atan(v)),
-    "atan2": lambda y, x: math.degrees(math.atan2(y, x)),
-    "exp": math.exp,
-    "power": lambda base, exponent: float(base) ** exponent,
-    "log": math.log,
-    "round": _rounding(round_half_away),
-    "trunc": _rounding(math.trunc),
-    "floor": math.floor,
-    "ceil": math.ceil,
-    "min": min,
-    "max": max,
-}
 
 
 def _geometric(function: str, values: list[Value], numbers: list[float]) -> Value | None:

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from rpl.passes import rigid
+from rpl.passes.numeric import NUMERIC
 from rpl.runtime import arcs, axes, geometry, reaching, tasks, texts
 from rpl.runtime.chain import convention_of, filled, frames_of, joints_of, joints_value, matrix_of
 from rpl.runtime.faults import ProgramError, name_of
@@ -35,22 +36,6 @@ from rpl.runtime.values import (
 
 if TYPE_CHECKING:
     from rpl.runtime.task import Task
-
-
-def round_half_away(value: float) -> int:
-    """To the nearest whole number, halves away from zero."""
-    return math.floor(value + 0.5) if value >= 0 else -math.floor(-value + 0.5)
-
-
-def _rounding(cut: Callable[[float], int]) -> Callable[..., float]:
-    def to_decimals(value: float, decimals: float = 0) -> float:
-        places = whole(decimals)
-        if places <= 0:
-            return cut(value)
-        scale = 10.0**places
-        return cut(float(f"{value * scale:.15g}")) / scale
-
-    return to_decimals
 
 
 # The widest whole numbers of any language have 64 bits.
@@ -170,24 +155,7 @@ def _frame_from_points(one: VectorValue, two: VectorValue, three: VectorValue, o
 
 
 PURE: dict[str, Callable[..., Value]] = {
-    "abs": abs,
-    "sqrt": math.sqrt,
-    "sin": lambda v: math.sin(math.radians(v)),
-    "cos": lambda v: math.cos(math.radians(v)),
-    "tan": lambda v: math.tan(math.radians(v)),
-    "asin": lambda v: math.degrees(math.asin(v)),
-    "acos": lambda v: math.degrees(math.acos(v)),
-    "atan": lambda v: math.degrees(math.atan(v)),
-    "atan2": lambda y, x: math.degrees(math.atan2(y, x)),
-    "exp": math.exp,
-    "power": lambda base, exponent: float(base) ** exponent,
-    "log": math.log,
-    "round": _rounding(round_half_away),
-    "trunc": _rounding(math.trunc),
-    "floor": math.floor,
-    "ceil": math.ceil,
-    "min": min,
-    "max": max,
+    **NUMERIC,
     "bit_shift_left": _shift(1),
     "bit_shift_right": _shift(-1),
     "length": _length,
