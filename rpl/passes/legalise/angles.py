@@ -19,7 +19,7 @@ from rpl.passes.legalise.externalaxes import has_external_axes, is_unused
 from rpl.passes.legalise.library import Library, composed, minus, number, plus, times
 from rpl.passes.legalise.records import RECORDS, Records
 from rpl.passes.legalise.tooldata import KINEMATICS
-from rpl.passes.legalise.walk import Rewriter
+from rpl.passes.legalise.wanted import Kind, WantedRewriter
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.typewords import component_names, type_word
 from rpl.passes.values import Value, pose_of
@@ -40,7 +40,6 @@ _FLAT = (*_POSITION, *_ANGLES)
 _QUATERNION = ("q1", "q2", "q3", "q4")
 # Places in positional aggregates of vectors, rotations, poses and targets.
 _ORDER = {"x": 0, "y": 1, "z": 2, "q1": 0, "q2": 1, "q3": 2, "q4": 3, "trans": 0, "rot": 1, "conf": 2, "ext": 3}
-Kind = type[object]
 _COMPARED: tuple[Kind, ...] = (ir.VectorType, ir.RotationType, ir.PoseType)
 
 
@@ -49,7 +48,7 @@ def to_angles(program: ir.Program, context: Context) -> ir.Program:
     return _ToAngles(program, context).program()
 
 
-class _ToAngles(Rewriter):
+class _ToAngles(WantedRewriter):
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
         self.library = Library(context, _target_type(program, context))
@@ -93,22 +92,7 @@ class _ToAngles(Rewriter):
                 return [replace(declaration, assign=one) for one in done if isinstance(one, ir.Assign)]
         return super().declaration(declaration)
 
-    def initial(self, value: ir.Expression, declaration: ir.Variable) -> ir.Expression | None:
-        return self.valued(value, self.scope.resolve(declaration.type))
-
     # ---- statements
-
-    def statement(self, statement: ir.Statement) -> list[ir.Statement]:
-        match statement:
-            case ir.Assign():
-                return list(self.assignment(statement))
-            case ir.CallRoutine(name=name, arguments=arguments):
-                done = rewrite_parts(replace(statement, arguments=()), self.expression)
-                return [replace(done, arguments=self.arguments(name, arguments))]
-            case ir.Return(value=value) if value is not None and self.scope.routine_here is not None:
-                wanted = self.scope.routine_here.returns
-                return [replace(statement, value=self.valued(value, self.scope.resolve(wanted) if wanted else None))]
-        return super().statement(statement)
 
     def assignment(self, statement: ir.Assign) -> list[ir.Statement]:
         target, value = statement.target, statement.value
@@ -174,19 +158,7 @@ class _ToAngles(Rewriter):
         """An lvalue of vector, rotation or pose type that is no part of a pose."""
         return self.expression(target)
 
-    # ---- values of a wanted type
-
-    def is_a(self, expression: ir.Expression, *types: Kind) -> bool:
-        return isinstance(self.type_of(expression), types)
-
-    def valued(self, value: ir.Expression, wanted: ir.Type | None) -> ir.Expression:
-        """The value in the form that its place has after this pass."""
-        match wanted:
-            case ir.ArrayType(element=element, dimensions=dimensions, base=base) if isinstance(value, ir.Aggregate):
-                rest = dimensions[1:]
-                inner = ir.ArrayType(element, rest, base) if rest else self.scope.resolve(element)
-                return replace(value, entries=tuple((name, self.valued(one, inner)) for name, one in value.entries))
-        return self.expression(value)
+    # ---- values
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
         match expression:
@@ -254,12 +226,6 @@ class _ToAngles(Rewriter):
             return done
         type = self.type_of(base)
         return self.kept(done, self.type(type) if type is not None else ir.PoseType())
-
-    def kept(self, value: ir.Expression, type: ir.Type) -> ir.Name:
-        """A new variable that holds the value."""
-        name = self.temporary(type)
-        self.before.append(ir.Assign(name, value))
-        return name
 
     def whole(self, position: Numbers, angles: Numbers) -> ir.Expression:
         """A pose of six numbers."""

@@ -14,7 +14,7 @@ from rpl.passes import rigid
 from rpl.passes.fold import constant, literal, real
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.usage import base_name
-from rpl.passes.legalise.walk import Rewriter
+from rpl.passes.legalise.wanted import WantedRewriter
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.typewords import type_word
 from rpl.passes.values import Target, Value
@@ -31,7 +31,6 @@ _AXES, _EXTERNAL = tuple(ir.COMPONENTS[ir.AxesType]), tuple(ir.COMPONENTS[ir.Ext
 _EULER = {"a": "euler_z", "b": "euler_y", "c": "euler_x"}
 _UNUSED = ir.RealLiteral(9e9, "9E9")
 _POSES = (ir.PoseType, ir.TargetType)
-Kind = type[object]
 
 
 def to_quaternions(program: ir.Program, context: Context) -> ir.Program:
@@ -41,7 +40,7 @@ def to_quaternions(program: ir.Program, context: Context) -> ir.Program:
     return worker.program()
 
 
-class _ToQuaternions(Rewriter):
+class _ToQuaternions(WantedRewriter):
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
         self.used_external: set[str] = set()
@@ -109,19 +108,11 @@ class _ToQuaternions(Rewriter):
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
         match statement:
-            case ir.Assign():
-                return self.assignment(statement)
             case ir.Move(target=target, via=via) if statement.relative is None:
                 bare = replace(statement, target=ir.IntLiteral(0), via=None)
                 done = rewrite_parts(bare, self.expression, self.actions)
                 place = self.destination(target)
                 return [replace(done, target=place, via=None if via is None else self.destination(via))]
-            case ir.CallRoutine(name=name, arguments=arguments):
-                done_call = rewrite_parts(replace(statement, arguments=()), self.expression)
-                return [replace(done_call, arguments=self.arguments(name, arguments))]
-            case ir.Return(value=value) if value is not None and self.scope.routine_here is not None:
-                wanted = self.scope.routine_here.returns
-                return [replace(statement, value=self.valued(value, self.scope.resolve(wanted) if wanted else None))]
         return super().statement(statement)
 
     def assignment(self, statement: ir.Assign) -> list[ir.Statement]:
@@ -169,18 +160,7 @@ class _ToQuaternions(Rewriter):
             self.before.append(ir.Assign(rot, ir.Builtin("rotation_zyx", three)))
         return name
 
-    def initial(self, value: ir.Expression, declaration: ir.Variable) -> ir.Expression | None:
-        return self.valued(value, self.scope.resolve(declaration.type))
-
     # ---- expressions
-
-    def is_a(self, expression: ir.Expression, *types: Kind) -> bool:
-        return isinstance(self.type_of(expression), types)
-
-    def kept(self, value: ir.Expression, type: ir.Type) -> ir.Name:
-        name = self.temporary(type)
-        self.before.append(ir.Assign(name, value))
-        return name
 
     def lvalue(self, base: ir.Expression) -> ir.Expression:
         """A base whose components can be named; a computed value gets a variable first."""
@@ -193,16 +173,12 @@ class _ToQuaternions(Rewriter):
     def valued(self, value: ir.Expression, wanted: ir.Type | None) -> ir.Expression:
         """The value as its place needs it: poses and targets are not assigned to each other."""
         match wanted:
-            case ir.ArrayType(element=element, dimensions=dimensions, base=base) if isinstance(value, ir.Aggregate):
-                rest = dimensions[1:]
-                inner = ir.ArrayType(element, rest, base) if rest else self.scope.resolve(element)
-                return replace(value, entries=tuple((name, self.valued(one, inner)) for name, one in value.entries))
             case ir.PoseType() if self.is_a(value, ir.TargetType):
                 return self.pose(value)
             case ir.TargetType() if self.is_a(value, ir.PoseType):
                 pose = self.lvalue(value)
                 return self.target({"trans": ir.Field(pose, "trans"), "rot": ir.Field(pose, "rot")}, wanted)
-        return self.expression(value)
+        return super().valued(value, wanted)
 
     def pose(self, value: ir.Expression) -> ir.Expression:
         """The pose of a target (or of what is a pose already)."""
