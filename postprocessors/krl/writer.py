@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
-from importlib import resources
-from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
@@ -13,14 +10,12 @@ from rpl.passes.scope import ProgramScope, Scope
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
+from rpl.writing.templates import templates
 
 from . import tables
 from .declarations import enum_line, first_values, header_line, parameter_line, record_line, signal_line, variable_line
 from .settings import assignment
 from .statements import Printer
-
-if TYPE_CHECKING:
-    from jinja2 import Environment
 
 LOST_DECLARATION = code(
     "krl-lost-declaration", Severity.LOSS, "KRL cannot declare {name}: {reason}", "it is left as a comment"
@@ -29,17 +24,6 @@ LOST_HANDLER = code("krl-lost-handler", Severity.LOSS, "KRL has no error handler
 
 _CONFIG = "$config"
 _KRL_FILES = (".src", ".dat", ".sub")
-
-
-@cache
-def _environment() -> Environment:
-    from jinja2 import DictLoader, Environment, StrictUndefined
-
-    folder = resources.files(__package__ or "").joinpath("templates")
-    texts = {name: folder.joinpath(name).read_text("utf-8") for name in ("program.src.j2", "data.dat.j2")}
-    return Environment(
-        loader=DictLoader(texts), undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, autoescape=False
-    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +69,7 @@ class _Module:
             if not fits:
                 routines.insert(0, RoutineText((), f"DEF {module.name}( )", (), "END"))
             suffix = "sub" if self.background else "src"
-            text = _environment().get_template("program.src.j2").render(attributes=program, routines=routines)
+            text = templates(__package__).get_template("program.src.j2").render(attributes=program, routines=routines)
             found.append(_file(f"{module.name}.{suffix}", text))
         if lines or data or not module.routines:
             seen = module.name.lower() != _CONFIG  # its data are seen everywhere without the word
@@ -93,7 +77,7 @@ class _Module:
                 seen and getattr(declaration, "scope", "") in ("task", "global") for declaration in module.declarations
             )
             text = (
-                _environment()
+                templates(__package__)
                 .get_template("data.dat.j2")
                 .render(attributes=data, name=module.name, public=public, lines=lines)
             )

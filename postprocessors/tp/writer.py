@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
-from importlib import resources
 from typing import TYPE_CHECKING
 
 from rpl import ir
@@ -15,6 +13,7 @@ from rpl.source import NOWHERE
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
+from rpl.writing.templates import templates
 
 from . import tables
 from .assignments import Assignments
@@ -31,8 +30,6 @@ from .texts import comment
 from .wholes import moved_to_only
 
 if TYPE_CHECKING:
-    from jinja2 import Environment
-
     from rpl.emulator.model import RobotModel
 
 LOST_DECLARATION = code(
@@ -56,20 +53,6 @@ _NO_DATE = "DATE 00-01-01  TIME 00:00:00"  # the same text for the same program
 _CONTROLLERS_OWN = ("UTOOL", "UFRAME", "UTOOL_NUM", "UFRAME_NUM", "WAIT_TIMED_OUT", "SKIP_HIT")
 _COMPUTED = "?"  # stands for a program whose name a register holds
 _MOTION = ("J ", "L ", "C ", "A ")
-
-
-@cache
-def _environment() -> Environment:
-    from jinja2 import DictLoader, Environment, StrictUndefined
-
-    text = resources.files(__package__ or "").joinpath("templates", "program.ls.j2").read_text("utf-8")
-    return Environment(
-        loader=DictLoader({"program.ls.j2": text}),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        autoescape=False,
-    )
 
 
 @dataclass(slots=True)
@@ -357,7 +340,7 @@ def _file(listing: Listing, frames: Frames, beside: bool) -> OutputFile:
     header = listing.header
     about = header.get("COMMENT", header.get("comment", "")).strip('"')
     text = (
-        _environment()
+        templates(__package__)
         .get_template("program.ls.j2")
         .render(
             name=listing.name,

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
-from importlib import resources
-from typing import TYPE_CHECKING
-
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
@@ -13,15 +9,13 @@ from rpl.passes.scope import ProgramScope, Scope
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
+from rpl.writing.templates import templates
 
 from .declarations import gathered, header, variable_line
 from .helpers import HELPERS, with_needed
 from .namespace import called_names, names_of, not_reached, one_namespace, programs
 from .readings import clean_readings
 from .statements import INDENT, Output, Printer
-
-if TYPE_CHECKING:
-    from jinja2 import Environment
 
 LOST_DECLARATION = code(
     "urscript-lost-declaration", Severity.LOSS, "URScript cannot declare {name}: {reason}", "it is left as a comment"
@@ -34,17 +28,6 @@ SEVERAL = code(
     Severity.INFO,
     "{count} routines can be started; each is written as a script of its own",
 )
-
-
-@cache
-def _environment() -> Environment:
-    from jinja2 import DictLoader, Environment, StrictUndefined
-
-    folder = resources.files(__package__ or "").joinpath("templates")
-    texts = {"program": folder.joinpath("program.script.j2").read_text("utf-8")}
-    return Environment(
-        loader=DictLoader(texts), undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, autoescape=False
-    )
 
 
 def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
@@ -106,7 +89,12 @@ class _Script:
         threads = [_indented(lines) for lines in self.output.threads]
         helpers = [_indented(HELPERS[one]) for one in with_needed(frozenset(self.output.notes.helpers))]
         parts = [part for part in (data, *helpers, *routines, *threads, body) if part]
-        text = _environment().get_template("program").render(before=remarks.lines, name=name, parts=parts) + "\n"
+        text = (
+            templates(__package__)
+            .get_template("program.script.j2")
+            .render(before=remarks.lines, name=name, parts=parts)
+            + "\n"
+        )
         self.ledger.check(self.program)
         return OutputFile(f"{name}.script", text.encode("ascii", "replace"))
 

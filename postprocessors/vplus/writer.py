@@ -5,9 +5,6 @@ from __future__ import annotations
 import re
 from collections import Counter
 from dataclasses import dataclass
-from functools import cache
-from importlib import resources
-from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
@@ -19,6 +16,7 @@ from rpl.passes.typing import type_of
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
+from rpl.writing.templates import templates
 
 from . import spelling, tables
 from .corners import Corners
@@ -30,9 +28,6 @@ from .output import Output
 from .reactions import Reactions
 from .statements import FIRST, Printer
 
-if TYPE_CHECKING:
-    from jinja2 import Environment
-
 LOST_DECLARATION = code(
     "vplus-lost-declaration", Severity.LOSS, "V+ cannot declare {name}: {reason}", "it is left as a comment"
 )
@@ -43,17 +38,6 @@ _ZEROS: dict[type, ir.Expression] = {
     ir.StringType: ir.TextLiteral(""),
 }
 _ORDER = (".LOCATIONS", ".REALS", ".STRINGS")
-
-
-@cache
-def _environment() -> Environment:
-    from jinja2 import DictLoader, Environment, StrictUndefined
-
-    folder = resources.files(__package__ or "").joinpath("templates")
-    texts = {"program": folder.joinpath("program.v2.j2").read_text("utf-8")}
-    return Environment(
-        loader=DictLoader(texts), undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, autoescape=False
-    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,8 +103,8 @@ class _File:
         ]
         sections = [Section(word, tuple(self.sections[word])) for word in _ORDER if word in self.sections]
         text = (
-            _environment()
-            .get_template("program")
+            templates(__package__)
+            .get_template("program.v2.j2")
             .render(
                 before=[line.strip() for line in remarks.lines],
                 programs=[one for one, _ in programs],
