@@ -1,4 +1,7 @@
-"""Interrupts on a truth value that another task sets: IPers, and the trap looks which way it has changed."""
+"""Ways that end when another task sets a truth value: an interrupt on the value where the target has one, else a
+search for its flag."""
+
+import pytest
 
 from rpl.cell.cellfile import parse_cell
 from rpl.diagnostics import Diagnostics, Severity
@@ -32,16 +35,24 @@ SCRIPT = """def main():
 end
 """
 
+WRITTEN = {
+    "rapid": ("IPers stop_asked,rpl_interrupt_10;", "PERS bool stop_asked"),
+    "tp": ("SKIP CONDITION F[1:stop_asked]=ON",),  # M: a skip condition takes a flag
+}
+CELL = '[[input]]\ntime = 3.0\nsignal = "di1"\nvalue = true\n'
 
-def test_the_way_ends_when_the_value_changes() -> None:
+
+@pytest.mark.parametrize("target", sorted(WRITTEN))
+def test_the_way_ends_when_the_value_changes(target: str) -> None:
     diagnostics = Diagnostics()
     read = read_sources([source_from_text("main.script", SCRIPT)], "urscript", diagnostics)
-    cell = parse_cell('[[input]]\ntime = 3.0\nsignal = "di1"\nvalue = true\n')
+    cell = parse_cell(CELL)
     assert [each[2] for each in run_program(read.program, "ur5e", cell).outputs] == [True]
-    written = translate_program(read, "rapid", "ur5e", None, diagnostics)
+    written = translate_program(read, target, "ur5e", None, diagnostics)
     assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
     sources = [source_from_bytes(f.path, f.data) for f in written.files]
     text = "".join(source.text for source in sources)
-    assert "IPers stop_asked,rpl_interrupt_10;" in text and "PERS bool stop_asked" in text
-    result = run_program(read_sources(sources, "rapid", diagnostics).program, "ur5e", cell)
+    assert all(part in text for part in WRITTEN[target])
+    back = read_sources(sources, target, diagnostics).program
+    result = run_program(back, "ur5e", cell, written.renamed.get("main", "main"))
     assert (result.status, [each[2] for each in result.outputs]) == ("finished", [True])
