@@ -80,6 +80,11 @@ class Instruction:
     origin: Origin
 
 
+def _operand(part: SyntaxTree) -> SyntaxTree | None:
+    """What stands in one place of a list of operands; None where nothing does."""
+    return subtree(part.children[0]) if part.children else None
+
+
 class Statements(Functions):
     """Lowers statement trees; the base of the families of instructions."""
 
@@ -358,7 +363,7 @@ class Statements(Functions):
             elif isinstance(child, Slot):
                 raise StatementError("a number stands where none can be", 0)
             elif child.data == "operands":
-                operands = [subtree(part).children[0] if subtree(part).children else None for part in child.children]  # type: ignore[misc]
+                operands = [_operand(subtree(part)) for part in child.children]
             else:
                 brackets = child
         while operands and operands[-1] is None:

@@ -125,7 +125,7 @@ def map_children(node: Node, change: Callable[[object], object]) -> Node:
         new = _mapped(old, change)
         if new is not old:
             changes[name] = new
-    return dataclasses.replace(node, **changes) if changes else node  # type: ignore[type-var]
+    return dataclasses.replace(node, **changes) if changes else node  # type: ignore[type-var]  # nodes are dataclasses
 
 
 def _rewritten(node: object, change: Callable[[object], object]) -> object:

@@ -70,7 +70,7 @@ def changed(node: Node, **parts: object) -> Node:
     """The node with these parts; the node itself where it has them already."""
     for name, part in parts.items():
         if getattr(node, name) is not part:
-            return dataclasses.replace(node, **parts)  # type: ignore[type-var]
+            return dataclasses.replace(node, **parts)  # type: ignore[type-var]  # nodes are dataclasses
     return node
 
 

@@ -43,7 +43,7 @@ class VectorValue(NamedTuple):
     def replaced(self, name: str, value: Value) -> VectorValue:
         return self._replace(**{name: value})
 
-    def __add__(self, other: VectorValue) -> VectorValue:  # type: ignore[override]
+    def __add__(self, other: VectorValue) -> VectorValue:  # type: ignore[override]  # of vectors, not tuples
         return VectorValue(*(p + q for p, q in zip(needed(self), needed(other), strict=True)))
 
     def __sub__(self, other: VectorValue) -> VectorValue:
@@ -52,10 +52,10 @@ class VectorValue(NamedTuple):
     def __neg__(self) -> VectorValue:
         return VectorValue(*(-p for p in needed(self)))
 
-    def __mul__(self, factor: float) -> VectorValue:  # type: ignore[override]
+    def __mul__(self, factor: float) -> VectorValue:  # type: ignore[override]  # of vectors, not tuples
         return VectorValue(*(p * factor for p in needed(self)))
 
-    def __rmul__(self, factor: float) -> VectorValue:  # type: ignore[override]
+    def __rmul__(self, factor: float) -> VectorValue:  # type: ignore[override]  # of vectors, not tuples
         return self * factor
 
     def __truediv__(self, divisor: float) -> VectorValue:
@@ -257,7 +257,7 @@ class Record:
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Record) and self.parts == other.parts
 
-    __hash__ = None  # type: ignore[assignment]
+    __hash__ = None  # type: ignore[assignment]  # it changes
 
     def __repr__(self) -> str:
         return f"Record({self.type_name!r}, {self.parts!r})"
@@ -289,7 +289,7 @@ class Array:
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Array) and self.items == other.items
 
-    __hash__ = None  # type: ignore[assignment]
+    __hash__ = None  # type: ignore[assignment]  # it changes
 
     def __repr__(self) -> str:
         return f"Array({self.items!r}, {self.base})"

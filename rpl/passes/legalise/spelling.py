@@ -93,7 +93,7 @@ class _Spelling:
 
     def with_name(self, node: object, part: str, name: str) -> object:
         new = self.of(name)
-        return node if new == name else replace(node, **{part: new})  # type: ignore[type-var]
+        return node if new == name else replace(node, **{part: new})  # type: ignore[type-var]  # nodes are dataclasses
 
     def aggregate(self, node: ir.Aggregate) -> ir.Aggregate:
         entries = tuple((name and self.fields.get(name.lower(), name), value) for name, value in node.entries)
