@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from functools import lru_cache
 
@@ -23,6 +24,7 @@ UNKNOWN_FUNCTION = code(
     "there is no function {name} that is known here; its value is left to the cell file",
 )
 Values = list[ir.Expression | None]
+_BASED = re.compile(r"\^(?:[Bb][01]+|[Hh][0-9A-Fa-f]+|[0-7]+)")
 
 
 class Functions(Expressions):
@@ -239,7 +241,7 @@ class Functions(Expressions):
                 first = (at[0] if at else None) or one
                 first = one if first == ir.IntLiteral(0) else first
                 return self.built("bytes_number", text, first, ir.IntLiteral(tables.BYTES[name]))
-            case "val", [ir.TextLiteral(value=digits)] if digits.startswith("^"):
+            case "val", [ir.TextLiteral(value=digits)] if _BASED.fullmatch(digits):
                 return based(digits)
             case "$mid", [text, first, count] if text is not None:
                 return self.part(text, first or one, count or one)

@@ -104,7 +104,7 @@ class Capabilities:
     comparisons of texts tell capital letters from small ones. text_ordering: `<` of texts is their order (else only
     `=` and `<>` compare them). text_find_from: text_find begins at any position.
     printable_texts: a text holds only the printable signs of ASCII, so no bytes.
-    leading_numbers: a text that is read as a number may go on behind it.
+    leading_numbers: a text that is read as a number may go on behind it; without a number it is 0.
     text_parts: without numbered storage as well, helpers read numbers from texts and search them by cutting and
     comparing parts.
     truth: `minus_one` when TRUE is the number -1 and there is no type of truth values.

@@ -84,18 +84,26 @@ def _parts(value: Value) -> Iterator[Value]:
 
 def text_value(text: str, marks: Mapping[str, int] = _NO_MARKS, leading: bool = False) -> float:
     """The number written in the text. `marks`: what stands before the digits of a number to another base. `leading`:
-    the text may go on behind a decimal number."""
+    the text may go on behind a number; without one it is 0."""
     plain = text.strip().lower()
     for mark, base in marks.items():
         if plain.startswith(mark):
             try:
-                return int(plain[len(mark) :], base)
+                return int(_digits(plain[len(mark) :], base) if leading else plain[len(mark) :], base)
             except ValueError:
                 continue
     match = _NUMBER.match(text) if leading else _NUMBER.fullmatch(text)
+    if match is None and leading:
+        return 0
     if match is None:
         raise ProgramError("wrong_kind", f"{text!r} is no number")
     return plain_number(match[1])
+
+
+def _digits(text: str, base: int) -> str:
+    """What the text begins with of digits to the base."""
+    known = "0123456789abcdef"[:base]
+    return text[: next((at for at, sign in enumerate(text) if sign not in known), len(text))]
 
 
 def plain_number(text: str) -> float:
@@ -317,7 +325,6 @@ PURE: dict[str, Callable[..., Value]] = {
     "text_lower": str.lower,
     "text_map": _map,
     "number_text": number_text,
-    "value_text": value_text,
     "format": formatted,
     "message_text": message_text,
     "character_code": _code,

@@ -71,8 +71,3 @@ def test_val_stops_behind_the_number() -> None:
     text = program_of('$a = "12 mm"\nIF (VAL($a) == 12) AND (VAL("-2.5kg") == -2.5) THEN\nSIGNAL 1\nEND')
     _, on = translated(text, "p.v2", "vplus")
     assert on == {"1"}
-    read = read_sources([source_from_text("p.v2", text)], "vplus", Diagnostics())
-    for target in ("rapid", "rpl"):
-        found = Diagnostics()
-        translate_program(read, target, None, None, found)
-        assert ("text-behind-number" in {item.code.name for item in found}) == (target == "rapid")
