@@ -41,6 +41,9 @@ ON, OFF = "on", "off"
 Key = tuple[str, int | None]
 SHIFTED: Key = ("SHIFT", 0)  # whether positions are shifted (SFTON), kept like what a variable holds
 TOOL: Key = ("TOOL", 0)  # the tool of the last move
+# Instructions whose first operand is only written.
+_WRITE = frozenset(("SET", "GETS", "CNVRT", "MULMAT", "INVMAT", "MSHIFT", "GETPOS", "GETARG", "CONVSFT"))
+_CHANGE = frozenset((*_WRITE, "ADD", "SUB", "MUL", "DIV", "SETE", "MFRAME", "CLEAR"))
 _CALLER, _CALLER_TOOL = -1, -2  # the "arguments" that tell a job so
 INHERITED = ir.IntLiteral(-2)  # the tool that the job found when it was called
 State = dict[Key, Kind]
@@ -90,6 +93,7 @@ class Project:
     changed: bool = False
     assuming: bool = False  # nothing else is known of them: variables that are filled by elements are poses
     real_back: bool | None = None
+    changes: dict[str, frozenset[Key] | None] = field(default_factory=dict)
 
     def is_unified(self, job: str, key: Key) -> bool:
         """Is what is put there stored as a pose in the base frame, whatever it was?"""
@@ -105,6 +109,27 @@ class Project:
                 for command, _ in job.mentions()
             )
         return self.real_back
+
+    def changed_in(self, job: str) -> frozenset[Key] | None:
+        """Global position variables that a job and those it calls may give another value; None: one cannot tell."""
+        if job not in self.changes:
+            found: set[Key] = set()
+            seen, todo = {job}, [job]
+            while todo:
+                one = self.jobs.get(todo.pop())
+                if one is None:
+                    self.changes[job] = None
+                    return None
+                for command, _ in one.mentions():
+                    if command.word in _CHANGE and command.items:
+                        key = key_of(command.items[0])
+                        found |= {key} if key is not None and key[0] == "P" else set()
+                    if command.word in ("CALL", "JUMP", "PSTART"):
+                        called = _called(command)
+                        todo += [name for name in called if name not in seen]
+                        seen.update(called)
+            self.changes[job] = frozenset(found)
+        return self.changes[job]
 
     def note(self, job: str, key: Key, kind: Kind) -> None:
         """The variable is given this somewhere."""
@@ -208,6 +233,8 @@ class Flow:
         for command, nodes in self.job.mentions():
             state = self.before.get(id(command), {})
             for node in nodes:
+                if command.word in _WRITE and node is command.items[0]:
+                    continue
                 key = key_of(node)
                 kind = NOTHING if key is None else self.held(key, state)
                 if kind.form == MIXED or (is_mixed(kind) and self.needs_frame(command, node)):
@@ -311,7 +338,8 @@ class Flow:
             case word if word in tables.MOVES:
                 now = self.driven(command, state)
                 return self.join(state, now) if conditional else now
-        return self.transfer(command, state)
+        now = self.transfer(command, state)
+        return self.join(state, now) if conditional and now != state else now
 
     def jump(self, command: Command, state: State) -> None:
         for item in command.items:
@@ -342,6 +370,9 @@ class Flow:
         given = [item.value for item in command.items if isinstance(item, Given)]
         for number, value in enumerate(given, 1):
             self.project.argument(name, number, self.kind(value, state))
+        changed = self.project.changed_in(name.upper())
+        if changed is not None and ("P", None) not in changed:
+            return {key: joined(kind, self.held(key, {})) if key in changed else kind for key, kind in state.items()}
         return {key: kind if key[0] != "P" else joined(kind, self.held(key, {})) for key, kind in state.items()}
 
     # ---- the tool
@@ -436,6 +467,13 @@ def _is_real(operand: Operand) -> bool:
         case ir.Index(base=ir.Name(id=bank)):
             return bank.removeprefix("L").startswith("R")
     return isinstance(operand, ir.RealLiteral)
+
+
+def _called(command: Command) -> list[str]:
+    """The jobs that it goes to; "" for one that is computed."""
+    if any(isinstance(item, LabelName | LabelBy) for item in command.items):
+        return []
+    return [item.name.upper() for item in command.items if isinstance(item, JobName)] or [""]
 
 
 def _is_conditional(command: Command) -> bool:
