@@ -242,15 +242,47 @@ class Expressions:
                     _measured(lambda pieces, origin: ir.System(neutral, (index(pieces, origin),), origin=origin), unit),
                     suffixes[1:],
                 )
-        if name == "$in_home" and not suffixes:
-            return lambda pieces, origin: _at_home(origin)
+        if name in _ASKED and not suffixes:
+            asked = _ASKED[name]
+            return lambda pieces, origin: asked(origin)
+        if name in _JOINTS_OF:
+            place = _JOINTS_OF[name]
+            return self.suffixed(lambda pieces, origin: _joints_of(place, origin), suffixes)
         if name in tables.STRUCTURES:
             return self.structure(name, suffixes)
         if name in tables.SCALARS:
             neutral, unit = tables.SCALARS[name]
             variable = neutral
             return self.suffixed(_measured(lambda pieces, origin: ir.System(variable, origin=origin), unit), suffixes)
+        if name in tables.MEASURED:
+            return self.measured(text, suffixes)
         return self.suffixed(lambda pieces, origin: ir.Name(text, origin=origin), suffixes)
+
+    def measured(self, text: str, suffixes: list[SyntaxTree]) -> Make:
+        """A value that only the controller has, by what is written (`$SOFTN_END[1]`): whole, or the part asked for."""
+        kind = tables.MEASURED[text.lower()]
+        part = self.suffixed(lambda pieces, origin: ir.Name(text, origin=origin), suffixes)
+
+        def make(pieces: Pieces, origin: Origin) -> ir.Expression:
+            written, type = text.upper(), kind
+            given: ir.Expression = part(pieces, origin)
+            steps: list[str] = []
+            while not isinstance(given, ir.Name):
+                match given:
+                    case ir.Field(base=base, name=name):
+                        steps.append(f".{name.upper()}")
+                    case ir.Index(base=base, indices=(ir.IntLiteral(value=number),)):
+                        steps.append(f"[{number}]")
+                    case ir.Index(base=base):
+                        steps.append("[]")
+                    case _:
+                        break
+                given = base
+            if isinstance(type, ir.JointsType | ir.TargetType) and steps:
+                type = ir.RealType()
+            return ir.VendorValue("krl", written + "".join(reversed(steps)), type, origin=origin)
+
+        return make
 
     def signal(self, name: str, brackets: SyntaxTree) -> Make:
         kind = tables.SIGNALS[name]
@@ -478,6 +510,20 @@ def _at_home(origin: Origin) -> ir.Expression:
         near = one if near is None else ir.Binary("and", near, one, origin=origin)
     assert near is not None
     return near
+
+
+def _stands(origin: Origin) -> ir.Expression:
+    """`$ROB_STOPPED`: does the robot stand?"""
+    return ir.Unary("not", ir.System("moving", origin=origin), origin=origin)
+
+
+def _joints_of(place: str, origin: Origin) -> ir.Expression:
+    """`$AXIS_FOR`, `$AXIS_BACK`: the axes at the end and at the start of the present move."""
+    return ir.Builtin("target_to_joints", (ir.System(place, origin=origin),), origin=origin)
+
+
+_ASKED: dict[str, Callable[[Origin], ir.Expression]] = {"$in_home": _at_home, "$rob_stopped": _stands}
+_JOINTS_OF = {"$axis_for": "end_pose", "$axis_back": "start_pose"}
 
 
 def _measured(make: Make, unit: str) -> Make:

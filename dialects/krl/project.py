@@ -47,7 +47,7 @@ _ROUTINE = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 _TYPED = re.compile(
-    r"^[ \t]*(?:(?:DECL|GLOBAL|CONST)[ \t]+)*(INT|REAL|BOOL|CHAR|AXIS|E6AXIS|FRAME|POS|E6POS)[ \t]+"
+    r"^[ \t]*(?:(?:DECL|GLOBAL|CONST)[ \t]+)*(INT|REAL|BOOL|CHAR|AXIS|E[36]AXIS|FRAME|POS|E[36]POS)[ \t]+"
     r"([A-Za-z_$][^=;{\r\n]*)",
     re.IGNORECASE | re.MULTILINE,
 )

@@ -28,6 +28,8 @@ BASIC_TYPES: dict[str, ir.Type] = {
     "e6pos": ir.TargetType("krl"),
     "axis": ir.JointsType(external=False),
     "e6axis": ir.JointsType(),
+    "e3pos": ir.TargetType("krl"),  # the same with three external axes; more are zero
+    "e3axis": ir.JointsType(),
 }
 
 # $NAME -> neutral variable and KRL's unit ("" when it is the neutral one).
@@ -44,7 +46,10 @@ SCALARS: dict[str, tuple[str, str]] = {
     "$ipo_mode": ("interpolation", ""),
     "$cp_vel_type": ("path_limit_rule", ""),
     "$pos_act": ("actual_pose", ""),
+    "$pos_act_mes": ("actual_pose", ""),  # measured: the arm of a run is where it is commanded to be
     "$axis_act": ("actual_joints", ""),
+    "$axis_act_mes": ("actual_joints", ""),
+    "$axis_act_meas": ("actual_joints", ""),
     "$tool_c": ("tool_of_moves", ""),  # M: of the main run, also in a submit program, which has no $TOOL
     "$base_c": ("frame_of_moves", ""),
     "$pos_for": ("end_pose", ""),
@@ -53,6 +58,7 @@ SCALARS: dict[str, tuple[str, str]] = {
     "$axis_int": ("interrupt_joints", ""),
     "$dist_next": ("remaining_distance", ""),
     "$vel_act": ("path_speed_actual", "m/s"),
+    "$rob_timer": ("time", "ms"),
 }
 INDEXED: dict[str, tuple[str, str]] = {
     "$vel_axis": ("joint_speed", ""),
@@ -80,6 +86,15 @@ STRUCTURES: dict[str, dict[str, tuple[str, str]]] = {
         "cdis": ("blend_distance", ""),
         "cori": ("blend_rotation", ""),
     },
+}
+# What a controller measures or knows of its arm, with the type of what is read; a cell file can give the values.
+MEASURED: dict[str, ir.Type] = {
+    **dict.fromkeys(("$softn_end", "$softp_end", "$vel_axis_act", "$torque_axis_act", "$curr_act"), ir.RealType()),
+    **dict.fromkeys(("$vel_ma", "$acc_ma", "$vel_axis_ma", "$distance", "$pathtime", "$mot_temp"), ir.RealType()),
+    **dict.fromkeys(("$robruntime", "$date", "$interpreter"), ir.IntType()),
+    **dict.fromkeys(("$axis_ret",), ir.JointsType()),
+    **dict.fromkeys(("$pos_ret",), ir.TargetType("krl")),
+    **dict.fromkeys(("$in_home1", "$in_home2", "$in_home3", "$in_home4", "$in_home5"), ir.BoolType()),
 }
 SIGNALS = {
     "$in": "digital_in",
@@ -131,6 +146,8 @@ USUAL_COMPONENTS: dict[str, dict[str, str]] = {"ldat": {"circ_typ": "BASE"}, "pd
 TEXT_LENGTHS = {"text_append": "text_append_length"}
 MESSAGES = {"msgnotify": "notify", "msgstate": "state", "msgquit": "quit", "msgloop": "quit"}  # MsgLoop: M
 
+# M: a controller moves a constant-velocity part as fast as the arm can; where it moves to does not change.
+TUNING_STATEMENTS = ("const_vel",)
 # Calls into technology packages, by how the routine's name begins. Effect: what a run must know of it.
 VENDOR_CALLS: tuple[tuple[str, str], ...] = (
     ("on_error_proceed", "none"),
@@ -139,6 +156,7 @@ VENDOR_CALLS: tuple[tuple[str, str], ...] = (
     ("set_cd_params", "tuning"),
     ("collmon", "tuning"),
     ("use_cm_pro_values", "tuning"),
+    ("delete_backward_buffer", "none"),
     ("cread", "unknown"),
     ("cwrite", "unknown"),
     ("copen", "unknown"),
