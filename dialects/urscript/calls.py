@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from rpl import ir
-from rpl.ir.walk import walk
 
 from . import nodes
+from .arguments import Bound, given
+from .bits import BITS
 from .expressions import BUILTINS, Expressions
 from .functions import BindError, Builtin, bind
-from .kinds import BOOL, INT, REAL, Kind, is_joints, is_number
+from .kinds import INT, REAL, Kind, is_joints, is_number
 from .nodes import Expr
 from .rules import FIRST_REGISTER, FIRST_SIGNAL, LEGACY_ANALOG, LEGACY_DIGITAL, POSE_DIST_COUNTS_ANGLE
 from .scopes import Function
+from .texts import TEXTS, as_text, one_more
 
-Bound = dict[str, Expr | None]
 Make = Callable[["Calls", Bound], ir.Expression | None]
 
 
@@ -131,26 +132,20 @@ class Calls(Expressions):
         return self.value(expression)
 
 
-def _given(calls: Calls, bound: Bound, name: str, wanted: Kind | None = None) -> ir.Expression:
-    value = bound[name]
-    assert value is not None  # the parameter has to be given
-    return calls.value(value, wanted)
-
-
 def _of_angle(function: str) -> Make:
     """sin, cos, tan of radians."""
-    return lambda calls, bound: ir.Builtin(function, (ir.Quantity(_given(calls, bound, "f"), "rad"),))
+    return lambda calls, bound: ir.Builtin(function, (ir.Quantity(given(calls, bound, "f"), "rad"),))
 
 
 def _angle(function: str, *names: str) -> Make:
     """An angle in radians."""
     return lambda calls, bound: ir.Magnitude(
-        ir.Builtin(function, tuple(_given(calls, bound, name) for name in names)), "rad"
+        ir.Builtin(function, tuple(given(calls, bound, name) for name in names)), "rad"
     )
 
 
 def _plain(function: str, *names: str) -> Make:
-    return lambda calls, bound: ir.Builtin(function, tuple(_given(calls, bound, name) for name in names))
+    return lambda calls, bound: ir.Builtin(function, tuple(given(calls, bound, name) for name in names))
 
 
 def _reading(group: str, direction: str) -> Make:
@@ -231,20 +226,8 @@ def _to_vector(calls: Calls, bound: Bound) -> ir.Expression | None:
     return ir.Aggregate(tuple((None, part) for part in found))
 
 
-def _bits(calls: Calls, bound: Bound) -> ir.Expression | None:
-    """integer_to_binary_list: the 32 bits of a whole number, the lowest first. floor(x / 2^n) is odd where bit n is
-    set, for negative numbers (two's complement) too."""
-    number = _given(calls, bound, "x", INT)
-    if any(isinstance(node, ir.Call) for node in walk(number)):
-        return None  # it would be called 32 times
-    shares = [number, *(ir.Binary("/", number, ir.RealLiteral(float(2**n))) for n in range(1, 32))]
-    whole = [shares[0], *(ir.Convert("floor", one) for one in shares[1:])]
-    odd = [ir.Binary("<>", ir.Binary("mod", one, ir.IntLiteral(2)), ir.IntLiteral(0)) for one in whole]
-    return ir.Aggregate(tuple((None, one) for one in odd))
-
-
 def _log(calls: Calls, bound: Bound) -> ir.Expression:
-    base, value = _given(calls, bound, "b"), _given(calls, bound, "f")
+    base, value = given(calls, bound, "b"), given(calls, bound, "f")
     return ir.Binary("/", ir.Builtin("log", (value,)), ir.Builtin("log", (base,)))
 
 
@@ -280,67 +263,6 @@ def _length(calls: Calls, bound: Bound) -> ir.Expression | None:
     return ir.Builtin("length", (calls.array(value),))
 
 
-# ---- texts
-
-
-def as_text(calls: Calls, value: Expr) -> ir.Expression:
-    """Any value as the text the controller makes of it."""
-    kind = calls.kind(value)
-    if kind is not None and kind.word == "text":
-        return calls.value(value)
-    if kind == BOOL:
-        if isinstance(value, nodes.Truth):
-            return ir.TextLiteral("True" if value.value else "False")
-        words = ir.Aggregate(((None, ir.TextLiteral("False")), (None, ir.TextLiteral("True"))))
-        return ir.Index(words, (ir.Convert("bit", calls.value(value, BOOL)),))
-    return ir.Builtin("value_text", (calls.array(value),))
-
-
-def _cat(calls: Calls, bound: Bound) -> ir.Expression:
-    one, other = bound["op1"], bound["op2"]
-    assert one is not None and other is not None  # they have to be given
-    return ir.Binary("&", as_text(calls, one), as_text(calls, other))
-
-
-def _shown(calls: Calls, bound: Bound) -> ir.Expression:
-    value = bound["val"]
-    assert value is not None  # it has to be given
-    return as_text(calls, value)
-
-
-def _character(calls: Calls, bound: Bound) -> ir.Expression:
-    place = one_more(_given(calls, bound, "index", INT))
-    return ir.Builtin("text_part", (_given(calls, bound, "src"), place, ir.IntLiteral(1)))
-
-
-def one_more(number: ir.Expression) -> ir.Expression:
-    """URScript counts characters from 0, the IR from 1."""
-    if isinstance(number, ir.IntLiteral):
-        return ir.IntLiteral(number.value + 1)
-    return ir.Binary("+", number, ir.IntLiteral(1))
-
-
-def _part(calls: Calls, bound: Bound) -> ir.Expression:
-    """str_sub: a length of -1 means up to the end."""
-    text, start = _given(calls, bound, "src"), _given(calls, bound, "index", INT)
-    count = bound["len"]
-    if isinstance(count, nodes.Sign):
-        length: ir.Expression = ir.Binary("-", ir.Builtin("text_length", (text,)), start)
-    else:
-        length = _given(calls, bound, "len", INT)
-    return ir.Builtin("text_part", (text, one_more(start), length))
-
-
-def _find(calls: Calls, bound: Bound) -> ir.Expression:
-    place = one_more(_given(calls, bound, "start_from", INT))
-    found = ir.Builtin("text_find", (_given(calls, bound, "src"), place, _given(calls, bound, "target")))
-    return ir.Binary("-", found, ir.IntLiteral(1))
-
-
-def _empty(calls: Calls, bound: Bound) -> ir.Expression:
-    return ir.Binary("=", ir.Builtin("text_length", (_given(calls, bound, "str"),)), ir.IntLiteral(0))
-
-
 VALUES: dict[str, Make] = {
     **{
         f"get_{group}_{direction}": _reading(group, direction)
@@ -348,7 +270,7 @@ VALUES: dict[str, Make] = {
         for direction in ("in", "out")
         if f"get_{group}_{direction}" in BUILTINS
     },
-    "get_flag": lambda calls, bound: ir.Signal("flag", one_more(_given(calls, bound, "n", INT))),
+    "get_flag": lambda calls, bound: ir.Signal("flag", one_more(given(calls, bound, "n", INT))),
     **{
         f"read_{way}_{word}_register": _register(f"{way}_{word}_register", f"{kind}_{way[:-3]}")
         for way in ("input", "output")
@@ -377,13 +299,12 @@ VALUES: dict[str, Make] = {
     "pose_dist": _distance(POSE_DIST_COUNTS_ANGLE),
     "point_dist": _distance(False),
     "interpolate_pose": lambda calls, bound: ir.Builtin(
-        "interpolate_pose", (calls.pose(bound["p_from"]), calls.pose(bound["p_to"]), _given(calls, bound, "alpha"))
+        "interpolate_pose", (calls.pose(bound["p_from"]), calls.pose(bound["p_to"]), given(calls, bound, "alpha"))
     ),
-    "integer_to_binary_list": _bits,
     "rotvec2rpy": _to_angles,
     "rpy2rotvec": _to_vector,
-    "d2r": lambda calls, bound: ir.Magnitude(_given(calls, bound, "d"), "rad"),
-    "r2d": lambda calls, bound: ir.Quantity(_given(calls, bound, "r"), "rad"),
+    "d2r": lambda calls, bound: ir.Magnitude(given(calls, bound, "d"), "rad"),
+    "r2d": lambda calls, bound: ir.Quantity(given(calls, bound, "r"), "rad"),
     **{name: _of_angle(name) for name in ("sin", "cos", "tan")},
     **{name: _angle(name, "f") for name in ("asin", "acos", "atan")},
     "atan2": _angle("atan2", "x", "y"),  # the manual names them so; the first is the height
@@ -396,14 +317,8 @@ VALUES: dict[str, Make] = {
     "random": _plain("random"),
     "length": _length,
     "get_list_length": _length,
-    "str_at": _character,
-    "str_cat": _cat,
-    "str_empty": _empty,
-    "str_find": _find,
-    "str_len": _plain("text_length", "str"),
-    "str_sub": _part,
-    "to_num": _plain("text_value", "str"),
-    "to_str": _shown,
+    **BITS,
+    **TEXTS,
 }
 
 __all__ = ["VALUES", "Builtin", "Calls", "as_text", "one_more"]

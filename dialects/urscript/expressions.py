@@ -165,13 +165,19 @@ class Expressions:
             return self.value(expression)
         found = self.kept.get(id(expression))
         if found is None:
-            joints = self.as_joints_kept(expression)
-            name = self.names.fresh("part")
-            type = ir.JointsType() if joints else self.type(self.kind(expression))
-            self.helpers.append(ir.Variable(name, type, scope="routine"))
-            self.before.append(ir.Assign(ir.Name(name), self.value(expression), origin=self.origin))
-            found = self.kept[id(expression)] = ir.Name(name)
+            type = ir.JointsType() if self.as_joints_kept(expression) else self.type(self.kind(expression))
+            found = self.kept[id(expression)] = self._kept(self.value(expression), type)
         return found
+
+    def kept_apart(self, value: ir.Expression, kind: Kind) -> ir.Expression:
+        """A part of a value, evaluated before the statement."""
+        return self._kept(value, self.type(kind))
+
+    def _kept(self, value: ir.Expression, type: ir.Type) -> ir.Name:
+        name = self.names.fresh("part")
+        self.helpers.append(ir.Variable(name, type, scope="routine"))
+        self.before.append(ir.Assign(ir.Name(name), value, origin=self.origin))
+        return ir.Name(name)
 
     # ---- parts
 
@@ -189,8 +195,7 @@ class Expressions:
             if number is not None and number < 6:
                 return self.component(base, number)
             whole = ir.Aggregate(tuple([(None, self.component(base, place)) for place in range(6)]))
-            shifted = _plus(self.value(index, INT), 1)
-            return ir.Index(whole, (shifted,))
+            return ir.Index(whole, (self.value(index, INT),))
         if kind.word == "text":
             return ir.Builtin("text_part", (self.value(base), _plus(self.value(index), 1), ir.IntLiteral(1)))
         found: ir.Expression = self.value(base)

@@ -83,6 +83,7 @@ _MEANT = """
     set_target_payload(m:n, cog:l=?, inertia:l=?, transition_time:n=0) -
     sleep(t:n) -
     sync() -
+    assert(condition:b) -
     textmsg(s1:x, s2:x="") -
     popup(s:x, title:x="Popup", warning:b=False, error:b=False, blocking:b=False) -
     set_digital_out(n:i, b:b) -
@@ -147,6 +148,7 @@ _MEANT = """
     rotvec2rpy(rotation_vector:l) l3
     rpy2rotvec(rpy_vector:l) l3
     integer_to_binary_list(x:i) lb
+    binary_list_to_integer(l:x) i
     d2r(d:n) n
     r2d(r:n) n
     sin(f:n) n
@@ -190,7 +192,7 @@ _VENDOR = """
         modbus_set_runstate_dependent_choice modbus_set_digital_input_action modbus_add_rtu_signal
         enable_external_ft_sensor ft_rtde_input_enable zero_ftsensor set_tcp_offset reset_revolution_counter
         socket_close rtde_set_watchdog
-        encoder_enable_pulse_decode encoder_enable_set_tick_count set_world_model_attr
+        encoder_enable_pulse_decode encoder_enable_set_tick_count encoder_set_tick_count set_world_model_attr
         path_offset_set_alpha_filter path_offset_set_max_offset path_offset_enable path_offset_disable
         force_mode_set_damping force_mode_set_gain_scaling end_screwdriving
     message: socket_send_string socket_send_line socket_send_int socket_send_byte socket_set_var write_serial
@@ -198,12 +200,13 @@ _VENDOR = """
         torque_command optimovej optimovel screwdriving protective_stop powerdown
         conveyor_pulse_decode track_conveyor_linear track_conveyor_circular stop_conveyor_tracking
         set_tool_contact end_tool_contact path_offset_set modbus_send_custom_command request_popup
-        assert pendant_node
+        pendant_node set_pos
 """
 _VENDOR_VALUES = """
     b: socket_open request_boolean_from_primary_client is_freedrive get_freedrive_status
-    i: get_conveyor_tick_count tool_contact encoder_get_tick_count modbus_get_error request_integer_from_primary_client
-        socket_get_var encoder_unwind_delta_tick_count binary_list_to_integer
+    i: get_conveyor_tick_count tool_contact encoder_get_tick_count modbus_get_error get_tool_output_mode
+        get_tool_digital_output_mode request_integer_from_primary_client
+        socket_get_var encoder_unwind_delta_tick_count
     n: force get_controller_temp get_joint_temp get_tool_current request_float_from_primary_client
         modbus_get_time_since_signal_invalid get_euromap_input
     t: socket_read_string socket_read_line request_string_from_primary_client get_robot_serial

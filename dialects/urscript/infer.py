@@ -117,6 +117,8 @@ class Inference:
                         self.expect(condition, BOOL, here)
                 case nodes.Repeat(condition=condition):
                     self.expect(condition, BOOL, here)
+                case nodes.Give(value=value) if value is not None and here.kind == "thread":
+                    self.kind(value, here)
                 case nodes.Give(value=value) if value is not None:
                     wider, _ = joined(here.returns, self.kind(value, here))
                     here.gives = True

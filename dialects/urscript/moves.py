@@ -12,7 +12,8 @@ from collections.abc import Callable
 from rpl import ir
 from rpl.diagnostics import Severity, code
 
-from .calls import Bound, Calls
+from .arguments import Bound
+from .calls import Calls
 from .expressions import pose_literal
 from .kinds import REAL, is_joints, is_number
 from .nodes import Expr, ListOf, Number, PoseOf, Sign

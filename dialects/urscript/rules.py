@@ -50,6 +50,7 @@ RULES = Rules(
     text_plus=True,
     undefined=True,
     array_base=0,
+    text_decimals=6,
     call_depth=100,
     wait_poll_s=STEP_TIME_S,
     system_defaults={

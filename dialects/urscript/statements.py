@@ -11,8 +11,9 @@ from rpl.ir.walk import walk
 from rpl.source import Origin
 
 from . import nodes
+from .arguments import Bound, given
 from .blends import check_blends
-from .calls import Bound, Calls, as_text, one_more
+from .calls import Calls, as_text, one_more
 from .expressions import BUILTINS, pose_literal, pose_part
 from .functions import BindError, bind, constant
 from .kinds import BOOL, INT, REAL, Kind
@@ -196,6 +197,8 @@ class Statements(Calls):
     def given(self, value: Expr | None) -> ir.Expression | None:
         """What a return gives; a function that gives a value elsewhere gives zero here."""
         kind = self.here.returns
+        if self.here.kind == "thread":
+            return None  # what a thread gives cannot be asked for
         if value is None:
             return zero(kind) if self.here.gives else None
         joints = self.here.returns is not None and self.here.returns.joints and kind is not None and kind.length == 6
@@ -387,9 +390,9 @@ def _set(group: str, name: str) -> Make:
     return make
 
 
-def _write(name: str, kind: str, key: str = "address", given: str = "value") -> Make:
+def _write(name: str, kind: str, key: str = "address", content: str = "value") -> Make:
     def make(calls: Calls, bound: Bound) -> Made | None:
-        value, address = bound[given], bound[key]
+        value, address = bound[content], bound[key]
         assert value is not None  # it has to be given
         if key == "address":
             signal = calls.register(name, kind, address)
@@ -440,9 +443,20 @@ def _popup(calls: Calls, bound: Bound) -> Made:
     return (ir.Message(kind, as_text(calls, text), sender, origin=calls.origin),)
 
 
+def _assert(calls: Calls, bound: Bound) -> Made:
+    """M: an expectation that does not hold is an error, which ends the program."""
+    condition = given(calls, bound, "condition", BOOL)
+    stop = (
+        ir.Message("error", ir.TextLiteral("assertion failed"), origin=calls.origin),
+        ir.Halt("exit", origin=calls.origin),
+    )
+    return (ir.If(((opposite(condition), stop),), origin=calls.origin),)
+
+
 PROCEDURES: dict[str, Callable[[Calls, Bound], Made | None]] = {
     "sleep": _sleep,
     "sync": _sync,
+    "assert": _assert,
     "textmsg": _log,
     "popup": _popup,
     "set_digital_out": _set("digital", "b"),

@@ -58,6 +58,7 @@ CAPABILITIES = Capabilities(
     watching_tasks=True,
     fixed_arcs=True,
     text_parts=True,
+    text_decimals=6,
     printable_texts=True,
     places_in_base=True,
     poll_s=0.002,

@@ -105,6 +105,7 @@ class Capabilities:
     `=` and `<>` compare them). text_find_from: text_find begins at any position.
     printable_texts: a text holds only the printable signs of ASCII, so no bytes.
     leading_numbers: a text that is read as a number may go on behind it; without a number it is 0.
+    text_decimals: a number with a fraction shows so many decimals in a text (0: six digits in all).
     text_parts: without numbered storage as well, helpers read numbers from texts and search them by cutting and
     comparing parts.
     truth: `minus_one` when TRUE is the number -1 and there is no type of truth values.
@@ -240,6 +241,7 @@ class Capabilities:
     text_parts: bool = False
     printable_texts: bool = False
     leading_numbers: bool = False
+    text_decimals: int = 0
     text_case: bool = True
     text_ordering: bool = False
     truth: str = "bool"

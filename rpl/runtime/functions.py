@@ -298,6 +298,7 @@ OF_TASK: dict[str, Callable[..., Value]] = {
     "text_value": lambda task, text: texts.text_value(
         text, task.frame.code.rules.number_marks, task.frame.code.rules.leading_numbers
     ),
+    "value_text": lambda task, value: texts.shown_value(value, task.frame.code.rules.text_decimals),
     "task_runs": lambda task, name: tasks.runs(task, str(name)),
     "error_text": lambda task, number: name_of(number, task.frame.code.rules.errors),
 }

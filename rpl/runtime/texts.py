@@ -62,6 +62,14 @@ def value_text(value: Value, inside: bool = False) -> str:
     return "[" + ",".join(value_text(part, True) for part in _parts(value)) + "]"
 
 
+def shown_value(value: Value, decimals: int) -> str:
+    """The text that a language makes of a value: `decimals` of a number with a fraction, where it has such a rule."""
+    if decimals and isinstance(value, float):
+        text = number_text(value, decimals)
+        return text.rstrip("0").rstrip(".") if "." in text else text
+    return value_text(value)
+
+
 def _parts(value: Value) -> Iterator[Value]:
     match value:
         case Record():

@@ -42,7 +42,7 @@ CASES = [
     ("get_actual_joint_positions()", "current_joints()"),
     ("get_tcp_offset()", "@tool"),
     ('"a" + "b"', "('a' & 'b')"),
-    ('str_cat("a", 1)', "('a' & value_text(1))"),
+    ('str_cat("a", 1)', "('a' & '1')"),
     ('str_at("abc", 0)', "text_part('abc',1,1)"),
     ('str_sub("abc", 1)', "text_part('abc',2,(text_length('abc') - 1))"),
     ('str_sub("abc", 1, 2)', "text_part('abc',2,2)"),

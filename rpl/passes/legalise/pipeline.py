@@ -145,6 +145,7 @@ from rpl.passes.legalise.tasknames import task_names
 from rpl.passes.legalise.taskreferences import task_references
 from rpl.passes.legalise.taskstates import task_states
 from rpl.passes.legalise.textbytes import text_bytes
+from rpl.passes.legalise.textdecimals import text_decimals
 from rpl.passes.legalise.textorders import text_orders
 from rpl.passes.legalise.threepoints import three_point_arcs
 from rpl.passes.legalise.timers import timers_to_clocks
@@ -198,6 +199,7 @@ PASSES: tuple[Pass, ...] = (
     text_orders,
     text_bytes,
     leading_numbers,
+    text_decimals,
     turned_ways,
     elementwise,
     known_handles,
