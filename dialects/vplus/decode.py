@@ -1,8 +1,8 @@
 """`$a = $DECODE($text, $separators, mode)`: cut the head off a text. One step of V+ becomes several neutral ones.
 
-Mode 0 (or left out) takes everything in front of the first separator, mode 1 the separators that stand in front (M: the
-usual idiom takes a word and then its separators, until nothing is left). Inside of an expression it is done in front of
-the statement (`in_front`).
+Mode 0 (or below, or left out) takes what stands in front of the first separator, 1 (or above) the separators
+there (M: the usual idiom takes a word and then its separators, until nothing is left). Inside of an expression it is
+done in front of the statement (`in_front`).
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from rpl.reading.pieces import Element, Open
 from rpl.reading.shapes import StatementError, SyntaxTree
 from rpl.source import Origin
 
+from . import tables
 from .expressions import root_name
 
 Lowered = Element | tuple[Element, ...]
@@ -51,6 +52,10 @@ def in_front(tree: SyntaxTree, lowered: Lowered, steps: ir.Body, origin: Origin)
         leave = ir.Goto(LEAVE_MARK.format(word="exit", count=1), origin=origin)
         forever = Open(lowered.kind, ir.BoolLiteral(True), lowered.origin)
         return forever, *steps, ir.If(((over, (leave,)),), origin=origin)
+    if kind == "instruction" and len(elements) == 1 and isinstance(elements[0], ir.WaitUntil):
+        met = ir.If(((elements[0].condition, (ir.ExitLoop(origin=origin),)),), origin=origin)
+        again = ir.Wait(ir.RealLiteral(tables.CYCLE_S), origin=origin)
+        return (ir.While(ir.BoolLiteral(True), (*steps, met, again), origin=origin),)
     if kind not in _ONCE or str(tree.children[0]).lower() == "wait":
         raise StatementError("$DECODE cannot stand in a condition that is looked at again and again", 0)
     return *steps, *elements
@@ -64,11 +69,14 @@ def decoded(target: ir.Expression, values: list[ir.Expression | None], origin: O
         raise StatementError("$DECODE needs a text variable and its separators", 0)
     if text == target:
         raise StatementError("$DECODE cannot store into the text that it cuts", 0)
-    if mode is None or mode == ir.IntLiteral(0):
-        return _word(target, text, separators, origin)
-    if mode == ir.IntLiteral(1):
-        return _separators(target, text, separators, origin)
-    raise StatementError("the mode of $DECODE must be 0 or 1", 0)
+    match mode:
+        case None | ir.Unary(op="-", operand=ir.IntLiteral()):
+            return _word(target, text, separators, origin)
+        case ir.IntLiteral(value=number):
+            return (_separators if number > 0 else _word)(target, text, separators, origin)
+    positive = ir.Binary(">", mode, ir.IntLiteral(0), origin=origin)
+    either = _separators(target, text, separators, origin)
+    return (ir.If(((positive, either),), _word(target, text, separators, origin), origin=origin),)
 
 
 def _function(name: str, origin: Origin, *arguments: ir.Expression) -> ir.Builtin:

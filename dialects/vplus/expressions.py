@@ -48,6 +48,11 @@ class Facts:
     executed: dict[str, frozenset[str]] = field(default_factory=dict)
     joins_change: bool = False
     hand_time_s: float | None = tables.HAND_TIME_S
+    locks: bool = False  # does any step change the priority of its program
+    switched: frozenset[str] = frozenset()  # switches that the project turns off, or sets to a value
+    upper: bool | None = None  # comparisons of texts: capitals like small letters (None: as the controller is set)
+    task_of: dict[str, str] = field(default_factory=dict)  # program -> the one task it runs in
+    cycles: dict[str, int] = field(default_factory=dict)  # programs of several rounds (`round_of`): how many
 
 
 @dataclass(slots=True)
@@ -156,6 +161,9 @@ class Expressions(ABC):
         relation = RELATIONS[str(tree.children[1])]
         one, other = self.expression(left), self.expression(right)
         runs = _executing(one, other)
+        order = _order(one, other)
+        if order is not None:
+            return ir.Binary(relation, *order, origin=self.origin)
         if runs is not None and relation in ("=", "<>"):
             return runs if relation == "=" else ir.Unary("not", runs, origin=self.origin)
         return ir.Binary(relation, one, other, origin=self.origin)
@@ -199,6 +207,9 @@ class Expressions(ABC):
                 return ir.Builtin("random", (), origin=origin)
             case "#phere":
                 return ir.Builtin("current_joints", (), origin=origin)
+            case "hand" | "priority":
+                found = self.asked(lower)
+                return found if found is not None else ir.VendorValue("vplus", text, tables.REAL, origin=origin)
             case "#pdest":
                 here = ir.Builtin("pose_of", (ir.System("end_pose", origin=origin),), origin=origin)
                 return ir.Builtin("target_to_joints", (here,), origin=origin)
@@ -206,6 +217,10 @@ class Expressions(ABC):
 
     def optional(self, tree: SyntaxTree) -> ir.Expression | None:
         return self.expression(subtree(tree.children[0])) if tree.children else None
+
+    @abstractmethod
+    def asked(self, name: str) -> ir.Expression | None:
+        """What the project tells of a value of the controller."""
 
     @abstractmethod
     def call(self, tree: SyntaxTree) -> ir.Expression:
@@ -219,6 +234,16 @@ def _executing(state: ir.Expression, number: ir.Expression) -> ir.Expression | N
             ir.IntLiteral(value=tables.TASK_EXECUTING)
         ):
             return runs if _asks(runs) else None
+    return None
+
+
+def _order(difference: ir.Expression, number: ir.Expression) -> tuple[ir.Expression, ir.Expression] | None:
+    """What `STRDIF(a, b) > 0` compares: the texts themselves."""
+    match difference, number:
+        case ir.Binary(op="-", left=ir.Convert("bit", ir.Binary(op=">", left=one, right=other))), ir.IntLiteral(
+            value=0
+        ):
+            return one, other
     return None
 
 

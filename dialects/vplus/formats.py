@@ -40,14 +40,14 @@ class Item:
     value: ir.Expression | None
 
 
-def text_of(items: Sequence[Item], origin: Origin) -> ir.Expression:
-    """All items as one text."""
+def text_of(items: Sequence[Item], origin: Origin, line_end: str = "\n") -> ir.Expression:
+    """All items as one text. `line_end`: what /C gives (M: $ENCODE gives both signs)."""
     parts: list[ir.Expression] = []
     form = DEFAULT
     for item in items:
         for control in item.controls:
             form, shown = _controlled(control, form)
-            _append(parts, shown)
+            _append(parts, shown.replace("\n", line_end))
         value = item.value
         if value is None:
             continue

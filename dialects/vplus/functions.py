@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from abc import abstractmethod
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import lru_cache
 
 from lark import Token, Tree
@@ -14,7 +16,7 @@ from rpl.passes import rigid
 from rpl.reading.shapes import StatementError, SyntaxTree
 from rpl.source import NOWHERE, Origin
 
-from . import decode, formats, signals, tables
+from . import asked, decode, formats, signals, tables
 from .expressions import Expressions, based, root_name, significant, subtree
 from .formats import Item
 
@@ -34,11 +36,19 @@ class Functions(Expressions):
         name = str(tree.children[0]).lower()
         arguments = subtree(tree.children[1])
         if name == "$encode":
-            return formats.text_of(self.items(arguments), self.origin)
+            return formats.text_of(self.items(arguments), self.origin, line_end="\r\n")
         if name in ("switch", "parameter"):
-            return self.vendor(tree)
+            told = asked.switch if name == "switch" else asked.parameter
+            return told(self.written(arguments).strip("()").lower(), self.facts, self.origin) or self.vendor(tree)
         if name == "$decode":
             return self.cut_off(arguments)
+        if name == "get.event":
+            flag = self.event(next(iter(self.values(arguments)), None), name)
+            return flag if flag is not None else self.vendor(tree)
+        if name == "tas":
+            return self.test_and_set(arguments, tree)
+        if name == "last":
+            return self.last_index(arguments, tree)
         values = self.values(arguments)
         found = self.special(name, values) or self.neutral(name, values)
         if found is not None:
@@ -47,7 +57,48 @@ class Functions(Expressions):
             constant = self.constant(name)
             if constant is not None:
                 return constant
-        return self.vendor(tree)
+        return self.asked(name, [value for value in values if value is not None]) or self.vendor(tree)
+
+    def asked(self, name: str, given: Sequence[ir.Expression] = ()) -> ir.Expression | None:
+        return asked.value(name, given, self.facts, self.origin)
+
+    def temporary(self, stem: str) -> ir.Name:
+        """A variable for what is done in front of the statement at hand."""
+        self.cuts += 1
+        while significant(f"{stem}.{self.cuts}") in self.names.spellings:
+            self.cuts += 1
+        return ir.Name(self.name(f"{stem}.{self.cuts}"), origin=self.origin)
+
+    @abstractmethod
+    def event(self, task: ir.Expression | None, word: str) -> ir.Name | None:
+        """The variable for the event of a task; without a number of the program's own."""
+
+    def test_and_set(self, arguments: SyntaxTree, tree: SyntaxTree) -> ir.Expression:
+        """TAS(variable, value): the value it had before; nothing else runs between the two."""
+        place, value, *more = [*self.values(arguments), None, None]
+        if root_name(place) is None or place is None or value is None or any(more):
+            return self.vendor(tree)
+        before = self.temporary("tas")
+        shared = bool(self.facts.executed)
+        steps: list[ir.Statement] = [ir.Assign(before, place), ir.Assign(place, value)]
+        if shared:
+            steps = [ir.Critical(True), *steps, ir.Critical(False)]
+        self.steps.extend(replace(step, origin=self.origin) for step in steps)
+        return before
+
+    def last_index(self, arguments: SyntaxTree, tree: SyntaxTree) -> ir.Expression:
+        """LAST(array[]): the highest index with a value, -1 without one; looked for from the end of the array."""
+        (array, *more) = [*self.values(arguments), None]
+        if not isinstance(array, ir.Name) or any(more):
+            return self.vendor(tree)
+        last, one = self.temporary("last"), ir.IntLiteral(1)
+        size = self.built("length", array)
+        empty = self.built("is_uninitialised", ir.Index(array, (last,), origin=self.origin))
+        further = ir.Binary(">=", last, ir.IntLiteral(0), origin=self.origin)
+        down = ir.Assign(last, ir.Binary("-", last, one, origin=self.origin), origin=self.origin)
+        self.steps.append(ir.Assign(last, ir.Binary("-", size, one, origin=self.origin), origin=self.origin))
+        self.steps.append(ir.While(ir.Binary("cand", further, empty), (down,), origin=self.origin))
+        return last
 
     def cut_off(self, arguments: SyntaxTree) -> ir.Expression:
         """`$DECODE` inside of an expression also changes its text: done in front of the statement, in order, into a
@@ -58,15 +109,12 @@ class Functions(Expressions):
         text = (root_name(values[0]) if values else None) or ""
         if significant(text) in met:
             raise StatementError(f"$DECODE changes {text}, which the same step reads in front of it", 0)
-        self.cuts += 1
-        while significant(f"$decoded.{self.cuts}") in self.names.spellings:
-            self.cuts += 1
-        head = ir.Name(self.name(f"$decoded.{self.cuts}"), origin=self.origin)
+        head = self.temporary("$decoded")
         self.steps.extend(decode.decoded(head, values, self.origin))
         return head
 
     def values(self, arguments: SyntaxTree) -> Values:
-        """The arguments in order; those left out are None. `t BY x` counts as two."""
+        """The arguments in order; those left out are None. `t BY x` counts as two, `t BY ,, x` as four."""
         values: Values = []
         for child in arguments.children:
             parts = subtree(child).children
@@ -75,7 +123,8 @@ class Functions(Expressions):
             for part in parts:
                 if isinstance(part, Token):
                     raise StatementError("a format control stands only in $ENCODE, TYPE and WRITE", 0)
-                values.append(self.expression(subtree(part)))
+                tree = subtree(part)
+                values.append(self.optional(tree) if tree.data == "optional" else self.expression(tree))
         while values and values[-1] is None:
             values.pop()
         return values
@@ -185,11 +234,14 @@ class Functions(Expressions):
             case "sig", _:
                 return signals.reading(given, self.facts, origin)
             case "bits", [first, *count] if len(count) <= 1:
-                return signals.group(first, count[0] if count else None, self.facts, origin)
+                size = signals.known(count[0], self.facts) if count else None
+                start = signals.known(first, self.facts)
+                found = signals.group(start, size, self.facts, origin)
+                return found or signals.soft_number(start, size, self.facts, origin)
             case "timer", [ir.Unary(op="-")]:
                 return ir.System("time", origin=origin)  # M: the negative timers count the time since the start
             case "timer", [number]:
-                return ir.System("timer", (number,), origin=origin)
+                return ir.System("timer", (signals.known(number, self.facts),), origin=origin)
             case "aio.in", [number]:
                 return ir.Signal("analog_in", number, origin=origin)
             case "error", [ir.Unary(op="-", operand=ir.IntLiteral(value=1))]:
@@ -243,8 +295,19 @@ class Functions(Expressions):
                 return self.built("bytes_number", text, first, ir.IntLiteral(tables.BYTES[name]))
             case "val", [ir.TextLiteral(value=digits)] if _BASED.fullmatch(digits):
                 return based(digits)
-            case "$mid", [text, first, count] if text is not None:
-                return self.part(text, first or one, count or one)
+            case "$mid", [text, first, count] if text is not None and count is not None:
+                return self.part(text, first or one, count)
+            case "$mid", [text, first] if text is not None and first is not None:  # M: all that is left
+                rest = signals.less(self.built("text_length", text), -1)
+                return self.built("text_part", text, first, ir.Binary("-", rest, first, origin=self.origin))
+            case "$unpack", [text, first, count] if text is not None and count is not None:  # M: inside of one element
+                return self.part(text, first or one, count)
+            case "$truncate", [text] if text is not None:
+                end = self.built("text_find_any", text, one, self.built("from_code", ir.IntLiteral(0)))
+                return self.built("text_part", text, one, signals.less(end, 1))
+            case "strdif", [first, second] if first is not None and second is not None:
+                after, before = (ir.Binary(sign, first, second, origin=self.origin) for sign in (">", "<"))
+                return ir.Binary("-", ir.Convert("bit", after), ir.Convert("bit", before), origin=self.origin)
             case "pos", [text, wanted, *start] if text is not None and wanted is not None and len(start) <= 1:
                 return self.built("text_find", text, (start[0] if start else None) or one, wanted)
         return None
@@ -268,7 +331,7 @@ class Functions(Expressions):
                 return ir.Binary("*", value, value, origin=origin)
             case "sqr", [value]:
                 return self.built("power", value, ir.IntLiteral(2))
-            case (("min" | "max"), [first, *rest]) if rest:
+            case (("min" | "max"), [first, *rest]):
                 done = first
                 for value in rest:
                     done = self.built(name, done, value)

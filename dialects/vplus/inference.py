@@ -66,6 +66,8 @@ class Symbols:
 
     # variables that only hold truths (see `truths`)
     truths: frozenset[Symbol] = frozenset()
+    # are texts compared without looking at capitals
+    upper: bool = False
 
     def symbol(self, program: str, name: str) -> Symbol:
         key = significant(name)

@@ -21,7 +21,7 @@ def outputs_later(modules: tuple[ir.Module, ...]) -> tuple[ir.Module, ...]:
             match steps:
                 case [
                     ir.Wait(in_position=False) as wait,
-                    ir.Assign(target=ir.Signal(), value=ir.BoolLiteral()) as assign,
+                    ir.Assign(target=ir.Signal(kind="digital_out"), value=ir.BoolLiteral()) as assign,
                 ]:
                     if not routine.parameters and not _calculated(wait, assign):
                         found[significant(routine.name)] = (wait, assign)

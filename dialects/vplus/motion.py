@@ -10,7 +10,7 @@ from rpl import ir
 from rpl.reading.shapes import StatementError
 from rpl.source import Origin
 
-from . import tables
+from . import signals, tables
 from .expressions import root_name, subtree
 from .split import code_of
 from .statements import Instruction, Lowered, Statements
@@ -130,10 +130,14 @@ class Motion(Statements):
         origin = given.origin
         joint, change = self.needed(given, 0, "a joint"), self.needed(given, 1, "a change")
         percent = self.operand(given, 2)
-        if not isinstance(joint, ir.IntLiteral) or not 1 <= joint.value <= 6:
-            return ir.Vendor("vplus", code_of(origin.text), "unknown", origin=origin)
+        joint = signals.known(joint, self.facts)
         zero = ir.IntLiteral(0)
-        entries = tuple((f"j{number}", change if number == joint.value else zero) for number in range(1, 7))
+        if isinstance(joint, ir.IntLiteral):
+            if not 1 <= joint.value <= 6:
+                return ir.Vendor("vplus", code_of(origin.text), "unknown", origin=origin)
+            entries = tuple((f"j{number}", change if number == joint.value else zero) for number in range(1, 7))
+        else:
+            entries = tuple((f"j{number}", _where(joint, number, change, origin)) for number in range(1, 7))
         speed = ir.Speed(joint=percent) if percent is not None else None
         return self.moved(ir.Aggregate(entries, "joints", origin=origin), "joint", origin, "joints", speed)
 
@@ -165,6 +169,12 @@ class Motion(Statements):
             return ir.Assign(self.place(tree), ir.Builtin("current_joints", (), origin=origin), origin=origin)
         here = ir.Builtin("pose_of", (ir.Builtin("current_target", (), origin=origin),), origin=origin)
         return self.stored(subtree(tree), here, origin)
+
+
+def _where(joint: ir.Expression, number: int, change: ir.Expression, origin: Origin) -> ir.Expression:
+    """The change for the joint of this number, 0 for the others."""
+    same = ir.Convert("bit", ir.Binary("=", joint, ir.IntLiteral(number), origin=origin), origin=origin)
+    return ir.Binary("*", change, same, origin=origin)
 
 
 def approached(place: ir.Expression, distance: ir.Expression, origin: Origin) -> ir.Expression:

@@ -28,7 +28,7 @@ from .resets import resets_as_outputs
 from .resolve import Resolver
 from .settings import Settings
 from .split import SHAPE, Outline, split
-from .statements import Header
+from .statements import Declared, Header
 
 OUTSIDE = code(
     "vplus-outside-program", Severity.WARNING, "steps outside of .PROGRAM ... .END", "they are read as program {name}"
@@ -66,7 +66,10 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
         done = assemble(source, "vplus", pieces, _parser(), lowering.lower, build, diagnostics)
         reports.append(done.report)
         files.append(_sorted(source, done.items, programs, diagnostics))
+    if lowering.rounds:
+        _add_rounds(lowering, files[0], programs)
     symbols = infer(programs, [part for file in files for part in file.data], diagnostics)
+    symbols.upper = bool(lowering.facts.upper)
     truths.mark(programs, [part for file in files for part in file.data], symbols)
     homes = _homes(files, symbols)
     kinds = {
@@ -75,6 +78,26 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     finish = _Finish(symbols, lowering, kinds, modes.by_value(programs, symbols))
     modules = tuple(finish.module(file, homes.get(position, [])) for position, file in enumerate(files))
     return ReadResult(ir.Program(resets_as_outputs(outputs_later(modules), diagnostics)), tuple(reports))
+
+
+def _add_rounds(lowering: Settings, file: _File, programs: dict[str, ProgramPart]) -> None:
+    """Programs that execute another one several times, as EXECUTE asks for."""
+    for key, wanted in lowering.rounds.items():
+        part = programs.get(significant(wanted.program))
+        if part is None or key in programs:
+            continue
+        name, given = lowering.name(wanted.name), part.header.parameters
+        arguments = tuple(ir.Argument(ir.Name(parameter)) for parameter, _ in given)
+        body: ir.Body = (ir.CallRoutine(part.header.name, arguments),)
+        declared: tuple[Declared, ...] = ()
+        if wanted.cycles < 0:
+            body = (ir.While(ir.BoolLiteral(True), body),)
+        else:
+            declared = (Declared("auto", "real", (("round", ()),)),)
+            body = (ir.For("round", ir.IntLiteral(1), ir.IntLiteral(wanted.cycles), None, body),)
+        origin = Origin(wanted.origin.source, wanted.origin.start, wanted.origin.end)
+        programs[key] = ProgramPart(Header(name, given), declared, body)
+        file.programs.append((key, programs[key], origin))
 
 
 def _sorted(
@@ -151,7 +174,9 @@ class _Finish:
             origin = self.symbols.entries["", key].origin
             at = Origin(origin.source, origin.start, origin.end)
             type = self.symbols.type("", name)
-            declared.append(ir.Variable(name, type, first.get(key), "persistent", "global", origin=at))
+            off = ir.BoolLiteral(False) if isinstance(type, ir.BoolType) else ir.IntLiteral(0)
+            started = off if key in self.lowering.events else None
+            declared.append(ir.Variable(name, type, first.get(key) or started, "persistent", "global", origin=at))
         for section in file.data:
             for datum, part in section.values:
                 if datum.indices:

@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterable
 
 from . import tables
+from .events import tasks_of
 from .expressions import Facts, significant
 
 _PROGRAM = re.compile(r"^[ \t]*\.PROGRAM[ \t]+([A-Za-z_][\w.]*)", re.IGNORECASE | re.MULTILINE)
@@ -29,13 +30,16 @@ _TAKEN = re.compile(r"^[ \t]*(?:\d+[ \t]+)?(?:CALLS|READ|PROMPT|ATTACH)\b([^;\r\
 _STORED = re.compile(r"^[ \t]*([A-Za-z_][\w.]*)(?:\[[\d, \t]*\])?[ \t]+(\d+)[ \t]*$", re.MULTILINE)
 _NAME = re.compile(r"[A-Za-z_][\w.]*")
 _EXECUTED = re.compile(
-    r"^[ \t]*(?:\d+[ \t]+)?EXECUTE[ \t]+(?:/C[ \t]+)?(\d+|[A-Za-z_][\w.]*)[ \t]+([A-Za-z_][\w.]*)",
+    r"^[ \t]*(?:\d+[ \t]+)?EXECUTE[ \t]+(?:/C[ \t]+)?(\d+|[A-Za-z_][\w.]*)[ \t]+([A-Za-z_][\w.]*)"
+    r"(?:[ \t]*\([^;\r\n]*\))?(?:[ \t]*,[ \t]*(-?\d+))?",
     re.IGNORECASE | re.MULTILINE,
 )
 _JOINS = re.compile(
-    r"^[ \t]*(?:\d+[ \t]+)?(?:CPON|CPOFF)\b|^[ \t]*(?:\d+[ \t]+)?(?:ENABLE|DISABLE)\b[^;\r\n]*\bCP\b",
+    r"^[ \t]*(?:\d+[ \t]+)?(?:CPON|CPOFF)\b|^[ \t]*(?:\d+[ \t]+)?(?:ENABLE|DISABLE|SWITCH)\b[^;\r\n]*\bCP\b",
     re.IGNORECASE | re.MULTILINE,
 )
+_LOCKS = re.compile(r"^[ \t]*(?:\d+[ \t]+)?(?:LOCK|REACT[IE]?)\b", re.IGNORECASE | re.MULTILINE)
+_SWITCHED = re.compile(r"^[ \t]*(?:\d+[ \t]+)?(ENABLE|DISABLE|SWITCH)[ \t]+([^;\r\n]*)", re.IGNORECASE | re.MULTILINE)
 _HAND_TIME = re.compile(r"^[ \t]*(?:\d+[ \t]+)?PARAMETER[ \t]+HAND\.TIME[ \t]*=[ \t]*([^;\r\n]*)", re.I | re.MULTILINE)
 _PLAIN_NUMBER = re.compile(r"\d+\.?\d*|\.\d+")
 
@@ -45,16 +49,49 @@ def facts_of(texts: Iterable[str]) -> Facts:
     kept = list(texts)
     programs: set[str] = set()
     executed: dict[str, set[str]] = {}
-    joins = False
+    bases: dict[str, set[str]] = {}
+    cycles: dict[str, int] = {}
+    joins = locks = False
     hand: set[str] = set()
+    switches: set[tuple[str, str]] = set()
     for text in kept:
         hand.update(value.strip() for value in _HAND_TIME.findall(text))
         programs.update(significant(name) for name in _PROGRAM.findall(text))
-        for task, program in _EXECUTED.findall(text):
-            executed.setdefault(task.lower(), set()).add(program)
+        for task, program, times in _EXECUTED.findall(text):
+            name = program
+            bases.setdefault(task.lower(), set()).add(program)
+            if times not in ("", "1"):
+                name = round_of(program, int(times))
+                cycles[significant(name)] = int(times)
+            executed.setdefault(task.lower(), set()).add(name)
+        locks = locks or _LOCKS.search(text) is not None
+        for word, inner in _SWITCHED.findall(text):
+            switches.update((word.lower(), name.lower()) for name in _NAME.findall(inner))
         joins = joins or _JOINS.search(text) is not None
     tasks = {task: frozenset(names) for task, names in executed.items()}
-    return Facts(frozenset(programs), _Numbers().of(kept), tasks, joins, _hand_time(hand))
+    return Facts(
+        frozenset(programs),
+        _Numbers().of(kept),
+        tasks,
+        joins,
+        _hand_time(hand),
+        locks,
+        frozenset(name for word, name in switches if word != "enable"),
+        _upper({word for word, name in switches if name == "upper"}),
+        tasks_of(kept, bases),
+        cycles,
+    )
+
+
+def round_of(program: str, cycles: int) -> str:
+    """The name of the program that executes another one several times."""
+    mark = f".x{cycles}" if cycles > 0 else ".x"
+    return program[: tables.NAME_LENGTH - len(mark)] + mark
+
+
+def _upper(words: set[str]) -> bool | None:
+    """Whether texts are compared without looking at capitals, where the project always says the same."""
+    return None if len(words) != 1 or "switch" in words else "enable" in words
 
 
 def _hand_time(values: set[str]) -> float | None:
@@ -147,4 +184,4 @@ def _split(arguments: str) -> list[str]:
     return [*parts, arguments[start:].strip()]
 
 
-__all__ = ["facts_of"]
+__all__ = ["facts_of", "round_of"]

@@ -144,6 +144,8 @@ class Resolver:
                     same = one.value == (node.op == "=")
                     return other if same else ir.Unary("not", other, origin=node.origin)
             return node
+        if left == right == TEXT and self.symbols.upper:
+            return replace(node, left=_in_capitals(node.left), right=_in_capitals(node.right))
         if BOOL in (left, right):
             return replace(node, left=self.number(node.left), right=self.number(node.right))
         return node
@@ -236,6 +238,13 @@ class Resolver:
             return node
         cases = tuple(replace(case, values=tuple(self.number(value) for value in case.values)) for case in node.cases)
         return replace(node, selector=self.number(node.selector), cases=cases)
+
+
+def _in_capitals(text: ir.Expression) -> ir.Expression:
+    """With UPPER on, capitals and small letters are the same in a comparison."""
+    if isinstance(text, ir.TextLiteral):
+        return replace(text, value=text.value.upper())
+    return ir.Builtin("text_upper", (text,), origin=text.origin)
 
 
 __all__ = ["Resolver"]

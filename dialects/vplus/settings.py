@@ -14,7 +14,7 @@ from rpl.reading.shapes import StatementError, SyntaxTree
 from rpl.source import Origin
 
 from . import signals, tables
-from .expressions import root_name, subtree
+from .expressions import root_name, significant, subtree
 from .functions import transformation
 from .motion import Motion
 from .split import code_of
@@ -29,6 +29,12 @@ JOINT_SPEED = code(
     "vplus-speed-of-joints",
     Severity.INFO,
     "a tool speed holds for straight lines; moves in joints get {percent} percent of their speed",
+)
+RUN_SIGNAL = code(
+    "vplus-run-signal",
+    Severity.WARNING,
+    "the signal is switched on here; the controller switches it off when the program ends, which is not imitated",
+    "switch it off at the end of the program",
 )
 PROFILE = code("vplus-acceleration-profile", Severity.INFO, "acceleration profile {number} is not imitated")
 
@@ -159,7 +165,8 @@ class Settings(Motion):
                 tree = given.operands[0] if given.operands else None
                 return ir.OnError(self.routine_named(tree) if tree is not None else None, origin=origin)
             case "ignore":
-                return ir.ControlInterrupt("delete", handle(self.needed(given, 0, "a signal")), origin=origin)
+                signal = signals.known(self.needed(given, 0, "a signal"), self.facts)
+                return ir.ControlInterrupt("delete", handle(signal), origin=origin)
             case "lock":
                 level = self.operand(given, 0) or ir.IntLiteral(0)
                 return ir.ControlInterrupt("mask", urgency(level, origin), origin=origin)
@@ -175,11 +182,27 @@ class Settings(Motion):
                 return self.task_of(given.operands, "stop", origin)
             case "proceed" | "retry":
                 return self.task_of(given.operands, "resume", origin)
-            case "set.event" | "clear.event" | "runsig" | "reset":
+            case "runsig":
+                return self.run_signal(given)
+            case "set.event" | "clear.event":
+                flag = self.event(self.operand(given, 0), given.word)
+                if flag is not None:
+                    return ir.Assign(flag, ir.BoolLiteral(given.word == "set.event"), origin=origin)
+                return ir.Vendor("vplus", code_of(origin.text), "unknown", origin=origin)
+            case "reset":
                 return ir.Vendor("vplus", code_of(origin.text), "unknown", origin=origin)
             case "release":
                 return ir.Vendor("vplus", code_of(origin.text), "none", origin=origin)
         return None
+
+    def run_signal(self, given: Instruction) -> Lowered:
+        """RUNSIG n: on while the program runs. M: without a number the signal goes off."""
+        number = self.operand(given, 0)
+        switched = signals.switching(number, self.facts, given.origin) if number is not None else None
+        if switched is None:
+            return ir.Vendor("vplus", code_of(given.origin.text), "unknown", origin=given.origin)
+        self.diagnostics.report(RUN_SIGNAL, given.origin)
+        return switched
 
     def wait(self, given: Instruction) -> Lowered:
         origin = given.origin
@@ -195,13 +218,33 @@ class Settings(Motion):
         mask, time = self.operand(given, 0), self.operand(given, 1)
         if time is not None and mask in (None, ir.IntLiteral(0)):
             return ir.Wait(time, origin=given.origin)
+        flag = self.event(None, given.word) if mask not in (None, ir.IntLiteral(0)) else None
+        if flag is not None and time in (None, ir.IntLiteral(0)):
+            return ir.WaitUntil(flag, origin=given.origin)
+        if flag is not None:
+            late = ir.Name(self.name("event.late"), origin=given.origin)
+            return ir.WaitUntil(flag, time, late, origin=given.origin)
         return ir.Vendor("vplus", code_of(given.origin.text), "unknown", origin=given.origin)
+
+    def event(self, task: ir.Expression | None, word: str) -> ir.Name | None:
+        """The variable for the event of a task, without a number of the program's own; None: nobody can tell which."""
+        key = self.facts.task_of.get(self.program)
+        if task is not None:
+            number = signals.known(task, self.facts)
+            key = str(number.value) if isinstance(number, ir.IntLiteral) else (root_name(number) or "").lower()
+        elif word == "set.event":
+            key = None
+        if not key:
+            return None
+        name = self.name(f"event.{key}")
+        self.events.add(significant(name))
+        return ir.Name(name, origin=self.origin)
 
     def react(self, given: Instruction) -> Lowered:
         """REACT signal, program, priority: the edge of the signal calls the program. REACTI stops the robot as well.
         It belongs to the task: also when the program that switched it on has returned."""
         origin = given.origin
-        number = self.needed(given, 0, "a signal")
+        number = signals.known(self.needed(given, 0, "a signal"), self.facts)
         tree = given.operands[1] if len(given.operands) > 1 else None
         if tree is None:
             raise StatementError(f"{given.word.upper()} needs a program", 0)
@@ -280,7 +323,7 @@ class Settings(Motion):
             if name == "cp":
                 done.extend(self.set_to([("blending", ir.BoolLiteral(on))], True, origin))
                 continue
-            harmless = name in tables.SWITCHES_WITHOUT_EFFECT
+            harmless = name in tables.SWITCHES_WITHOUT_EFFECT or (name == "upper" and self.facts.upper is not None)
             statement = f"{given.word.upper()} {text.upper()}"
             done.append(ir.Vendor("vplus", statement, "tuning" if harmless else "unknown", origin=origin))
         if not done:
@@ -307,20 +350,54 @@ class Settings(Motion):
 
     def setting(self, word: str, places: list[SyntaxTree], value: ir.Expression, origin: Origin) -> Lowered | None:
         match word, places:
+            case "switch", [name]:
+                return self.switched(self.written(name), value, origin)
+            case "pack", [text, first, count] if root_name(self.place(text)) is not None:
+                return self.pack(self.place(text), self.expression(first), self.expression(count), value, origin)
             case "timer", [number]:
-                index = (self.expression(number),)  # a timer of V+ never stands still
+                index = (signals.known(self.expression(number), self.facts),)  # a timer of V+ never stands still
                 runs = ir.Assign(ir.System("timer_stopped", index, origin=origin), ir.BoolLiteral(False), origin=origin)
                 return ir.Assign(ir.System("timer", index, origin=origin), value, origin=origin), runs
             case "bits", [first, *count] if len(count) <= 1:
-                size = self.expression(count[0]) if count else None
-                found = signals.group(self.expression(first), size, self.facts, origin)
+                size = signals.known(self.expression(count[0]), self.facts) if count else None
+                start = signals.known(self.expression(first), self.facts)
+                found = signals.group(start, size, self.facts, origin)
                 if found is not None and found.kind == "group_out":
                     return ir.Assign(found, value, origin=origin)
+                return signals.soft_bits(start, size, value, self.facts, origin)
             case "aio.out", [number]:
                 return ir.Assign(ir.Signal("analog_out", self.expression(number), origin=origin), value, origin=origin)
             case "decompose", [place]:
                 return self.decompose(place, value, origin)
         return None
+
+    def switched(self, name: str, value: ir.Expression, origin: Origin) -> Lowered:
+        """SWITCH name = value: as ENABLE and DISABLE."""
+        if name.lower() == "cp":
+            return ir.Assign(ir.System("blending", origin=origin), value, origin=origin)
+        harmless = name.partition("[")[0].lower() in tables.SWITCHES_WITHOUT_EFFECT
+        return ir.Vendor("vplus", code_of(origin.text), "tuning" if harmless else "unknown", origin=origin)
+
+    def pack(
+        self, text: ir.Expression, first: ir.Expression, count: ir.Expression, value: ir.Expression, origin: Origin
+    ) -> Lowered:
+        """PACK text, first, count = value: so many characters of the text are replaced. M: inside of one element."""
+        one = ir.IntLiteral(1)
+        behind: ir.Expression = ir.Binary("+", first, count, origin=origin)
+        rest: ir.Expression = ir.Binary("-", signals.less(self.built("text_length", text), -1), behind, origin=origin)
+        if isinstance(first, ir.IntLiteral) and isinstance(count, ir.IntLiteral):
+            behind_number = first.value + count.value
+            behind = ir.IntLiteral(behind_number)
+            rest = signals.less(self.built("text_length", text), behind_number - 1)
+        new = value
+        if not isinstance(value, ir.TextLiteral) or not isinstance(count, ir.IntLiteral):
+            new = self.part(value, one, count)
+        elif len(value.value) != count.value:
+            new = ir.TextLiteral(value.value[: count.value])
+        head = self.built("text_part", text, one, signals.less(first, 1))
+        tail = self.built("text_part", text, behind, rest)
+        whole = ir.Binary("&", ir.Binary("&", head, new, origin=origin), tail, origin=origin)
+        return ir.Assign(text, whole, origin=origin)
 
     def decompose(self, tree: SyntaxTree, value: ir.Expression, origin: Origin) -> Lowered:
         """DECOMPOSE array[first] = location: its numbers one after the other."""

@@ -50,6 +50,13 @@ def numbers_of(expression: ir.Expression, facts: Facts) -> frozenset[int]:
     return frozenset()
 
 
+def known(number: ir.Expression, facts: Facts) -> ir.Expression:
+    """A variable that only ever gets one whole number is that number."""
+    values = numbers_of(number, facts)
+    only = next(iter(values)) if len(values) == 1 and isinstance(number, ir.Name) else -1
+    return ir.IntLiteral(only, origin=number.origin) if only >= 0 else number
+
+
 def port(expression: ir.Expression, facts: Facts, origin: Origin) -> ir.Signal | None:
     """The physical signal of a number without sign; None when it could be of several kinds."""
     values = numbers_of(expression, facts)
@@ -142,6 +149,44 @@ def _by_size(number: ir.Expression, on: bool, origin: Origin) -> ir.Statement:
             fits = ir.Binary("and", above, fits, origin=origin)
         branches.append((fits, (ir.Assign(signal(kind, size, offset, origin), positive, origin=origin),)))
     return ir.If(tuple(branches), origin=origin)
+
+
+def soft_bits(
+    first: ir.Expression, count: ir.Expression | None, value: ir.Expression, facts: Facts, origin: Origin
+) -> tuple[ir.Statement, ...] | None:
+    """BITS of software signals = value: one signal after the other. None when the numbers are not known."""
+    bits = _soft(first, count, facts)
+    if bits is None:
+        return None
+    done = []
+    for place, number in enumerate(bits):
+        weight = ir.IntLiteral(1 << place)
+        bit = ir.Binary("<>", ir.Binary("band", value, weight, origin=origin), ir.IntLiteral(0), origin=origin)
+        done.append(ir.Assign(signal("flag", ir.IntLiteral(number), 0, origin), bit, origin=origin))
+    return tuple(done)
+
+
+def soft_number(
+    first: ir.Expression, count: ir.Expression | None, facts: Facts, origin: Origin
+) -> ir.Expression | None:
+    """BITS(first, count) of software signals; None when the numbers are not known."""
+    whole: ir.Expression | None = None
+    for place, number in enumerate(_soft(first, count, facts) or ()):
+        bit: ir.Expression = ir.Convert("bit", signal("flag", ir.IntLiteral(number), 0, origin), origin=origin)
+        if place:
+            bit = ir.Binary("*", ir.IntLiteral(1 << place), bit, origin=origin)
+        whole = bit if whole is None else ir.Binary("+", whole, bit, origin=origin)
+    return whole
+
+
+def _soft(first: ir.Expression, count: ir.Expression | None, facts: Facts) -> range | None:
+    """The numbers of the flags."""
+    size = count if count is not None else ir.IntLiteral(1)
+    match first, size:
+        case ir.IntLiteral(value=start), ir.IntLiteral(value=length):
+            kind = kind_of(start)
+            return range(start - kind[1], start - kind[1] + length) if kind and kind[0] == "flag" else None
+    return None
 
 
 def group(first: ir.Expression, count: ir.Expression | None, facts: Facts, origin: Origin) -> ir.Signal | None:

@@ -20,8 +20,9 @@ from rpl.source import Origin
 
 from . import decode, formats, tables
 from .decode import LEAVE_MARK, Lowered
-from .expressions import Facts, root_name, subtree
+from .expressions import Facts, root_name, significant, subtree
 from .functions import Functions
+from .quick import round_of
 from .split import Outline, code_of
 
 ALWAYS_TRUE = code(
@@ -85,6 +86,16 @@ def _operand(part: SyntaxTree) -> SyntaxTree | None:
     return subtree(part.children[0]) if part.children else None
 
 
+@dataclass(frozen=True, slots=True)
+class Round:
+    """EXECUTE of a program several times (a negative number: for ever), as the program `name` that does it."""
+
+    name: str
+    program: str
+    cycles: int
+    origin: Origin
+
+
 class Statements(Functions):
     """Lowers statement trees; the base of the families of instructions."""
 
@@ -92,6 +103,9 @@ class Statements(Functions):
         super().__init__(facts, diagnostics)
         self.outline = Outline()
         self.section = ""
+        self.rounds: dict[str, Round] = {}
+        self.program = ""  # the name of the one that is read
+        self.events: set[str] = set()  # variables that are events of tasks
 
     def lower(self, tree: SyntaxTree, numbers: tuple[str, ...], origin: Origin) -> Lowered:
         """The element(s) of one statement."""
@@ -117,7 +131,7 @@ class Statements(Functions):
                 if parts:
                     count = len(subtree(parts[1]).children) if len(parts) > 1 else 0
                     parameters.append((self.name(str(parts[0])), count))
-        self.section = ""
+        self.section, self.program = "", significant(str(tree.children[0]))
         return Open("program", Header(str(tree.children[0]), tuple(parameters)), origin)
 
     def on_end_program(self, tree: SyntaxTree, origin: Origin) -> Lowered:
@@ -158,7 +172,11 @@ class Statements(Functions):
         target = self.place(subtree(tree.children[0]))
         value = subtree(tree.children[1])
         if value.data == "call" and str(value.children[0]).lower() == "$decode":
-            return decode.decoded(target, self.values(subtree(value.children[1])), origin)
+            values = self.values(subtree(value.children[1]))
+            if values[:1] == [target]:  # the head alone is left
+                head = self.temporary("$decoded")
+                return *decode.decoded(head, values, origin), ir.Assign(target, head, origin=origin)
+            return decode.decoded(target, values, origin)
         return ir.Assign(target, self.expression(value), origin=origin)
 
     def place(self, tree: SyntaxTree) -> ir.Expression:
@@ -323,9 +341,13 @@ class Statements(Functions):
                 arguments = self.arguments(child)
             elif isinstance(child, Tree) and child.data == "optional":
                 further.append(self.optional(child))
-        cycles = further[0] if further else None
-        if len(further) > 1 or not (cycles is None or cycles == ir.IntLiteral(1)):
+        cycles = signed(further[0]) if further and further[0] is not None else 1
+        if len(further) > 1 or not cycles:
             return ir.Vendor("vplus", code_of(origin.text), "unknown", origin=origin)
+        if cycles != 1:
+            several = round_of(name, cycles)
+            self.rounds.setdefault(significant(several), Round(several, name, cycles, origin))
+            name = self.name(several)
         return ir.TaskControl("start", name, arguments, origin=origin)
 
     def task_of(self, operands: Operands, op: str, origin: Origin) -> Lowered:
@@ -394,6 +416,16 @@ class Statements(Functions):
         if tree.data in ("reference", "call") and isinstance(tree.children[0], Token):
             return self.name(str(tree.children[0]))
         raise StatementError("the name of a program is needed", 0)
+
+
+def signed(value: ir.Expression) -> int:
+    """A whole number that is written out, with its sign; else 0."""
+    match value:
+        case ir.IntLiteral(value=number):
+            return number
+        case ir.Unary(op="-", operand=ir.IntLiteral(value=number)):
+            return -number
+    return 0
 
 
 def by_value(value: ir.Expression) -> ir.Expression:

@@ -52,6 +52,7 @@ CONSTANTS: dict[str, ir.Expression] = {
     "false": ir.BoolLiteral(False),
     "off": ir.BoolLiteral(False),
     "pi": ir.RealLiteral(3.141592653589793),
+    "tps": ir.RealLiteral(62.5),  # M: ticks of the system clock per second, one each 16 ms
 }
 
 # Functions of numbers and texts that are the neutral ones under another name: V+ name -> (neutral, count of arguments).
@@ -85,9 +86,9 @@ TASK_STATE, TASK_EXECUTING = 1, 4
 # Functions whose value only the controller knows; a run stops there unless the cell file gives the value.
 CONTROLLER_VALUES: dict[str, ir.Type] = {
     **dict.fromkeys(
-        """bstatus belt config dblb device error fltb force.read get.event getc getevent id identical int.event
-        iostat last latched parameter pendant priority sig.ins solve.angles solve.flags speed state strdif
-        switch tas task time transb vfeature vlocate vparameter vresult vstate window
+        """accel bstatus belt config dblb device duration error fltb force.read get.event getc getevent id identical
+        int.event hand iostat last latched parameter pendant priority select sig.ins solve.angles solve.flags speed
+        state strdif switch tas task time transb vfeature vlocate vparameter vresult vstate window
         """.split(),  # noqa: SIM905 (a word list reads better)
         REAL,
     ),
@@ -114,8 +115,17 @@ SWITCHES_WITHOUT_EFFECT = frozenset(
     """.split()  # noqa: SIM905
 )
 
+# M: these are on in a robot that works.
+SWITCHED_ON = frozenset(("power", "robot", "messages"))
+
 # M: numbers of the errors that a program can ask for with ERROR(-1).
-ERRORS: dict[str, int] = {"no_value": -401, "unreachable": -610, "joint_limit": -1024}
+ERRORS: dict[str, int] = {
+    "no_value": -401,
+    "unreachable": -610,
+    "joint_limit": -1024,
+    "division_by_zero": -403,
+    "negative_argument": -410,
+}
 
 # Posture words: (neutral variable, neutral word). RIGHTY is the arm with its elbow to the right of the line from
 # shoulder to wrist; on a six-axis arm the neutral front (M), on a SCARA the positive second joint.
