@@ -38,6 +38,7 @@ RULES = Rules(
     name=NATIVE,
     advance=AdvanceRules(moves=1, runs_ahead_of="fly_by", stop_statements=frozenset(("Halt",))),
     undefined=True,
+    last_tool=False,
     system_defaults={
         "path_speed": 250.0,
         "path_acceleration": 2000.0,

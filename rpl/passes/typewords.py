@@ -66,9 +66,9 @@ def word_type(word: str, scope: Scope) -> ir.Type | None:
     """The type that `type_word` or the dialect's own spelling names; None when there is none."""
     head, _, notation = word.partition(" ")
     if head == "target":
-        return ir.TargetType(notation)
+        return ir.TargetType(notation or scope.rules.name)
     if head == "configuration":
-        return ir.ConfigType(notation)
+        return ir.ConfigType(notation or scope.rules.name)
     declared = scope.type(word)
     if declared is not None:
         return scope.resolve(ir.NamedType(word))

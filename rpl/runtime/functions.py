@@ -242,8 +242,14 @@ def _joints_to_target(task: Task, joints: Value, tool: Value = None, frame: Valu
     return robot.target_now(tool, frame, task.frame.code.rules, here)
 
 
+def _modal(task: Task, set: str, used: str) -> Value:
+    """The tool or frame that the program has set, else that of its last move where the language counts it."""
+    value = task.modal.get(set)
+    return task.modal.get(used) if value is None and task.frame.code.rules.last_tool else value
+
+
 def _current_tool(task: Task) -> Value:
-    value = task.modal.get("tool") or task.modal.get("tool_in_use")
+    value = _modal(task, "tool", "tool_in_use")
     if isinstance(value, Record):
         return copied(value)
     pose = value if value is not None else identity(task)
@@ -251,7 +257,7 @@ def _current_tool(task: Task) -> Value:
 
 
 def _current_frame(task: Task) -> Value:
-    value = task.modal.get("base") or task.modal.get("frame_in_use")
+    value = _modal(task, "base", "frame_in_use")
     if isinstance(value, Record):
         return copied(value)
     pose = as_pose(value) if value is not None else identity(task)

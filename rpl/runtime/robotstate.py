@@ -66,7 +66,7 @@ class RobotState:
     def target_now(self, tool: Value, frame: Value, rules: Rules, joints: FloatArray | None = None) -> TargetValue:
         """Where the tool centre point is."""
         modal = self.task.modal
-        if modal.get("tool") is None:
+        if rules.last_tool and modal.get("tool") is None:
             tool = tool if tool is not None else modal.get("tool_in_use")
             frame = frame if frame is not None else modal.get("frame_in_use")
         frames = frames_of(tool, frame, modal, {})

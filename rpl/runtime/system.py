@@ -161,7 +161,9 @@ def _home_joints(task: Task, index: int) -> Value:
 def _of_moves(task: Task, modal: str, used: str) -> Value:
     """What the task that moves the robot has, as a pose."""
     given = _robot(task).task.modal
-    value = given.get(modal) if given.get(modal) is not None else given.get(used)
+    value = given.get(modal)
+    if value is None and _rules(task).last_tool:
+        value = given.get(used)
     return identity(task) if value is None else copied(value)
 
 

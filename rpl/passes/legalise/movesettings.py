@@ -16,8 +16,10 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.modal import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, ZONE_MM_PER_PERCENT, says
 from rpl.passes.legalise.modalflow import SETTINGS, Flow, State
+from rpl.passes.legalise.tooldata import PLACES
 from rpl.passes.rewrite import rewrite_parts
 
+_WORLD = ir.System("null_frame")
 _TYPES: dict[str, ir.Type] = {"tool": ir.PoseType(), "base": ir.PoseType()}
 # Settings that such a target has no word for, so that they cannot stay modal either.
 _LEFT_OUT = DROPPED_SETTINGS | {"swivel_speed", "twist_speed", "acceleration_percent"}
@@ -156,11 +158,13 @@ class _Settings:
         match seen:
             case ir.System(name="actual_pose") | ir.Builtin(function="current_target", arguments=()):
                 name, given = "current_target", ()
+            case ir.Builtin(function="current_position" as name, arguments=()):
+                given = ()
             case ir.Builtin(function="joints_to_target" | "target_to_joints" as name, arguments=(one,)):
                 given = (one,)
             case _:
                 return seen
-        base = self.value("base", self.here, {}) if self.says("base") else ir.System("null_frame")
+        base = self.value("base", self.here, {}) if self.says("base") else _WORLD
         return ir.Builtin(name, (*given, self.value("tool", self.here, {}), base), origin=seen.origin)
 
     def in_base(self, expression: ir.Expression) -> ir.Expression:
@@ -168,6 +172,13 @@ class _Settings:
         match expression:
             case ir.System(name="actual_pose") | ir.Builtin(function="current_target", arguments=()):
                 return self.framed(expression, inverse=True)
+            case ir.Builtin(function="current_position", arguments=()):
+                place = ir.Builtin("current_target", (), origin=expression.origin)
+                seen = self.framed(place, inverse=True)
+                return expression if seen is place else ir.Field(seen, "trans", origin=expression.origin)
+            case ir.Builtin(function=function, arguments=given) if len(given) == PLACES.get(function, (0, 0))[1] > 0:
+                frame = self.value("base", self.here, {})
+                return expression if frame == _WORLD else replace(expression, arguments=(*given, frame))
             case ir.Builtin(function="joints_to_target", arguments=(_,)):
                 return self.framed(expression, inverse=True)
             case (
@@ -179,7 +190,7 @@ class _Settings:
 
     def framed(self, pose: ir.Expression, *, inverse: bool) -> ir.Expression:
         frame = self.value("base", self.here, {})
-        if frame == ir.System("null_frame"):
+        if frame == _WORLD:
             return pose
         return ir.Binary(":", ir.Builtin("inverse", (frame,)) if inverse else frame, pose, origin=pose.origin)
 

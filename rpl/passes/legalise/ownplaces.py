@@ -2,7 +2,8 @@
 
 There the tool of one move would stay for the next ones, and for what asks where the robot is. So in a program that sets
 the tool (or frame) and also has moves that name their own, every move and every question names it: as the constant that
-is known to be set there (`modalflow`), or else by a variable that is set along with it.
+is known to be set there (`modalflow`), or else by a variable that is set along with it. Where the source's questions
+never mean the tool of the last move, they are named also without a tool that is set.
 """
 
 from __future__ import annotations
@@ -36,8 +37,8 @@ def own_places(program: ir.Program, context: Context) -> ir.Program:
     }
     made = {node.target.name for node in nodes if isinstance(node, ir.Assign) and isinstance(node.target, ir.System)}
     asked = any(_asks(node) for node in nodes)
-    # Without a tool that is set, a question means the tool and frame of the last move, as these targets do.
-    questions = asked and "tool" in made
+    # Without a tool that is set, a question may mean the tool and frame of the last move, as these targets do.
+    questions = asked and ("tool" in made or not rules_of(context.source).last_tool)
     if not named & made and not (named and questions):
         return program
     worker = _Places(program, context, frozenset(named & made), frozenset(made), questions)

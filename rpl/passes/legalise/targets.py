@@ -74,6 +74,8 @@ class Whole:
                 first, arc = self.whole_via(statement, done)
                 moved = self.whole(arc, done) if self.needs_work(arc) else [arc]
                 done.extend([*first, *moved])
+            elif isinstance(statement, ir.Move) and self.is_partial_way(statement):
+                done.append(replace(statement, target=self.whole_way(statement.target)))
             else:
                 done.append(rewrite_parts(statement, lambda expression: expression, self.body))
         return tuple(done)
@@ -82,6 +84,23 @@ class Whole:
         if move.relative is not None:
             return not self.context.capabilities.relative_moves
         return not self.context.capabilities.partial_targets and self.missing(move.target)
+
+    def is_partial_way(self, move: ir.Move) -> bool:
+        """A way from here that the target can say, of some components that are computed: the place that it is computed
+        in has to have them all."""
+        can, way = self.context.capabilities, move.target
+        if move.relative is None or not can.relative_moves or can.partial_targets or move.via is not None:
+            return False
+        parts = way.entries if isinstance(way, ir.Aggregate) and self.missing(way) else ()
+        return any(constant_number(value, self.scope, self.unchanged) is None for _, value in parts)
+
+    def whole_way(self, way: ir.Expression) -> ir.Aggregate:
+        """What is left out of a way is nothing."""
+        assert isinstance(way, ir.Aggregate)
+        names = _AXES if way.type_name == "joints" else (*_POSITION, *_ANGLES)
+        given = dict(way.entries)
+        others = tuple((name, value) for name, value in way.entries if name not in names)
+        return replace(way, entries=(*((name, given.get(name, ir.RealLiteral(0.0))) for name in names), *others))
 
     def via_needs_work(self, move: ir.Move) -> bool:
         """Has the point on the way of an arc components missing, or is it counted from the start?"""
