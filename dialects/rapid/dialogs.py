@@ -32,9 +32,10 @@ _LOOKS = frozenset(("wrap", "icon", "image", "header", "message", "msgarray", "d
 _KNOWN = {
     "uimessagebox": _LOOKS | {"buttons", "btnarray", "maxtime"},
     "uinumentry": _LOOKS | {"initvalue", "minvalue", "maxvalue", "asinteger", "maxtime"},
+    "uidnumentry": _LOOKS | {"initvalue", "minvalue", "maxvalue", "asinteger", "maxtime"},
     "uialphaentry": _LOOKS | {"initstring", "maxtime"},
 }
-_TYPES: dict[str, ir.Type] = {"uimessagebox": NUM, "uinumentry": NUM, "uialphaentry": ir.StringType()}
+_TYPES: dict[str, ir.Type] = {**dict.fromkeys(_KNOWN, NUM), "uialphaentry": ir.StringType()}
 _NOTHING: frozenset[str] = frozenset()
 # Reading asks for no target; the rewriting only needs names that are free.
 _NO_TARGET = Capabilities(
@@ -101,7 +102,7 @@ def _asked(call: ir.Call, answer: ir.Expression, origin: Origin = NOWHERE) -> ir
     limit = options.get("maxtime")
     if name == "uimessagebox":
         return keys_asked(answer, text, header, limit, options, origin)
-    kind = "number" if name == "uinumentry" else "text"
+    kind = "text" if name == "uialphaentry" else "number"
     question = ir.Dialog(answer, text, kind=kind, timeout=limit, sender=header, origin=origin)
     wrong = _refused(answer, options)
     return (question,) if wrong is None else (question, ir.While(wrong, (replace(question, origin=NOWHERE),)))

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from rpl import ir
 
 from .arguments import Arguments, Signals
+from .texts import formatted, part_of_time, text_of_byte
 
 Make = Callable[[Arguments, Signals], ir.Expression | None]
 """make(arguments, expressions): the expression, or None when an option has no neutral form. May raise
@@ -77,14 +78,6 @@ def _byte_of_text(arguments: Arguments, expressions: Signals) -> ir.Expression |
     if set(arguments.options) == {"char"}:
         return ir.Builtin("character_code", (text,))
     return None if arguments.options else ir.Binary("band", ir.Builtin("text_value", (text,)), _BYTE)
-
-
-def _text_of_byte(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
-    r"""ByteToStr byte [\Char]: the character of a code, or the number in decimal."""
-    (value,) = arguments.need(1)
-    if set(arguments.options) == {"char"}:
-        return ir.Builtin("from_code", (value,))
-    return None if arguments.options else ir.Builtin("number_text", (value, _ZERO))
 
 
 def _same(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
@@ -183,6 +176,37 @@ def _def_frame(arguments: Arguments, expressions: Signals) -> ir.Expression | No
     return ir.Builtin("frame_from_points", (*points, origin) if origin is not None else tuple(points))
 
 
+def _moved_frame(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
+    """DefDFrame old1, old2, old3, new1, new2, new3: the displacement that carries the old points to the new ones."""
+    points = [_place_of(point) for point in arguments.need(6)]
+    if arguments.options:
+        return None
+    old, new = (ir.Builtin("frame_from_points", tuple(three)) for three in (points[:3], points[3:]))
+    return ir.Builtin("compose", (new, ir.Builtin("inverse", (old,))))
+
+
+def _without_displacement(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
+    r"""ORobT point [\InPDisp | \InEOffs]: the point seen from the work object, not from the program displacement.
+    There are no offsets of external axes here, so \InPDisp is the point as it is."""
+    (point,) = arguments.need(1)
+    if set(arguments.options) == {"inpdisp"}:
+        return point
+    if set(arguments.options) - {"ineoffs"}:
+        return None
+    return ir.Builtin("displaced", (point, ir.System("displacement")))
+
+
+def _speed_override(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
+    arguments.need(0)
+    return None if set(arguments.options) - {"ctask"} else ir.System("override")
+
+
+def _greatest_speed(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
+    """MaxRobSpeed: the tool's greatest speed, which is that of vmax."""
+    arguments.need(0)
+    return ir.Field(ir.Name("vmax"), "v_tcp")
+
+
 def _present(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
     match arguments.need(1)[0]:
         case ir.Name(id=name):
@@ -235,6 +259,8 @@ FUNCTIONS: dict[str, Make] = {
     "eulerzyx": _euler,
     "orientzyx": _plain("rotation_zyx", 3),
     "defframe": _def_frame,
+    "defdframe": _moved_frame,
+    "orobt": _without_displacement,
     "distance": _plain("distance", 2),
     "vectmagn": _plain("magnitude", 1),
     "dotprod": _plain("dot", 2),
@@ -252,7 +278,9 @@ FUNCTIONS: dict[str, Make] = {
     "valtostr": _plain("value_text", 1),
     "strtoval": _plain("parse_value", 2),
     "strtobyte": _byte_of_text,
-    "bytetostr": _text_of_byte,
+    "bytetostr": text_of_byte,
+    "strformat": formatted,
+    "gettime": part_of_time,
     "ctime": _plain("time_text", 0),
     "cdate": _plain("date_text", 0),
     # signals, clocks, the rest
@@ -267,4 +295,6 @@ FUNCTIONS: dict[str, Make] = {
     "testdi": _test_signal,
     "clkread": _with_option("clock_seconds", 1, "highres"),
     "present": _present,
+    "cspeedoverride": _speed_override,
+    "maxrobspeed": _greatest_speed,
 }

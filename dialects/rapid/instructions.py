@@ -72,10 +72,15 @@ def _pulse(arguments: Arguments, expressions: Expressions, origin: Origin) -> Ma
 
 # ---- waiting
 
+# What a wait shows meanwhile; nothing in a run depends on it.
+SHOWN_WAITING = frozenset(
+    ("visualize", "header", "message", "msgarray", "wrap", "icon", "image", "visualizetime", "uiactivesignal")
+)
+
 
 def _wait_until(condition: ir.Expression, arguments: Arguments, origin: Origin, known: frozenset[str]) -> Made:
     options = arguments.options
-    if set(options) - known:
+    if set(options) - known - SHOWN_WAITING:
         return None
     timeout, timed_out = options.get("maxtime"), options.get("timeflag")
     error = _TIMEOUT if timeout is not None and timed_out is None else None
@@ -256,6 +261,20 @@ def _ui_message(arguments: Arguments, expressions: Expressions, origin: Origin) 
     return None if options else ir.Message("quit", text, sender=header, origin=origin)
 
 
+def _ui_write(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
+    """UIMsgWrite [\\Header] line [\\MsgLine2] ...: a message that nobody has to acknowledge."""
+    text = arguments.need(1)[0]
+    options = dict(arguments.options)
+    header = options.pop("header", None)
+    for line in ("msgline2", "msgline3", "msgline4", "msgline5"):
+        more = options.pop(line, None)
+        if more is not None:
+            text = _joined(_joined(text, ir.TextLiteral(" ")), more)
+    for harmless in ("wrap", "icon", "image"):
+        options.pop(harmless, None)
+    return None if options else ir.Message("write", text, sender=header, origin=origin)
+
+
 def _error_write(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
     """ErrWrite [\\W|\\I] header, reason [\\RL2] ..."""
     header, text = arguments.need(2)
@@ -306,6 +325,20 @@ def _halt(kind: str, known: frozenset[str] = frozenset()) -> Make:
     return make
 
 
+def _take_lock(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
+    """WaitTestAndSet data: wait until it is FALSE, and make it TRUE."""
+    lock = arguments.need(1)[0]
+    free = ir.WaitUntil(ir.Unary("not", lock), origin=origin)
+    return None if arguments.options else (free, ir.Assign(lock, _TRUE, origin=origin))
+
+
+def _numbered_call(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
+    """CallByVar name, number: calls the procedure with that name and number."""
+    name, number = arguments.need(2)
+    called = _joined(name, ir.Builtin("number_text", (number, ir.IntLiteral(0))))
+    return ir.CallRoutine("", (), called, origin=origin)
+
+
 def _book_error(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
     """BookErrNo variable: gives it an error number that nobody else uses."""
     variable = arguments.need(1)[0]
@@ -349,6 +382,8 @@ INSTRUCTIONS: dict[str, Make] = {
     "tpreadfk": _tp_read_keys,
     "tpreadnum": _tp_read_number,
     "uimsgbox": _ui_message,
+    "uimsgwrite": _ui_write,
+    "uimsgwriteabort": _tp_erase,
     "errwrite": _error_write,
     "incr": _do("increment", 1),
     "decr": _do("decrement", 1),
@@ -363,4 +398,6 @@ INSTRUCTIONS: dict[str, Make] = {
     "break": _halt("stop"),
     "exitcycle": _halt("cycle"),
     "bookerrno": _book_error,
+    "waittestandset": _take_lock,
+    "callbyvar": _numbered_call,
 }

@@ -19,6 +19,7 @@ Make = Callable[[Arguments, Expressions, Origin], Made]
 
 _MOVE_OPTIONS = frozenset(("conc", "id", "v", "t", "z", "inpos", "wobj", "tload", "noeoffs"))
 _WORLD = ir.Name("wobj0")
+_SET_VALUES = ("value", "dvalue")  # of a group, MoveLGO
 _EVENTS = ("t2", "t3", "t4", "t5", "t6", "t7", "t8")
 
 
@@ -78,8 +79,11 @@ def _with_output(kind: str, signal_kind: str) -> Make:
     """MoveLDO and the like set an output in the middle of the corner path."""
 
     def make(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
-        positional = arguments.need(5 + _points(kind))
-        if set(arguments.options) - _MOVE_OPTIONS:
+        given = [value for name in _SET_VALUES if (value := arguments.options.get(name)) is not None]
+        if signal_kind != "group_out" and given:
+            return None
+        positional = [*arguments.need(5 + _points(kind) - len(given)), *given]
+        if set(arguments.options) - _MOVE_OPTIONS - set(_SET_VALUES):
             return None
         signal = expressions.signal(positional[-2], signal_kind)
         value = as_bool(positional[-1]) if signal_kind == "digital_out" else positional[-1]
@@ -131,9 +135,12 @@ def _external(arguments: Arguments, expressions: Expressions, origin: Origin) ->
 
 def _search(kind: str) -> Make:
     """SearchL signal, found, target, speed, tool; SearchC has the circle point before the target. It always stops at
-    the end of the path; without a stop option it does so only there."""
+    the end of the path; without a stop option it does so only there. A level (\\HighLevel) may be there already:
+    then the robot stays."""
     stops = {"stop": "stop", "pstop": "path", "sstop": "soft", "sup": "none"}
     edges = {"flanks": "either", "posflank": "rising", "negflank": "falling"}
+    levels = {"highlevel": "rising", "lowlevel": "falling"}
+    edges |= levels
     known = _MOVE_OPTIONS | set(stops) | set(edges)
 
     def make(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
@@ -145,7 +152,7 @@ def _search(kind: str) -> Make:
         edge = next((edges[name] for name in edges if name in options), "rising")
         condition = expressions.signal(signal, "digital_in")
         via, (target, speed, tool) = (rest[0], rest[1:]) if kind == "circular" else (None, rest)
-        return ir.Move(
+        move = ir.Move(
             kind,
             target,
             via=via,
@@ -158,6 +165,11 @@ def _search(kind: str) -> Make:
             identity=options.get("id"),
             origin=origin,
         )
+        if not set(options) & set(levels):
+            return move
+        here = ir.Assign(found, ir.Builtin("current_target", (tool, options.get("wobj") or _WORLD)), origin=origin)
+        there = condition if edge == "rising" else ir.Unary("not", condition)
+        return ir.If(((there, (here,)),), (move,), origin=origin)
 
     return make
 

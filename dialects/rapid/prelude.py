@@ -149,6 +149,18 @@ _NUMBERS: dict[str, float] = {
     "HANDLER_BWD": 1,
     "HANDLER_ERR": 2,
     "HANDLER_UNDO": 3,
+    "AIO_ABOVE_HIGH": 1,
+    "AIO_BELOW_HIGH": 2,
+    "AIO_ABOVE_LOW": 3,
+    "AIO_BELOW_LOW": 4,
+    "AIO_BETWEEN": 5,
+    "AIO_OUTSIDE": 6,
+    "AIO_ALWAYS": 7,
+    "OpAdd": 1,
+    "OpSub": 2,
+    "OpMult": 3,
+    "OpDiv": 4,
+    "OpMod": 5,
 }
 _UPPER = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 _TEXTS = {
@@ -158,10 +170,21 @@ _TEXTS = {
     "STR_LOWER": _UPPER.lower(),
     "STR_WHITE": " ",
     "diskhome": "HOME:",
+    "ERRSTR_TASK": "",
+    "ERRSTR_CONTEXT": "",
+    "ERRSTR_EMPTY": "",
+    "ERRSTR_UNUSED": "",
 }
 
 
 _TEXT = ir.StringType()
+_EVENTS: tuple[tuple[str, ir.Type], ...] = (
+    ("used", ir.BoolType()),
+    ("distance", NUM),
+    ("start", ir.BoolType()),
+    ("equiplag", NUM),
+    ("signalname", _TEXT),
+)
 _RECORDS: dict[str, tuple[tuple[str, ir.Type], ...]] = {
     "tasks": (("taskname", _TEXT),),
     "listitem": (("image", _TEXT), ("text", _TEXT)),
@@ -176,6 +199,9 @@ _RECORDS: dict[str, tuple[tuple[str, ir.Type], ...]] = {
         ("relation", NUM),
         ("checkvalue", NUM),
     ),
+    "triggios": (*_EVENTS, ("setvalue", NUM), ("xxx", NUM)),
+    "triggiosdnum": (*_EVENTS, ("setdvalue", NUM), ("xxx", NUM)),
+    "triggstrgo": (*_EVENTS, ("setvalue", _TEXT), ("xxx", NUM)),
 }
 _STOP_POINTS = (
     "inpos20",

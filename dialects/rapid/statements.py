@@ -16,7 +16,7 @@ from rpl.source import Origin
 
 from .arguments import Arguments
 from .expressions import Children, Expressions, Values, leaf, word_of
-from .instructions import INSTRUCTIONS
+from .instructions import INSTRUCTIONS, SHOWN_WAITING
 from .project import Project
 from .vendor import EFFECTS
 
@@ -29,7 +29,12 @@ PLACEHOLDER = code(
 IGNORED = code("option-without-effect", Severity.INFO, "{option} changes nothing in a run and is left out")
 
 _STATEMENT = re.compile(r'(?:"(?:[^"\r\n]|"")*"|![^\r\n]*|[^;"!])*;?')
-_IGNORED_OPTIONS = {"sync": "\\Sync", "pollrate": "\\PollRate", "sup": "\\Sup"}
+_IGNORED_OPTIONS = {
+    "sync": "\\Sync",
+    "pollrate": "\\PollRate",
+    "sup": "\\Sup",
+    **{name: f"\\{name.capitalize()}" for name in SHOWN_WAITING},
+}
 _STORAGE = {"CONST": "constant", "VAR": "variable", "PERS": "persistent"}
 _ENDS = {"endif": "if", "endfor": "for", "endwhile": "while", "endtest": "test"}
 

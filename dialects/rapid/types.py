@@ -18,12 +18,13 @@ SIGNALS = {
 # Aliases of num and byte in the installed types: numbers with a purpose.
 _NUMBERS = words(
     """num dnum byte errnum errtype errdomain btnres icondata buttondata tpnum opnum symnum iounit_state tunetype
-    paridnum paridvalidnum loadidnum handler_type sensorstate triggmode busstate switchtype opmode runmode dionum"""
+    paridnum paridvalidnum loadidnum handler_type sensorstate triggmode busstate switchtype opmode runmode dionum
+    aiotrigg opcalc"""
 )
 # Types without components. An installed record that is not described here stays a reference to something unknown.
 _VENDOR = words(
     """socketdev socketstatus iodev rawbytes taskid syncident identno wztemporary wzstationary shapedata mecunit
-    trapdata aiotrigg triggios triggiosdnum triggstrgo corrdescr dir egmident cameradev sensor loadsession rmqmessage
+    trapdata corrdescr dir egmident cameradev sensor loadsession rmqmessage
     rmqslot speedlimdata"""
 )
 

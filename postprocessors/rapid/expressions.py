@@ -13,7 +13,7 @@ from rpl.writing.precedence import ExpressionPrinter, Printed
 from rpl.writing.statements import CannotSayError
 from rpl.writing.text import NumberStyle, number_text
 
-from .functions import FUNCTIONS, MOTION_TASK, OWN_FUNCTIONS, PLACES_BESIDE, TARGETS_FOR_POSITIONS
+from .functions import FUNCTIONS, MOTION_TASK, OWN_FUNCTIONS, PARTS_OF_TIME, PLACES_BESIDE, TARGETS_FOR_POSITIONS
 from .tables import (
     COMPONENTS,
     NESTED,
@@ -213,6 +213,13 @@ class Expressions:
         return self.signal(value) if isinstance(value, ir.Signal) else self.text(value)
 
     def builtin(self, expression: ir.Builtin) -> str:
+        match expression:
+            case ir.Builtin("text_value", (ir.Builtin("text_part", (shown, first, _)),)) if word := PARTS_OF_TIME.get(
+                (shown, first)
+            ):
+                return f"GetTime(\\{word})"
+            case ir.Builtin("displaced", (place, ir.System(name="displacement"))):
+                return f"ORobT({self.text(place)})"
         patterns = FUNCTIONS.get(expression.function) or OWN_FUNCTIONS.get(expression.function)
         if patterns is None:
             raise CannotSayError(f"there is no function {expression.function}")
@@ -254,6 +261,7 @@ class Expressions:
         words = {
             "error_number": "ERRNO",
             "interrupt_number": "INTNO",
+            "override": "CSpeedOverride()",
             "actual_pose": "CRobT()",
             "actual_joints": "CJointT()",
             **SYSTEM_RECORDS,

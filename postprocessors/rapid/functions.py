@@ -5,6 +5,8 @@ In a pattern `{0}` is the first argument. Sources as in the dialect's function t
 
 from __future__ import annotations
 
+from rpl import ir
+
 # Function -> pattern for each count of arguments that it can be written with.
 FUNCTIONS: dict[str, dict[int, str]] = {
     "abs": {1: "Abs({0})"},
@@ -73,6 +75,18 @@ FUNCTIONS: dict[str, dict[int, str]] = {
 OWN_FUNCTIONS: dict[str, dict[int, str]] = {
     "character_code": {1: "StrToByte({0}\\Char)"},
     "from_code": {1: "ByteToStr({0}\\Char)"},
+}
+# Numbers out of the date (YYYY-MM-DD) or the time (HH:MM:SS): the text, where they stand -> switch of GetTime.
+PARTS_OF_TIME: dict[tuple[ir.Expression, ir.Expression], str] = {
+    (ir.Builtin(function, ()), ir.IntLiteral(first)): switch
+    for function, first, switch in (
+        ("date_text", 1, "Year"),
+        ("date_text", 6, "Month"),
+        ("date_text", 9, "MDay"),
+        ("time_text", 1, "Hour"),
+        ("time_text", 4, "Min"),
+        ("time_text", 7, "Sec"),
+    )
 }
 # Arguments that RAPID takes as whole targets although only their position matters.
 TARGETS_FOR_POSITIONS = {"frame_from_points": 3}

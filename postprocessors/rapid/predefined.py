@@ -9,7 +9,9 @@ from __future__ import annotations
 from .tables import words
 
 _DATA = words(
-    """btnabrtrtryign btnnone btnok btnokcancel btnretrycancel btnyesno btnyesnocancel common_err dint diskhome edge
+    """aio_above_high aio_above_low aio_always aio_below_high aio_below_low aio_between aio_outside errstr_context
+    errstr_empty errstr_task errstr_unused opadd opdiv opmod opmult opsub
+    btnabrtrtryign btnnone btnok btnokcancel btnretrycancel btnyesno btnyesnocancel common_err dint diskhome edge
     eof_num eq event_none event_poweron event_qstop event_reset event_restart event_start event_step event_stop
     fine fllwtime fllwtime0_5 fllwtime1_0 gt gteq handler_bwd handler_err handler_none handler_undo hardware_err
     high iconerror iconinfo iconnone iconwarning inpos inpos100 inpos20 inpos50 int io_com_err lint load0
@@ -53,7 +55,8 @@ _FUNCTIONS = words(
     """abs absdnum acos acosdnum ainput aoutput argname asin asindnum atan atan2 atan2dnum atandnum bitand bitanddnum
     bitcheck bitcheckdnum bitlsh bitlshdnum bitneg bitnegdnum bitor bitordnum bitrsh bitrshdnum bitxor bitxordnum
     bytetostr calcjointt calcrobt camgetloadedjob camgetname camnumberofresults cdate cjointt clkread corrread cos
-    cosdnum cpos crobt cspeedoverride ctime ctool cwobj dectohex defaccframe defframe dim dinput distance
+    cosdnum cpos crobt cspeedoverride ctime ctool cwobj dectohex defaccframe defdframe
+    defframe dim dinput distance
     dnumtonum dnumtostr dotprod doutput eulerzyx eventname eventtype exechandler execlevel exp filesize fssize
     getmecunitname getmodalpayloadmode getmotortorque getnextsym getserviceinfo getsysinfo gettaskname gettaskno
     gettime ginput ginputdnum goutput goutputdnum hextodec indinpos indspeed iounitstate iscyclicbool isfile
@@ -99,7 +102,7 @@ _INSTRUCTIONS = words(
 _TYPES = words(
     """aiotrigg bool btnres busstate buttondata byte cameradev clock confdata corrdescr dionum dir dnum egmident
     errdomain errnum errtype extjoint handler_type icondata identno intnum iodev iounit_state jointtarget loaddata
-    loadidnum loadsession mecunit num opnum orient paridnum paridvalidnum pos pose rawbytes rmqmessage rmqslot
+    loadidnum loadsession mecunit num opcalc opnum orient paridnum paridvalidnum pos pose rawbytes rmqmessage rmqslot
     robjoint robtarget sensor sensorstate shapedata signalai signalao signaldi signaldo signalgi signalgo
     socketdev socketstatus speeddata speedlimdata string switch switchtype symnum syncident taskid tooldata tpnum
     trapdata triggdata triggios triggiosdnum triggmode triggstrgo tunetype wobjdata wzstationary wztemporary

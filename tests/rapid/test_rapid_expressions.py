@@ -110,7 +110,7 @@ T = ir.Name("t")
         ("StrToVal(t,a)", ir.Builtin("parse_value", (T, A))),
         ("ERRNO", ir.System("error_number")),
         ("BitAnd(a,b)", ir.Binary("band", A, B)),
-        ("GetTime(\\Hour)", ir.Call("GetTime", (ir.Argument(None, "Hour"),))),
+        ("GetTime(\\WDay)", ir.Call("GetTime", (ir.Argument(None, "WDay"),))),
         ("own(a\\x:=b\\on\\y?c)", ir.Call("own", (
             ir.Argument(A), ir.Argument(B, "x"), ir.Argument(None, "on"), ir.Argument(C, "y", "c")))),
         ("t.trans.x", ir.Field(ir.Field(T, "trans"), "x")),
