@@ -180,7 +180,7 @@ class Motion(Statements):
             on = ir.Assign(done.signal, done.value, origin=self.origin)
             options.triggers.append(ir.Trigger("end", on, distance, delay, origin=self.origin))
             off = ir.Assign(done.signal, ir.BoolLiteral(False), origin=self.origin)
-            later = done.duration if delay is None else ir.Binary("+", delay, done.duration)
+            later = done.duration if delay is None else _sum(delay, done.duration)
             options.triggers.append(ir.Trigger("end", off, distance, later, origin=self.origin))
             return
         if not isinstance(done, ir.Assign | ir.CallRoutine):
@@ -321,6 +321,13 @@ class Motion(Statements):
         if point.kind == "u" or point.kind not in ("p", "j"):
             raise StatementError("a move needs a position", 0)
         return point
+
+
+def _sum(one: ir.Expression, other: ir.Expression) -> ir.Expression:
+    match one, other:
+        case ((ir.IntLiteral() | ir.RealLiteral()), (ir.IntLiteral() | ir.RealLiteral())):
+            return ir.RealLiteral(round(float(one.value) + float(other.value), 6), origin=one.origin)
+    return ir.Binary("+", one, other, origin=one.origin)
 
 
 def _negative(value: ir.Expression) -> ir.Expression:

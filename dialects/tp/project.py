@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 from rpl import ir
@@ -29,7 +29,7 @@ from .header import Header, read_header
 from .motion import Motion
 from .positions import Position, parse_position
 from .registers import MODULE, Facts, conclude, declarations, survey
-from .split import SHAPE, split
+from .split import MACRO, SHAPE, split, without_notes
 
 TWICE = code("tp-program-twice", Severity.WARNING, "program {name} stands in two files; the first one is called")
 CUT_OFF = code(
@@ -124,10 +124,24 @@ def _look_over(files: list[_File], facts: Facts, dump: Dump, diagnostics: Diagno
             count = sum(1 for piece in file.pieces if piece.text[:5].upper() == "WHEN ")
             facts.monitors[file.name.upper()] = (interrupt, count)
             interrupt += count
+    files[:] = [replace(file, pieces=tuple(_macro_call(piece, facts) for piece in file.pieces)) for file in files]
     for file in files:
         kinds = {number: position.kind for number, position in file.positions.items()}
         survey(facts, file.name, file.pieces, kinds, file.source)
     conclude(facts, dump, diagnostics)
+
+
+def _macro_call(piece: Piece, facts: Facts) -> Piece:
+    """An instruction that is the name of a macro of the project (`Open hand 1`, `Lamp(3,R[2])`) is a call."""
+    if piece.kind != STATEMENT or not piece.text.startswith(MACRO):
+        return piece
+    plain, _ = without_notes(piece.text[len(MACRO) :].strip())
+    name, _, given = plain.partition("(")
+    key = " ".join(name.lower().split())
+    program = facts.macros.get(key) or tables.STANDARD_MACROS.get(key)
+    if program is None or program.upper() not in facts.programs or not re.match(r"[A-Za-z_\u0080-\uffff]", program):
+        return piece
+    return replace(piece, text=f"CALL {program}({given}" if given else f"CALL {program}")
 
 
 def _read_listing(

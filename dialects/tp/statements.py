@@ -136,14 +136,9 @@ class Statements(Expressions):
         return Close("point logic", None, self.origin)
 
     def on_macro(self, tree: SyntaxTree) -> Lowered:
-        """An instruction whose name is no key word: a macro of the project, or the controller's own business."""
+        """An instruction whose name is no key word and no macro of the project: the controller's own business."""
         written = str(tree.children[0])[1:].strip()
         plain, _ = without_notes(written)
-        name, _, given = plain.partition("(")
-        key = " ".join(name.lower().split())
-        program = self.facts.macros.get(key) or tables.STANDARD_MACROS.get(key)
-        if program is not None and program.upper() in self.facts.programs and not given:
-            return ir.CallRoutine(program, origin=self.origin)
         effect = tables.instruction_effect(plain)
         if effect == "unknown":
             self.diagnostics.report(INSTRUCTION, self.origin, text=written)

@@ -110,6 +110,25 @@ INSTRUCTION_EFFECTS: tuple[tuple[str, str], ...] = (
     ("lock vreg", "tuning"),
     ("unlock vreg", "tuning"),
     ("payload", "tuning"),
+    # Which start requests are taken, what is recorded or shown: nothing that a program could notice.
+    ("rsr[", "none"),
+    ("return_path_dsbl", "none"),
+    ("returnpath_dsbl", "none"),
+    ("diag_rec", "none"),
+    ("sample start", "none"),
+    ("sample end", "none"),
+    ("auto backward exit", "none"),
+    # Limits of speed and force: they change how a move goes, not where to.
+    ("joint_max_speed", "tuning"),
+    ("linear_max_speed", "tuning"),
+    ("torq_limit", "tuning"),
+    ("softfloat", "tuning"),
+    # M: a travel condition that always holds (VW body shop).
+    ("tc_online (on)", "none"),
+    ("tc_online(on)", "none"),
+    ("fb-psps (on)", "none"),
+    ("fb-psps (an)", "none"),
+    ("fb online (an)", "none"),
     ("arc start", "unknown"),
 )
 # M: names of the gripper macros as the handling tool comes with them -> their programs.

@@ -510,13 +510,20 @@ def _pulses(triggers: tuple[ir.Expression | ir.Trigger, ...]) -> list[tuple[ir.E
                 ) as off,
                 ir.Trigger(action=ir.Assign(target=before, value=ir.BoolLiteral(value=True)), delay=first) as on,
             ) if target == before and later is not None and _same_place(on, off):
-                width = later.right if isinstance(later, ir.Binary) else later if first is None else None
-                seconds = measured(width, "s") if width is not None else None
+                seconds = _width(first, later)
                 if seconds is not None:
                     done[-1] = (on, float(seconds))
                     continue
         done.append((trigger, None))
     return done
+
+
+def _width(first: ir.Expression | None, later: ir.Expression) -> float | None:
+    """How long it is from one time to the other, s; None where that is not known or nothing."""
+    if isinstance(later, ir.Binary):
+        return measured(later.right, "s")
+    begin, end = 0 if first is None else measured(first, "s"), measured(later, "s")
+    return None if begin is None or end is None or end <= begin else round(end - begin, 6)
 
 
 def _at_beginning(trigger: ir.Expression | ir.Trigger) -> bool:

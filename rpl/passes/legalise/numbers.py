@@ -175,6 +175,8 @@ class _Split(Rewriter):
                 return replace(expression, indices=tuple(map(self.whole, indices)))
             case ir.Signal(index=index, last=last) if index is not None:
                 return replace(expression, index=self.whole(index), last=None if last is None else self.whole(last))
+            case ir.Binary(op="div", left=left, right=right) if not (self.is_whole(left) and self.is_whole(right)):
+                return self.cut(expression)
             case ir.Binary(op="div" | "mod" as op, left=left, right=right):
                 return self.divided(expression, op, self.whole(left), self.whole(right))
             case ir.Binary(op="**", left=base, right=exponent) if not self.can("**"):
@@ -211,6 +213,16 @@ class _Split(Rewriter):
         if self.has(function):
             return replace(expression, operand=new)
         return self.library.call(function, new)
+
+    def is_whole(self, old: ir.Expression) -> bool:
+        return self.is_int(old) or not isinstance(self.type_of(old), ir.RealType)
+
+    def cut(self, old: ir.Binary) -> ir.Expression:
+        """A whole division of what may be fractional (7.9 div 2 is 3): the quotient, cut."""
+        quotient = ir.Binary("/", self.expression(old.left), self.expression(old.right), origin=old.origin)
+        if self.has("trunc"):
+            return ir.Builtin("trunc", (quotient,), origin=old.origin)
+        return self.library.call("trunc", quotient)
 
     def divided(self, old: ir.Binary, op: str, left: ir.Expression, right: ir.Expression) -> ir.Expression:
         if self.can(op):

@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context
@@ -40,9 +41,12 @@ class _Stored:
         self.scope: Scope | None = None
         self.declarations: list[ir.Declaration] = []
         self.routines: list[ir.Routine] = []
+        self.everywhere: frozenset[str] = frozenset()  # variables that every module sees, folded
 
     def program(self, program: ir.Program) -> ir.Program:
         scopes = ProgramScope(program)
+        seen = [one for module in program.modules for one in module.declarations if isinstance(one, ir.Variable)]
+        self.everywhere = frozenset(one.name.lower() for one in seen if one.scope == "global")
         modules = tuple(
             replace(module, routines=tuple(self.routine(r, scopes.routine(module, r)) for r in module.routines))
             for module in program.modules
@@ -98,7 +102,7 @@ class _Stored:
         delay = None if trigger.delay is None or self.scope is None else constant_number(trigger.delay, self.scope)
         if delay == 0:
             trigger = replace(trigger, delay=None)
-        if isinstance(trigger.action, ir.Assign):
+        if isinstance(trigger.action, ir.Assign) and not self.by_a_trap(trigger.action):
             return [ir.DefineTrigger(ir.Name(name), replace(trigger, origin=later), origin=trigger.origin)]
         steps: list[ir.Statement] = []
         action: ir.Statement = trigger.action
@@ -109,6 +113,13 @@ class _Stored:
         handle = self.interrupt(action, steps, trigger)
         steps[0] = replace(steps[0], origin=trigger.origin)
         return [*steps, ir.DefineTrigger(ir.Name(name), replace(trigger, origin=later), handle, origin=later)]
+
+    def by_a_trap(self, action: ir.Assign) -> bool:
+        """Does only a routine do this: a variable that gets a value, or a signal that gets what is worked out then?"""
+        switched = isinstance(action.target, ir.Signal) and not isinstance(action.value, ir.Binary | ir.Unary)
+        names = {node.id.lower() for node in walk(action) if isinstance(node, ir.Name)}
+        called = any(isinstance(node, ir.Call) for node in walk(action))
+        return not switched and not called and names <= self.everywhere
 
     def interrupt(self, action: ir.Statement, steps: list[ir.Statement], trigger: ir.Trigger) -> ir.Name:
         """An interrupt whose trap does the action; `steps` connect it."""

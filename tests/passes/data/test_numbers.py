@@ -95,7 +95,7 @@ STATEMENTS = {
     "r:=0.5;i:=Round(r)+1;": ["r := 0.5", "i := (rpl_round(r) + 1)"],
     "r:=0.5;i:=Trunc(r);": ["r := 0.5", "i := rpl_trunc(r)"],
     "i:=j MOD 3;": ["i := (j - ((j div 3) * 3))"],
-    "r:=0.5;i:=r DIV 2;": ["r := 0.5", "i := (rpl_round(r) div 2)"],
+    "r:=0.5;i:=r DIV 2;": ["r := 0.5", "i := rpl_trunc((r / 2))"],
     "i:=twice(j) MOD 3;": ["i := rpl_mod(twice(j), 3)"],
     "i:=Min(j,3);r:=Max(r,0.5);": ["i := rpl_min_whole(j, 3)", "r := rpl_max(r, 0.5)"],
     "r:=Pow(r,2)+ATan(0.5);": ["r := ((r * r) + atan2(0.5, 1.0))"],
