@@ -56,6 +56,7 @@ CAPABILITIES = Capabilities(
     blends=frozenset(("BlendDistance",)),
     postures="joints",
     watching_tasks=True,
+    last_flag=tables.FLAGS,
     fixed_arcs=True,
     text_parts=True,
     text_decimals=6,

@@ -54,6 +54,7 @@ CAPABILITIES = Capabilities(
     wrist_paths=False,
     reads_override=False,
     module_points="global",
+    last_flag=tables.LAST_FLAG,
     notation="vplus",
     rotation="zyx",
     conversions=tables.words("real round_half_away trunc bit truth minus_bit floor code char"),

@@ -114,6 +114,7 @@ POSTURES = {
     ("posture_wrist", "flip"): "FLIP",
     ("posture_wrist", "noflip"): "NOFLIP",
 }
+LAST_FLAG = 512  # soft signals 2001 to 2512
 # The notation's flags as words: (0, 1).
 FLAGS = {"shoulder": ("RIGHTY", "LEFTY"), "elbow": ("ABOVE", "BELOW"), "wrist": ("NOFLIP", "FLIP")}
 

@@ -7,7 +7,7 @@ import pytest
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import read_sources
 from rpl.proof.prove import prove_programs
-from rpl.simulation import entry_name
+from rpl.simulation import entry_name, run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
@@ -137,3 +137,25 @@ def test_an_interrupt_that_waits_for_another_one_is_told(target: str, told: bool
     found = Diagnostics()
     translate_program(read_sources(files, "krl", Diagnostics()), target, KUKA, None, found)
     assert ("interrupts-not-nested" in [item.code.name for item in found]) is told
+
+
+ASSIGNED = """DEF JOB()
+INTERRUPT DECL 20 WHEN $FLAG[1] DO $OUT[3]=TRUE
+$OUT[3]=FALSE
+INTERRUPT ON 20
+$FLAG[1]=TRUE
+WAIT SEC 0.2
+INTERRUPT OFF 20
+$OUT[1]=$OUT[3]
+END
+"""
+
+
+def test_an_assignment_as_the_action_where_reactions_call_programs() -> None:
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("job.src", ASSIGNED)], "krl", diagnostics)
+    translation = translate_program(read, "vplus", KUKA, None, diagnostics)
+    assert not [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], "vplus", Diagnostics())
+    result = run_program(back.program, KUKA, None, entry_name(read.program, None), 10.0)
+    assert [(signal, value) for _, signal, value in result.outputs if value][-1] == ("1", True)

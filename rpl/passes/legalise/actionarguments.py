@@ -47,7 +47,7 @@ class _Actions:
     def routine(self, routine: ir.Routine, scope: Scope) -> ir.Routine:
         found = map(_action, walk(routine))
         calls = [call for kind, call in found if call is not None and self.needs_work(kind, call, scope)]
-        routine = self.only_calls(routine)
+        routine = self.only_calls(routine, scope)
         used = {name for call in calls for name in _names(call)}
         moved = {name: self.context.fresh(name) for name in sorted(used) if _is_own(name, routine, scope)}
         calls = [call for call in calls if not _names(call) & _fixed(routine) - set(moved)]
@@ -75,14 +75,26 @@ class _Actions:
         kept = tuple(one for one in routine.declarations if one not in own)
         return rewrite(rewrite(replace(routine, declarations=kept), called), change)
 
-    def only_calls(self, routine: ir.Routine) -> ir.Routine:
-        """Other actions than calls and assignments (KRL `DO PULSE(...)`) become a routine too, where calls do."""
-        if "path" in self.context.capabilities.action_arguments:
+    def only_calls(self, routine: ir.Routine, scope: Scope) -> ir.Routine:
+        """Other actions than calls and assignments (KRL `DO PULSE(...)`) become a routine too, where calls do; so do
+        assignments of an interrupt, where it calls routines without arguments."""
+        can = self.context.capabilities
+        kinds = {"path": ir.Trigger, "reaction": ir.DeclareInterrupt}
+        work = tuple(kind for word, kind in kinds.items() if word not in can.action_arguments)
+        if not work:
             return routine
 
         def called(node: object) -> object:
-            if not isinstance(node, ir.Trigger) or isinstance(node.action, ir.Assign | ir.CallRoutine):
+            if not isinstance(node, ir.Trigger | ir.DeclareInterrupt) or not isinstance(node, work):
                 return node
+            if isinstance(node.action, ir.CallRoutine):
+                return node
+            if isinstance(node.action, ir.Assign):
+                if isinstance(node, ir.Trigger) or any(_is_local(name, scope) for name in _names(node.action)):
+                    return node
+                name = self.context.fresh("rpl_reaction")
+                self.made.append(ir.Routine(name, body=(node.action,)))
+                return replace(node, action=ir.CallRoutine(name, origin=node.origin))
             name = self.context.fresh("rpl_on_path")
             self.made.append(ir.Routine(name, body=(node.action,)))
             return replace(node, action=ir.CallRoutine(name, origin=node.origin))
@@ -123,7 +135,7 @@ def _action(node: object) -> tuple[str, ir.CallRoutine | None]:
     return "", None
 
 
-def _names(call: ir.CallRoutine) -> set[str]:
+def _names(call: ir.CallRoutine | ir.Assign) -> set[str]:
     return {node.id.lower() for node in walk(call) if isinstance(node, ir.Name)}
 
 

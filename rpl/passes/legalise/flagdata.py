@@ -1,4 +1,5 @@
-"""Flags by a name as truth values; flags by a computed number as an array of them, for targets without flags.
+"""Flags by a name as truth values; flags by a computed number as an array of them, for targets without flags; flags
+beyond the last number that a target has as variables.
 
 A flag that has a name and no number (a semaphore, a marker of the controller) is a variable of all tasks everywhere.
 
@@ -52,13 +53,15 @@ def named_flags(program: ir.Program, context: Context) -> ir.Program:
 
 
 def flags_as_data(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets without flags, and for programs that compute the number of one."""
-    if context.capabilities.flags:
-        return program
+    """Only for targets without flags, or with fewer than are named, and for programs that compute the number of one."""
+    can = context.capabilities
     numbers = [number for node in walk(*program.modules) if (number := _number(node)) is not None]
+    largest = max((number.value for number in numbers if isinstance(number, ir.IntLiteral)), default=0)
+    if can.flags and not 0 < can.last_flag < largest:
+        return program
     computed = next((number for number in numbers if not isinstance(number, ir.IntLiteral)), None)
     if computed is None:
-        return program
+        return _beyond(program, context) if can.flags else program
     last = max(_REACH, *(number.value for number in numbers if isinstance(number, ir.IntLiteral)), 1)
     name = context.fresh("flag")
     context.diagnostics.report(COMPUTED, computed.origin, last=last)
@@ -77,6 +80,29 @@ def flags_as_data(program: ir.Program, context: Context) -> ir.Program:
         replace(module, routines=tuple(rewrite(routine, placed) for routine in module.routines))
         for module in program.modules
     )
+    return replace(program, modules=(*modules, home))
+
+
+def _beyond(program: ir.Program, context: Context) -> ir.Program:
+    """The program with single variables for the flags whose numbers the target does not have."""
+    names: dict[int, str] = {}
+
+    def placed(node: object) -> object:
+        number = _number(node)
+        if not isinstance(number, ir.IntLiteral) or number.value <= context.capabilities.last_flag:
+            return node
+        assert isinstance(node, ir.Signal | ir.System)  # only these have a number
+        if number.value not in names:
+            names[number.value] = context.fresh(f"flag{number.value}")
+        return ir.Name(names[number.value], origin=node.origin)
+
+    modules = tuple(
+        replace(module, routines=tuple(rewrite(routine, placed) for routine in module.routines))
+        for module in program.modules
+    )
+    data = tuple(ir.Variable(name, ir.BoolType(), storage="persistent", scope="global") for name in names.values())
+    first = program.modules[0]
+    home = ir.Module(context.fresh("flags"), first.dialect, data, task=first.task, public=True)
     return replace(program, modules=(*modules, home))
 
 

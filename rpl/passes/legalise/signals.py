@@ -32,6 +32,7 @@ NUMBERED = code(
 # Numbers a computed index is expected to reach where the program shows no larger one.
 _REACH = 32
 _FLAGS = 64
+_FLAGS_COMPUTED = 1024  # where the program computes the number of one
 # Bits of a group whose width only its controller's configuration says.
 WIDTH = 8
 
@@ -56,10 +57,10 @@ def name_signals(program: ir.Program, context: Context) -> ir.Program:
         )
         modules.append(replace(module, declarations=declarations, routines=routines))
     support = worker.support(program.modules[0].dialect, modules[0].task if modules else "")
-    return replace(program, modules=_with_shared_flags((*modules, *support), worker.flags))
+    return replace(program, modules=_with_shared_flags((*modules, *support), worker.flags, worker.last_flag))
 
 
-def _with_shared_flags(modules: tuple[ir.Module, ...], flags: str | None) -> tuple[ir.Module, ...]:
+def _with_shared_flags(modules: tuple[ir.Module, ...], flags: str | None, last: int) -> tuple[ir.Module, ...]:
     """Flags belong to the whole controller: where tasks have data of their own, each that uses them declares them."""
     users = {
         module.task: module
@@ -68,7 +69,7 @@ def _with_shared_flags(modules: tuple[ir.Module, ...], flags: str | None) -> tup
     }
     if len(users) < 2:
         return modules
-    type = ir.ArrayType(ir.BoolType(), (ir.IntLiteral(_FLAGS),))
+    type = ir.ArrayType(ir.BoolType(), (ir.IntLiteral(last),))
     shared = ir.Variable(str(flags), type, storage="persistent", scope="global")
     done = []
     for module in modules:
@@ -89,6 +90,7 @@ class _Named:
         self.highest: dict[str, int] = {}
         self.dynamic: dict[str, str] = {}
         self.flags: str | None = None
+        self.last_flag = _FLAGS
         self.flags_watched = False  # an interrupt comes with each change of one
         self.scope: Scope | None = None
         self._collect(program)
@@ -167,6 +169,9 @@ class _Named:
             case ir.System(name="flag" | "cyclic_flag", indices=indices):
                 if self.flags is None:
                     self.flags = self.context.fresh("rpl_flag")
+                for number in indices:
+                    last = number.value if isinstance(number, ir.IntLiteral) else _FLAGS_COMPUTED
+                    self.last_flag = max(self.last_flag, last)
                 inner = tuple(self.expression(index) for index in indices)
                 return ir.Index(ir.Name(self.flags), inner, origin=expression.origin)
         return rewrite_parts(expression, self.expression)
@@ -184,7 +189,7 @@ class _Named:
         """The generated routines and data, when there are any."""
         declarations: tuple[ir.Declaration, ...] = ()
         if self.flags is not None:
-            type = ir.ArrayType(ir.BoolType(), (ir.IntLiteral(_FLAGS),))
+            type = ir.ArrayType(ir.BoolType(), (ir.IntLiteral(self.last_flag),))
             storage = "persistent" if self.flags_watched else "variable"
             declarations = (ir.Variable(self.flags, type, storage=storage, scope="global"),)
         routines = tuple(self.access(what, name) for what, name in self.dynamic.items())

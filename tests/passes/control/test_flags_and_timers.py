@@ -46,6 +46,19 @@ IF NOT CAME AND $TIMER_FLAG[1] AND ($TIMER[1]<1000) THEN
 ENDIF
 END
 """
+FAR = """DEF COUNT()
+$FLAG[33]=TRUE
+$FLAG[999]=NOT $FLAG[33]
+CHANGE()
+IF $FLAG[999] AND NOT $FLAG[33] THEN
+  $OUT[1]=TRUE
+ENDIF
+END
+DEF CHANGE()
+$FLAG[33]=FALSE
+$FLAG[999]=NOT $FLAG[33]
+END
+"""
 DATA = "DEFDAT COUNT\nDECL INT N=0\nENDDAT\n"
 
 
@@ -75,3 +88,8 @@ def test_each_time_that_a_flag_comes_counts(condition: str, rest: str, target: s
 @pytest.mark.parametrize("target", ["tp", "rapid", "inform"])
 def test_a_wait_that_a_timer_ends(target: str) -> None:
     assert outputs(LIMITED, target)[1] == [True]
+
+
+@pytest.mark.parametrize("target", ["tp", "rapid", "inform", "urscript", "vplus"])
+def test_flags_beyond_the_last_one_of_a_target(target: str) -> None:
+    assert outputs(FAR, target)[1][-1] is True
