@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import get_args
@@ -17,13 +16,13 @@ from rpl.source import Origin
 from . import tables
 from .arcs import grouped
 from .data import ARITHMETIC, BITS, FUNCTIONS, Statements
-from .early import with_actions
-from .kinds import JOINTS, TARGET, labels_of
-from .motion import Motion
+from .early import anticipated, with_actions
+from .kinds import labels_of
 from .operands import tags_of
 from .signals import is_digital
 from .split import code_of
-from .syntax import Bracket, Command, Given, Group, JobName, LabelBy, LabelName, Nest, Operand, Relation, Word
+from .syntax import Bracket, Command, JobName, LabelBy, LabelName, Nest, Operand, Relation, Word
+from .tasks import Tasks
 
 UNKNOWN = code(
     "inform-unknown-instruction",
@@ -33,15 +32,14 @@ UNKNOWN = code(
 )
 
 _STATEMENTS = get_args(ir.Statement)
-_NUMBERED_JOB = re.compile(r"L?S\d+", re.IGNORECASE)
 START = "*START"  # no label of a job can be called so
 
 
-class Control(Motion):
+class Control(Tasks):
     """One job's lines to statements."""
 
     unread: int = 0
-    shown: ir.Expression | None = None  # by MSG in the lines in front of this one
+    anticipation: ir.Expression | None = None  # seconds, of the ANTOUT just read
 
     # ---- bodies
 
@@ -50,8 +48,11 @@ class Control(Motion):
         self.early = None
         for item in items:
             early, self.early = self.early, None
+            self.anticipation = None
             made = self.item(item)
-            if early is None or all(isinstance(one, ir.Nothing) for one in made):
+            if self.anticipation is not None:
+                anticipated(done, self.anticipation, made, self.diagnostics)
+            elif early is None or all(isinstance(one, ir.Nothing) for one in made):
                 done.extend(made)
                 self.early = self.early or early
             else:
@@ -222,6 +223,13 @@ class Control(Motion):
                 return (ir.Goto(START, origin=self.origin),)
             case JobName():
                 return (*self.on_call(command), ir.Return(origin=self.origin))
+            case ir.Index() | ir.Signal() as number if (value := self.value(number)) is not None:
+                called = self.on_call(command)
+                if self.is_text(value):
+                    return (*called, ir.Return(origin=self.origin))
+                none = ir.Binary("<>", value, ir.IntLiteral(0), origin=self.origin)
+                back = ir.Return(origin=self.origin)
+                return (ir.If(((none, (*called, back)),), origin=self.origin),)
         raise StatementError("JUMP needs a label or a job", len(command.word))
 
     restarts: bool = False
@@ -241,55 +249,6 @@ class Control(Motion):
             cases.append(ir.Case((wanted,), (ir.Goto(label, origin=self.origin),), origin=self.origin))
         alarm = ir.Message("error", ir.TextLiteral("undefined label"), origin=self.origin)
         return ir.Switch(selector, tuple(cases), (alarm, ir.Halt(origin=self.origin)), origin=self.origin)
-
-    def is_text(self, value: ir.Expression) -> bool:
-        if isinstance(value, ir.TextLiteral):
-            return True
-        name = value.id if isinstance(value, ir.Name) else ""
-        if isinstance(value, ir.Index) and isinstance(value.base, ir.Name):
-            name = value.base.id
-        return name.lstrip("L").startswith("S")
-
-    def is_text_variable(self, job: JobName) -> bool:
-        """`JOB:S000`: a job named by a text, unless there is a job of that name."""
-        return job.by is not None or (
-            _NUMBERED_JOB.fullmatch(job.name) is not None and job.name.upper() not in self.shared.project.jobs
-        )
-
-    def on_call(self, command: Command) -> Statements:
-        job = self.needs(command, 1)[0]
-        given: list[Operand] = [item.value for item in command.items if isinstance(item, Given)]
-        given.extend(next((item.values for item in command.items if isinstance(item, Group)), ()))
-        name = job.name.upper() if isinstance(job, JobName) else ""
-        called = self.shared.project.jobs.get(name)
-        if called is not None:  # what the job does not ask for is left out
-            given = given[: called.arguments()]
-        arguments = tuple(ir.Argument(self.argument(item, name, n)) for n, item in enumerate(given, 1))
-        if not isinstance(job, JobName):
-            value = self.value(job)
-            if not self.is_text(value):
-                raise StatementError("CALL needs JOB:NAME", len(command.word))
-            return (ir.CallRoutine("", arguments, value, origin=self.origin),)
-        if self.is_text_variable(job):
-            if job.by is not None:
-                by = self.final(job.by)
-            else:
-                bank, number = ("LS", job.name[2:]) if job.name[0] in "Ll" else ("S", job.name[1:])
-                by = self.variable(ir.Index(ir.Name(bank), (ir.IntLiteral(int(number)),), origin=self.origin))
-            return (ir.CallRoutine("", arguments, by, origin=self.origin),)
-        return (ir.CallRoutine(self.job_name(job.name), arguments, origin=self.origin),)
-
-    def job_name(self, name: str) -> str:
-        known = self.shared.project.jobs.get(name.upper())
-        return known.name if known is not None else name
-
-    def argument(self, operand: Operand, job: str, number: int) -> ir.Expression:
-        if not self.is_position(operand):
-            return self.value(operand)
-        value, kind = self.position(operand)
-        if kind.form in (JOINTS, TARGET) and (job, ("ARGUMENT", number)) in self.shared.project.unified:
-            return self.as_target(value, kind)
-        return value
 
     def on_ret(self, command: Command) -> Statements:
         """RET [value]: the caller gets the value by GETS ... $RV."""
@@ -319,6 +278,14 @@ class Control(Motion):
             given = self.lowest_bit(given)
         return (ir.Assign(place, given, origin=self.origin),)
 
+    def on_antout(self, command: Command) -> Statements:
+        """ANTOUT AT#(n) ON ANT=-0.50: around the moment when the robot comes to the point of the move before."""
+        self.anticipation = next(
+            (self.tagged("T", relation.right) for tag, relation in tags_of(command.items) if tag == "ANT"),
+            ir.RealLiteral(0.0),
+        )
+        return self.on_dout(command)
+
     def on_din(self, command: Command) -> Statements:
         target, signal = self.needs(command, 2)[:2]
         place = self.value(signal)
@@ -326,8 +293,13 @@ class Control(Motion):
         return self.set(target, value)
 
     def on_aout(self, command: Command) -> Statements:
-        signal, value = self.needs(command, 2)[:2]
-        return (ir.Assign(self.value(signal), self.value(value), origin=self.origin),)
+        """AOUT AO#(n) volts; a whole-number variable counts in 0.01 V (M: a real one in volts)."""
+        signal, given = self.needs(command, 2)[:2]
+        value = self.value(given)
+        if isinstance(given, ir.Index) and self.whole(given):
+            real = ir.Convert("real", value, origin=self.origin)
+            value = ir.Binary("*", real, ir.RealLiteral(tables.VOLTS_PER_COUNT), origin=self.origin)
+        return (ir.Assign(self.value(signal), value, origin=self.origin),)
 
     def on_pulse(self, command: Command) -> Statements:
         signal = self.value(self.needs(command, 1)[0])
@@ -397,79 +369,6 @@ class Control(Motion):
         met = ir.Convert("bit", ir.Unary("not", late, origin=self.origin), origin=self.origin)
         return wait, *self.set(result, met)
 
-    # ---- operator
-
-    def on_msg(self, command: Command) -> Statements:
-        text = self.value(self.needs(command, 1)[0])
-        self.shown = text if self.shown is None else ir.Binary("&", self.shown, text, origin=self.origin)
-        return (ir.Message("notify", text, origin=self.origin),)
-
-    def on_input(self, command: Command) -> Statements:
-        """INPUT B|I|D|R: the operator types a number. M: what MSG in front of it says is the question."""
-        place = self.needs(command, 1)[0]
-        if not isinstance(place, ir.Index) or self.is_position(place):
-            raise StatementError("INPUT needs a numeric variable", len(command.word))
-        text = self.shown or ir.TextLiteral("", origin=self.origin)
-        return (ir.Dialog(self.value(place), text, kind="number", origin=self.origin),)
-
-    def on_cls(self, command: Command) -> Statements:
-        return (ir.Message("clear", ir.TextLiteral(""), origin=self.origin),)
-
-    def on_setualm(self, command: Command) -> Statements:
-        """SETUALM number text axis: an alarm, which stops the job until somebody goes on."""
-        number = self.value(self.needs(command, 1)[0])
-        texts = [item for item in command.items[1:] if isinstance(item, ir.TextLiteral | ir.Index)]
-        text = self.value(texts[0]) if texts else ir.TextLiteral("user alarm", origin=self.origin)
-        return (
-            ir.Message("error", text, number, origin=self.origin),
-            ir.Halt(origin=self.origin),
-        )
-
-    # ---- other tasks
-
-    def task_of(self, command: Command) -> str:
-        word = next((item.text for item in command.items if isinstance(item, Word) and item.text.startswith("SUB")), "")
-        return word or "SUB1"
-
-    def on_pstart(self, command: Command) -> Statements:
-        job = next((item for item in command.items if isinstance(item, JobName)), None)
-        if job is None:
-            raise StatementError("PSTART needs JOB:NAME", len(command.word))
-        task = self.job_name(job.name)
-        self.shared.parallel.setdefault(self.task_of(command), task)
-        return (ir.TaskControl("start", task, origin=self.origin),)
-
-    def on_pwait(self, command: Command) -> Statements:
-        """PWAIT SUBn: until the job that PSTART gave to that task has ended."""
-        task = self.shared.parallel.get(self.task_of(command))
-        if task is None:
-            return (ir.Vendor("inform", code_of(self.origin.text), "unknown", origin=self.origin),)
-        return (ir.TaskControl("join", task, origin=self.origin),)
-
-    def on_tsync(self, command: Command) -> Statements:
-        """TSYNC n [SNUM=m]: m tasks (two) wait here for each other. Each arrival is counted; the count that fills a
-        round lets everybody of it go on."""
-        number = self.needs(command, 1)[0]
-        if not isinstance(number, ir.IntLiteral):
-            raise StatementError("TSYNC needs a number", len(command.word))
-        counts: ir.Expression = ir.IntLiteral(2)
-        for tag, relation in tags_of(command.items):
-            if tag == "SNUM":
-                counts = self.value(relation.right)
-        arrived = ir.Name(f"TSYNC{number.value}", origin=self.origin)
-        mine = ir.Name("TSYNC_ROUND", origin=self.origin)
-        self.shared.used.scalar(arrived.id, ir.IntType(), self.origin)
-        self.used.scalar(mine.id, ir.IntType(), self.origin)
-        more = ir.Binary("+", arrived, ir.IntLiteral(1), origin=self.origin)
-        less = ir.Binary("-", arrived, ir.IntLiteral(1), origin=self.origin)
-        done = ir.Binary("div", less, counts, origin=self.origin)
-        full = ir.Binary("*", ir.Binary("+", done, ir.IntLiteral(1), origin=self.origin), counts, origin=self.origin)
-        return (
-            ir.Assign(arrived, more, origin=self.origin),
-            ir.Assign(mine, full, origin=self.origin),
-            ir.WaitUntil(ir.Binary(">=", arrived, mine, origin=self.origin), origin=self.origin),
-        )
-
 
 _METHODS: dict[str, Callable[[Control, Command], Statements]] = {
     "NOP": Control.on_nop,
@@ -485,6 +384,7 @@ _METHODS: dict[str, Callable[[Control, Command], Statements]] = {
     "GETS": Control.on_gets,
     **dict.fromkeys(("SETREG", "GETREG"), Control.on_register),
     "GETPRM": Control.on_getprm,
+    "GETFILE": Control.on_getfile,
     "GETARG": Control.on_getarg,
     "GETE": Control.on_gete,
     "SETE": Control.on_sete,
@@ -496,7 +396,7 @@ _METHODS: dict[str, Callable[[Control, Command], Statements]] = {
     "MSHIFT": Control.on_mshift,
     "GETPOS": Control.on_getpos,
     "SPEED": Control.on_speed,
-    **dict.fromkeys(("SFTON", "SFTOF"), Control.on_shift),
+    **dict.fromkeys(("SFTON", "SFTOF", "SFTON3D", "SFTOF3D"), Control.on_shift),
     "JUMP": Control.on_jump,
     "CALL": Control.on_call,
     **dict.fromkeys(("RET", "END"), Control.on_ret),
@@ -504,12 +404,16 @@ _METHODS: dict[str, Callable[[Control, Command], Statements]] = {
     "ABORT": Control.on_abort,
     "DOUT": Control.on_dout,
     "DIN": Control.on_din,
+    "ANTOUT": Control.on_antout,
+    "SETTM": Control.on_settm,
     "AOUT": Control.on_aout,
     "PULSE": Control.on_pulse,
     "TIMER": Control.on_timer,
     "WAIT": Control.on_wait,
     "MSG": Control.on_msg,
     "INPUT": Control.on_input,
+    "PRINT": Control.on_print,
+    "DIALOG": Control.on_dialog,
     "CLS": Control.on_cls,
     "SETUALM": Control.on_setualm,
     "PSTART": Control.on_pstart,

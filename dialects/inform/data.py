@@ -52,7 +52,9 @@ class Data(Operands):
         if isinstance(target, Numbered) and target.word in ("UF", "TL"):
             return (ir.Assign(self.numbered_pose(target), self.position(source)[0], origin=self.origin),)
         if source == Word("LOGICEXP"):
-            return self.set(target, self.condition(command.items[2:]))
+            condition = self.condition(command.items[2:])
+            number = self.whole(value_of(target)) if isinstance(target, ir.Index) else False
+            return self.set(target, ir.Convert("bit", condition, origin=self.origin) if number else condition)
         return self.set(target, self.value(source))
 
     def numbered_pose(self, operand: Numbered) -> ir.Expression:
@@ -140,23 +142,28 @@ class Data(Operands):
         return self.set(place, ir.Binary(op, self.value(place), ir.IntLiteral(1), origin=self.origin))
 
     def on_clear(self, command: Command) -> Statements:
-        """`CLEAR B000 10`: so many variables of the bank, from that one on; ALL: the bank."""
-        first = value_of(self.needs(command, 1)[0])
-        if not (isinstance(first, ir.Index) and isinstance(first.base, ir.Name)):
-            return (ir.Vendor("inform", "CLEAR", "none", origin=self.origin),)
+        """`CLEAR B000 10`: so many variables of the bank, from that one on; ALL: the rest of the bank."""
+        first = self.needs(command, 1)[0]
+        if not (isinstance(first, ir.Index) and isinstance(first.base, ir.Name)):  # STACK, QUE, $ERRNO ...
+            return (ir.Vendor("inform", " ".join(self.origin.text.split()), "none", origin=self.origin),)
         count = command.items[1] if len(command.items) > 1 else ir.IntLiteral(1)
         number = first.indices[0]
-        if count == Word("ALL") and isinstance(number, ir.IntLiteral):
-            count = ir.IntLiteral(max(tables.LAST_VARIABLE - number.value + 1, 1))
-        if not isinstance(count, ir.IntLiteral) or not isinstance(number, ir.IntLiteral) or count.value > 100:
-            raise StatementError("CLEAR is read with a number of variables up to 100", 0)
+        if count == Word("ALL"):
+            at = number if isinstance(number, ir.IntLiteral) else None
+            if at is None:
+                raise StatementError("CLEAR ... ALL is read with a constant variable", 0)
+            count = ir.IntLiteral(max(tables.LAST_VARIABLE - at.value + 1, 1))
+        if not isinstance(count, ir.IntLiteral) or count.value > tables.LAST_BYTE:
+            raise StatementError(f"CLEAR is read with a constant number of variables up to {tables.LAST_BYTE}", 0)
+        zero: ir.Expression = ir.IntLiteral(0)
+        if first.base.id.endswith("S"):
+            zero = ir.TextLiteral("")
         done: list[ir.Statement] = []
-        for each in range(number.value, number.value + count.value):
-            place = ir.Index(first.base, (ir.IntLiteral(each),), origin=self.origin)
-            zero: ir.Expression = ir.IntLiteral(0)
-            if first.base.id.endswith("S"):
-                zero = ir.TextLiteral("")
-            done.extend(self.set(place, zero))
+        for each in range(count.value):
+            place: ir.Expression = ir.Binary("+", number, ir.IntLiteral(each), origin=self.origin) if each else number
+            if isinstance(number, ir.IntLiteral):
+                place = ir.IntLiteral(number.value + each)
+            done.extend(self.set(ir.Index(first.base, (place,), origin=self.origin), zero))
         return tuple(done)
 
     def bits(self, command: Command) -> Statements:
@@ -251,6 +258,8 @@ class Data(Operands):
             base = target.base if isinstance(target, ir.Index) else None
             text = isinstance(base, ir.Name) and plain_bank(base.id).startswith("S")
             return self.set(target, self.returned(text))
+        if tables.TIMER.fullmatch(source.name):
+            return self.set(target, self.value(Word(source.name)))
         type: ir.Type = ir.IntType()
         if self.is_position(target):
             type = ir.TargetType("inform")
@@ -269,6 +278,23 @@ class Data(Operands):
         place = ir.Name(tables.SEARCH_PLACE, origin=self.origin)
         return self.call("target_to_joints", place, tool, base) if pulses else place
 
+    def on_settm(self, command: Command) -> Statements:
+        """SETTM TM000 TSTART, TSTOP, TRESET or a time after which its flag comes."""
+        timer, given = self.needs(command, 2)[:2]
+        found = tables.TIMER.fullmatch(timer.text) if isinstance(timer, Word) else None
+        if found is None:
+            raise StatementError("SETTM needs a timer, TM000 ...", len(command.word))
+        place, stopped = self.timer("timer", found[1]), self.timer("timer_stopped", found[1])
+        if given in (Word("TSTART"), Word("TSTOP")):
+            halts = ir.BoolLiteral(given == Word("TSTOP"), origin=self.origin)
+            return (ir.Assign(stopped, halts, origin=self.origin),)
+        zero = ir.IntLiteral(0, origin=self.origin)
+        left = zero if given == Word("TRESET") else ir.Unary("-", self.value(given), origin=self.origin)
+        set_to = ir.Assign(place, ir.Quantity(left, tables.TIMER_UNIT), origin=self.origin)
+        if left is zero:
+            return (set_to,)
+        return set_to, ir.Assign(stopped, ir.BoolLiteral(False), origin=self.origin)
+
     def returned(self, text: bool) -> ir.Expression:
         """The value that the last RET gave back; a real number where any job of the project gives one back."""
         name = tables.RETURN_TEXT if text else tables.RETURN_VALUE
@@ -280,6 +306,12 @@ class Data(Operands):
         """SETREG MREG#(n) v; GETREG v MREG#(n)."""
         target, source = self.needs(command, 2)[:2]
         return self.set(target, self.value(source))
+
+    def on_getfile(self, command: Command) -> Statements:
+        """GETFILE v FILE#(n) (element): a number of a condition file, which only the controller knows."""
+        place = self.needs(command, 1)[0]
+        text = " ".join(self.origin.text.split())
+        return self.set(place, ir.VendorValue("inform", text, ir.IntType(), origin=self.origin))
 
     def on_getprm(self, command: Command) -> Statements:
         place = self.needs(command, 1)[0]
@@ -341,6 +373,9 @@ class Data(Operands):
         return ir.Field(place, AXES[number - 1], origin=self.origin), count
 
     def on_sete(self, command: Command) -> Statements:
+        match command.items:
+            case (ir.Index(), Numbered(word="TL")):  # the tool that a position is taught with: `kinds` keeps it
+                return (ir.Nothing(origin=self.origin),)
         target, element, source = self.needs(command, 3)[:3]
         value = self.value(source)
         return self.by_element(element, lambda number: self.with_element(target, number, value))

@@ -18,6 +18,11 @@ NOT_EARLY = code(
     Severity.WARNING,
     "ENWAIT is read with an instruction behind it that sets outputs; this one is done where the robot has arrived",
 )
+NOT_ANTICIPATED = code(
+    "inform-not-anticipated",
+    Severity.WARNING,
+    "ANTOUT is read directly behind a move; this one is done at once",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,4 +62,18 @@ def with_actions(
         done.append(ir.Nothing(origin=replace(plain[0].origin, comments=comments)))
 
 
-__all__ = ["Early", "before", "with_actions"]
+def anticipated(
+    done: list[ir.Statement], delay: ir.Expression, made: Sequence[ir.Statement], diagnostics: Diagnostics
+) -> None:
+    """ANTOUT behind a move: so many seconds after the robot has come to its point (before it, where negative). M: with
+    no move in front of it, at once."""
+    at = next((n for n in range(len(done) - 1, -1, -1) if not isinstance(done[n], ir.Nothing)), None)
+    actions = [one for one in made if isinstance(one, ir.Assign)]
+    if at is None or not isinstance(done[at], ir.Move) or len(actions) < len(made):
+        diagnostics.report(NOT_ANTICIPATED, made[0].origin)
+        done.extend(made)
+        return
+    done[at:at] = [ir.Trigger("end", one, None, delay, origin=one.origin) for one in actions]
+
+
+__all__ = ["Early", "anticipated", "before", "with_actions"]

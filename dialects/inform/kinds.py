@@ -333,8 +333,8 @@ class Flow:
                 return state if conditional else None
             case "CALL" | "PSTART":
                 return self.call(command, state)
-            case "SFTON" | "SFTOF":
-                return {**state, SHIFTED: Kind(ON if command.word == "SFTON" else OFF)}
+            case "SFTON" | "SFTOF" | "SFTON3D" | "SFTOF3D":
+                return {**state, SHIFTED: Kind(ON if command.word.startswith("SFTON") else OFF)}
             case word if word in tables.MOVES:
                 now = self.driven(command, state)
                 return self.join(state, now) if conditional else now
@@ -443,6 +443,8 @@ class Flow:
                 number = items[1].number
                 if isinstance(number, ir.IntLiteral):
                     return self.project.arguments.get((self.job.name.upper(), number.value))
+            case "SETE" if len(items) > 1 and isinstance(items[1], Numbered) and items[1].word == "TL":
+                return replace(self.kind(items[0], state), tool=items[1].number)
             case "SETE" if self.project.assuming and self.kind(items[0], state).form == UNKNOWN:
                 return Kind(TARGET) if isinstance(items[1], Group) else None
         return None

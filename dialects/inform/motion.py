@@ -176,6 +176,9 @@ class Motion(Data):
         if kind.form == JOINTS:
             base = ir.System("null_frame", origin=self.origin)
             target = self.call("joints_to_target", target, tool, base)
+        if self.shared.shifts_in_tool:
+            self.shared.used.scalar(tables.SHIFT_IN_TOOL, ir.PoseType(), self.origin)
+            target = self.call("displaced_in_tool", target, ir.Name(tables.SHIFT_IN_TOOL, origin=self.origin))
         return target, shift if frame is None else ir.Binary(":", shift, frame, origin=self.origin)
 
     def external_move(self, axes: list[ir.Index], main: _Segment) -> Statements:
@@ -293,16 +296,20 @@ class Motion(Data):
         return tuple(done)
 
     def on_shift(self, command: Command) -> Statements:
-        """SFTON P frame: all positions are moved until SFTOF. M: by the pose P in the axes of the frame."""
-        self.shared.used.scalar(tables.SHIFT, ir.PoseType(), self.origin)
-        place = ir.Name(tables.SHIFT, origin=self.origin)
-        if command.word == "SFTOF":
-            return (ir.Assign(place, ir.System("null_frame", origin=self.origin), origin=self.origin),)
+        """SFTON P frame: all positions are moved until SFTOF. M: by the pose P in the axes of the frame or the tool.
+        SFTON3D P: by the pose P in the base, rotation included."""
+        none = ir.System("null_frame", origin=self.origin)
+        if command.word.startswith("SFTOF"):
+            return self.shift_by(none, none)
         value, kind = self.position(self.needs(command, 1)[0])
         frame = frame_of(command.items[1]) if len(command.items) > 1 else kind.frame
-        if kind.form != TARGET or frame is None or frame.kind not in ("base", "user"):
-            raise StatementError("SFTON is read with a pose in the base frame or in a user frame", 0)
+        if kind.form != TARGET or frame is None or frame.kind not in ("base", "user", "tool"):
+            raise StatementError(
+                "SFTON is read with a pose in the base frame, in a user frame or in that of the tool", 0
+            )
         shift = self.call("pose_of", value)
+        if frame.kind == "tool":
+            return self.shift_by(none, shift)
         if frame.kind == "user":
             axes = self.frame(frame)
             shift = ir.Binary(
@@ -311,7 +318,16 @@ class Motion(Data):
                 self.call("inverse", axes),
                 origin=self.origin,
             )
-        return (ir.Assign(place, shift, origin=self.origin),)
+        return self.shift_by(shift, none)
+
+    def shift_by(self, in_base: ir.Expression, in_tool: ir.Expression) -> Statements:
+        """The shift that holds from here on; M: one takes the place of the one before."""
+        done: list[ir.Statement] = []
+        for name, value in ((tables.SHIFT, in_base), (tables.SHIFT_IN_TOOL, in_tool)):
+            if name == tables.SHIFT or self.shared.shifts_in_tool:
+                self.shared.used.scalar(name, ir.PoseType(), self.origin)
+                done.append(ir.Assign(ir.Name(name, origin=self.origin), value, origin=self.origin))
+        return tuple(done)
 
     def on_getpos(self, command: Command) -> Statements:
         """GETPOS a STEP#(n): the n-th taught point of the job."""

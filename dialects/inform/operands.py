@@ -88,7 +88,8 @@ class Shared:
     used: Used
     diagnostics: Diagnostics
     shifts: bool = False  # somewhere in the project positions are shifted
-    parallel: dict[str, str] = field(default_factory=dict)  # sub task -> job, from PSTART
+    shifts_in_tool: bool = False  # somewhere in the axes of the tool
+    parallel: dict[str, list[str]] = field(default_factory=dict)  # sub task -> jobs, from PSTART
 
 
 class Operands:
@@ -115,9 +116,18 @@ class Operands:
                 return ir.BoolLiteral(text == "ON", origin=self.origin)
             case Word(text=text) if tables.FLAG.fullmatch(text):
                 return self.flag(text)
+            case Word(text=text) if found := tables.TIMER.fullmatch(text):
+                shown = ir.Magnitude(self.timer("timer", found[1]), tables.TIMER_UNIT, origin=self.origin)
+                return ir.Convert("trunc", shown, origin=self.origin)
+            case Word(text=text) if found := tables.TIMER_FLAG.fullmatch(text):
+                return self.timer("timer_positive", found[1])
             case Group(values=(value,)):
                 return self.final(value)
         return self.final(value_of(operand))
+
+    def timer(self, what: str, number: str) -> ir.System:
+        """Timer TM000 is the first one."""
+        return ir.System(what, (ir.IntLiteral(int(number) + 1),), origin=self.origin)
 
     def flag(self, name: str) -> ir.Expression:
         """`FL0010`: a flag of newer controllers, common to all jobs."""
@@ -293,7 +303,8 @@ class Operands:
     def comparison(self, relation: Relation) -> ir.Expression:
         """One comparison; a single signal compared with ON or OFF is the signal itself."""
         left, right, op = self.value(relation.left), self.value(relation.right), SIGNED[relation.op]
-        if is_digital(left) or isinstance(relation.left, Word):
+        timer = isinstance(left, ir.Convert)
+        if is_digital(left) or (isinstance(relation.left, Word) and not timer):
             if isinstance(right, ir.BoolLiteral) and op in ("=", "<>"):
                 wanted = right.value == (op == "=")
                 return left if wanted else ir.Unary("not", left, origin=self.origin)

@@ -17,14 +17,14 @@ from rpl.registry import ReadResult
 from rpl.source import Origin, Source
 
 from .control import START, Control
-from .jobs import Job, JobReader, Point, commands
-from .kinds import JOINTS, Kind, Project, kind_of_point, settle
+from .jobs import Frame, Job, JobReader, Point, commands
+from .kinds import JOINTS, Kind, Project, frame_of, kind_of_point, settle
 from .operands import TYPES, Shared, Used, plain_bank
 from .points import external_value, value_of_point
 from .pulsebanks import without_pulse_banks
 from .signals import DIRECT_INPUTS
 from .split import SHAPE, SLOTS, split
-from .syntax import Numbered, build, lower
+from .syntax import Command, Numbered, build, lower
 
 TWICE = code("inform-job-twice", Severity.WARNING, "job {name} is read twice; calls go to the first one")
 OTHER_VALUE = code(
@@ -96,6 +96,7 @@ class _Lowering:
         self.project = Project(jobs, shared_banks)
         self.flows = settle(self.project, {name: _indirect(job, True) for name, job in jobs.items()})
         self.shared = Shared(self.project, Used(), diagnostics)
+        self.shared.shifts_in_tool = any(_in_tool(command) for job in jobs.values() for command in commands(job.body))
         self.modules: list[ir.Module] = []
         self.parallel()
 
@@ -251,6 +252,11 @@ class _Lowering:
             place = ir.Index(ir.Name(name, origin=origin), (ir.IntLiteral(number),), origin=origin)
             found.append(ir.Initialise(ir.Assign(place, value, origin=origin), origin=origin))
         return found
+
+
+def _in_tool(command: Command) -> bool:
+    """Does it shift positions in the axes of the tool?"""
+    return command.word == "SFTON" and any(frame_of(item) == Frame("tool") for item in command.items)
 
 
 def _declared(used: Used, storage: str, scope: str) -> list[ir.Variable]:

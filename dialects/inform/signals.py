@@ -27,6 +27,10 @@ NAMED: dict[str, str] = {
     "IU": "digital_in",
     "OU": "digital_out",
     "AX": "flag",
+    # outputs of ANTOUT, groups of the user: which signals they are stands in the controller's parameters
+    "AT": "digital_out",
+    "OGU": "group_out",
+    "IGU": "group_in",
 }
 
 
@@ -55,7 +59,7 @@ def _line(number: ir.Expression, bits: int, add: int) -> ir.Expression:
 
 
 def is_digital(signal: ir.Expression) -> bool:
-    return isinstance(signal, ir.Signal) and signal.last is None and not signal.kind.startswith("analog")
+    return isinstance(signal, ir.Signal) and signal.last is None and signal.kind in ("digital_in", "digital_out", "flag")
 
 
 def signal_name(kind: str, number: int) -> str:

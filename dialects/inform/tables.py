@@ -16,7 +16,9 @@ MM_PER_COUNT = 0.001
 DEG_PER_COUNT = 0.0001
 # M: a speed, time or blend that stands in a variable counts in these parts of its unit.
 VARIABLE_UNITS = {"V": 0.1, "VR": 0.1, "VJ": 0.01, "VE": 0.01, "T": 0.01, "CR": 0.1, "DIS": 0.1, "ACC": 1.0, "DEC": 1.0}
+LAST_BYTE = 255
 LAST_VARIABLE = 99  # M: of B, I, D, R and S as delivered
+VOLTS_PER_COUNT = 0.01  # of a variable that AOUT is given
 PULSE_S = 0.3  # M: PULSE without a time
 # M: a speed in V= is mm/s (a parameter can make it cm/min, inch/min or mm/min).
 PATH_UNIT = "mm/s"
@@ -47,6 +49,10 @@ AND_WORDS = ("ANDEXP", "ANDIF", "AND", "ANDEXPRESS")
 OR_WORDS = ("OREXP", "ORIF", "OR", "OREXPRESS")
 # M: SET FL0010 ON, SET FL0010 LOGICEXP (condition), FL0010=ON in conditions.
 FLAG = re.compile(r"FL\d{1,4}")
+# Timers of newer controllers. M: TM000 counts milliseconds up from where it is set; SETTM TM000 500 lets its flag TF000
+# come 500 ms later, until when the timer shows what is missing as a negative number.
+TIMER, TIMER_FLAG = re.compile(r"TM(\d{1,3})"), re.compile(r"TF(\d{1,3})")
+TIMER_UNIT = "ms"
 CONDITION_WORDS = ("IF", "IFEXP", "IFEXPRESS")
 
 # ---- system variables read by GETS
@@ -66,7 +72,7 @@ SEARCH_STATUS = "B002"  # 1: the last SRCH found its signal
 WAIT_STATUS = "B014"  # 1: the last WAIT with a time ended by its condition
 # Global data that stand for these.
 SEARCH_FOUND, SEARCH_PLACE, WAIT_LATE, UNTIL_MET = "SEARCH_FOUND", "SEARCH_PLACE", "WAIT_LATE", "UNTIL_MET"
-SHIFT = "SHIFT"
+SHIFT, SHIFT_IN_TOOL = "SHIFT", "SHIFT_IN_TOOL"
 # While a text is read as a number to another base (VAL ... RADIX=16).
 DIGITS, DIGITS_AT, DIGIT, DIGITS_SUM = "VAL_TEXT", "VAL_AT", "VAL_DIGIT", "VAL_SUM"
 DIGIT_WORDS = "0123456789ABCDEFabcdef"
@@ -79,8 +85,8 @@ RETURN_VALUE, RETURN_TEXT = "RETURN_VALUE", "RETURN_TEXT"
 VENDOR: dict[str, str] = {
     # look-ahead, accuracy, monitoring: no effect on what the program means
     **dict.fromkeys(("ADVINIT", "ADVSTOP", "HTRAJON", "HTRAJOF", "HPVELON", "HPVELOF", "SMOOTH", "HPMMVON"), "tuning"),
-    **dict.fromkeys(("HPMMVOF", "SHCKSET", "SHCKRST", "SETTM"), "tuning"),
-    **dict.fromkeys(("PRINT", "LATESTJOB", "SAVEJ", "SAVEV"), "none"),
+    **dict.fromkeys(("HPMMVOF", "SHCKSET", "SHCKRST"), "tuning"),
+    **dict.fromkeys(("LATESTJOB", "SAVEJ", "SAVEV", "SETFILE"), "none"),
     **dict.fromkeys(("REFP", "GRPOF", "GRPON", "PMTON", "PMTOF", "FLWOF", "FLWON"), "none"),
     # arc welding
     **dict.fromkeys(("ARCON", "ARCOF", "ARCSET", "ARCCUR", "ARCVOL", "AWELD", "VWELD", "WVON", "WVOF"), "none"),
@@ -88,13 +94,13 @@ VENDOR: dict[str, str] = {
     # handling, spot, painting, sealing
     **dict.fromkeys(("HAND", "TOOLON", "TOOLOF", "SPYON", "SPYOF", "GUNON", "GUNOF", "ARATION", "ARATIOF"), "none"),
     **dict.fromkeys(("GUNCL", "SPOT", "SVSPOT", "SVGUNCL", "STROKE", "SVSTROKE", "GUNCHG"), "unknown"),
-    **dict.fromkeys(("HSEN", "STRWAIT", "ANTOUT"), "unknown"),
+    **dict.fromkeys(("HSEN", "STRWAIT"), "unknown"),
     # whole motions made by the controller itself
     **dict.fromkeys(("FORMCUT", "FORMAPR", "CIRCUT", "CUTSET", "SYSTART", "SYEND", "CVTON", "CVTOF"), "unknown"),
     # other tasks and programs
     "SKILLSND": "message",
     **dict.fromkeys(("LOADJ", "DELETEJ", "LOADV", "SWAIT", "EI", "DI", "VSTART", "VDET", "VWAIT"), "unknown"),
-    **dict.fromkeys(("SETFILE", "GETFILE", "SETPRM", "GETNAME", "DIALOG", "CONVSFT"), "unknown"),
+    **dict.fromkeys(("SETPRM", "GETNAME", "CONVSFT"), "unknown"),
 }
 # Application packages by the beginning of a word, where the word itself is not listed.
 VENDOR_BEGINNINGS: tuple[tuple[str, str], ...] = (

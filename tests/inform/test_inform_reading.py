@@ -99,7 +99,7 @@ def test_remarks_comments_and_disabled_lines_are_kept() -> None:
     ("line", "words"),
     [
         ("SET B000", "needs 2 operands"),
-        ("JUMP B000", "label or a job"),
+        ("JUMP ON", "label or a job"),
         ("MOVL C00001 V=10.0", "is not among the points"),
         ("SETE P001 (9) 5", "number of an element"),
         ("WAIT", "needs a condition"),
