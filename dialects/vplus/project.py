@@ -10,6 +10,7 @@ from pathlib import PureWindowsPath
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.walk import walk
 from rpl.reading.assemble import assemble
 from rpl.reading.ledger import FileReport
 from rpl.reading.pieces import Item, ModulePart
@@ -90,10 +91,12 @@ def _add_rounds(lowering: Settings, file: _File, programs: dict[str, ProgramPart
         arguments = tuple(ir.Argument(ir.Name(parameter)) for parameter, _ in given)
         body: ir.Body = (ir.CallRoutine(part.header.name, arguments),)
         declared: tuple[Declared, ...] = ()
+        if not any(isinstance(node, ir.Return | ir.Label | ir.OnError) for node in walk(part.body)):
+            body, declared = part.body, part.declared  # the steps themselves: what ends the task finds it there
         if wanted.cycles < 0:
             body = (ir.While(ir.BoolLiteral(True), body),)
         else:
-            declared = (Declared("auto", "real", (("round", ()),)),)
+            declared = (*declared, Declared("auto", "real", (("round", ()),)))
             body = (ir.For("round", ir.IntLiteral(1), ir.IntLiteral(wanted.cycles), None, body),)
         origin = Origin(wanted.origin.source, wanted.origin.start, wanted.origin.end)
         programs[key] = ProgramPart(Header(name, given), declared, body)

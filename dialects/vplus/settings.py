@@ -219,12 +219,20 @@ class Settings(Motion):
         if time is not None and mask in (None, ir.IntLiteral(0)):
             return ir.Wait(time, origin=given.origin)
         flag = self.event(None, given.word) if mask not in (None, ir.IntLiteral(0)) else None
-        if flag is not None and time in (None, ir.IntLiteral(0)):
+        if flag is not None and (time is None or time == ir.IntLiteral(0)):
             return ir.WaitUntil(flag, origin=given.origin)
-        if flag is not None:
-            late = ir.Name(self.name("event.late"), origin=given.origin)
-            return ir.WaitUntil(flag, time, late, origin=given.origin)
+        if flag is not None and time is not None:
+            return self.event_within(flag, time, given.origin)
         return ir.Vendor("vplus", code_of(given.origin.text), "unknown", origin=given.origin)
+
+    def event_within(self, flag: ir.Name, time: ir.Expression, origin: Origin) -> Lowered:
+        """The event is looked at every 16 ms until the time is over."""
+        waited, cycle = self.temporary("waited"), ir.RealLiteral(tables.CYCLE_S)
+        off = ir.Unary("not", flag, origin=origin)
+        goes_on = ir.Binary("and", off, ir.Binary("<", waited, time, origin=origin), origin=origin)
+        longer = ir.Assign(waited, ir.Binary("+", waited, cycle, origin=origin), origin=origin)
+        start = ir.Assign(waited, ir.RealLiteral(0.0), origin=origin)
+        return start, ir.While(goes_on, (ir.Wait(cycle, origin=origin), longer), origin=origin)
 
     def event(self, task: ir.Expression | None, word: str) -> ir.Name | None:
         """The variable for the event of a task, without a number of the program's own; None: nobody can tell which."""

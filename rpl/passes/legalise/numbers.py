@@ -145,7 +145,9 @@ class _Split(Rewriter):
                 return self.is_int(operand)
             case ir.Binary(op="+" | "-" | "*", left=left, right=right):
                 return self.is_int(left) and self.is_int(right)
-            case ir.Binary(op="div" | "mod"):
+            case ir.Binary(op="mod", left=left, right=right):
+                return self.is_whole(left) and self.is_whole(right)
+            case ir.Binary(op="div"):
                 return True
             case ir.Builtin(function="abs" | "min" | "max", arguments=arguments):
                 return all(map(self.is_int, arguments))
@@ -177,6 +179,8 @@ class _Split(Rewriter):
                 return replace(expression, index=self.whole(index), last=None if last is None else self.whole(last))
             case ir.Binary(op="div", left=left, right=right) if not (self.is_whole(left) and self.is_whole(right)):
                 return self.cut(expression)
+            case ir.Binary(op="mod", left=left, right=right) if not (self.is_whole(left) and self.is_whole(right)):
+                return self.remainder(expression)
             case ir.Binary(op="div" | "mod" as op, left=left, right=right):
                 return self.divided(expression, op, self.whole(left), self.whole(right))
             case ir.Binary(op="**", left=base, right=exponent) if not self.can("**"):
@@ -223,6 +227,18 @@ class _Split(Rewriter):
         if self.has("trunc"):
             return ir.Builtin("trunc", (quotient,), origin=old.origin)
         return self.library.call("trunc", quotient)
+
+    def remainder(self, old: ir.Binary) -> ir.Expression:
+        """What is left of a number that may be fractional (7.5 mod 2 is 1.5)."""
+        left, right = self.expression(old.left), self.expression(old.right)
+        if not (_repeatable(left) and _repeatable(right)):
+            return self.library.call("mod_real", left, right)
+        quotient = ir.Binary("/", left, right, origin=old.origin)
+        if self.has("trunc"):
+            cut: ir.Expression = ir.Builtin("trunc", (quotient,), origin=old.origin)
+        else:
+            cut = self.library.call("trunc", quotient)
+        return ir.Binary("-", left, ir.Binary("*", cut, right), origin=old.origin)
 
     def divided(self, old: ir.Binary, op: str, left: ir.Expression, right: ir.Expression) -> ir.Expression:
         if self.can(op):
@@ -377,6 +393,11 @@ def _mod(made: _Arithmetic) -> _Parts:
     return (("v", _INT), ("w", _INT)), _INT, (), (ir.Return(ir.Binary("-", _V, product)),)
 
 
+def _mod_real(made: _Arithmetic) -> _Parts:
+    product = ir.Binary("*", made.call("trunc", ir.Binary("/", _V, _W)), _W)
+    return (("v", _REAL), ("w", _REAL)), _REAL, (), (ir.Return(ir.Binary("-", _V, product)),)
+
+
 def _extreme(op: str, type: ir.Type) -> Callable[[_Arithmetic], _Parts]:
     def make(made: _Arithmetic) -> _Parts:
         body = (ir.If(((_test(_V, op, _W), (ir.Return(_V),)),)), ir.Return(_W))
@@ -399,6 +420,7 @@ _FUNCTIONS: dict[str, Callable[[_Arithmetic], _Parts]] = {
     "round_to": _to_decimals("round"),
     "trunc_to": _to_decimals("trunc"),
     "mod": _mod,
+    "mod_real": _mod_real,
     "min": _extreme("<", _REAL),
     "max": _extreme(">", _REAL),
     "min_whole": _extreme("<", _INT),
