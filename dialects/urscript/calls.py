@@ -7,10 +7,10 @@ from collections.abc import Callable
 from rpl import ir
 
 from . import nodes
-from .arguments import Bound, given
+from .arguments import Bound, given, written
 from .bits import BITS
-from .expressions import BUILTINS, Expressions
-from .functions import BindError, Builtin, bind
+from .expressions import BUILTINS, Expressions, time_part
+from .functions import RESULTS, BindError, Builtin, bind
 from .kinds import INT, REAL, Kind, is_joints, is_number
 from .nodes import Expr
 from .rules import FIRST_REGISTER, FIRST_SIGNAL, LEGACY_ANALOG, LEGACY_DIGITAL, POSE_DIST_COUNTS_ANGLE
@@ -183,6 +183,25 @@ def _inverse(function: str) -> Make:
     return make
 
 
+def _within(calls: Calls, bound: Bound) -> ir.Expression:
+    """is_within_safety_limits. M: what the arm can reach is within its limits; others are not known here."""
+    place = written(bound, "pose")
+    if is_joints(calls.kind(place)):
+        joints = calls.joints(place)
+        return ir.Builtin("is_reachable", (calls.pose(place), joints))
+    near = bound["qnear"]
+    return ir.Builtin("is_reachable", (calls.pose(place), calls.joints(near) if near else ir.Builtin(*_HERE)))
+
+
+_HERE = ("current_joints", ())
+
+
+def _centre(calls: Calls, bound: Bound) -> ir.Expression:
+    """The centre of gravity of the load, in metres."""
+    centre = ir.Field(ir.System("load"), "cog")
+    return ir.Aggregate(tuple((None, ir.Magnitude(ir.Field(centre, axis), "m")) for axis in "xyz"))
+
+
 def _pose_add(calls: Calls, bound: Bound) -> ir.Expression:
     return ir.Builtin("pose_sum", (calls.pose(bound["p_1"]), calls.pose(bound["p_2"])))
 
@@ -263,6 +282,16 @@ def _length(calls: Calls, bound: Bound) -> ir.Expression | None:
     return ir.Builtin("length", (calls.array(value),))
 
 
+def _time(calls: Calls, bound: Bound) -> ir.Expression | None:
+    """The time since the controller began, in whole seconds and billionths; the time of day is only its own."""
+    kind = RESULTS["s"]
+    type = calls.type(kind)
+    if bound["mode"] != nodes.Number(0, "0") or not isinstance(type, ir.NamedType):
+        return None
+    parts = (("sec", time_part("sec")), ("nanosec", time_part("nanosec")))
+    return ir.Aggregate(parts, type.name)
+
+
 VALUES: dict[str, Make] = {
     **{
         f"get_{group}_{direction}": _reading(group, direction)
@@ -289,9 +318,11 @@ VALUES: dict[str, Make] = {
     "get_inverse_kin": _inverse("target_to_joints_near"),
     "get_inverse_kin_has_solution": _inverse("is_reachable"),
     "get_target_payload": lambda calls, bound: ir.Field(ir.System("load"), "mass"),
+    "get_target_payload_cog": _centre,
+    "is_within_safety_limits": _within,
     "is_steady": lambda calls, bound: ir.Unary("not", ir.System("moving")),
     "get_steptime": lambda calls, bound: ir.System("step_time"),
-    "time": lambda calls, bound: ir.System("time"),
+    "time": _time,
     "pose_trans": lambda calls, bound: ir.Binary(":", calls.pose(bound["p_from"]), calls.pose(bound["p_from_to"])),
     "pose_inv": lambda calls, bound: ir.Builtin("inverse", (calls.pose(bound["p_from"]),)),
     "pose_add": _pose_add,

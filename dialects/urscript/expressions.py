@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.walk import walk
 from rpl.source import Origin
 
 from . import nodes
@@ -212,7 +213,9 @@ class Expressions:
         return pose_part(self.value(base), place)
 
     def member(self, expression: nodes.Member, wanted: Kind | None) -> ir.Expression:
-        kind = self.kind(expression.base)
+        kind, base = self.kind(expression.base), expression.base
+        if isinstance(base, nodes.Apply) and base.name == "time" and base.arguments in ((), _CONTROLLER_TIME):
+            return time_part(expression.name)
         if kind is not None and kind.word == "struct":
             return ir.Field(self.value(expression.base), expression.name)
         return self.text_of(expression, wanted)
@@ -240,8 +243,12 @@ class Expressions:
         if op in ("==", "!="):
             guess = left or right or REAL
         one, other = self.value(expression.left, left or guess), self.value(expression.right, right or guess)
+        if op == "%" and REAL in (left, right) and _calls_in(one):
+            one = self.held(expression.left)
         if op == "+" and TEXT in (left, right):
             return ir.Binary("&", one, other)
+        if op == "%" and REAL in (left, right):
+            return _rest(one, self.held(expression.right) if _calls_in(other) else other)
         return ir.Binary(_OPERATORS.get(op, op), one, other)
 
     def written_out(self, expression: Expr, kind: Kind) -> ir.Expression:
@@ -344,6 +351,28 @@ def pose_part(pose: ir.Expression, place: int) -> ir.Expression:
     if place < 3:
         return ir.Magnitude(ir.Field(pose, _POSITION[place]), "m")
     return ir.Magnitude(ir.Builtin(_ROTATION[place - 3], (ir.Field(pose, "rot"),)), "rad")
+
+
+def _rest(one: ir.Expression, other: ir.Expression) -> ir.Expression:
+    """What is left of a division of numbers with fractions, with the sign of the first one."""
+    times = ir.Convert("trunc", ir.Binary("/", one, other))
+    return ir.Binary("-", one, ir.Binary("*", other, times))
+
+
+def _calls_in(value: ir.Expression) -> bool:
+    return any(isinstance(node, ir.Call) for node in walk((value,)))
+
+
+def time_part(name: str) -> ir.Expression:
+    """A member of what time() gives: whole seconds, or the billionths of a second behind them."""
+    seconds = ir.System("time")
+    if name == "sec":
+        return ir.Convert("floor", seconds)
+    behind = ir.Binary("-", seconds, ir.Convert("floor", seconds))
+    return ir.Convert("floor", ir.Binary("*", behind, ir.RealLiteral(1e9)))
+
+
+_CONTROLLER_TIME = ((None, nodes.Number(0, "0")),)
 
 
 def _plus(expression: ir.Expression, number: int) -> ir.Expression:

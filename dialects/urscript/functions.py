@@ -1,8 +1,8 @@
 """URScript's own functions: their parameters with names and defaults, and the kind of their result.
 
 A parameter is `name:letter` with `=default` where it may be left out: b bool, i whole number, n number, t text,
-p pose, q joints, m joints or pose, l list, x anything. Results: the same letters, h a handle, - none, ? unknown,
-l3 and l6 lists of three and six numbers, m6 a matrix, li lists of whole numbers, lb of 32 bools.
+p pose, q joints, m joints or pose, l list, x anything. Results: the same letters, h a handle, s a time, - none,
+? unknown, l3 and l6 lists of three and six numbers, m6 a matrix, li lists of whole numbers, lb of 32 bools.
 What has an effect word (none, message, time, unknown) is a Vendor statement or value; all others have a neutral meaning
 in `calls`, `moves` or `procedures`. Sources: script manuals 3.5 and 5.2; defaults of moves from there.
 """
@@ -52,6 +52,7 @@ RESULTS: dict[str, Kind | None] = {
     "li": list_of(INT, None),
     "lb": list_of(BOOL, 32),
     "m6": list_of(list_of(REAL, 6), 6),
+    "s": Kind("struct", fields=(("sec", INT), ("nanosec", INT))),
 }
 # The kind that a parameter of this letter tells of a name whose kind nothing else tells.
 HINTS: dict[str, Kind] = {
@@ -135,9 +136,10 @@ _MEANT = """
     get_inverse_kin_has_solution(pose:p, qnear:q=?, maxPositionError:n=?, maxOrientationError:n=?, tcp:p=?) b
     is_steady() b
     get_target_payload() n
+    get_target_payload_cog() l3
     is_within_safety_limits(pose:m, qnear:q=?) b
     get_steptime() n
-    time(mode:i=0) n
+    time(mode:i=0) s
     pose_trans(p_from:p, p_from_to:p) p
     pose_inv(p_from:p) p
     pose_add(p_1:p, p_2:p) p
@@ -211,7 +213,7 @@ _VENDOR_VALUES = """
         modbus_get_time_since_signal_invalid get_euromap_input
     t: socket_read_string socket_read_line request_string_from_primary_client get_robot_serial
     l: socket_read_ascii_float
-    l3: get_tool_accelerometer_reading get_target_payload_cog
+    l3: get_tool_accelerometer_reading
     l6: get_tcp_force get_actual_tcp_speed get_target_tcp_speed get_actual_joint_speeds get_target_joint_speeds
         get_joint_torques wrench_trans get_coriolis_and_centrifugal_torques get_target_payload_inertia
     m6: get_jacobian get_jacobian_time_derivative get_mass_matrix

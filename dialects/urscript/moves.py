@@ -224,7 +224,9 @@ def _load(calls: Calls, bound: Bound) -> Made | None:
             return None
         centre = tuple((axis, ir.Quantity(part, "m")) for axis, part in zip("xyz", parts, strict=True))
         entries.append(("cog", ir.Aggregate(centre, "vector")))
-    if "m" not in bound or not is_number(calls.kind(mass) if mass is not None else REAL):
+    if mass is None:
+        entries.append(("mass", ir.Field(ir.System("load"), "mass")))  # set_payload_cog keeps it
+    if not is_number(calls.kind(mass) if mass is not None else REAL):
         return None
     return (ir.Assign(ir.System("load"), ir.Aggregate(tuple(entries), "load"), origin=calls.origin),)
 
@@ -243,5 +245,6 @@ MOVES: dict[str, Make] = {
     "set_tcp": _set_tcp,
     "set_payload": _load,
     "set_payload_mass": _load,
+    "set_payload_cog": _load,
     "set_target_payload": _load,
 }

@@ -28,7 +28,7 @@ _TOKEN = re.compile(
     r"|(?P<text>\"[^\"\r\n]*\"?|'[^'\r\n]*')"
     r"|(?P<hole>\{\{.*?\}\}|\$\$\w+\$\$)|(?P<tag>\{%.*?%\}|\{\#.*?\#\})|(?P<label>\$[^\r\n]*)"
     r"|(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\w*)|(?P<name>[^\W\d]\w*)"
-    r"|(?P<sign>==|!=|<=|>=|.)",
+    r"|(?P<member>\.[^\W\d]\w*)|(?P<sign>==|!=|<=|>=|.)",
     re.DOTALL,
 )
 _STARTS = (
@@ -191,6 +191,8 @@ class _Splitter:
         elif word in (")", "]"):
             now.depth = max(now.depth - 1, 0)
             now.complete = True
+        elif kind == "member":
+            now.complete = True  # also one with the name of a word that begins a statement: time().sec
         elif kind == "sign":
             now.complete = False
             if word == ":" and now.depth == 0:

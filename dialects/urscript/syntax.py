@@ -95,6 +95,7 @@ class Syntax:
             "list": lambda c, n: nodes.ListOf(self.items(c[0], n) if c else ()),
             "index": self.index,
             "member": lambda c, n: nodes.Member(self.expression(c[0], n), str(c[1])),
+            "seconds": lambda c, n: nodes.Member(self.expression(c[0], n), "sec"),  # `sec` begins a program elsewhere
             "call": self.call,
             "run": lambda c, n: nodes.Run(self.expression(c[0], n)),
             "negation": lambda c, n: nodes.Sign("not", self.expression(c[0], n)),

@@ -41,6 +41,8 @@ class Places:
                 return self.index(expression)
             case ir.Field(base=ir.System(name="load"), name="mass"):
                 return "get_target_payload()"
+            case ir.Field(base=ir.System(name="load"), name="cog"):
+                return "get_target_payload_cog()"
             case ir.Field(base=base, name=name):
                 found = self.component(base, name)
                 if found is None:
@@ -227,6 +229,8 @@ class Places:
         where, at = self.interface(interface, int(number))
         if where in tables.REGISTERS:
             return f"read_{way}put_{where}_register({at})"
+        if (where, interface, way) == ("tool", "analog", "out"):
+            raise self.refuse("the tool has no analog output")
         return f"get_{where}_{interface}_{way}({at})"
 
     def register(self, signal: ir.Signal, way: str) -> str:
@@ -289,7 +293,7 @@ class Places:
             case "moving", ():
                 return Printed("not is_steady()", tables.NOT)
             case "time", ():
-                return "time()"
+                return Printed("time().sec + time().nanosec / 1000000000", tables.SUM)
             case "step_time", ():
                 return "get_steptime()"
             case "actual_joint", (ir.IntLiteral(value=axis),) if 1 <= axis <= 6:

@@ -36,6 +36,24 @@ CASES = {
         "n = 0\nthread t():\nn = n + 1\nreturn False\nend\nh = run t()\njoin h",
         "n == 1",
     ),
+    "the controller's time": (
+        "t = time()\nsleep(1.5)\ns = time(0).sec - t.sec\ns = s + (time().nanosec - t.nanosec) / 1000000000",
+        "norm(s - 1.5) < 0.01",
+    ),
+    "the load": (
+        "set_payload(1.5, [0, 0, 0.05])\nset_payload_cog([0.01, 0, 0.06])\nc = get_target_payload_cog()",
+        "norm(c[2] - 0.06) < 0.0001 and norm(get_target_payload() - 1.5) < 0.0001",
+    ),
+    "what is left of a division": (
+        "def f():\nreturn 7.5\nend\nx = 7.5\nn = -17",
+        "norm(x % 2 - 1.5) < 0.0001 and norm(f() % 2 - 1.5) < 0.0001",
+        "17 % 5 == 2",
+    ),
+    "what is within reach": (
+        "movej([0, -1.57, 1.57, -1.57, -1.57, 0])",
+        "is_within_safety_limits(get_actual_tcp_pose()) and not is_within_safety_limits(p[3, 0, 0, 0, 0, 0])",
+        "is_within_safety_limits([0, -1.5, 1.5, 0, 0.5, 0])",
+    ),
     "an assertion that holds": ("a = 1\nassert(a == 1)\na = 2", "a == 2"),
 }
 

@@ -97,6 +97,7 @@ from rpl.passes.legalise.pathpoints import path_points
 from rpl.passes.legalise.polling import poll_waits
 from rpl.passes.legalise.possiblecases import possible_cases
 from rpl.passes.legalise.prelude import link_prelude
+from rpl.passes.legalise.programtimes import program_times
 from rpl.passes.legalise.pulselevels import pulse_levels
 from rpl.passes.legalise.pulses import fold_pulses
 from rpl.passes.legalise.randomnumbers import random_numbers
@@ -243,6 +244,7 @@ PASSES: tuple[Pass, ...] = (
     stop_blends,
     begun_moves,
     begun_outputs,
+    program_times,
     held_timers,
     nested_interrupts,
     single_disables,
