@@ -33,6 +33,7 @@ from rpl.passes.legalise.corners import corners
 from rpl.passes.legalise.criticals import without_criticals
 from rpl.passes.legalise.cyclicflags import cyclic_flags
 from rpl.passes.legalise.datalists import set_data_at_start
+from rpl.passes.legalise.declaredremarks import declared_remarks
 from rpl.passes.legalise.defaults import starting_values
 from rpl.passes.legalise.destinations import destinations
 from rpl.passes.legalise.dialogs import number_dialogs
@@ -125,6 +126,7 @@ from rpl.passes.legalise.shown import values_beside_messages
 from rpl.passes.legalise.signals import name_signals, number_signals
 from rpl.passes.legalise.singledisables import single_disables
 from rpl.passes.legalise.solvedplaces import solved_places
+from rpl.passes.legalise.sourcelayout import source_layout
 from rpl.passes.legalise.speeds import fit_speeds
 from rpl.passes.legalise.speedshares import speed_shares
 from rpl.passes.legalise.spelling import one_spelling
@@ -175,6 +177,7 @@ from rpl.passes.typing import normalise
 # whose conditions are opposites), and nothing needs new variables of routines. Numbers are given when nothing has a
 # name to add.
 PASSES: tuple[Pass, ...] = (
+    source_layout,
     drop_untyped,
     axes_of_arm,
     copied_flags,
@@ -270,6 +273,7 @@ PASSES: tuple[Pass, ...] = (
     read_overrides,
     refuse,
     whole_targets,
+    declared_remarks,
     set_data_at_start,
     timers_to_clocks,
     counted_watches,
