@@ -26,7 +26,7 @@ from .own import monitors_of, quiet_routines, steps_in
 from .positions import Points, point_number
 from .posture import assumed_postures, choose_postures, frames_only, moved_to
 from .statements import Printer
-from .texts import comment
+from .texts import comment, remarks
 from .wholes import moved_to_only
 
 if TYPE_CHECKING:
@@ -99,12 +99,12 @@ class _Writer:
 
     def module(self, module: ir.Module) -> list[Listing]:
         self.ledger.written(module)
-        remarks: list[Line] = []
+        before: list[Line] = []
         for declaration in module.declarations:
-            remarks.extend(self.module_declaration(declaration, module))
+            before.extend(self.module_declaration(declaration, module))
         listings = [self.routine(module, routine) for routine in module.routines]
-        if listings and remarks:
-            listings[0].lines[:0] = remarks
+        if listings and before:
+            listings[0].lines[:0] = before
         return listings
 
     def module_declaration(self, declaration: ir.Declaration, module: ir.Module) -> list[Line]:
@@ -119,7 +119,7 @@ class _Writer:
                 return []
             case ir.Unread(text="") | ir.ExternalDeclaration():
                 self.ledger.merged(declaration)
-                return [Line(f"  !{comment(one.text)}") for one in declaration.origin.comments]
+                return [Line(line) for one in declaration.origin.comments for line in remarks(one.text)]
         name = getattr(declaration, "name", "this declaration")
         self.diagnostics.report(LOST_DECLARATION, declaration.origin, name=name, reason="it has no register")
         self.ledger.reported(declaration)

@@ -112,7 +112,7 @@ class _Assembler:
             self.ledger.claim(piece.start, piece.end, TRIVIA)
             if not self.comments:
                 self.comment_start = piece.start
-            self.comments.append(Comment(piece.text))
+            self.comments.append(Comment(piece.text, layout=piece.kind == LAYOUT))
             return
         self.statements += 1
         origin = Origin(self.source, piece.start, piece.end)
