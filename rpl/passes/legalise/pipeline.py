@@ -63,6 +63,7 @@ from rpl.passes.legalise.interrupts import interrupts
 from rpl.passes.legalise.joinedmoves import joined_moves, stand_before_ways
 from rpl.passes.legalise.joins import joins
 from rpl.passes.legalise.jointgoals import joint_goals
+from rpl.passes.legalise.keptsettings import kept_settings
 from rpl.passes.legalise.knownjoints import known_joints
 from rpl.passes.legalise.labelled import labels_as_remarks
 from rpl.passes.legalise.labels import structure_to_labels
@@ -271,6 +272,7 @@ PASSES: tuple[Pass, ...] = (
     speed_shares,
     full_override,
     read_overrides,
+    kept_settings,
     refuse,
     whole_targets,
     declared_remarks,
