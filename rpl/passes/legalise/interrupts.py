@@ -10,7 +10,9 @@ from types import UnionType
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.legalise.changes import watched_changes
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.interruptnumbers import known_interrupts
 from rpl.passes.legalise.reconnected import one_trap_each
 from rpl.passes.legalise.usage import base_name, called_names, each_statement, exposed
 from rpl.passes.rewrite import rewrite_parts
@@ -30,6 +32,7 @@ def interrupts(program: ir.Program, context: Context) -> ir.Program:
     if "DeclareInterrupt" not in statements and "ConnectInterrupt" in statements:
         return _Traps(program, context).program()
     if "ConnectInterrupt" not in statements and "DeclareInterrupt" in statements:
+        program = known_interrupts(watched_changes(program, context), context)
         return _Priorities(one_trap_each(program, context), context).program()
     return program
 

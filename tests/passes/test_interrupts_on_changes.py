@@ -1,0 +1,115 @@
+"""Interrupts on each change of a value, and traps that ask which interrupt has called them, in every other language."""
+
+import pytest
+
+from rpl import registry
+from rpl.cell import parse_cell
+from rpl.diagnostics import Diagnostics, Severity
+from rpl.project import read_sources
+from rpl.proof.record import signal_names
+from rpl.proof.wiring import in_words_of, with_signal_names
+from rpl.runtime.trace import RunResult
+from rpl.simulation import run_program
+from rpl.source import source_from_bytes, source_from_text
+from rpl.translation import translate_program
+
+ARM = "abb_irb1200_5_90"
+# Each expectation switches one output on.
+PROGRAM = """MODULE Changes
+  PERS num pCount:=0;
+  PERS bool pFlag:=FALSE;
+  VAR intnum iCount;
+  VAR intnum iFlag;
+  VAR intnum iOnce;
+  VAR intnum iLeft;
+  VAR intnum iRight;
+  VAR num nCount;
+  VAR num nFlag;
+  VAR num nOnce;
+  VAR num nOrder;
+  PROC main()
+    CONNECT iCount WITH tCount;
+    IPers pCount,iCount;
+    CONNECT iFlag WITH tFlag;
+    IPers pFlag,iFlag;
+    CONNECT iOnce WITH tOnce;
+    ISignalDO\\Single,do31,edge,iOnce;
+    FOR i FROM 1 TO 3 DO
+      pCount:=i*i;
+      WaitTime 0.2;
+      pFlag:=i=2;
+      WaitTime 0.2;
+      InvertDO do31;
+      WaitTime 0.2;
+    ENDFOR
+    IDelete iCount;
+    IDelete iFlag;
+    IDelete iOnce;
+    pCount:=99;
+    WaitTime 0.2;
+    IF nCount=3 SetDO do1,1;
+    IF nFlag=2 SetDO do2,1;
+    IF nOnce=1 SetDO do3,1;
+    Reset do31;
+    CONNECT iLeft WITH tSide;
+    CONNECT iRight WITH tSide;
+    ISignalDO do32,1,iLeft;
+    ISignalDO do33,1,iRight;
+    Set do33;
+    WaitTime 0.2;
+    Set do32;
+    WaitTime 0.2;
+    Reset do33;
+    WaitTime 0.2;
+    Set do33;
+    WaitTime 0.2;
+    IDelete iLeft;
+    IDelete iRight;
+    IF nOrder=212 SetDO do4,1;
+  ENDPROC
+  TRAP tCount
+    Incr nCount;
+  ENDTRAP
+  TRAP tFlag
+    Incr nFlag;
+  ENDTRAP
+  TRAP tOnce
+    Incr nOnce;
+  ENDTRAP
+  TRAP tSide
+    TEST INTNO
+    CASE iLeft:
+      nOrder:=nOrder*10+1;
+    CASE iRight:
+      nOrder:=nOrder*10+2;
+    ENDTEST
+    IF INTNO<>iLeft AND INTNO<>iRight nOrder:=-1;
+  ENDTRAP
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize("target", sorted(set(registry.target_names()) - {"rapid"}))
+def test_changes_and_numbers_of_interrupts_in_every_language(target: str) -> None:
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("Changes.mod", PROGRAM)], "rapid", diagnostics)
+    assert met(run_program(read.program, ARM)) == 4
+    written = translate_program(read, target, ARM, None, diagnostics)
+    assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    again = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, diagnostics)
+    named = with_signal_names(again.program, written.program)
+    cell = in_words_of(parse_cell(""), read.program, named)
+    run = run_program(named, ARM, cell, written.renamed.get("main", "main"))
+    assert run.status == "finished", run.fault
+    assert met(run) == 4, run.outputs
+
+
+def met(result: RunResult) -> int:
+    """How many of the outputs 1 ... 4 have been switched on, whatever the language calls them."""
+    found = set()
+    for event in result.trace:
+        if event.kind == "output" and event.data.get("value"):
+            kind, index, last, _ = event.port or (None, None, None, None)
+            known = [str(name) for name in (event.data.get("signal"), *event.names) if name]
+            found |= set(signal_names(kind, known, index, last))
+    return len(found & {f"digital_out:{number}" for number in range(1, 5)})
