@@ -60,6 +60,7 @@ CAPABILITIES = Capabilities(
     conversions=tables.words("real round_half_away trunc bit truth minus_bit floor code char"),
     for_real=True,
     timers=tables.TIMERS,
+    computed_groups=False,  # BITS n, 8: whose signals those are shows only when the program runs
     switch_types=tables.words("RealType IntType"),
     poll_s=0.016,
     else_if=False,

@@ -152,6 +152,8 @@ class Capabilities:
     can be named by its first and last signal, or a pass or the writer finds a name for it. Where signals have names
     (signal_prefixes), a group has one of its own; groups of which a part is used otherwise are written bit by bit.
     group_sizes: a group has so many signals and begins behind a multiple of them (empty: any).
+    computed_groups: a group may have computed numbers. Without it, or where groups are declared or have names, such
+    groups of a constant width are written bit by bit.
     numbered_groups: groups have numbers of their own beside those of their bits (GO[2]). write_only: kinds of outputs
     that programs set and cannot read back.
     """
@@ -273,6 +275,7 @@ class Capabilities:
     declared_groups: bool = False
     signal_groups: bool = True
     group_sizes: tuple[int, ...] = ()
+    computed_groups: bool = True
     numbered_groups: bool = False
     write_only: frozenset[str] = frozenset()
     postures: str = "flags"

@@ -1,9 +1,9 @@
 """Groups of signals bit by bit, for targets that have single signals only (or groups that the controller declares).
 
 Written: each bit gets its share of the number. Read: the bits are added up in front of the statement, or where they are
-read when the target takes signals as numbers. Groups with computed numbers stay for the writer. Where signals have
-names, a named group and the names of its bits are different signals: groups that overlap what else is used become bits.
-Where groups have sizes, those of others do.
+read when the target takes signals as numbers. Groups with computed numbers become signals with computed numbers where
+they have a constant width. Where signals have names, a named group and the names of its bits are different signals:
+groups that overlap what else is used become bits. Where groups have sizes, those of others do.
 """
 
 from __future__ import annotations
@@ -33,18 +33,19 @@ def groups_to_bits(program: ir.Program, context: Context) -> ir.Program:
 def shared_groups_to_bits(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose signals have names: groups of which another statement uses a part; for those whose groups have
     sizes: groups of another size, or that begin elsewhere."""
-    sizes = context.capabilities.group_sizes
-    if context.capabilities.signal_prefixes:
+    capabilities = context.capabilities
+    named = bool(capabilities.signal_prefixes) or capabilities.declared_groups or not capabilities.computed_groups
+    apart: frozenset[Group] = frozenset()
+    if capabilities.signal_prefixes:
         apart = _overlapping(program)
-    elif sizes:
-        apart = _odd(program, sizes)
-    else:
-        return program
-    if not apart:
+    elif capabilities.group_sizes:
+        apart = _odd(program, capabilities.group_sizes)
+    computed = named and any(isinstance(node, ir.Signal) and _is_computed(node) for node in walk(*program.modules))
+    if not apart and not computed:
         return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        return edit_bodies(routine, _Shared(editor, apart).body)
+        return edit_bodies(routine, _Shared(editor, apart, computed).body)
 
     return edit_routines(program, context, work)
 
@@ -72,8 +73,8 @@ def _overlapping(program: ir.Program) -> frozenset[Group]:
             group = _group(node)
             if group is not None:
                 used.add(group)
-            elif node.name is None and node.last is None:
-                anywhere.add(node.kind)
+            elif node.name is None:
+                anywhere.add(node.kind.replace("group", "digital"))
     return frozenset(
         one
         for one in used
@@ -95,8 +96,47 @@ def _odd(program: ir.Program, sizes: tuple[int, ...]) -> frozenset[Group]:
     )
 
 
+def _is_computed(signal: ir.Signal) -> bool:
+    """A group with computed numbers."""
+    return signal.last is not None and signal.name is None and _group(signal) is None
+
+
+Line = tuple[ir.Expression | None, int, int]  # factor and what is added
+
+
+def _line(number: ir.Expression) -> Line:
+    """A number as something times a constant, plus a constant."""
+    match number:
+        case ir.IntLiteral(value=value):
+            return None, 0, value
+        case ir.Binary(op="+" | "-" as op, left=left, right=ir.IntLiteral(value=value)):
+            what, factor, added = _line(left)
+            return what, factor, added + (value if op == "+" else -value)
+        case ir.Binary(op="*", left=left, right=ir.IntLiteral(value=value)):
+            what, factor, added = _line(left)
+            return what, factor * value, added * value
+    return number, 1, 0
+
+
+def _computed_bits(signal: ir.Signal) -> list[ir.Signal]:
+    """The signals of a group with computed numbers and a constant width."""
+    if signal.index is None or signal.last is None:
+        return []
+    (what, factor, first), (same, again, last) = _line(signal.index), _line(signal.last)
+    if what is None or what != same or factor != again or not 0 <= last - first < _WIDEST:
+        return []
+    scaled = ir.Binary("*", what, ir.IntLiteral(factor)) if factor != 1 else what
+    single = signal.kind.replace("group", "digital")
+    numbers = (
+        ir.Binary("+" if n > 0 else "-", scaled, ir.IntLiteral(abs(n))) if n else scaled for n in range(first, last + 1)
+    )
+    return [ir.Signal(single, number, origin=signal.origin) for number in numbers]
+
+
 def _bits(signal: ir.Expression) -> list[ir.Signal]:
-    """The signals of a group with constant numbers, lowest bit first; empty for everything else."""
+    """The signals of a group, lowest bit first; empty for everything else."""
+    if isinstance(signal, ir.Signal) and _is_computed(signal):
+        return _computed_bits(signal)
     match signal:
         case ir.Signal(kind=kind, index=ir.IntLiteral(value=first), last=ir.IntLiteral(value=last), name=None):
             if 0 <= last - first < _WIDEST:
@@ -199,18 +239,23 @@ class _Bits(Hoister):
 
 
 class _Shared(_Bits):
-    """Groups that overlap others only, and names that are declared for such."""
+    """Groups that overlap others, names that are declared for such, and groups with computed numbers."""
 
-    def __init__(self, editor: Editor, apart: frozenset[Group]) -> None:
+    def __init__(self, editor: Editor, apart: frozenset[Group], computed: bool) -> None:
         super().__init__(editor)
-        self.apart = apart
+        self.apart, self.computed = apart, computed
 
     def bits(self, expression: ir.Expression) -> list[ir.Signal]:
         signal = self.signal(expression)
-        return _bits(signal) if isinstance(signal, ir.Signal) and _group(signal) in self.apart else []
+        if not isinstance(signal, ir.Signal):
+            return []
+        apart = _group(signal) in self.apart or (self.computed and _is_computed(signal))
+        return _bits(signal) if apart else []
 
     def ruled(self, expression: ir.Expression) -> Lowered | None:
-        """The sum of the bits by their weights."""
+        """The sum of the bits by their weights; of those with computed numbers added up beforehand."""
+        if isinstance(expression, ir.Signal) and _is_computed(expression):
+            return super().ruled(expression)
         parts: list[ir.Expression] = []
         for place, bit in enumerate(self.bits(expression)):
             value: ir.Expression = ir.Convert("bit", bit)
