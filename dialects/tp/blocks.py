@@ -9,12 +9,13 @@ from typing import cast, get_args
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.ir.walk import statements
+from rpl.ir.walk import statements, walk
 from rpl.reading.pieces import Block, Item, ModulePart
 
+from . import tables
 from .header import Header
 from .motion import MISSING_POSITION, NOT_TAUGHT
-from .statements import HIT, TIMED_OUT
+from .statements import CHOSEN_NUMBER, CHOSEN_TRUTH, HIT, TIMED_OUT
 
 MISPLACED = code("tp-misplaced", Severity.ERROR, "{what} cannot stand here")
 LOOSE_ARC = code(
@@ -23,6 +24,7 @@ LOOSE_ARC = code(
     "the last A point has no partner for an arc; the robot's way to it is not known here",
 )
 _STATEMENTS = get_args(ir.Statement)
+_LOCAL_REGISTER = re.compile(r"R1\d{4}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,7 +183,26 @@ def _local_flags(inside: list[ir.Statement]) -> tuple[ir.Variable, ...]:
         HIT: any(isinstance(node, ir.Move) and node.search is not None for node in inside),
         TIMED_OUT: any(isinstance(node, ir.WaitUntil) and node.timed_out is not None for node in inside),
     }
-    return tuple(ir.Variable(name, ir.BoolType(), scope="routine") for name in (HIT, TIMED_OUT) if used[name])
+    flags = tuple(ir.Variable(name, ir.BoolType(), scope="routine") for name in (HIT, TIMED_OUT) if used[name])
+    return *flags, *_chosen(inside), *_local_registers(inside)
+
+
+def _chosen(inside: list[ir.Statement]) -> Iterable[ir.Variable]:
+    """What is worked out in front of a block."""
+    names = {
+        node.target.id: None for node in inside if isinstance(node, ir.Assign) and isinstance(node.target, ir.Name)
+    }
+    for name in names:
+        if name.startswith((CHOSEN_TRUTH, CHOSEN_NUMBER)):
+            type: ir.Type = ir.BoolType() if name.startswith(CHOSEN_TRUTH) else tables.NUMBER
+            yield ir.Variable(name, type, scope="routine")
+
+
+def _local_registers(inside: list[ir.Statement]) -> Iterable[ir.Variable]:
+    """R[10001] and up belong to each call of the program."""
+    used = {node.id for node in walk(*inside) if isinstance(node, ir.Name) and _LOCAL_REGISTER.fullmatch(node.id)}
+    for name in sorted(used):
+        yield ir.Variable(name, tables.NUMBER, ir.IntLiteral(0), scope="routine")
 
 
 def _grouped(statements: list[ir.Statement], diagnostics: Diagnostics) -> Iterable[ir.Statement]:

@@ -140,6 +140,9 @@ class Expressions:
                 return self.system_variable(str(tree.children[0]))
             case "hole":
                 return Typed(ir.VendorValue("tp", str(tree.children[0]), ir.RealType(), origin=self.origin), "n")
+            case "pallet":
+                text = " ".join(self.origin.text.split()).partition("=")[2].rstrip(" ;")
+                return Typed(ir.VendorValue("tp", text, ir.RealType(), origin=self.origin), "u")
             case "reference":
                 return self.reference(tree)
         raise StatementError(f"{tree.data} is no value", 0)
@@ -254,6 +257,10 @@ class Expressions:
         name = "".join(spelling.upper().split())
         if name in tables.SYSTEM_VARIABLES:
             return Typed(ir.System(tables.SYSTEM_VARIABLES[name], origin=self.origin), "n")
+        frame = tables.FRAME_VARIABLE.fullmatch(name)
+        if frame is not None:
+            base = ir.Name(frame[1], origin=self.origin)
+            return Typed(ir.Index(base, (ir.IntLiteral(int(frame[2])),), origin=self.origin), "p")
         if name in tables.ACTIVE_NUMBERS:
             return Typed(ir.Name(tables.ACTIVE_NUMBERS[name], origin=self.origin), "n")
         if name == tables.WAIT_TIMEOUT:
@@ -287,6 +294,9 @@ class Expressions:
             case "UFRAME" | "UTOOL":
                 name = ir.Name(bank, origin=self.origin)
                 return Typed(ir.Index(name, (self.index(indices[0]),), origin=self.origin), "p")
+            case "TIMER_OVERFLOW":
+                self.index(indices[0])
+                return Typed(ir.IntLiteral(0, origin=self.origin), "n")  # a stop watch here never runs over
             case "SEMAPHORE":
                 return Typed(self.named_signal("flag", bank, indices), "b")
         return self.only_controller(bank, indices)
@@ -309,7 +319,8 @@ class Expressions:
         return text[at : end + 1] if at >= 0 and end > at else start
 
     def register(self, bank: str, index: ir.Expression) -> ir.Expression:
-        if bank in self.facts.arrays or not isinstance(index, ir.IntLiteral):
+        local = bank == "R" and isinstance(index, ir.IntLiteral) and index.value > tables.LOCAL_REGISTERS
+        if (bank in self.facts.arrays and not local) or not isinstance(index, ir.IntLiteral):
             return ir.Index(ir.Name(bank, origin=self.origin), (index,), origin=self.origin)
         return ir.Name(f"{bank}{index.value}", origin=self.origin)
 
@@ -377,6 +388,9 @@ class Expressions:
         index = self.index(indices[0])
         if isinstance(index, ir.IntLiteral):
             return ir.Signal(kind, name=f"{bank}{index.value}", origin=self.origin)
+        if bank in tables.NAMED_COUNTS:  # a branch for each that it can be
+            number = self.choice(index, tuple(range(1, tables.NAMED_COUNTS[bank] + 1)))
+            return ir.Signal(kind, name=f"{bank}{number}", origin=self.origin)
         return ir.VendorValue("tp", self.origin_part(bank), ir.BoolType(), origin=self.origin)
 
 

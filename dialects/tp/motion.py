@@ -209,7 +209,7 @@ class Motion(Statements):
         self.number(_tree(tree.children[1]))
         word = str(tree.children[0])
         text = self.written(rf"\b{word}\s*\S+")
-        options.vendor.append((text, "tuning" if word.upper() == "PSPD" else "unknown"))
+        options.vendor.append((text, "tuning" if word.lower() in tables.HARMLESS_NUMBERS else "unknown"))
 
     def part_other_option(self, tree: SyntaxTree, options: Options) -> None:
         name = str(tree.children[0]).partition("[")[0].strip()

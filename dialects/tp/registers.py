@@ -52,7 +52,9 @@ _CALL = re.compile(r"(?:CALL|RUN)\s+([A-Za-z_\u0080-\uffff][-\w]*)\s*(?:\((.*)\)
 _ARGUMENT = re.compile(r"(?<![\w$.])AR\s*\[\s*(\d+)", re.IGNORECASE)
 _HANDED_ON = re.compile(r"AR\[(\d+)(?::[^\]]*)?\]", re.IGNORECASE)
 _TEXT_ARGUMENT = re.compile(r"AR\s*\[\s*(\d+)\s*\]\s*(?:=|<>)\s*'|'\s*(?:=|<>)\s*AR\s*\[\s*(\d+)", re.IGNORECASE)
-_FRAME_NUMBER = re.compile(r"^(UFRAME|UTOOL)_NUM\b|(?<![\w$.])(UFRAME|UTOOL)\s*\[|\$MN(UFRAME|UTOOL)NUM", re.IGNORECASE)
+_FRAME_NUMBER = re.compile(
+    r"^(UFRAME|UTOOL)_NUM\b|(?<![\w$.])(UFRAME|UTOOL)\s*\[|\$MN(UFRAME|UTOOL)(?:NUM|\[1,)", re.IGNORECASE
+)
 
 
 @dataclass(slots=True)
@@ -120,7 +122,7 @@ def survey(facts: Facts, program: str, pieces: Iterable[Piece], points: dict[int
             bank = match[1].upper()
             if match[2] is None:
                 facts.arrays.add(bank)
-            else:
+            elif bank != "R" or int(match[2]) <= tables.LOCAL_REGISTERS:
                 facts.used[bank].add(int(match[2]))
         facts.elements.update(int(number) for number in _ELEMENT.findall(text))
         for number in _ARGUMENT.findall(text):
@@ -205,7 +207,7 @@ def _frames(facts: Facts, text: str) -> None:
         facts.frames.add(name)
         if number_of:
             facts.numbers_set.add(name)
-    for name, number in re.findall(r"(UFRAME|UTOOL)\s*(?:_NUM\s*=|\[)\s*(\d+)", text.upper()):
+    for name, number in re.findall(r"(UFRAME|UTOOL)\s*(?:_NUM\s*=|\[1\s*,|\[)\s*(\d+)", text.upper()):
         facts.highest_frame[name] = max(facts.highest_frame.get(name, 0), int(number))
 
 

@@ -22,6 +22,7 @@ RULES = Rules(
     advance=AdvanceRules(moves=4, runs_ahead_of="fly_by", lead_s=0.0),
     real_to_int="trunc",  # M: a register written to a group output or used as a number is cut
     text_plus=True,
+    leading_numbers=True,  # M: a text that goes on behind its number gives the number, one without gives 0
     components=COMPONENTS,
     undefined=True,
     whole_targets=True,  # a position that was not taught is a fault when it is used

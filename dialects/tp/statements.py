@@ -43,6 +43,7 @@ MISSING_LABEL = code(
 )
 _DEEPEST_CHOICE = 4
 TIMED_OUT, HIT = "wait_timed_out", "skip_hit"
+CHOSEN_TRUTH, CHOSEN_NUMBER = "chosen_truth_", "chosen_number_"
 
 
 class Statements(Expressions):
@@ -52,6 +53,7 @@ class Statements(Expressions):
     conditions = 0
     offsets: dict[str, Typed]
     interrupts = 0
+    choices = 0
 
     def lower(self, tree: SyntaxTree, pieces: Pieces, origin: Origin) -> Lowered:
         """The element(s) of one statement."""
@@ -264,7 +266,18 @@ class Statements(Expressions):
         return ir.If(((condition, self.action(_tree(tree.children[1]))),), origin=self.origin)
 
     def on_if_then(self, tree: SyntaxTree) -> Lowered:
-        return Open("if", self.truth(_tree(tree.children[0])), self.origin)
+        before, condition = self.in_front(CHOSEN_TRUTH, lambda: self.truth(_tree(tree.children[0])))
+        return (*before, Open("if", condition, self.origin))
+
+    def in_front(self, name: str, value: Callable[[], ir.Expression]) -> tuple[Many, ir.Expression]:
+        """A value that opens a block. Where a computed number chooses a place in it, it is worked out in front."""
+        try:
+            return (), value()
+        except Choice:
+            self.choices += 1
+            kept = ir.Name(f"{name}{self.choices}", origin=self.origin)
+            steps = self.with_choices(lambda: ir.Assign(kept, value(), origin=self.origin))
+            return self.as_statements(steps), kept
 
     def on_else_part(self, tree: SyntaxTree) -> Lowered:
         return Middle("if", None, self.origin)
@@ -288,11 +301,12 @@ class Statements(Expressions):
 
     def on_for_open(self, tree: SyntaxTree) -> Lowered:
         counter = self.typed(_tree(tree.children[0]))
-        start, stop = self.number(_tree(tree.children[1])), self.number(_tree(tree.children[3]))
+        early, start = self.in_front(CHOSEN_NUMBER, lambda: self.number(_tree(tree.children[1])))
+        late, stop = self.in_front(CHOSEN_NUMBER, lambda: self.number(_tree(tree.children[3])))
         down = str(tree.children[2]).upper() == "DOWNTO"
         if counter.kind != "n":
             raise StatementError("FOR counts in a numeric register", 0)
-        return Open("for", (counter.node, start, stop, down), self.origin)
+        return (*early, *late, Open("for", (counter.node, start, stop, down), self.origin))
 
     def on_end_for(self, tree: SyntaxTree) -> Lowered:
         return Close("for", None, self.origin)
@@ -455,4 +469,14 @@ def _tree(child: object) -> SyntaxTree:
     return child
 
 
-__all__ = ["HIT", "SKIP_BY_TEXT", "TIMED_OUT", "Lowered", "Many", "Statements", "Token"]
+__all__ = [
+    "CHOSEN_NUMBER",
+    "CHOSEN_TRUTH",
+    "HIT",
+    "SKIP_BY_TEXT",
+    "TIMED_OUT",
+    "Lowered",
+    "Many",
+    "Statements",
+    "Token",
+]

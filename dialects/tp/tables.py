@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from rpl import ir
 
 # Signals: TP's letter -> neutral kind. The groups without a number space of their own are named signals.
@@ -27,12 +29,16 @@ NAMED_SIGNALS: dict[str, str] = {
     "WSO": "digital_out",
     "M": "flag",
 }
+# How many there are of those whose number a program may compute.
+NAMED_COUNTS = {"RI": 8, "RO": 8, "UI": 18, "UO": 20, "SI": 15, "SO": 15}
 SIGNAL_LETTERS = {kind: letter for letter, kind in NUMBERED_SIGNALS.items()}
 
 # Register banks: TP's letter -> type of an element, first and last number, value before anything was written.
 # M: counts of a standard controller; a program that uses a higher number makes the bank larger.
 LAST_NUMBER = {"R": 200, "PR": 100, "SR": 25}
 FRAMES = {"UFRAME": 9, "UTOOL": 10}
+# Numeric registers beyond it belong to one call of a program (LOCAL_REGISTERS of its header). M: 0 at the start.
+LOCAL_REGISTERS = 10000
 
 FUNCTIONS: dict[str, str] = {
     "SIN": "sin",
@@ -61,6 +67,7 @@ SYSTEM_VARIABLES: dict[str, str] = {
     "$MCR.$GENOVERRIDE": "override",
 }
 ACTIVE_NUMBERS = {"$MNUFRAMENUM[1]": "UFRAME_NUM", "$MNUTOOLNUM[1]": "UTOOL_NUM"}
+FRAME_VARIABLE = re.compile(r"\$MN(UFRAME|UTOOL)\[1,(\d+)\]")  # of the arm, a whole position
 # M: actual position in the world frame, element by element.
 ACTUAL_POSITION = {
     "$SCR_GRP[1].$MCH_POS_X": "x",
@@ -100,6 +107,8 @@ CNT_SHARES = (0.0, 0.0384, 0.1053, 0.1911, 0.293, 0.4085, 0.5406, 0.6741, 0.815,
 
 # Options of a move without a number that change only speed or smoothness, not where the robot goes.
 HARMLESS_OPTIONS = frozenset(("pth", "break", "mrot", "cjnt"))
+# Options with a number that say only how straight the way is near a point.
+HARMLESS_NUMBERS = frozenset(("pspd", "rt_ld", "ap_ld"))
 
 # Instructions of applications, by their first words: what a run must know of them. Everything else is unknown.
 INSTRUCTION_EFFECTS: tuple[tuple[str, str], ...] = (

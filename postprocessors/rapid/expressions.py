@@ -109,10 +109,11 @@ class Expressions:
             raise CannotSayError("orientations have quaternion components only")
         return f"{base}.{COMPONENTS.get(type.__class__, {}).get(name, name)}"
 
-    def value_of_signal(self, signal: ir.Signal) -> str:
-        """The number that a signal reads as. A name that does not show its kind is read by the function of its kind."""
+    def value_of_signal(self, signal: ir.Signal, compared: bool = False) -> str:
+        """The number that a signal reads as. A name that does not show its kind is read by the function of its kind;
+        what is `compared` with 0 or 1 is an input."""
         name = self.signal(signal)
-        if signal.kind == "digital_in" or name.lower().startswith(PREFIXES[signal.kind]):
+        if (signal.kind == "digital_in" and compared) or name.lower().startswith(PREFIXES[signal.kind]):
             return name
         return f"{READERS[signal.kind]}({name})"
 
@@ -129,7 +130,7 @@ class Expressions:
 
     def condition(self, signal: ir.Signal) -> str | Printed:
         """A digital signal as a condition; the value of another one."""
-        name = self.value_of_signal(signal)
+        name = self.value_of_signal(signal, compared=True)
         return Printed(f"{name}=1", RELATION_LEVEL) if signal.kind.startswith("digital") else name
 
     # ---- operators and conversions
@@ -137,7 +138,7 @@ class Expressions:
     def negation(self, operand: ir.Expression) -> Printed:
         match operand:
             case ir.Signal() if operand.kind.startswith("digital"):
-                return Printed(f"{self.value_of_signal(operand)}=0", RELATION_LEVEL)
+                return Printed(f"{self.value_of_signal(operand, compared=True)}=0", RELATION_LEVEL)
         return Printed(f"NOT {self.printer.atom(operand)}", OR_LEVEL)
 
     def operation(self, expression: ir.Binary) -> str:

@@ -44,7 +44,6 @@ CASES = [
     ("AO[1]=2.5", "SET ao[1] TO 2.5"),
     ("F[1]=(ON)", "SET flag[1] TO ON"),
     ("M[1]=(F[1])", "SET flag(M1) TO flag[1]"),
-    ("RO[R[1]]=ON", 'VENDOR tp "RO[R[1]]=ON" EFFECT unknown'),
     # position registers
     ("PR[1]=LPOS", "PR1 = current_target()"),
     ("PR[1]=JPOS", "PR1 = current_joints()"),

@@ -32,7 +32,8 @@ NUMBERED = code(
 # Numbers a computed index is expected to reach where the program shows no larger one.
 _REACH = 32
 _FLAGS = 64
-_FLAGS_COMPUTED = 1024  # where the program computes the number of one
+_MOST = 1024  # beyond it a number that the program puts somewhere is none of a signal
+_VALUES: dict[str, ir.Type] = {"analog": ir.RealType(), "group": ir.IntType()}
 # Bits of a group whose width only its controller's configuration says.
 WIDTH = 8
 
@@ -57,10 +58,10 @@ def name_signals(program: ir.Program, context: Context) -> ir.Program:
         )
         modules.append(replace(module, declarations=declarations, routines=routines))
     support = worker.support(program.modules[0].dialect, modules[0].task if modules else "")
-    return replace(program, modules=_with_shared_flags((*modules, *support), worker.flags, worker.last_flag))
+    return replace(program, modules=_with_shared_flags((*modules, *support), worker.flags, worker.flag_count()))
 
 
-def _with_shared_flags(modules: tuple[ir.Module, ...], flags: str | None, last: int) -> tuple[ir.Module, ...]:
+def _with_shared_flags(modules: tuple[ir.Module, ...], flags: str | None, count: int) -> tuple[ir.Module, ...]:
     """Flags belong to the whole controller: where tasks have data of their own, each that uses them declares them."""
     users = {
         module.task: module
@@ -69,7 +70,7 @@ def _with_shared_flags(modules: tuple[ir.Module, ...], flags: str | None, last: 
     }
     if len(users) < 2:
         return modules
-    type = ir.ArrayType(ir.BoolType(), (ir.IntLiteral(last),))
+    type = ir.ArrayType(ir.BoolType(), (ir.IntLiteral(count),))
     shared = ir.Variable(str(flags), type, storage="persistent", scope="global")
     done = []
     for module in modules:
@@ -81,6 +82,16 @@ def _with_shared_flags(modules: tuple[ir.Module, ...], flags: str | None, last: 
     return tuple(done)
 
 
+def _place(place: ir.Name | ir.Index) -> str:
+    """A variable, or an element of one by constant numbers, folded; empty for any other place."""
+    match place:
+        case ir.Name(id=name):
+            return name.lower()
+        case ir.Index(base=ir.Name(id=name), indices=(ir.IntLiteral(value=number),)):
+            return f"{name.lower()}[{number}]"
+    return ""
+
+
 class _Named:
     def __init__(self, program: ir.Program, context: Context) -> None:
         self.context = context
@@ -89,8 +100,8 @@ class _Named:
         self.declared: dict[str, ir.Signal] = {}  # by folded name; the first of that name keeps it
         self.highest: dict[str, int] = {}
         self.dynamic: dict[str, str] = {}
+        self.given: dict[str, int] = {}  # the highest whole number that a place is set to
         self.flags: str | None = None
-        self.last_flag = _FLAGS
         self.flags_watched = False  # an interrupt comes with each change of one
         self.scope: Scope | None = None
         self._collect(program)
@@ -105,6 +116,7 @@ class _Named:
             for statement in body:
                 if isinstance(statement, ir.OrderInterrupt) and statement.event == "change":
                     self.flags_watched = self.flags_watched or _is_flag(statement.condition)
+                self.note(statement)
             return tuple(rewrite_parts(statement, look, deeper) for statement in body)
 
         for module in program.modules:
@@ -120,6 +132,16 @@ class _Named:
             for routine in module.routines:
                 deeper(routine.body)
 
+    def note(self, statement: ir.Statement) -> None:
+        """Note what a variable or an element is set to, or counts to."""
+        match statement:
+            case ir.Assign(target=ir.Name() | ir.Index() as target, value=ir.IntLiteral(value=number)):
+                key = _place(target)
+                self.given[key] = max(self.given.get(key, 0), number)
+            case ir.For(counter=name, start=start, stop=stop):
+                ends = [one.value for one in (start, stop) if isinstance(one, ir.IntLiteral)]
+                self.given[name.lower()] = max([self.given.get(name.lower(), 0), *ends])
+
     def in_scope(self, scope: Scope) -> _Named:
         self.scope = scope
         return self
@@ -132,8 +154,8 @@ class _Named:
             case ir.Assign(target=ir.Signal(index=index, name=None) as signal, value=value) if (
                 signal.kind != "flag" and not _constant(index)
             ):
-                routine = self.routine(f"set_{signal.kind}", statement.origin, signal.kind)
                 assert index is not None
+                routine = self.routine(f"set_{signal.kind}", statement.origin, signal.kind, index)
                 arguments = (ir.Argument(self.expression(index)), ir.Argument(self.expression(value)))
                 return ir.CallRoutine(routine, arguments, origin=statement.origin)
         return rewrite_parts(statement, self.expression, self.body)
@@ -162,25 +184,28 @@ class _Named:
                     assert isinstance(index, ir.IntLiteral)
                     name = self.aliases.get((kind, index.value)) or f"{self.prefixes.get(kind, kind)}{index.value}"
                     return ir.Signal(kind, name=name, origin=expression.origin)
-                routine = self.routine(f"get_{kind}", expression.origin, kind)
                 assert index is not None
+                routine = self.routine(f"get_{kind}", expression.origin, kind, index)
                 argument = ir.Argument(self.expression(index))
                 return ir.Call(routine, (argument,), origin=expression.origin)
             case ir.System(name="flag" | "cyclic_flag", indices=indices):
                 if self.flags is None:
                     self.flags = self.context.fresh("rpl_flag")
-                for number in indices:
-                    last = number.value if isinstance(number, ir.IntLiteral) else _FLAGS_COMPUTED
-                    self.last_flag = max(self.last_flag, last)
                 inner = tuple(self.expression(index) for index in indices)
                 return ir.Index(ir.Name(self.flags), inner, origin=expression.origin)
         return rewrite_parts(expression, self.expression)
 
-    def routine(self, what: str, origin: Origin, kind: str) -> str:
+    def routine(self, what: str, origin: Origin, kind: str, index: ir.Expression) -> str:
+        """The routine for signals of the kind. What the program itself puts into the index is in reach."""
         if what not in self.dynamic:
             self.dynamic[what] = self.context.fresh(f"rpl_{what}")
+        numbers = [self.given.get(_place(node), 0) for node in walk(index) if isinstance(node, ir.Name | ir.Index)]
+        self.highest[kind] = max([self.highest.get(kind, 0), *(one for one in numbers if one <= _MOST)])
         self.context.diagnostics.report(DYNAMIC, origin, last=self.reach(kind))
         return self.dynamic[what]
+
+    def flag_count(self) -> int:
+        return max(_FLAGS, self.highest.get("flag", 0))
 
     def reach(self, kind: str) -> int:
         return max(_REACH, self.highest.get(kind, 0))
@@ -189,7 +214,7 @@ class _Named:
         """The generated routines and data, when there are any."""
         declarations: tuple[ir.Declaration, ...] = ()
         if self.flags is not None:
-            type = ir.ArrayType(ir.BoolType(), (ir.IntLiteral(self.last_flag),))
+            type = ir.ArrayType(ir.BoolType(), (ir.IntLiteral(self.flag_count()),))
             storage = "persistent" if self.flags_watched else "variable"
             declarations = (ir.Variable(self.flags, type, storage=storage, scope="global"),)
         routines = tuple(self.access(what, name) for what, name in self.dynamic.items())
@@ -199,7 +224,7 @@ class _Named:
 
     def access(self, what: str, name: str) -> ir.Routine:
         verb, _, kind = what.partition("_")
-        type: ir.Type = ir.RealType() if kind.startswith("analog") else ir.BoolType()
+        type: ir.Type = _VALUES.get(kind.partition("_")[0], ir.BoolType())
         number, value = ir.Parameter("number", ir.IntType()), ir.Parameter("state", type)
         cases = []
         for index in range(1, self.reach(kind) + 1):
@@ -214,7 +239,7 @@ class _Named:
         switch = ir.Switch(ir.Name("number"), tuple(cases), failed)
         if verb == "set":
             return ir.Routine(name, "procedure", (number, value), body=(switch,), scope="global")
-        zero: ir.Expression = ir.RealLiteral(0.0) if isinstance(type, ir.RealType) else ir.BoolLiteral(False)
+        zero: ir.Expression = ir.BoolLiteral(False) if isinstance(type, ir.BoolType) else ir.IntLiteral(0)
         return ir.Routine(name, "function", (number,), type, body=(switch, ir.Return(zero)), scope="global")
 
 
