@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from rpl import ir
+from rpl.ir.walk import walk
 
 from . import nodes
 from .arguments import Bound, given, written
@@ -99,13 +100,31 @@ def one_more(number: ir.Expression) -> ir.Expression:
 
 
 def _part(reader: Expressions, bound: Bound) -> ir.Expression:
-    """str_sub: a length of -1 means up to the end."""
+    """str_sub: a length of -1 means up to the end; a longer one takes what there is."""
     text, start = given(reader, bound, "src"), given(reader, bound, "index", INT)
+    rest: ir.Expression = ir.Binary("-", ir.Builtin("text_length", (text,)), start)
+    match text, start:
+        case ir.TextLiteral(value=written_out), ir.IntLiteral(value=first):
+            rest = ir.IntLiteral(max(len(written_out) - first, 0))
+        case _, ir.IntLiteral(value=0):
+            rest = ir.Builtin("text_length", (text,))
     if isinstance(bound["len"], nodes.Sign):
-        length: ir.Expression = ir.Binary("-", ir.Builtin("text_length", (text,)), start)
-    else:
-        length = given(reader, bound, "len", INT)
+        return ir.Builtin("text_part", (text, one_more(start), rest))
+    length = given(reader, bound, "len", INT)
+    match length, rest:
+        case ir.IntLiteral(value=count), ir.IntLiteral(value=most):
+            length = ir.IntLiteral(min(count, most))
+        case ir.IntLiteral(value=0 | 1), _:
+            pass
+        case _ if not _measured(length):
+            length = ir.Builtin("min", (length, rest))
     return ir.Builtin("text_part", (text, one_more(start), length))
+
+
+def _measured(length: ir.Expression) -> bool:
+    """A length that comes from what was found in a text, or from its length, stays inside of it."""
+    known = ("text_find", "text_length")
+    return any(isinstance(node, ir.Builtin) and node.function in known for node in walk((length,)))
 
 
 def _find(reader: Expressions, bound: Bound) -> ir.Expression:

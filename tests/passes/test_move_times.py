@@ -109,3 +109,14 @@ def test_the_time_of_one_move(target: str) -> None:
     assert [run.status for run in (own, theirs)] == ["finished"] * 2
     assert [len(run.outputs) for run in (own, theirs)] == [3, 3]
     assert "approximated-move-time" not in [item.code.name for item in found]
+
+
+@pytest.mark.parametrize("target", ["krl", "inform"])
+def test_a_timed_move_to_where_the_arm_is_has_a_speed(target: str) -> None:
+    program = "def prog():\n  q = get_actual_joint_positions()\n  servoj(q)\n  set_standard_digital_out(0, True)\nend\n"
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("p.script", program)], "urscript", diagnostics)
+    translation = translate_program(read, target, "ur5e", None, diagnostics)
+    files = [source_from_bytes(one.path, one.data) for one in translation.files]
+    result = run_program(read_sources(files, target, Diagnostics()).program, "ur5e")
+    assert result.fault is None and result.outputs

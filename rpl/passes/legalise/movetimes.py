@@ -120,7 +120,7 @@ class _Times:
         )
         speed = self.constant_speed(move, time) if own is not None else None
         if speed is None:
-            steps = self.way(move)
+            steps = self.way(move, time)
             if not steps:
                 return move
             origin = replace(move.origin, comments=())
@@ -170,8 +170,9 @@ class _Times:
         found = [component(value, name) for name in _AXES]
         return [float(one) for one in found if isinstance(one, int | float)] if None not in found else None
 
-    def way(self, move: ir.Move) -> list[ir.Assign]:
-        """Steps whose first target ends as the length of the way (mm), or as 100 times the seconds at full speed."""
+    def way(self, move: ir.Move, time: ir.Expression) -> list[ir.Assign]:
+        """Steps whose first target ends as the length of the way (mm), or as 100 times the seconds at full speed: no
+        less than 1 percent takes in the time, as a move to where the arm is has a speed too."""
         goal, arm = self.editor.type_of(move.target), self.editor.context.robot
         if not isinstance(move.target, ir.Name | ir.Index):
             return []
@@ -183,7 +184,7 @@ class _Times:
             return []
         share = self.editor.temporary("move_share", ir.RealType())
         now = self.editor.temporary("joints_now", ir.JointsType())
-        steps = [ir.Assign(share, ir.RealLiteral(0.0)), ir.Assign(now, ir.Builtin("current_joints", ()))]
+        steps = [ir.Assign(share, time), ir.Assign(now, ir.Builtin("current_joints", ()))]
         for name, top in zip(_AXES, arm.speeds, strict=False):
             turn = ir.Builtin("abs", (ir.Binary("-", ir.Field(move.target, name), ir.Field(now, name)),))
             needed = ir.Binary("*", turn, ir.RealLiteral(round(100.0 / float(top), 6)))
