@@ -21,12 +21,19 @@ EVERY = ("krl", "rapid", "urscript", "vplus", "inform", "rpl")
 
 WORDS = (
     ("R[1]=7.9\nR[2]=R[1] DIV 2\nIF R[2]=3,DO[1]=ON", EVERY),
+    # signals by computed numbers, of a group too; named inputs as numbers
+    ("R[1]=106\nDO[R[1]]=ON\nR[2]=101\nR[3]=DI[R[2]]\nIF (R[3]=0 AND DO[106]),DO[1]=(ON)", EVERY),
+    ("R[1]=1\nGO[R[1]]=3\nF[100]=ON\nR[2]=RI[1]\nIF (F[100] AND R[2]=1 AND GO[1]=3),DO[1]=(ON)", ("rapid", "rpl")),
+    # frames by their variables, components by computed numbers
+    ("PR[1]=P[2]\nR[1]=3\nIF (PR[1,R[1]]=200) THEN\nDO[1]=ON\nENDIF", EVERY),
+    ("SR[1]='12abc'\nR[1]=SR[1]\nIF R[1]=12,DO[1]=ON", EVERY),
     # what an action on the path sets is worked out when it comes
     (
         START + "R[1]=0\nL P[3] 100mm/sec CNT50 TB .10sec,R[1]=4\nL P[4] 100mm/sec FINE\nIF R[1]=4,DO[1]=ON",
         ("krl", "rapid", "urscript", "vplus", "rpl"),
     ),
     (START + "L P[3] 100mm/sec FINE TB .10sec,DO[1]=(DI[1] AND !DI[2])", ("krl", "rapid", "urscript", "vplus", "rpl")),
+    (START + "L P[3] 100mm/sec FINE TB .10sec,F[3]=ON\nWAIT .10(sec)\nDO[1]=(F[3])", EVERY),
     (START + "L P[3] 100mm/sec FINE TB .10sec,DO[2]=PULSE,0.4sec\nWAIT 1.0(sec)\nDO[1]=ON", EVERY),
 )
 CASES = [(lines, target) for lines, targets in WORDS for target in targets]

@@ -116,7 +116,8 @@ class _Stored:
 
     def by_a_trap(self, action: ir.Assign) -> bool:
         """Does only a routine do this: a variable that gets a value, or a signal that gets what is worked out then?"""
-        switched = isinstance(action.target, ir.Signal) and not isinstance(action.value, ir.Binary | ir.Unary)
+        output = isinstance(action.target, ir.Signal) and action.target.kind != "flag"
+        switched = output and not isinstance(action.value, ir.Binary | ir.Unary)
         names = {node.id.lower() for node in walk(action) if isinstance(node, ir.Name)}
         called = any(isinstance(node, ir.Call) for node in walk(action))
         return not switched and not called and names <= self.everywhere
