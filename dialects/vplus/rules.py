@@ -38,4 +38,5 @@ RULES = Rules(
         "held_work": False,
     },
     errors=tables.ERRORS,
+    errors_looked_for=frozenset(("division_by_zero", "negative_argument")),
 )

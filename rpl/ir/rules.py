@@ -41,7 +41,8 @@ class Rules:
     blend_levels: distance in mm of each numbered blend level (INFORM PL). array_base: index of the first element of a
     list that is written out. number_marks: what stands before the digits of a number to another base, also in a text
     that is read as a number (longest first, in small letters). leading_numbers: such a text may go on behind its
-    number, and without one it is 0. text_decimals: a number with a fraction shows so
+    number, and without one it is 0. errors_looked_for: errors of the controller that a handler for everything gets, so
+    that a target whose controller stops at them looks in front. text_decimals: a number with a fraction shows so
     many decimals in a text, without zeros at the end; 0: six digits in all. message_numbers, message_texts: of a
     controller whose messages show constant text only: regular expressions for what names a register of numbers, or
     any other register, in such a text. last_tool: while the program has set no tool, the place of the robot is told
@@ -66,6 +67,7 @@ class Rules:
     array_base: int = 1
     number_marks: Mapping[str, int] = field(default_factory=dict)
     leading_numbers: bool = False
+    errors_looked_for: frozenset[str] = frozenset()
     text_decimals: int = 0
     message_numbers: str = ""
     message_texts: str = ""

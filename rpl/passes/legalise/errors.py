@@ -40,7 +40,7 @@ NOT_CAUGHT = code(
 )
 # Functions that are not defined for every number.
 _PARTIAL = frozenset(("sqrt", "log", "asin", "acos"))
-_DIVISION, _BOUND = "division_by_zero", "out_of_range"
+_DIVISION, _BOUND, _ARGUMENT = "division_by_zero", "out_of_range", "negative_argument"
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,8 +55,9 @@ def check_errors(program: ir.Program, context: Context) -> ir.Program:
     """The program with errors as values that are passed on and looked at."""
     if context.capabilities.error_handlers:
         return program
-    _report_not_caught(program, context)
     facts = raising_of(program)
+    if _ARGUMENT not in facts.caught:
+        _report_not_caught(program, context)
     if not facts.used:
         return program
     scopes, effects = ProgramScope(program), Effects(program)
@@ -180,6 +181,11 @@ class _Passing(Hoister):
                     before.append(ir.Assign(divisor, right))
                 before.append(ir.If(((ir.Binary("=", divisor, ir.IntLiteral(0)), (ir.Raise(number),)),)))
                 return tuple(before), replace(expression, right=divisor)
+            case ir.Builtin(function="sqrt", arguments=(value,)) if _ARGUMENT in self.facts.caught:
+                root = self.editor.temporary("radicand", ir.RealType())
+                negative = ir.Binary("<", root, ir.IntLiteral(0))
+                check = ir.If(((negative, (ir.Raise(self.facts.caught[_ARGUMENT]),)),))
+                return (ir.Assign(root, value), check), replace(expression, arguments=(root,))
             case ir.Index():
                 return self.bounded(expression)
         return None

@@ -13,7 +13,8 @@ from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 
 _WAIT, _DIALOG, _DIVISION, _BOUND = "timeout", "dialog_timeout", "division_by_zero", "out_of_range"
-_SEEN = frozenset((_WAIT, _DIALOG, _DIVISION, _BOUND))
+_ARGUMENT = "negative_argument"
+_SEEN = frozenset((_WAIT, _DIALOG, _DIVISION, _BOUND, _ARGUMENT))
 _UNKNOWN_ERROR = 1
 
 
@@ -72,6 +73,8 @@ class Raising:
                 return _DIVISION in self.caught and not is_constant(right)
             case ir.Index(indices=indices):
                 return _BOUND in self.caught and not all(map(is_constant, indices))
+            case ir.Builtin(function="sqrt"):
+                return _ARGUMENT in self.caught
         return False
 
     def body_raises(self, routine: ir.Routine) -> bool:
@@ -132,6 +135,9 @@ def raising_of(program: ir.Program) -> Raising:
     for module in program.modules:
         errors = rules_of(module.dialect).errors
         facts._spelled.update(name.lower() for name in errors)
+        catches = any(not one.codes for routine in module.routines for one in routine.handlers)
+        for name in sorted(rules_of(module.dialect).errors_looked_for) if catches else ():
+            facts.caught[name] = _literal(errors[name])
         facts._numbers.update((neutral_name(name), number) for name, number in errors.items())
     scopes = ProgramScope(program)
     routines = list(scopes.routines())
@@ -151,6 +157,10 @@ def raising_of(program: ir.Program) -> Raising:
             if not facts.is_top(routine) and facts.lets_out(routine):
                 facts._out.add(routine.name.lower())
     return facts
+
+
+def _literal(number: int) -> ir.Expression:
+    return ir.IntLiteral(number) if number >= 0 else ir.Unary("-", ir.IntLiteral(-number))
 
 
 def _note(facts: Raising, statement: ir.Statement, scope: Scope) -> None:
