@@ -40,8 +40,8 @@ ENDMODULE
 def test_the_number_in_force_is_selected_again_behind_the_reading() -> None:
     files, _ = same_in_tp("rapid", SEEN)
     main = [line.partition(":")[2].removesuffix(" ;").strip() for line in files["MAIN.LS"].splitlines()]
-    looks = [at for at, line in enumerate(main) if line == "PR[6:pNow]=LPOS"]
-    assert main[looks[0] - 1 : looks[0] + 2] == ["UFRAME_NUM=2", "PR[6:pNow]=LPOS", "UFRAME_NUM=1"]  # tool in force
+    looks = [at for at, line in enumerate(main) if line.endswith(":pNow]=LPOS")]
+    assert [main[looks[0] - 1], main[looks[0] + 1]] == ["UFRAME_NUM=2", "UFRAME_NUM=1"]  # tool in force
     assert "UFRAME_NUM=0" in main[looks[-1] - 4 : looks[-1]] and main[looks[-1] + 1] == "UFRAME_NUM=1"
     look = files["LOOK.LS"]  # what is in force there depends on the caller
     assert "R[200:UFRAME in use]=$MNUFRAMENUM[1] ;" in look and "UFRAME_NUM=R[200:UFRAME in use] ;" in look

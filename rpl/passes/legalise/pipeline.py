@@ -160,7 +160,7 @@ from rpl.passes.legalise.turnedways import turned_ways
 from rpl.passes.legalise.turningtimes import turning_times
 from rpl.passes.legalise.undefined import asked_values
 from rpl.passes.legalise.undefinedparts import asked_elements
-from rpl.passes.legalise.unused import drop_untyped, drop_unused
+from rpl.passes.legalise.unused import drop_idle_data, drop_untyped, drop_unused
 from rpl.passes.legalise.usedelements import used_elements
 from rpl.passes.legalise.valuearrays import copy_value_arrays
 from rpl.passes.legalise.waits import fit_waits
@@ -353,6 +353,7 @@ PASSES: tuple[Pass, ...] = (
     one_spelling,
     truths_to_numbers,
     share_temporaries,
+    drop_idle_data,
     number_data,
 )
 

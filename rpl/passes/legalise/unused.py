@@ -1,4 +1,5 @@
-"""Drop what nothing uses: parts of the source's prelude, generated records, and routines without types.
+"""Drop what nothing uses: parts of the source's prelude, generated records, routines without types, and data that would
+only take up numbers.
 
 A language whose parameters have no type (URScript) takes it from the calls. Of a routine that nothing calls the type of
 a parameter may stay unknown; a target with types cannot declare it, and nothing would run it.
@@ -11,7 +12,9 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.parameters import ARGUMENTS
 from rpl.passes.rewrite import rewrite_parts
+from rpl.source import NOWHERE
 
 NEVER_CALLED = code(
     "routine-never-called",
@@ -19,6 +22,7 @@ NEVER_CALLED = code(
     "{name} is called nowhere, and the type of {what} is known to no other language; it is left out",
     "call it once with an example of its values if the translation needs it",
 )
+IDLE = code("data-used-nowhere", Severity.INFO, "used nowhere in the program, so without a number: {names}")
 
 _BUILT_IN = frozenset(("tool", "workobject", "load", "speed", "zone", "pose", "vector", "rotation", "joints", "axes"))
 
@@ -73,6 +77,23 @@ def drop_untyped(program: ir.Program, context: Context) -> ir.Program:
         kept = [replace(one, declarations=_without_handles(one.declarations, used, context)) for one in kept]
         declarations = _without_handles(module.declarations, used, context)
         modules.append(replace(module, declarations=declarations, routines=tuple(kept)))
+    return replace(program, modules=tuple(modules))
+
+
+def drop_idle_data(program: ir.Program, context: Context) -> ir.Program:
+    """The program without global data that nothing uses, for targets where it would take a number of its own. Whole
+    records of tools and loads leave such parts when they are taken apart."""
+    if not context.capabilities.banks:
+        return program
+    used = _names(program) | {ARGUMENTS.lower()}
+    modules = []
+    for module in program.modules:
+        idle = [one for one in module.declarations if isinstance(one, ir.Variable) and one.name.lower() not in used]
+        for origin in dict.fromkeys(one.origin for one in idle if one.origin is not NOWHERE):
+            names = ", ".join(one.name for one in idle if one.origin == origin)
+            context.diagnostics.report(IDLE, origin, names=names)
+        gone = set(map(id, idle))
+        modules.append(replace(module, declarations=tuple(d for d in module.declarations if id(d) not in gone)))
     return replace(program, modules=tuple(modules))
 
 
