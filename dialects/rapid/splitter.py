@@ -221,7 +221,7 @@ class _Splitter:
     def proves_an_end(self, word: str, first: str, start: int, at: int) -> bool:
         if word in ("THEN", "DO"):
             return False
-        if word == "TASK" or (word in ("PERS", "VAR", "CONST") and first in ("LOCAL", "TASK")):
+        if word == "TASK" or (word in ("PERS", "VAR", "CONST", "ALIAS") and first in ("LOCAL", "TASK")):
             return first not in ("LOCAL", "TASK") and self.begins_line(at)
         if first == "IF" and word in ("IF", "TEST", "FOR", "WHILE"):
             return self.begins_line(at)

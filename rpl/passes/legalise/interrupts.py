@@ -10,6 +10,7 @@ from types import UnionType
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
 from rpl.passes.legalise.changes import watched_changes
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.interruptnumbers import known_interrupts
@@ -90,6 +91,10 @@ def _flag(condition: ir.Expression) -> ir.Expression | None:
     return None
 
 
+def _with_traps(module: ir.Module, traps: list[ir.Routine]) -> ir.Module:
+    return replace(module, routines=(*module.routines, *traps)) if traps else module
+
+
 def _literal(value: ir.Expression) -> bool:
     if isinstance(value, ir.Unary) and value.op == "-":
         value = value.operand
@@ -113,6 +118,7 @@ class _Traps:
     context: Context
     traps: dict[int, _Trap] = field(default_factory=dict)
     made: list[ir.Routine] = field(default_factory=list)
+    homes: dict[str, str] = field(default_factory=dict)  # of each trap: the module that declares its interrupt
 
     def program(self) -> ir.Program:
         declared: list[ir.DeclareInterrupt] = []
@@ -121,12 +127,14 @@ class _Traps:
             if isinstance(statement, ir.DeclareInterrupt):
                 declared.append(statement)
 
+        homes: dict[int, str] = {}
         for module in self.source.modules:
             for routine in module.routines:
                 each_statement(routine.body, find)
+            homes.update((at, module.name) for at in range(len(homes), len(declared)))
         if not declared:
             return self.source
-        for one in declared:
+        for at, one in enumerate(declared):
             priority = _priority(one.priority)
             if (
                 priority is not None
@@ -134,6 +142,7 @@ class _Traps:
                 and (_watchable(one.condition) or self.is_signal(one.condition) or self.looked_at(one.condition))
             ):
                 self.add(priority, one)
+                self.homes[self.made[-1].name] = homes[at]
         program = self.lasting(_map_bodies(self.source, self.body))
         traps = self.traps.values()
         declarations = (
@@ -141,13 +150,26 @@ class _Traps:
             *(ir.Variable(one.held, ir.BoolType(), ir.BoolLiteral(False), scope="global") for one in traps if one.held),
         )
         first = program.modules[0]
-        home = ir.Module(
-            self.context.fresh("rpl_traps"), first.dialect, declarations, tuple(self.made), task=first.task
-        )
         if not self.traps:
             return program
+        beside = {one.name: self.homes[one.name] for one in self.made if self.names_own_data(one)}
+        others = tuple(one for one in self.made if one.name not in beside)
+        home = ir.Module(self.context.fresh("rpl_traps"), first.dialect, declarations, others, task=first.task)
         program = exposed(program, called_names(self.made))
-        return replace(program, modules=(*program.modules, home))
+        modules = (
+            _with_traps(one, [t for t in self.made if beside.get(t.name) == one.name]) for one in program.modules
+        )
+        return replace(program, modules=(*modules, home))
+
+    def names_own_data(self, trap: ir.Routine) -> bool:
+        """Does it name data that only the module sees in which the interrupt is declared?"""
+        named = {node.id.lower() for node in walk(trap) if isinstance(node, ir.Name)}
+        return any(
+            isinstance(one, ir.Variable) and one.scope == "module" and one.name.lower() in named
+            for module in self.source.modules
+            if module.name == self.homes[trap.name]
+            for one in module.declarations
+        )
 
     def is_signal(self, condition: ir.Expression) -> bool:
         """A declared name of an input or output, or its negation."""

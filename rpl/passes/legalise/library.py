@@ -113,6 +113,11 @@ def _names(words: str) -> list[ir.Expression]:
 
 
 def _frame(library: Library) -> Made:
+    """The six numbers at once where the target can say so: set one by one, angles beyond 90 degrees come out otherwise
+    where a place does not keep its angles."""
+    if not library.context.capabilities.constant_aggregates:
+        whole = ir.Aggregate(tuple((name, ir.Name(name)) for name in COMPONENTS), "pose")
+        return _reals("x y z a b c"), _POSE, (), (ir.Return(whole),)
     body: ir.Body = (*(_set(f"f.{name}", ir.Name(name)) for name in COMPONENTS), ir.Return(ir.Name("f")))
     return _reals("x y z a b c"), _POSE, _local("f", _POSE), body
 

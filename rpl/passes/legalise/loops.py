@@ -271,14 +271,17 @@ class _Loops:
             return None
         own = replace(loop, step=step, scoped=True, automatic=step is None, at_least_once=True, keeps_last=False)
         before: list[ir.Statement] = []
-        if not rule.passes:
+        first = loop.at_least_once and not rule.passes
+        if first:  # by a step that is written: without one it would count the other way
+            own = replace(own, step=loop.step or _number(rule.step), automatic=False)
+        elif not rule.passes:
             start, stop = self.kept(loop.start, "first", loop, before), self.kept(loop.stop, "last", loop, before)
             own = replace(own, start=start, stop=stop)
         if not loop.scoped:
             self.implicit.add(key)
         with self.editor.counting(own):
             done = self.left(own, self.passed_on(own))
-        if not rule.passes:
+        if not rule.passes and not first:
             some = ir.Binary("<=" if rule.step > 0 else ">=", own.start, own.stop)
             return expansion(loop.origin, (*before, ir.If(((some, done),))))
         return done

@@ -414,6 +414,10 @@ class _Steps(Hoister):
         return own or stands_still(value, self.changes)
 
 
+# Units that no such target says of a variable.
+_OTHERS = frozenset(("ms", "min", "m", "cm", "inch", "rad"))
+
+
 def _plain_number(value: ir.Expression) -> ir.Expression:
     """A computed quantity as the arithmetic that it is."""
     match value:
@@ -421,7 +425,9 @@ def _plain_number(value: ir.Expression) -> ir.Expression:
             factor = ir.UNITS[unit]
             done = _plain_number(inner)
             return done if factor == 1.0 else ir.Binary("/", done, ir.RealLiteral(factor), origin=value.origin)
-        case ir.Quantity(value=inner, unit=unit) if not is_operand(inner):
+        case ir.Quantity(value=inner, unit=unit) if not is_operand(inner) or (
+            unit in _OTHERS and not is_constant(inner)
+        ):
             factor = ir.UNITS[unit]
             return inner if factor == 1.0 else ir.Binary("*", inner, ir.RealLiteral(factor), origin=value.origin)
     return value
