@@ -24,6 +24,7 @@ _ZERO = ir.IntLiteral(0)
 _TURNS = (("a", "RZ"), ("b", "RY"), ("c", "RX"))
 _ZYZ = {"zyz_yaw": 3, "zyz_pitch": 4, "zyz_roll": 5}
 _SHORT = 9
+_LONG_JOINTS = 85  # characters of joints; longer ones are calculated in front
 
 
 class Locations:
@@ -66,6 +67,8 @@ class Locations:
         given = [self.expressions.text(named.get(axis, _ZERO)) for axis in tables.AXES]
         if "robax" in named:
             raise self.refuse("joints whose axes are a value of their own")
+        if sum(map(len, given)) > _LONG_JOINTS and self.expressions.notes.steps:
+            given = [one if len(one) <= _SHORT else self.expressions.kept(one, "r") for one in given]
         return f"#PPOINT({', '.join(given)})"
 
     # ---- components

@@ -72,6 +72,7 @@ _KINDS: dict[str, tuple[ir.Type, str]] = {
     "joint_speed": (ir.SpeedType(), "variable"),
     "zone": (ir.ZoneType(), "variable"),
     "joint_zone": (ir.ZoneType(), "variable"),
+    "own_zone": (ir.ZoneType(), "variable"),
     "with_tool": (ir.ToolType(), "persistent"),
     "with_frame": (ir.WorkObjectType(), "persistent"),
 }
@@ -184,6 +185,7 @@ class _Explicit:
             ),
             "zone": _zone(_real(self.default("blend_distance", 0.0))),
             "joint_zone": _zone(_real(self.default("blend_joint", 50.0) * ZONE_MM_PER_PERCENT)),
+            "own_zone": _zone(_real(self.default("blend_distance", 0.0))),
         }
         return tuple(
             ir.Variable(name, _KINDS[kind][0], initial[kind], storage=_KINDS[kind][1], scope="global")
@@ -338,6 +340,9 @@ class _Explicit:
             blend=self.blend(done, known, own),
             settings=(),
         )
+        if isinstance(done.blend, ir.BlendZone) and done.blend.distance is not None and done.blend is not move.blend:
+            stops = ir.Binary("<=", done.blend.distance, _real(0.0))  # no corner is a stop, and no corner of 0 mm
+            before.append(ir.Assign(ir.Field(done.blend.zone, "stop"), stops, origin=later))
         return [*before, done]
 
     def own_speed(self, move: ir.Move, known: Environment, own: dict[str, ir.Expression]) -> ir.Speed:
@@ -385,8 +390,10 @@ class _Explicit:
                 modal = distance is None or (isinstance(distance, ir.Field) and distance.name == "path")
                 if modal:
                     distance = values.get("blend_distance")
+                if not modal and distance is not None and _number(distance) is None:
+                    return ir.BlendZone(self.name("own_zone"), distance=distance)
                 if distance is None or _number(distance) is None:
-                    return ir.BlendZone(self.name("zone"), distance=None if modal else distance)
+                    return ir.BlendZone(self.name("zone"))
                 return ir.BlendZone(_zone(distance))
             case ir.BlendZone():
                 return move.blend
