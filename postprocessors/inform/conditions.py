@@ -17,6 +17,11 @@ def alternatives(condition: ir.Expression, wanted: bool = True) -> list[list[Ato
     match condition:
         case ir.Unary(op="not", operand=inner):
             return alternatives(inner, not wanted)
+        case ir.Binary(op="=" | "<>" as op, left=ir.Signal() as left, right=ir.Signal() as right) if (
+            is_digital(left) and is_digital(right)  # no comparison takes two signals
+        ):
+            same = (op == "=") == wanted
+            return [[atom(left, on), atom(right, on == same)] for on in (True, False)]
         case ir.Binary(op="and" | "cand" | "or" | "cor" as op, left=left, right=right):
             if (op if wanted else _OTHER[op]) in ("or", "cor"):
                 found = [*alternatives(left, wanted), *alternatives(right, wanted)]

@@ -24,6 +24,7 @@ WORDS = (
     # signals by computed numbers, of a group too; named inputs as numbers
     ("R[1]=106\nDO[R[1]]=ON\nR[2]=101\nR[3]=DI[R[2]]\nIF (R[3]=0 AND DO[106]),DO[1]=(ON)", EVERY),
     ("R[1]=1\nGO[R[1]]=3\nF[100]=ON\nR[2]=RI[1]\nIF (F[100] AND R[2]=1 AND GO[1]=3),DO[1]=(ON)", ("rapid", "rpl")),
+    ("R[1]=0\nDO[3]=ON\nIF DI[1]<>DO[3],R[1]=9\nIF DI[1]=DO[3],R[1]=R[1]+1\nIF R[1]=1,DO[1]=ON", EVERY),
     # frames by their variables, components by computed numbers
     ("PR[1]=P[2]\nR[1]=3\nIF (PR[1,R[1]]=200) THEN\nDO[1]=ON\nENDIF", EVERY),
     ("SR[1]='12abc'\nR[1]=SR[1]\nIF R[1]=12,DO[1]=ON", EVERY),
