@@ -88,12 +88,50 @@ PROGRAM = """MODULE Changes
 ENDMODULE
 """
 
+# One interrupt variable, ordered anew at once and in another way.
+AGAIN = """MODULE Again
+  VAR intnum iAgain;
+  VAR num nAgain;
+  VAR intnum iTime;
+  VAR num nTime;
+  PROC main()
+    FOR k FROM 1 TO 2 DO
+      IDelete iAgain;
+      CONNECT iAgain WITH tAgain;
+      ISignalDO do34,1,iAgain;
+      Set do34;
+      WaitTime 0.3;
+      Reset do34;
+      WaitTime 0.3;
+    ENDFOR
+    IDelete iAgain;
+    IF nAgain=2 SetDO do1,1;
+    CONNECT iTime WITH tTime;
+    ITimer\\Single,0.2,iTime;
+    WaitTime 0.7;
+    IDelete iTime;
+    CONNECT iTime WITH tTime;
+    ITimer 0.2,iTime;
+    WaitTime 0.7;
+    IDelete iTime;
+    IF nTime=4 SetDO do2,1;
+  ENDPROC
+  TRAP tAgain
+    Incr nAgain;
+  ENDTRAP
+  TRAP tTime
+    Incr nTime;
+  ENDTRAP
+ENDMODULE
+"""
 
+
+@pytest.mark.parametrize(("program", "count"), [(PROGRAM, 4), (AGAIN, 2)], ids=["changes", "again"])
 @pytest.mark.parametrize("target", sorted(set(registry.target_names()) - {"rapid"}))
-def test_changes_and_numbers_of_interrupts_in_every_language(target: str) -> None:
+def test_changes_and_numbers_of_interrupts_in_every_language(target: str, program: str, count: int) -> None:
     diagnostics = Diagnostics()
-    read = read_sources([source_from_text("Changes.mod", PROGRAM)], "rapid", diagnostics)
-    assert met(run_program(read.program, ARM)) == 4
+    read = read_sources([source_from_text("Changes.mod", program)], "rapid", diagnostics)
+    assert met(run_program(read.program, ARM)) == count
     written = translate_program(read, target, ARM, None, diagnostics)
     assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
     again = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, diagnostics)
@@ -101,15 +139,15 @@ def test_changes_and_numbers_of_interrupts_in_every_language(target: str) -> Non
     cell = in_words_of(parse_cell(""), read.program, named)
     run = run_program(named, ARM, cell, written.renamed.get("main", "main"))
     assert run.status == "finished", run.fault
-    assert met(run) == 4, run.outputs
+    assert met(run) == count, run.outputs
 
 
 def met(result: RunResult) -> int:
-    """How many of the outputs 1 ... 4 have been switched on, whatever the language calls them."""
+    """How many of the outputs 1 ... 6 have been switched on, whatever the language calls them."""
     found = set()
     for event in result.trace:
         if event.kind == "output" and event.data.get("value"):
             kind, index, last, _ = event.port or (None, None, None, None)
             known = [str(name) for name in (event.data.get("signal"), *event.names) if name]
             found |= set(signal_names(kind, known, index, last))
-    return len(found & {f"digital_out:{number}" for number in range(1, 5)})
+    return len(found & {f"digital_out:{number}" for number in range(1, 7)})

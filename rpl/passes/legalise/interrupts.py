@@ -14,6 +14,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.changes import watched_changes
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.interruptnumbers import known_interrupts
+from rpl.passes.legalise.orderways import one_way_each
 from rpl.passes.legalise.reconnected import one_trap_each
 from rpl.passes.legalise.usage import base_name, called_names, each_statement, exposed
 from rpl.passes.rewrite import rewrite_parts
@@ -34,7 +35,10 @@ def interrupts(program: ir.Program, context: Context) -> ir.Program:
         return _Traps(program, context).program()
     if "ConnectInterrupt" not in statements and "DeclareInterrupt" in statements:
         program = known_interrupts(watched_changes(program, context), context)
-        return _Priorities(one_trap_each(program, context), context).program()
+        program = one_trap_each(program, context)
+        if "timer_positive" not in context.capabilities.system_variables:  # else a number may be declared anew
+            program = one_way_each(program, context)
+        return _Priorities(program, context).program()
     return program
 
 

@@ -251,7 +251,23 @@ class _Watches:
     # ---- statements
 
     def body(self, body: ir.Body) -> ir.Body:
-        return map_body(body, self.statement)
+        done = map_body(body, self.statement)
+        return done if done is body else self.armed_anew(done)
+
+    def armed_anew(self, body: ir.Body) -> ir.Body:
+        """Without disarming what is armed again at once: the task that watches would take the moment between for an
+        end of its waiting, and look no more at what it has waited for."""
+        began = {watch.armed: watch.was for watch in self.watches.values() if watch.key not in self.periods}
+        done: list[ir.Statement] = []
+        for statement in body:
+            if (armed := _switched(statement, True)) in began:
+                place = len(done)
+                while place and _target(done[place - 1]) in (armed, began[armed]):
+                    place -= 1
+                    if _switched(done[place], False) == armed and not done[place].origin.comments:
+                        del done[place]
+            done.append(statement)
+        return tuple(done)
 
     def statement(self, statement: ir.Statement) -> ir.Body:
         match statement:
@@ -331,3 +347,19 @@ def _set(name: str, value: bool, statement: ir.Statement) -> ir.Statement:
 
 
 __all__ = ["watching"]
+
+
+def _target(statement: ir.Statement) -> str:
+    """The variable that a statement assigns to."""
+    match statement:
+        case ir.Assign(target=ir.Name(id=name)):
+            return name
+    return ""
+
+
+def _switched(statement: ir.Statement, value: bool) -> str:
+    """The variable that a statement sets to this truth value."""
+    match statement:
+        case ir.Assign(value=ir.BoolLiteral(value=written)) if written == value:
+            return _target(statement)
+    return ""
