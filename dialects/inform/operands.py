@@ -136,6 +136,11 @@ class Operands:
         return ir.Name(name, origin=self.origin)
 
     def register(self, register: Numbered) -> ir.Expression:
+        """A variable of its own where no job computes the number of one."""
+        number = register.number
+        if isinstance(number, ir.IntLiteral) and not {"MREG", "M"} & self.shared.project.indirect:
+            self.shared.used.scalar(f"MREG{number.value:03d}", ir.IntType(), self.origin)
+            return ir.Name(f"MREG{number.value:03d}", origin=self.origin)
         self.shared.used.array("MREG", ir.IntType(), LAST_INDEX["M"], self.origin)
         return ir.Index(ir.Name("MREG", origin=self.origin), (self.final(register.number),), origin=self.origin)
 

@@ -15,6 +15,7 @@ GROUPS: dict[str, tuple[str, int]] = {
     "IGH": ("group_in", 4),
     "OGH": ("group_out", 4),
 }
+_SINGLE = ("digital_in", "digital_out", "flag")
 # Direct inputs have numbers of their own; here they follow behind all others, so that they can be computed too.
 DIRECT_INPUTS = 9000
 # Signals that have a place of their own in the controller: specific inputs and outputs, auxiliary relays.
@@ -59,7 +60,7 @@ def _line(number: ir.Expression, bits: int, add: int) -> ir.Expression:
 
 
 def is_digital(signal: ir.Expression) -> bool:
-    return isinstance(signal, ir.Signal) and signal.last is None and signal.kind in ("digital_in", "digital_out", "flag")
+    return isinstance(signal, ir.Signal) and signal.last is None and signal.kind in _SINGLE
 
 
 def signal_name(kind: str, number: int) -> str:

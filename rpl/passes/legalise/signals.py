@@ -158,6 +158,12 @@ class _Named:
                 routine = self.routine(f"set_{signal.kind}", statement.origin, signal.kind, index)
                 arguments = (ir.Argument(self.expression(index)), ir.Argument(self.expression(value)))
                 return ir.CallRoutine(routine, arguments, origin=statement.origin)
+            case ir.Pulse(
+                signal=ir.Signal(kind="digital_out", index=index, name=None), value=ir.BoolLiteral(value=True)
+            ) if index is not None and not _constant(index):
+                routine = self.routine("pulse_digital_out", statement.origin, "digital_out", index)
+                arguments = (ir.Argument(self.expression(index)), ir.Argument(self.expression(statement.duration)))
+                return ir.CallRoutine(routine, arguments, origin=statement.origin)
         return rewrite_parts(statement, self.expression, self.body)
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
@@ -230,7 +236,11 @@ class _Named:
         for index in range(1, self.reach(kind) + 1):
             signal_name = self.aliases.get((kind, index)) or f"{self.prefixes.get(kind, kind)}{index}"
             signal = ir.Signal(kind, name=signal_name)
-            act: ir.Statement = ir.Assign(signal, ir.Name("state")) if verb == "set" else ir.Return(signal)
+            act: ir.Statement = ir.Return(signal)
+            if verb == "set":
+                act = ir.Assign(signal, ir.Name("state"))
+            elif verb == "pulse":
+                act = ir.Pulse(signal, ir.BoolLiteral(True), ir.Name("duration"))
             cases.append(ir.Case((ir.IntLiteral(index),), (act,)))
         failed: ir.Body = (
             ir.Message("error", ir.TextLiteral("signal number out of reach")),
@@ -239,6 +249,9 @@ class _Named:
         switch = ir.Switch(ir.Name("number"), tuple(cases), failed)
         if verb == "set":
             return ir.Routine(name, "procedure", (number, value), body=(switch,), scope="global")
+        if verb == "pulse":
+            duration = ir.Parameter("duration", ir.RealType())
+            return ir.Routine(name, "procedure", (number, duration), body=(switch,), scope="global")
         zero: ir.Expression = ir.BoolLiteral(False) if isinstance(type, ir.BoolType) else ir.IntLiteral(0)
         return ir.Routine(name, "function", (number,), type, body=(switch, ir.Return(zero)), scope="global")
 
