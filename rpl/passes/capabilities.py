@@ -46,6 +46,8 @@ class Capabilities:
     move names them (RAPID). for_at_least_once / for_scoped / for_automatic: the target's FOR has exactly that rule.
     postures: `flags` of the notation in a target, or `joints` that a joint move solves near to (targets have none).
     flags: whether the controller has flags with numbers, or the passes give them names (else they are data).
+    most_arguments: how many arguments a call has at most (0: any).
+    asked_frames: whether a program can ask for the frame in force (else a variable keeps it where one does).
     last_flag: the largest number of a flag there is (0: any); flags beyond it are data.
     reads_override: a program may read the override that it can set.
     flags_by_sign: a target's flags name the sign of every axis, so they hold for its very place only.
@@ -199,6 +201,8 @@ class Capabilities:
     flags_by_sign: bool = False
     flags: bool = True
     last_flag: int = 0
+    asked_frames: bool = True
+    most_arguments: int = 0
     reads_override: bool = True
     wrist_paths: bool = True
     data_lists: bool = False

@@ -35,6 +35,11 @@ $OUT[3]=(W[2]==60.0) AND ($VEL_AXIS[4]==30)
 $OUT[4]=$VEL.ORI1==120.0
 CHANGE()
 $OUT[5]=$ACC_AXIS[2]==70
+FOR I=1 TO 3
+  $BASE.Y=I*10.0
+ENDFOR
+$BASE.Z=5.0
+$OUT[6]=($BASE.Y==30.0) AND ($BASE.Z==5.0) AND ($BASE.X==0.0)
 END
 DEF CHANGE()
 $ACC_AXIS[2]=$ACC_AXIS[1]+20
@@ -52,4 +57,4 @@ def test_a_setting_is_what_was_set_last(target: str) -> None:
     entry = entry_name(read.program, None)
     result = run_program(back.program, KUKA, None, translation.renamed.get(entry, entry) if entry else None, 20.0)
     assert result.status == "finished", result.fault
-    assert [value for _, _, value in result.outputs] == [True] * 5
+    assert [value for _, _, value in result.outputs] == [True] * 6

@@ -1,11 +1,12 @@
-"""Settings of the motion that a program reads back (accelerations, turning speeds, single axes' speeds, the look-ahead),
-for targets that have no word to ask for them: a variable keeps what was set last, beside each setting.
+"""Settings of the motion that a program reads back, for targets that have no word to ask for them: accelerations,
+turning speeds, speeds of single axes, the look-ahead, the frame in force. A variable keeps what was set last.
 
 Before the first setting it holds what the source's controller starts with. A setting of single axes is an array.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -20,6 +21,8 @@ _SINGLE = frozenset(
 )
 _OF_AXES = frozenset(("joint_speed", "joint_acceleration", "external_speed", "external_acceleration"))
 _AXES = 6
+_FRAME = "base"
+_POSE = ("x", "y", "z", "a", "b", "c")
 
 
 def kept_settings(program: ir.Program, context: Context) -> ir.Program:
@@ -28,15 +31,16 @@ def kept_settings(program: ir.Program, context: Context) -> ir.Program:
     if can.carries_rules:
         return program
     nodes = list(walk(*program.modules))
-    set_places = {id(node.target) for node in nodes if isinstance(node, ir.Assign)}
-    read = {
-        node.name: node
-        for node in nodes
-        if isinstance(node, ir.System) and node.name in _SINGLE | _OF_AXES and id(node) not in set_places
-    }
+    asked = Counter(node.name for node in nodes if isinstance(node, ir.System))
+    asked.subtract(
+        node.target.name for node in nodes if isinstance(node, ir.Assign) and isinstance(node.target, ir.System)
+    )
+    read = {name for name in _SINGLE | _OF_AXES | {_FRAME} if asked[name] > 0}
     told = {name for move in nodes if isinstance(move, ir.Move) for name in _named(move)}
     wanted = {name for name in read if name not in can.system_variables and name not in told}
     wanted -= {name for name in wanted & _OF_AXES if _as_a_whole(nodes, name)}
+    if not can.asked_frames and _FRAME in read and _FRAME not in told:
+        wanted.add(_FRAME)
     if not wanted:
         return program
     kept = {name: context.fresh(f"rpl_{name}") for name in sorted(wanted)}
@@ -106,11 +110,12 @@ def _data(program: ir.Program, kept: dict[str, str]) -> Iterator[ir.Variable]:
         given = defaults.get(name)
         start = float(given) if isinstance(given, int | float) else 0.0
         number: ir.Expression = ir.RealLiteral(start)
-        if name in _OF_AXES:
-            type: ir.Type = ir.ArrayType(ir.RealType(), (ir.IntLiteral(_AXES),))
+        type: ir.Type = ir.RealType()
+        if name == _FRAME:
+            type, number = ir.PoseType(), ir.Aggregate(tuple((part, ir.RealLiteral(0.0)) for part in _POSE))
+        elif name in _OF_AXES:
+            type = ir.ArrayType(ir.RealType(), (ir.IntLiteral(_AXES),))
             number = ir.Aggregate(((None, number),) * _AXES)
-        else:
-            type = ir.RealType()
         yield ir.Variable(variable, type, number, scope="global")
 
 

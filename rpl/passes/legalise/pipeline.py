@@ -160,6 +160,7 @@ from rpl.passes.legalise.turnedways import turned_ways
 from rpl.passes.legalise.turningtimes import turning_times
 from rpl.passes.legalise.undefined import asked_values
 from rpl.passes.legalise.undefinedparts import asked_elements
+from rpl.passes.legalise.unreadparameters import drop_unread_parameters
 from rpl.passes.legalise.unused import drop_idle_data, drop_untyped, drop_unused
 from rpl.passes.legalise.usedelements import used_elements
 from rpl.passes.legalise.valuearrays import copy_value_arrays
@@ -330,6 +331,7 @@ PASSES: tuple[Pass, ...] = (
     aggregates,
     geometry,
     flat_records,
+    drop_unread_parameters,
     compositions,
     path_events,
     watching,
