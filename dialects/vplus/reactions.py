@@ -104,7 +104,8 @@ class _Body:
                     done.append(replace(statement, handle=shared.identity(number, declared.get(number, 0))))
                 case ir.ControlInterrupt():
                     origin = statement.origin
-                    for other in sorted(self.there[number]) or [0]:
+                    # What a reaction's own program takes away is any of them: none has been declared there.
+                    for other in sorted(self.there[number]) or range(len(shared.variants)):
                         identity = shared.identity(number, other)
                         done.append(replace(statement, handle=identity, origin=origin))
                         origin = replace(origin, comments=())

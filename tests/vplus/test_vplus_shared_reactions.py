@@ -11,13 +11,18 @@ from rpl.simulation import run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
-MORE = ".PROGRAM one()\na = a+1\n.END\n.PROGRAM two()\nb = b+1\n.END\n"
+MORE = ".PROGRAM one()\na = a+1\n.END\n.PROGRAM two()\nb = b+1\n.END\n.PROGRAM once()\nIGNORE 2001\nb = b+1\n.END\n"
 EDGE = "SIGNAL 2001\nWAIT.EVENT , 0.1\nSIGNAL -2001\nWAIT.EVENT , 0.1"
 BALANCED = f"a = 0\nb = 0\nREACT 2001, one\n{EDGE}\nIGNORE 2001\nREACT 2001, two, 5\n{EDGE}\nIGNORE 2001\n{EDGE}"
+# The second one takes itself away; the third finds nothing left of it.
+ONCE = f"a = 0\nb = 0\nREACT 2001, one\n{EDGE}\nIGNORE 2001\nREACT 2001, once, 5\n{EDGE}\n{EDGE}"
 REPLACED = f"a = 0\nb = 0\nREACT 2001, one\n{EDGE}\nREACT 2001, two, 5\n{EDGE}\n{EDGE}\nIGNORE 2001\n{EDGE}"
 
 
-@pytest.mark.parametrize(("steps", "met"), [(BALANCED, "(a == 1) AND (b == 1)"), (REPLACED, "(a == 1) AND (b == 2)")])
+@pytest.mark.parametrize(
+    ("steps", "met"),
+    [(BALANCED, "(a == 1) AND (b == 1)"), (REPLACED, "(a == 1) AND (b == 2)"), (ONCE, "(a == 1) AND (b == 1)")],
+)
 def test_each_reaction_is_its_own(steps: str, met: str) -> None:
     result = run(f"{steps}\nIF {met} THEN\nSIGNAL 1\nEND", MORE)
     assert outputs(result)[-1] == ("1", True)
