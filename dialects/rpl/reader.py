@@ -19,6 +19,7 @@ from rpl.source import Comment, Origin, Source
 from .affixment import Affixment, affix
 from .blocks import DECLARED, Builder, lower, scoped
 from .expressions import Reading
+from .signalparameters import with_signal_parameters
 from .splitter import NUMBERS, split
 
 REPLACED = code(
@@ -50,7 +51,7 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
         found = _File(source)
         for item in assembly.items:
             found.take(item)
-        modules.extend(affix(module, affixed) for module in found.finish())
+        modules.extend(with_signal_parameters(affix(module, affixed)) for module in found.finish())
         tasks.extend(found.tasks)
         places.extend(found.places)
         entry = entry or found.entry

@@ -67,7 +67,7 @@ FUNCTIONS: dict[str, Function] = _table(
     euler_y        | r        | n | rotation about y of the ZYX Euler angles
     euler_z        | r        | n | rotation about z of the ZYX Euler angles
     rotation_zyx   | nnn      | r | rotation from ZYX Euler angles (about z, new y, new x)
-    frame_from_points | vvvi? | p | frame through three points: origin on the line first-second nearest third (0) etc.
+    frame_from_points | vvvi? | p | frame through points; origin: first (1, usual), second (2), their line at third (3)
     current_target | x?x?     | p | where the tool centre point is (tool, frame; else the modal ones)
     current_joints |          | j | the joints now
     current_position | x?x?   | v | position of the tool centre point now
@@ -142,7 +142,7 @@ PROCEDURES: dict[str, Function] = _table(
     text_clear     | l        | b | make empty
     parse_number   | tl       | b | text to number; FALSE when it is none
     parse_value    | tl       | b | text to a value of the variable's type; FALSE when it is none
-    format_into    | lll tx*  | b | append formatted values to a text at an offset; state, offset are written
+    format_into    | lll tx*  | b | append formatted values to a text at an offset: text, state, offset (written)
     scan_from      | tll tl*  | b | read formatted values from a text from an offset
     increment      | ln?      | n | add (1)
     decrement      | ln?      | n | subtract (1)
