@@ -92,6 +92,7 @@ from rpl.passes.legalise.onemove import settings_of_one_move
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.overrides import full_override
 from rpl.passes.legalise.ownplaces import own_places
+from rpl.passes.legalise.ownrecords import apart_from_neutral_records
 from rpl.passes.legalise.parameters import fit_arguments
 from rpl.passes.legalise.partialplaces import partial_places
 from rpl.passes.legalise.pathevents import path_events
@@ -217,6 +218,7 @@ PASSES: tuple[Pass, ...] = (
     without_empty_reactions,
     interrupt_places,
     link_prelude,
+    apart_from_neutral_records,
     used_elements,
     possible_cases,
     constant_orientations,
