@@ -16,7 +16,7 @@ from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.datalists import moving_entries
 from rpl.passes.legalise.helpers import Helpers
 from rpl.passes.legalise.modal import DROPPED, JOINT_BLEND, MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
-from rpl.passes.legalise.usage import base_name, each_expression, each_statement, usage_of
+from rpl.passes.legalise.usage import base_name, doing, each_statement, usage_of
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import component_names
@@ -70,6 +70,7 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     entries = moving_entries(program)
     looks_ahead = "advance" in context.capabilities.system_variables
     on_paths = any(isinstance(node, ir.Move) and node.kind != "joint" for node in walk(*program.modules))
+    quiet = _quiet(program)
     modules = []
     for module in program.modules:
         routines = []
@@ -77,7 +78,7 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
             if looks_ahead and routine.name.lower() in entries and routine.body:
                 routine = _looking_ahead(routine, rules_of(context.target).advance.moves)
                 routine = _slowing(routine, context) if on_paths else routine
-            worker = Modal(context, scopes.routine(module, routine), assigned, reported, usual)
+            worker = Modal(context, scopes.routine(module, routine), assigned, reported, usual, quiet)
             handlers = tuple(replace(handler, body=worker.body(handler.body, {})) for handler in routine.handlers)
             routines.append(replace(routine, body=worker.body(routine.body, {}), handlers=handlers))
         modules.append(replace(module, routines=tuple(routines)))
@@ -151,9 +152,10 @@ class Modal:
         assigned: set[str],
         reported: set[Code],
         usual: frozenset[str] = frozenset(),
+        quiet: frozenset[str] = frozenset(),
     ) -> None:
         self.context, self.scope, self.assigned, self.reported = context, scope, assigned, reported
-        self.usual = usual
+        self.usual, self.quiet = usual, quiet
         ours = rules_of(context.source).advance
         self.at_corners = (
             {"Trigger", "LookAhead"} <= context.capabilities.statements
@@ -217,20 +219,43 @@ class Modal:
             case ir.Label():
                 known.clear()
                 return [statement]
-            case ir.CallRoutine() | ir.Do() | ir.TaskControl():
+            case ir.TaskControl():
                 known.clear()
+                return [statement]
+            case ir.CallRoutine() | ir.Do():
+                self.passed(statement, known)
                 return [statement]
             case ir.If() | ir.Switch():
                 choice = rewrite_parts(statement, lambda e: e, lambda inner: self.body(inner, dict(known)))
-                if _leaves_modal_state(statement):
-                    each_statement((statement,), lambda inner: self.changed(_assigned(inner), known))
-                else:
-                    known.clear()
+                self.passed(statement, known)
                 return [choice]
         new = rewrite_parts(statement, lambda e: e, lambda inner: self.body(inner, {}))
         if new is not statement:
-            known.clear()
+            self.passed(statement, known)
         return [new]
+
+    def passed(self, statement: ir.Statement, known: Environment) -> None:
+        """What is still known behind a statement that may set something, itself or in what it calls."""
+        if not self.leaves_modal_state(statement):
+            known.clear()
+        elif any(isinstance(node, ir.CallRoutine | ir.Call | ir.Do) for node in walk(statement)):
+            for key in [key for key, value in known.items() if _names(value) & self.assigned]:
+                del known[key]
+        else:
+            each_statement((statement,), lambda inner: self.changed(_assigned(inner), known))
+
+    def leaves_modal_state(self, statement: ir.Statement) -> bool:
+        """Can nothing inside change what was set: no move, no setting, no label to jump to, no call that does such?"""
+        for node in walk(statement):
+            match node:
+                case ir.CallRoutine(name=name, dynamic=None) | ir.Call(name=name):
+                    if name.lower() not in self.quiet:
+                        return False
+                case ir.Label():
+                    return False
+                case _ if _sets(node):
+                    return False
+        return True
 
     def changed(self, name: str | None, known: Environment) -> None:
         """Forget what was set from a variable that changes now."""
@@ -390,23 +415,27 @@ class Modal:
         return ir.BlendDistance(ir.System("blend_distance"))
 
 
-def _leaves_modal_state(statement: ir.Statement) -> bool:
-    """Can nothing inside change what was set: no move, no call, no setting, no label to jump to?"""
-    quiet = True
+def _quiet(program: ir.Program) -> frozenset[str]:
+    """Routines (folded names) that set nothing modal, in themselves or in what they call."""
+    routines = frozenset(routine.name.lower() for module in program.modules for routine in module.routines)
 
-    def look(inner: ir.Statement) -> None:
-        nonlocal quiet
-        match inner:
-            case ir.Move() | ir.Spline() | ir.CallRoutine() | ir.Do() | ir.Label() | ir.Assign(target=ir.System()):
-                quiet = False
-        each_expression(inner, call)
+    def loud(node: object) -> bool:
+        match node:
+            case ir.CallRoutine(name=name, dynamic=None) | ir.Call(name=name):
+                return name.lower() not in routines
+        return _sets(node)
 
-    def call(expression: ir.Expression) -> None:
-        nonlocal quiet
-        quiet = quiet and not isinstance(expression, ir.Call)
+    return routines - doing(program, loud)
 
-    each_statement((statement,), look)
-    return quiet
+
+def _sets(node: object) -> bool:
+    """Is it something that sets what is modal, or may do so?"""
+    match node:
+        case ir.Move() | ir.MoveExternal() | ir.Spline() | ir.Assign(target=ir.System()) | ir.CallRoutine():
+            return True
+        case ir.TaskControl() | ir.Vendor() | ir.Opaque():
+            return True
+    return False
 
 
 def _assigned(statement: ir.Statement) -> str | None:
@@ -437,6 +466,10 @@ def _limited(percent: ir.Expression) -> ir.Expression:
     if isinstance(percent, ir.RealLiteral):
         return ir.RealLiteral(min(100.0, max(0.01, percent.value)))
     return ir.Builtin("min", (ir.RealLiteral(100.0), percent))
+
+
+def _names(value: ir.Expression) -> set[str]:
+    return {node.id.lower() for node in walk(value) if isinstance(node, ir.Name)}
 
 
 def _mentions(value: ir.Expression, name: str) -> bool:
