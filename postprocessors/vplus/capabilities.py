@@ -55,6 +55,7 @@ CAPABILITIES = Capabilities(
     reads_override=False,
     module_points="global",
     last_flag=tables.LAST_FLAG,
+    most_arguments=8,  # a call stands in one line: what nothing reads is left out of longer ones
     notation="vplus",
     rotation="zyx",
     conversions=tables.words("real round_half_away trunc bit truth minus_bit floor code char"),

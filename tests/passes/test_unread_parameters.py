@@ -31,3 +31,27 @@ def test_a_path_form_with_all_its_data_in_tp() -> None:
     result = run_program(back.program, KUKA, None, "JOB", 30.0)
     assert result.status == "finished", result.fault
     assert [value for _, _, value in result.outputs] == [True]
+
+
+MESSAGE = """DEF JOB()
+DECL KRLMSG_T M
+DECL KRLMSGPAR_T P[3]
+DECL KRLMSGOPT_T O
+DECL INT H
+M={MODUL[] "CELL",NR 1,MSG_TXT[] "hello"}
+O={VL_STOP FALSE,CLEAR_P_RESET TRUE,CLEAR_P_SAW FALSE,LOG_TO_DB FALSE}
+H=Set_KrlMsg(#NOTIFY,M,P[],O)
+$OUT[1]=H>0
+END
+"""
+
+
+def test_a_user_message_fits_in_a_line_of_vplus() -> None:
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("job.src", MESSAGE)], "krl", diagnostics)
+    translation = translate_program(read, "vplus", KUKA, None, diagnostics)
+    assert not [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], "vplus", Diagnostics())
+    result = run_program(back.program, KUKA, None, translation.renamed.get("JOB", "JOB"), 10.0)
+    assert result.status == "finished", result.fault
+    assert [value for _, _, value in result.outputs] == [True]
