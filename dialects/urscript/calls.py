@@ -269,6 +269,18 @@ def _norm(calls: Calls, bound: Bound) -> ir.Expression | None:
     return ir.Builtin("sqrt", (total,)) if total is not None else None
 
 
+def _normalized(calls: Calls, bound: Bound) -> ir.Expression | None:
+    """A list as a vector of length 1."""
+    value = written(bound, "v")
+    kind = calls.kind(value)
+    length = _norm(calls, {"a": value}) if kind is not None and kind.word == "list" else None
+    if kind is None or kind.length is None or length is None:
+        return None
+    size = calls.kept_apart(length, REAL)
+    parts = [calls.element(value, place) for place in range(kind.length)]
+    return ir.Aggregate(tuple((None, ir.Binary("/", part, size)) for part in parts if part is not None))
+
+
 def _length(calls: Calls, bound: Bound) -> ir.Expression | None:
     value = bound["v"]
     assert value is not None  # it has to be given
@@ -345,6 +357,7 @@ VALUES: dict[str, Make] = {
     "floor": _plain("floor", "f"),
     "ceil": _plain("ceil", "f"),
     "norm": _norm,
+    "normalize": _normalized,
     "random": _plain("random"),
     "length": _length,
     "get_list_length": _length,

@@ -166,6 +166,7 @@ _MEANT = """
     floor(f:n) i
     ceil(f:n) i
     norm(a:x) n
+    normalize(v:x) l
     random() n
     length(v:x) i
     get_list_length(v:x) i

@@ -350,6 +350,8 @@ def _special(expression: nodes.Apply, kinds: list[Kind | None], result: Kind | N
         count = expression.arguments[0][1] if expression.arguments else None
         if isinstance(count, nodes.Number):  # the first element tells how many came
             return list_of(result.element, int(count.value) + 1)
+    if expression.name == "normalize" and first is not None:
+        return list_of(REAL, first.length)
     if expression.name in ("inv", "transpose") and first is not None:
         return first
     if expression.name == "wrench_trans":

@@ -54,6 +54,11 @@ CASES = {
         "is_within_safety_limits(get_actual_tcp_pose()) and not is_within_safety_limits(p[3, 0, 0, 0, 0, 0])",
         "is_within_safety_limits([0, -1.5, 1.5, 0, 0.5, 0])",
     ),
+    "a vector of length 1": (
+        "v = [3, 0, 4]\nn = normalize(v)",
+        "norm(n[0] - 0.6) < 0.0001 and norm(n[2] - 0.8) < 0.0001",
+        "norm(norm(normalize([1.0, 2.0, 2.0])) - 1) < 0.0001",
+    ),
     "an assertion that holds": ("a = 1\nassert(a == 1)\na = 2", "a == 2"),
 }
 
