@@ -48,11 +48,12 @@ def whole_targets(program: ir.Program, context: Context) -> ir.Program:
     if capabilities.relative_moves and capabilities.partial_targets:
         return program
     scopes, unchanged = ProgramScope(program), unchanged_in(program)
+    goes_on = any(isinstance(node, ir.Move) and _goes_on(node) for node in walk(*program.modules))
     modules = []
     for module in program.modules:
         routines = []
         for routine in module.routines:
-            worker = Whole(context, scopes.routine(module, routine), unchanged)
+            worker = Whole(context, scopes.routine(module, routine), unchanged, goes_on)
             body = worker.body(routine.body)
             declarations = (*routine.declarations, *worker.declared)
             routines.append(replace(routine, body=body, declarations=declarations))
@@ -61,10 +62,11 @@ def whole_targets(program: ir.Program, context: Context) -> ir.Program:
 
 
 class Whole:
-    """The moves of one routine, and the variables that they need."""
+    """The moves of one routine, and the variables that they need. `goes_on`: does any move of the program go on into
+    the next one?"""
 
-    def __init__(self, context: Context, scope: Scope, unchanged: Unchanged) -> None:
-        self.context, self.scope, self.unchanged = context, scope, unchanged
+    def __init__(self, context: Context, scope: Scope, unchanged: Unchanged, goes_on: bool = False) -> None:
+        self.context, self.scope, self.unchanged, self.goes_on = context, scope, unchanged, goes_on
         self.declared: list[ir.Declaration] = []
 
     def body(self, body: ir.Body) -> ir.Body:
@@ -75,6 +77,7 @@ class Whole:
                 moved = self.whole(arc, done) if self.needs_work(arc) else [arc]
                 done.extend([*first, *moved])
             elif isinstance(statement, ir.Move) and self.is_partial_way(statement):
+                self.stop_before(done, statement)  # such a way begins where the robot is
                 done.append(replace(statement, target=self.whole_way(statement.target)))
             else:
                 done.append(rewrite_parts(statement, lambda expression: expression, self.body))
@@ -159,7 +162,7 @@ class Whole:
         name = self.context.fresh("rpl_here")
         self.declared.append(ir.Variable(name, type, scope="routine"))
         if start is None:
-            self.stop_before(done)
+            self.stop_before(done, move)
             start = ir.System("actual_joints") if joints else here(move)
         later = replace(move.origin, comments=())
         steps: list[ir.Statement] = [ir.Assign(ir.Name(name), start, origin=move.origin)]
@@ -214,7 +217,7 @@ class Whole:
             return [move]
         start = self.last_target(done, move) or self.noted(done, move)
         if start is None:
-            self.stop_before(done)
+            self.stop_before(done, move)
             start = here(move)
         function = "tool_offset" if move.relative == "tool" else "offset"
         steps = tuple(values.get(name, ir.RealLiteral(0.0)) for name in _POSITION)
@@ -314,19 +317,31 @@ class Whole:
         done[:at] = [*before, ir.Assign(place, start, origin=replace(block.origin, comments=()))]
         return place
 
-    def stop_before(self, done: list[ir.Statement]) -> None:
-        """The move before must end where it says, or the robot is asked on its way."""
+    def stop_before(self, done: list[ir.Statement], move: ir.Move) -> None:
+        """The move before must end where it says, or the robot is asked on its way. Where it is not in these steps (in
+        a loop, behind a call), the robot's end is waited for."""
+        rests = False
         for at in range(len(done) - 1, -1, -1):
             statement = done[at]
             if isinstance(statement, ir.Move):
-                if statement.blend not in (None, ir.BlendStop()):
+                if _goes_on(statement):
                     self.context.diagnostics.report(STOPPED_FOR_POSITION, statement.origin)
                     done[at] = replace(statement, blend=ir.BlendStop())
                 return
+            rests = rests or isinstance(statement, ir.WaitForMotion)
+            if isinstance(statement, (*_BLOCKS, *_UNKNOWN_MOVES)):
+                break
+        if self.goes_on and not rests:
+            self.context.diagnostics.report(STOPPED_FOR_POSITION, move.origin)
+            done.append(ir.WaitForMotion(origin=replace(move.origin, comments=())))
 
 
 _BLOCKS = (ir.If, ir.Switch, ir.For, ir.While, ir.Repeat, ir.Loop)
 _UNKNOWN_MOVES = (ir.CallRoutine, ir.Call, ir.Goto, ir.Label, ir.Spline, ir.MoveExternal)
+
+
+def _goes_on(move: ir.Move) -> bool:
+    return move.blend not in (None, ir.BlendStop())
 
 
 def here(move: ir.Move) -> ir.Expression:

@@ -83,7 +83,7 @@ class _Turned(Whole):
     def whole(self, move: ir.Move, done: list[ir.Statement]) -> list[ir.Statement]:
         start = self.last_pose(done, move) or self.noted(done, move)
         if start is None:
-            self.stop_before(done)
+            self.stop_before(done, move)
             tool, frame = (ir.System("null_frame") if name in self.usual else None for name in ("tool", "base"))
             start = here(replace(move, tool=move.tool or tool, frame=move.frame or frame))
         known, way = self.pose(start), self.way(move.target)
