@@ -38,6 +38,11 @@ SKIP_BY_TEXT = code(
     Severity.WARNING,
     "this program sets {what} in several places; here the one of line {line} is taken",
 )
+MARKER = code(
+    "tp-marker-once",
+    Severity.WARNING,
+    "the controller keeps {name} up to date with its expression; here it is worked out once, where it stands",
+)
 MISSING_LABEL = code(
     "tp-missing-label", Severity.WARNING, "this program has no LBL[{number}]; the controller stops at this jump"
 )
@@ -159,6 +164,8 @@ class Statements(Expressions):
             case ir.Index(base=ir.Name(id="UFRAME" | "UTOOL")):
                 return self.frame(target.node, value)
             case ir.Name() | ir.Index() | ir.Field() | ir.Signal() | ir.System():
+                if _is_marker(target.node) and not isinstance(value.node, ir.BoolLiteral):
+                    self.diagnostics.report(MARKER, self.origin, name=self.origin_part("M"))
                 return ir.Assign(target.node, self.converted(value, target.kind), origin=self.origin)
         raise StatementError("nothing can be assigned to this", 0)
 
@@ -462,6 +469,10 @@ class Statements(Expressions):
 
     def on_program_setting(self, tree: SyntaxTree) -> Lowered:
         return self.vendor(self.origin_line(), "none")
+
+
+def _is_marker(place: ir.Expression) -> bool:
+    return isinstance(place, ir.Signal) and (place.name or "")[:1] == "M"
 
 
 def _tree(child: object) -> SyntaxTree:

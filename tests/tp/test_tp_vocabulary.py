@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from tp_reading_helpers import as_rpl, listing, outputs, read, run
+from tp_reading_helpers import as_rpl, listing, outputs, read, reports, run
 
 LAMP = '/PROG  SETLAMP Macro\n/ATTR\nCOMMENT\t\t= "Set Lamp";\n/MN\n   1:  R[1]=AR[1]+AR[2] ;\n/POS\n/END\n'
 LOCALS = listing("R[10001]=R[10001]+1\nR[1]=R[10001]", name="LOCALS")
@@ -54,3 +54,8 @@ def test_pallet_registers_are_the_controllers_own() -> None:
     program, diagnostics = read(listing("PL[1]=[1,R[2],*]\nIF PL[1]=[1,2,3],R[1]=1\nDO[1]=ON"))
     assert not diagnostics.has_errors, [item.as_text() for item in diagnostics]
     assert 'VENDOR tp "PL[1]=[1,R[2],*]" EFFECT unknown' in as_rpl(program)
+
+
+def test_a_marker_is_worked_out_once_and_that_is_told() -> None:
+    _, diagnostics = read(listing("M[1]=(DO[1] AND DI[1])\nM[2]=(ON)"))
+    assert reports(diagnostics) == ["tp-marker-once"]
