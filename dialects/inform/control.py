@@ -57,7 +57,7 @@ class Control(Tasks):
                 self.early = self.early or early
             else:
                 with_actions(done, early, made, self.diagnostics)
-        self.early = None
+        self.early = self.anticipation = None
         return grouped(tuple(done), self.diagnostics)
 
     def item(self, item: Item) -> Statements:

@@ -258,7 +258,7 @@ class Flow:
         items, word = command.items, command.word
         if word in ("CALL", "PSTART"):
             name = next((item.name.upper() for item in items if isinstance(item, JobName)), "")
-            given = [item.value for item in items if isinstance(item, Given)]
+            given = _given(command)
             wanted = (n for n, value in enumerate(given, 1) if (name, ("ARGUMENT", n)) in self.project.unified)
             return any(given[n - 1] == node for n in wanted)
         if word == "SET":
@@ -367,7 +367,7 @@ class Flow:
         if left is not None and left.tool != INHERITED:
             now = self.held(TOOL, state)
             state = {**state, TOOL: joined(now, left) if _is_conditional(command) else left}
-        given = [item.value for item in command.items if isinstance(item, Given)]
+        given = _given(command)
         for number, value in enumerate(given, 1):
             self.project.argument(name, number, self.kind(value, state))
         changed = self.project.changed_in(name.upper())
@@ -476,6 +476,13 @@ def _called(command: Command) -> list[str]:
     if any(isinstance(item, LabelName | LabelBy) for item in command.items):
         return []
     return [item.name.upper() for item in command.items if isinstance(item, JobName)] or [""]
+
+
+def _given(command: Command) -> list[Operand]:
+    """What a job is given, `ARGF a ARGF b` or `(a, b)`."""
+    given: list[Operand] = [item.value for item in command.items if isinstance(item, Given)]
+    given.extend(next((item.values for item in command.items if isinstance(item, Group)), ()))
+    return given
 
 
 def _is_conditional(command: Command) -> bool:

@@ -38,6 +38,21 @@ JUMP *NO IF D000<>D001
 DOUT OT#(1) ON
 *NO
 """
+HANDED_ON = """
+MOVJ C00001 VJ=50.00 PL=0
+GETS PX011 $PX000
+CALL JOB:FIRST (P011)
+GETS D000 $RV
+GETE D001 P011 (1)
+JUMP *NO IF D000<>D001
+DOUT OT#(1) ON
+*NO
+"""
+FIRST = """
+GETARG LPX000 IARG#(1)
+GETE LD000 LP000 (1)
+RET LD000
+"""
 PERHAPS = """
 MOVJ C00001 VJ=50.00 PL=0
 GETS PX011 $PX000
@@ -59,3 +74,9 @@ def test_a_called_job_that_leaves_it_alone_does_not_count() -> None:
 def test_a_conditional_instruction_may_leave_the_old_value() -> None:
     _, diagnostics = read(job(PERHAPS, POINTS))
     assert "inform-pulses-as-pose" in {item.code.name for item in diagnostics}
+
+
+def test_pulses_are_handed_on_in_brackets() -> None:
+    points = POINTS.replace("C00001=900.000,0.000", "C00001=900.000,100.000")
+    made = run(job(HANDED_ON, points), job(FIRST, name="FIRST"), robot="motoman_mh24")
+    assert outputs(made) == [("OT#(1)", True)]

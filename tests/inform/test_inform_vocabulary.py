@@ -37,6 +37,12 @@ SET I010 0
 CALL B000
 CALL IG#(3)
 JUMP *NO IF I010<>3""",
+    "texts and positions among arguments": """
+SUB P070 P070
+SETE P070 (2) 5000
+CALL JOB:MIXED ("AB", P070, 2.5)
+GETS R000 $RV
+JUMP *NO IF R000<>9.5""",
     "a job beside with arguments": """
 PSTART JOB:TAKES SUB3 ARGF 4
 PWAIT SUB3
@@ -104,12 +110,26 @@ JUMP *NO IFEXPRESS D000>900100 OREXP D000<899900""",
 NUMBERED = job("ADD I010 3", name="3")
 TAKES = job("GETARG LI000 IARG#(1)\nSET I025 LI000", name="TAKES")
 SLOW = job("TIMER T=1.00\nADD I010 6", name="SLOW")
+MIXED = job(
+    """
+GETARG LS000 IARG#(1)
+GETARG LPX000 IARG#(2)
+GETARG LR000 IARG#(3)
+LEN LB000 LS000
+GETE LD000 LP000 (2)
+DIV LD000 1000
+SET LR001 LD000
+ADD LR001 LR000
+ADD LR001 LB000
+RET LR001""",
+    name="MIXED",
+)
 
 
 @pytest.mark.parametrize("words", HELD)
 def test_the_expectation_holds(words: str) -> None:
     main = job(HELD[words] + "\nDOUT OT#(1) ON\n*NO", POINTS)
-    made = run(main, NUMBERED, TAKES, SLOW, robot="motoman_mh24")
+    made = run(main, NUMBERED, TAKES, SLOW, MIXED, robot="motoman_mh24")
     assert ("OT#(1)", True) in outputs(made), made.fault
 
 
@@ -141,6 +161,12 @@ def test_an_output_before_the_robot_arrives() -> None:
     (early, first, _), (arrived, second, _) = made.outputs
     assert (first, second) == ("AT1", "OT#(1)")
     assert arrived - early == pytest.approx(0.5, abs=0.05)
+
+
+def test_outputs_around_arrivals_in_a_loop() -> None:
+    body = "FOR I000=1 TO 2\nMOVL C00002 V=50.0 PL=0\nANTOUT AT#(1) ON ANT=-0.50\nNEXT I000"
+    _, diagnostics = read(job(body, POINTS))
+    assert "inform-not-anticipated" not in {item.code.name for item in diagnostics}
 
 
 def test_condition_files_are_left_to_the_controller() -> None:
