@@ -110,6 +110,9 @@ class _Named:
         def look(expression: ir.Expression) -> ir.Expression:
             if isinstance(expression, ir.Signal) and isinstance(expression.index, ir.IntLiteral):
                 self.highest[expression.kind] = max(self.highest.get(expression.kind, 0), expression.index.value)
+            match expression:
+                case ir.System(name="flag" | "cyclic_flag", indices=(ir.IntLiteral(value=number),)):
+                    self.highest["flag"] = max(self.highest.get("flag", 0), number)
             return rewrite_parts(expression, look)
 
         def deeper(body: ir.Body) -> ir.Body:
