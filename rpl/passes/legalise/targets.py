@@ -302,7 +302,7 @@ class Whole:
         self.declared.append(ir.Variable(place.id, type, scope="routine"))
         start = self.last_target(before, move)
         if start is None:
-            self.stop_before(before)
+            self.stop_before(before, move)
             start = here(move)
 
         def note(statement: ir.Statement) -> ir.Body:
