@@ -29,6 +29,8 @@ from rpl.emulator.tracking import MotionFault, track_flanges
 # No corner takes more than this share of a move, so that the corners at its two ends never meet.
 MOST = 0.5
 SAMPLES = 33
+# A corner that would take longer than the inverse of this (1/s) is none: it turns on the spot into a way.
+SLOWEST = 1e-4
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -200,7 +202,7 @@ def _joint_corner(
 
 def _driven(
     model: RobotModel, first: PlannedMove, second: PlannedMove, geometry: Geometry, leave: float, meet: float
-) -> Corner:
+) -> Corner | NoBlend:
     """Time the three parts: one speed through the corner where the moves have room to reach it, else accelerating.
 
     Speeds are of fractions: the corner at rate w leaves the first move at 2 (1 - leave) w and meets the second at
@@ -217,6 +219,8 @@ def _driven(
         stopping / head,
         _corner_rate(model, first, second, geometry),
     )
+    if rate < SLOWEST:
+        return NoBlend("the corner allows no speed")
     entry = max(rate, float(np.sqrt(max(arriving * arriving - room, 0.0))) / tail)
     law = TimeLaw(np.array([0.0, 2.0 / (entry + rate)]), np.array([0.0, 1.0]), np.array([entry, rate]))
     trimmed = _part(first, (begin, leave), first.profile.law(begin, leave, arriving, tail * entry))

@@ -162,6 +162,15 @@ def test_moves_that_cannot_be_joined() -> None:
     assert isinstance(blend(ROBOT, *turning, distance_mm=10.0), NoBlend)
 
 
+def test_a_turn_on_the_spot_into_a_way_is_driven_with_a_stop() -> None:
+    there = moves(line(at(1400, -200, 800)))[0]
+    turn = plan(ROBOT, there.end_joints, line(at(1400, -200, 800, zyx_to_matrix([0, 10, 0]))))
+    assert isinstance(turn, PlannedMove)
+    way = plan(ROBOT, turn.end_joints, line(at(1400, -200, 820, zyx_to_matrix([0, 10, 0]))))
+    assert isinstance(way, PlannedMove)
+    assert isinstance(blend(ROBOT, turn, way, fraction=0.045), NoBlend)
+
+
 def test_straight_on_is_not_slowed_down() -> None:
     corner = joined(*moves(line(at(1300, -200, 800), 500), line(at(1500, -200, 800), 500)), distance_mm=20.0)
     assert corner.corner.duration_s == pytest.approx(40 / 500, rel=1e-6)
