@@ -19,7 +19,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.fixedarcs import FixedArcs, is_fixed
 from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.rewrite import rewrite_parts
-from rpl.passes.rigid import Pose, Rotation
+from rpl.passes.rigid import NO_TURN, Pose, Rotation
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typewords import type_word
 from rpl.passes.values import Target
@@ -188,6 +188,8 @@ class _Paths:
         mode = move.orientation or (own.member if isinstance(own, ir.EnumLiteral) else state.mode)
         if any(name in settings for name in _FRAMES) or move.tool is not None or move.frame is not None:
             state.last = None
+        if move.relative is not None and mode == "constant" and move.kind == "linear":
+            return self.unturned(move)
         if move.relative is not None or _says_no_orientation(move.target):
             if mode != "constant" and not _says_no_orientation(move.target):
                 state.last = None
@@ -212,6 +214,20 @@ class _Paths:
             return move
         assert isinstance(value, Target | Pose)  # there is a rotation
         return replace(move, target=_written(value, start))
+
+    def unturned(self, move: ir.Move) -> ir.Move:
+        """A straight move by an amount turns nothing, whatever angles are written; the orientation stays."""
+        if _says_no_orientation(move.target):
+            return move
+        if isinstance(move.target, ir.Aggregate) and all(name for name, _ in move.target.entries):
+            entries = tuple(entry for entry in move.target.entries if (entry[0] or "").lower() not in _ANGLES)
+            return replace(move, target=replace(move.target, entries=entries))
+        value = None if self.scope is None else constant(move.target, self.scope, self.unchanged)
+        if isinstance(value, Target | Pose):
+            return replace(move, target=_written(value, NO_TURN))
+        if self.reports:
+            self.context.diagnostics.report(LOST, move.origin)
+        return move
 
 
 def _written(value: Target | Pose, rotation: Rotation) -> ir.Aggregate:
