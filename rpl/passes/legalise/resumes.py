@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.usage import each_expression, each_statement
 from rpl.passes.rewrite import rewrite_parts
@@ -108,7 +109,7 @@ class _Resumes:
     def routine(self, routine: ir.Routine) -> ir.Routine:
         key = routine.name.lower()
         if key in self.handlers:
-            body = _dropped_at_once(routine.body) if self.drops else routine.body
+            body = _dropped_at_once(routine.body, self.drops)
             return replace(routine, body=self.handler(body))
         if key in self.declaring:
             return replace(routine, body=self.level(routine.body))
@@ -122,7 +123,7 @@ class _Resumes:
             if isinstance(statement, ir.ResumeLevel):
                 later = replace(statement.origin, comments=())
                 done.append(ir.Assign(ir.Name(self.flag), ir.BoolLiteral(True), origin=statement.origin))
-                if not (self.drops and _clears(body)):
+                if not _clears(body):
                     done += [ir.StopMotion(origin=later)] if self.drops else []
                     done.append(ir.ClearMotion(origin=later))
                 done.append(ir.Return(origin=later))
@@ -158,15 +159,21 @@ def _clears(body: ir.Body) -> bool:
     return any(isinstance(statement, ir.ClearMotion) for statement in body)
 
 
-def _dropped_at_once(body: ir.Body) -> ir.Body:
-    """For targets whose brake drops the motion: a routine that brakes and certainly resumes drops it there already."""
+def _dropped_at_once(body: ir.Body, drops: bool) -> ir.Body:
+    """A routine that brakes and certainly resumes drops the motion there already: where the target's brake drops it
+    (`drops`), and where it moves away itself before it resumes, which a motion that stands stopped would hold up."""
     if not body or not isinstance(body[-1], ir.ResumeLevel) or any(isinstance(one, ir.StartMotion) for one in body):
         return body
     done: list[ir.Statement] = []
-    for statement in body:
+    for at, statement in enumerate(body):
         done.append(statement)
-        if isinstance(statement, ir.StopMotion):
-            done += [ir.ClearMotion(origin=_later(statement)), ir.WaitForMotion(origin=_later(statement))]
+        if not isinstance(statement, ir.StopMotion):
+            continue
+        later = _later(statement)
+        if drops:
+            done += [ir.ClearMotion(origin=later), ir.WaitForMotion(origin=later)]
+        elif any(isinstance(node, ir.Move | ir.MoveExternal | ir.Spline) for node in walk(*body[at:])):
+            done += [ir.ClearMotion(origin=later), ir.StartMotion(origin=later)]
     return tuple(done)
 
 
