@@ -2,6 +2,7 @@
 frame: so a function's body may wait, be interrupted or raise like any other routine.
 
 What stands to the left of a call is evaluated before it; the right side of a short-circuit operator only when needed.
+A place that the statement writes stays a place; only what chooses it (the index of an element) is evaluated before.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from rpl import ir
 from rpl.ir.walk import children
 from rpl.linking.assembler import Label
 from rpl.linking.expressions import HIDDEN, hidden
+from rpl.linking.places import letters_of
 from rpl.passes.rewrite import rewrite_parts
 from rpl.runtime.code import Instruction, Values
 
@@ -49,11 +51,14 @@ class Flattener:
                 target = self.parts(target, has_call(statement.value))
             return ir.Assign(target, self.expression(statement.value), origin=statement.origin)
         waiting = sum(has_call(child) for child in _direct(statement))
+        places = _places(statement)
 
         def change(expression: ir.Expression) -> ir.Expression:
             nonlocal waiting
+            waiting -= has_call(expression)
+            if id(expression) in places:
+                return self.parts(expression, waiting > 0)
             if has_call(expression):
-                waiting -= 1
                 return self.expression(expression)
             return self.kept(expression) if waiting and not _is_stable(expression) else expression
 
@@ -73,11 +78,14 @@ class Flattener:
     def parts(self, expression: ir.Expression, more: bool) -> ir.Expression:
         """The parts in their order; `more`: another call follows behind this expression."""
         waiting = sum(has_call(child) for child in _direct(expression))
+        places = _places(expression)
 
         def change(part: ir.Expression) -> ir.Expression:
             nonlocal waiting
+            waiting -= has_call(part)
+            if id(part) in places:
+                return self.parts(part, waiting > 0 or more)
             if has_call(part):
-                waiting -= 1
                 return self.expression(part)
             fixed = _is_stable(part) or isinstance(expression, ir.Field) or _is_base(expression, part)
             return self.kept(part) if (waiting or more) and not fixed else part
@@ -119,6 +127,31 @@ def _direct(node: object) -> list[ir.Expression]:
 
     rewrite_parts(node, look)
     return found
+
+
+def _places(node: object) -> set[int]:
+    """Identities of the expressions of a node that name a place, signal or handle instead of standing for a value."""
+    found: list[ir.Expression | None] = []
+    match node:
+        case ir.Do(procedure=name, arguments=arguments) | ir.Builtin(function=name, arguments=arguments):
+            row = ir.PROCEDURES.get(name)
+            letters = letters_of(row.parameters, len(arguments)) if row is not None else []
+            found += [one for one, letter in zip(arguments, letters, strict=False) if letter == "l"]
+        case ir.Dialog(answer=answer, timed_out=flag):
+            found += [answer, flag]
+        case ir.WaitUntil(timed_out=flag):
+            found.append(flag)
+        case ir.Pulse(signal=place) | ir.SetAfter(signal=place) | ir.SetForNextMove(setting=place):
+            found.append(place)
+        case ir.OrderInterrupt(handle=place) | ir.DefineTrigger(target=place):
+            found.append(place)
+        case ir.Move(search=search, settings=settings):
+            found += [place for place, _ in settings]
+            if search is not None:
+                found += [search.found, search.hit]
+        case ir.Spline(settings=settings):
+            found += [place for place, _ in settings]
+    return {id(one) for one in found if one is not None}
 
 
 def _is_stable(expression: ir.Expression) -> bool:

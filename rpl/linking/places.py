@@ -380,7 +380,7 @@ def procedure(compiler: Compiler, name: str, arguments: tuple[ir.Expression | No
     run = procedures.PROCEDURES.get(name)
     if row is None or run is None:
         raise InternalError(f"no procedure {name}")
-    letters = _letters(row.parameters, len(arguments))
+    letters = letters_of(row.parameters, len(arguments))
     reads: list[Callable[[Values], Value]] = []
     places: list[procedures.Place] = []
     for letter, argument in zip(letters, arguments, strict=True):
@@ -396,7 +396,7 @@ def procedure(compiler: Compiler, name: str, arguments: tuple[ir.Expression | No
     return lambda f: run(places, *[read(f) for read in reads])
 
 
-def _letters(parameters: str, count: int) -> list[str]:
+def letters_of(parameters: str, count: int) -> list[str]:
     """One letter per argument; `*` repeats the last, `?` marks it optional."""
     plain = parameters.replace("?", "")
     repeats = plain.endswith("*")
@@ -426,4 +426,4 @@ def _known_of(compiler: Compiler, target: ir.Expression) -> procedures.Place:
     return procedures.Place(compiler.capacity(target), isinstance(type, ir.IntType), like)
 
 
-__all__ = ["assignment", "procedure", "reference", "watches", "writer"]
+__all__ = ["assignment", "letters_of", "procedure", "reference", "watches", "writer"]
