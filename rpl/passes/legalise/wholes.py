@@ -138,7 +138,9 @@ def place_key(place: ir.Expression, scope: Scope) -> Key | None:
     match place:
         case ir.Name(id=name):
             symbol = scope.value(name)
-            return id(symbol.declaration) if symbol is not None else None
+            if symbol is None or isinstance(symbol.declaration, ir.SignalDeclaration):
+                return None  # what a signal brings is in its own type: an analog one has a fraction
+            return id(symbol.declaration)
         case ir.Index(base=base):
             return place_key(base, scope)
         case ir.Field(base=base, name=name):

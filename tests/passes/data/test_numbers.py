@@ -7,6 +7,7 @@ import pytest
 from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.passes.legalise.numbers import numbers
+from rpl.passes.legalise.signals import number_signals
 from rpl.passes.typing import normalise
 
 from .helpers import context, lines, read, routine, variable
@@ -131,8 +132,15 @@ def test_a_target_without_whole_numbers_has_reals() -> None:
     from dataclasses import replace
 
     program = read("DEF t()\nDECL INT i\nDECL CHAR c\ni=c\nc=i\nEND\n", "krl")
-    surroundings = context(program, "krl")
+    surroundings = context(program, "rapid")
     assert not {"IntType", "CharType"} & surroundings.capabilities.types
     done = numbers(program, replace(surroundings))
     assert (variable(done, "i").type, variable(done, "c").type) == (ir.RealType(), ir.StringType(ir.IntLiteral(1)))
     assert lines(done) == ["i := character_code(c)", "c := from_code(i)"]
+
+
+def test_what_an_analog_signal_brings_has_a_fraction_behind_its_number_too() -> None:
+    program = read(FRAME % "r := aiTorque;\ni := giVariant;\nj := diPart;", "rapid")
+    done = numbers(number_signals(program, context(program, "rapid")), context(program, "rapid"))
+    found = {name: type(variable(done, name).type).__name__ for name in ("r", "i", "j")}
+    assert found == {"r": "RealType", "i": "IntType", "j": "IntType"}
