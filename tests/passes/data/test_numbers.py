@@ -132,7 +132,7 @@ def test_a_target_without_whole_numbers_has_reals() -> None:
     from dataclasses import replace
 
     program = read("DEF t()\nDECL INT i\nDECL CHAR c\ni=c\nc=i\nEND\n", "krl")
-    surroundings = context(program, "rapid")
+    surroundings = context(program, "krl")
     assert not {"IntType", "CharType"} & surroundings.capabilities.types
     done = numbers(program, replace(surroundings))
     assert (variable(done, "i").type, variable(done, "c").type) == (ir.RealType(), ir.StringType(ir.IntLiteral(1)))
