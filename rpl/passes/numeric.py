@@ -1,4 +1,5 @@
-"""Functions of plain numbers, one table for the passes that fold constants and for the machine that runs programs.
+"""Functions of plain numbers, and numbers written in texts: for the passes that fold constants and for the machine that
+runs programs.
 
 Angles in degrees. A function raises ValueError, ZeroDivisionError or OverflowError where it has no value.
 """
@@ -6,7 +7,11 @@ Angles in degrees. A function raises ValueError, ZeroDivisionError or OverflowEr
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Mapping
+
+_NO_MARKS: Mapping[str, int] = {}
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
 
 
 def round_half_away(value: float) -> int:
@@ -47,3 +52,26 @@ NUMERIC: dict[str, Callable[..., float]] = {
     "min": min,
     "max": max,
 }
+
+
+def written_number(text: str, marks: Mapping[str, int] = _NO_MARKS, leading: bool = False) -> float | None:
+    """The number written in the text; None when there is none. `marks`: what stands before the digits of a number to
+    another base. `leading`: the text may go on behind a number; without one it is 0."""
+    plain = text.strip().lower()
+    for mark, base in marks.items():
+        if plain.startswith(mark):
+            digits = plain[len(mark) :]
+            try:
+                return int(_begun(digits, base) if leading else digits, base)
+            except ValueError:
+                continue
+    match = _NUMBER.match(text) if leading else _NUMBER.fullmatch(text)
+    if match is None:
+        return 0 if leading else None
+    return int(match[1]) if match[1].lstrip("+-").isdigit() else float(match[1])
+
+
+def _begun(text: str, base: int) -> str:
+    """What the text begins with of digits to the base."""
+    known = "0123456789abcdef"[:base]
+    return text[: next((at for at, sign in enumerate(text) if sign not in known), len(text))]

@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from decimal import ROUND_HALF_UP, Decimal, InvalidOperation
 
+from rpl.passes.numeric import written_number
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.values import (
     STRUCTURED,
@@ -26,7 +27,6 @@ from rpl.runtime.values import (
 )
 
 _NO_MARKS: Mapping[str, int] = {}
-_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
 
 
 def number_text(value: float, decimals: Value) -> str:
@@ -91,31 +91,11 @@ def _parts(value: Value) -> Iterator[Value]:
 
 
 def text_value(text: str, marks: Mapping[str, int] = _NO_MARKS, leading: bool = False) -> float:
-    """The number written in the text. `marks`: what stands before the digits of a number to another base. `leading`:
-    the text may go on behind a number; without one it is 0."""
-    plain = text.strip().lower()
-    for mark, base in marks.items():
-        if plain.startswith(mark):
-            try:
-                return int(_digits(plain[len(mark) :], base) if leading else plain[len(mark) :], base)
-            except ValueError:
-                continue
-    match = _NUMBER.match(text) if leading else _NUMBER.fullmatch(text)
-    if match is None and leading:
-        return 0
-    if match is None:
+    """The number written in the text (see `written_number`). Raises ProgramError when there is none."""
+    number = written_number(text, marks, leading)
+    if number is None:
         raise ProgramError("wrong_kind", f"{text!r} is no number")
-    return plain_number(match[1])
-
-
-def _digits(text: str, base: int) -> str:
-    """What the text begins with of digits to the base."""
-    known = "0123456789abcdef"[:base]
-    return text[: next((at for at, sign in enumerate(text) if sign not in known), len(text))]
-
-
-def plain_number(text: str) -> float:
-    return int(text) if text.lstrip("+-").isdigit() else float(text)
+    return number
 
 
 # ---- parts of texts
@@ -252,10 +232,10 @@ def parsed(text: str, like: Value) -> Value:
             raise ValueError(text)
         return stripped.upper() == "TRUE"
     if isinstance(like, int | float) or like is None:
-        match = _NUMBER.fullmatch(text)
-        if match is None:
+        number = written_number(text)
+        if number is None:
             raise ValueError(text)
-        return plain_number(match[1])
+        return number
     if isinstance(like, str):
         return stripped[1:-1] if len(stripped) > 1 and stripped[0] == stripped[-1] == '"' else text
     if like.__class__ not in STRUCTURED or not (stripped.startswith("[") and stripped.endswith("]")):

@@ -10,8 +10,8 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.helpers import Helpers
 from rpl.passes.legalise.walk import Rewriter
+from rpl.passes.numeric import written_number
 from rpl.passes.scope import rules_of
-from rpl.runtime.texts import text_value
 
 _HELPER = "rpl_leading_number"
 # `part`: 0 blanks in front, 1 digits, 2 behind the point, 3 to 5 the power of ten, 6 behind ^, 7 the number is over.
@@ -124,7 +124,7 @@ class _Leading(Rewriter):
         done = super().expression(expression)
         match done:
             case ir.Builtin(function="text_value", arguments=(ir.TextLiteral(value=text),)):
-                number = text_value(text, self.marks, leading=True)
+                number = written_number(text, self.marks, leading=True) or 0
                 size = ir.RealLiteral(abs(float(number)))
                 return ir.Unary("-", size, origin=done.origin) if number < 0 else size
             case ir.Builtin(function="text_value", arguments=(text,)) if self.context.capabilities.texts:
