@@ -12,7 +12,7 @@ from rpl.errors import UsageError
 from rpl.passes import rigid
 from rpl.runtime import functions, procedures, system, texts
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.values import Array, PoseValue, Record, RotationValue, VectorValue, copied, pose_of
+from rpl.runtime.values import Array, PoseValue, Record, RotationValue, Value, VectorValue, copied, pose_of
 
 
 def test_nothing_of_the_neutral_tables_is_missing() -> None:
@@ -84,8 +84,6 @@ def test_indices_are_checked(index: float, good: bool) -> None:
         ("number_text", (2.456, 1), "2.5"),
         ("number_text", (-0.04, 1), "0.0"),
         ("number_text", (2.5, 0), "3"),
-        ("value_text", (True,), "TRUE"),
-        ("value_text", (VectorValue(1.5, 2, -3),), "[1.5,2,-3]"),
         ("format", ("%d-%5.2f-%s|%3d|%c", 5, 3.14159, "x", 7, "A"), "5- 3.14-x|  7|A"),
         ("message_text", ("%1 of %2, %3", 1, 2), "1 of 2, %3"),
         ("round", (2.5,), 3),
@@ -127,3 +125,18 @@ def test_values_are_read_from_text_in_the_shape_of_the_variable() -> None:
 def test_a_wrong_cell_file_names_the_key(text: str, complaint: str) -> None:
     with pytest.raises(UsageError, match=complaint):
         parse_cell(text)
+
+
+@pytest.mark.parametrize(
+    ("value", "decimals", "text"),
+    [
+        (True, 0, "TRUE"),
+        (VectorValue(1.5, 2, -3), 0, "[1.5,2,-3]"),
+        (1.0 / 3.0, 0, "0.333333"),
+        (100.0 / 3.0, 6, "33.333333"),
+        (2.5, 6, "2.5"),
+    ],
+)
+def test_values_as_texts(value: Value, decimals: int, text: str) -> None:
+    """`decimals`: so many where a language shows numbers with fractions that way, else six digits in all."""
+    assert texts.shown_value(value, decimals) == text
