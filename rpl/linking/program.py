@@ -158,12 +158,13 @@ class LinkedProgram:
 
     def initial_assigns(self, module: ir.Module, declaration: ir.Variable) -> list[tuple[ir.Module, ir.Assign]]:
         """Assignments of data lists to a variable and its parts: of its own module first, then of those that see it
-        (a project's own list gives values to what the prelude declares)."""
+        (a project's own list gives values to what the prelude declares, and never the other way round)."""
         name = self.scopes.module(module).fold(declaration.name)
         found = self._initialise.get(name, [])
         own = [(home, assign) for home, assign in found if home is module]
         for home, assign in found:
-            symbol = None if home is module else self.scopes.module(home).value(name)
+            apart = home is module or any(home is one for one in self._preludes.values())
+            symbol = None if apart else self.scopes.module(home).value(name)
             if symbol is None or not isinstance(symbol.declaration, ir.Variable):
                 continue
             if self.home_of(symbol.declaration, symbol.module, home.dialect)[0] is declaration:

@@ -56,6 +56,11 @@ END
 """,
     "$config.dat": "DEFDAT $CONFIG PUBLIC\nTOOL_DATA[1]={X 0.0,Y 0.0,Z 120.0,A 0.0,B 0.0,C 0.0}\nENDDAT\n",
 }
+OWN_TOOLS = {  # the list of a controller declares what is predefined, in its own size
+    "checks.src": TOOLS["checks.src"],
+    "$config.dat": "DEFDAT $CONFIG PUBLIC\nFRAME TOOL_DATA[16]\nTOOL_DATA[1]={X 0.0,Y 0.0,Z 120.0,A 0.0,B 0.0,C 0.0}\n"
+    "TOOL_DATA[2]={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nENDDAT\n",
+}
 TWO_LISTS = {
     "checks.src": "DEF CHECKS()\nQ()\n$OUT[1]=(V[1]==1)\n$OUT[3]=(V[2]==2)\nEND\n",
     "checks.dat": "DEFDAT CHECKS\nINT V[2]\nV[1]=1\nV[2]=2\nENDDAT\n",
@@ -101,7 +106,9 @@ def outputs(files: dict[str, str], target: str | None) -> set[int]:
 
 @pytest.mark.parametrize("target", [None, *OTHERS])
 @pytest.mark.parametrize(
-    "files", [STRUCTURES, TOOLS, TWO_LISTS, WORDS, BITS], ids=["struc", "tool", "two", "pass", "bits"]
+    "files",
+    [STRUCTURES, TOOLS, OWN_TOOLS, TWO_LISTS, WORDS, BITS],
+    ids=["struc", "tool", "own", "two", "pass", "bits"],
 )
 def test_what_holds_here_holds_there(files: dict[str, str], target: str | None) -> None:
     assert outputs(files, target) == {1, 2, 3}
