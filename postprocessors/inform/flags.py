@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 from rpl import ir
@@ -10,9 +11,9 @@ from rpl.passes.rewrite import rewrite_parts
 from .operands import Registers
 
 
-def with_flags_in_bytes(program: ir.Program) -> ir.Program:
+def with_flags_in_bytes(program: ir.Program, named: Iterable[tuple[str, int]] = ()) -> ir.Program:
     """Each flag with a constant number is a byte of its own from the top of the bank; others stay and are refused."""
-    registers = Registers.of(program)
+    registers = Registers.of(program, named)
     bytes_of: dict[int, int] = {}
 
     def look(expression: ir.Expression) -> ir.Expression:

@@ -6,7 +6,7 @@ A helper variable is taken from the top of its bank, where the program has none,
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from rpl import ir
@@ -31,8 +31,11 @@ class Registers:
     jobs: str = ""  # which jobs that run beside each other the lines at hand belong to; each have their own helpers
 
     @classmethod
-    def of(cls, program: ir.Program) -> Registers:
+    def of(cls, program: ir.Program, named: Iterable[tuple[str, int]] = ()) -> Registers:
+        """`named`: numbers that stand for data of the source; elements chosen at run time are named nowhere else."""
         found = cls()
+        for bank, number in named:
+            found.used.setdefault(bank, set()).add(number)
 
         def look(expression: ir.Expression) -> ir.Expression:
             place = numbered(expression)

@@ -55,7 +55,7 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     same = unchanged(program)
     if same is not None:
         return same
-    program = with_flags_in_bytes(program)
+    program = with_flags_in_bytes(program, context.register_names)
     ledger = EmissionLedger()
     writer = _Writer(program, context, ledger)
     jobs = [job for module in program.modules for job in writer.module(module)]
@@ -68,7 +68,7 @@ class _Writer:
     def __init__(self, program: ir.Program, context: WriteContext, ledger: EmissionLedger) -> None:
         self.program, self.context, self.ledger = program, context, ledger
         self.diagnostics = context.diagnostics
-        self.registers = Registers.of(program)
+        self.registers = Registers.of(program, context.register_names)
         self.cell = Cell(self.registers)
         self.entries = _entries(program)
         self.constants = Constants.of(program, self.entries)
