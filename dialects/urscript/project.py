@@ -37,31 +37,55 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     count_stores(project)
     inference = Inference(project)
     inference.run(diagnostics)
-    modules = tuple([_module(file, project, inference, diagnostics) for file in project.files])
+    modules = _modules(project, inference, diagnostics)
     programs = [file.program for file in project.files if file.program is not None]
     entry = programs[0].name if len(programs) == 1 else ""
     return ReadResult(ir.Program(modules, entry=entry), tuple(reports))
 
 
-def _module(file: File, project: Project, inference: Inference, diagnostics: Diagnostics) -> ir.Module:
-    names = Names(taken={symbol.name for symbol in project.symbols()})
-    names.taken.update(function.name for function in project.functions())
+def _modules(project: Project, inference: Inference, diagnostics: Diagnostics) -> tuple[ir.Module, ...]:
+    """A module for each file. Structs with the same members are one type in the whole project, named like the first
+    global of this type and declared beside it."""
+    taken = {symbol.name for symbol in project.symbols()} | {function.name for function in project.functions()}
+    shared = Names(taken=set(taken))
+    owned: dict[tuple[str, ...], int] = {}
+    for at, file in enumerate(project.files):
+        for symbol in file.globals.values():
+            _known(shared, symbol)
+        owned.update((key, at) for key in shared.records if key not in owned)
+    modules: list[ir.Module] = []
+    for at, file in enumerate(project.files):
+        names = Names(shared.records, shared.record_kinds, taken | set(shared.records.values()))
+        modules.append(_module(file, project, inference, names, diagnostics))
+        owned.update((key, at) for key in shared.records if key not in owned)
+    records = {
+        key: ir.RecordDeclaration(
+            shared.records[key],
+            tuple((field, type_of(inner, shared.records)) for field, inner in kind.fields),
+            "global",
+        )
+        for key, kind in shared.record_kinds.items()
+    }
+    return tuple(
+        _declaring(module, [one for key, one in records.items() if owned[key] == at])
+        for at, module in enumerate(modules)
+    )
+
+
+def _declaring(module: ir.Module, records: Sequence[ir.RecordDeclaration]) -> ir.Module:
+    """The module with records behind the remarks that it begins with."""
+    remarks = sum(isinstance(one, ir.Unread) for one in module.declarations)
+    declarations = (*module.declarations[:remarks], *records, *module.declarations[remarks:])
+    return replace(module, declarations=declarations)
+
+
+def _module(file: File, project: Project, inference: Inference, names: Names, diagnostics: Diagnostics) -> ir.Module:
     routines = tuple([_routine(function, project, inference, names, diagnostics) for function in file.functions])
     variables = [_global(symbol, file, project, inference, names, diagnostics) for symbol in file.globals.values()]
     routines = tuple([routine for routine in routines if not _only_data(routine, file)])
-    records = tuple(
-        ir.RecordDeclaration(
-            name,
-            tuple((field, type_of(kind, names.records)) for field, kind in names.record_kinds[key].fields),
-            "global",
-        )
-        for key, name in names.records.items()
-    )
     remarks = tuple(ir.Unread("", origin=node.origin) for node in file.leading)
     attributes = (("start", f"{file.start}()"),) if file.start else ()
-    return ir.Module(
-        file.name, "urscript", (*remarks, *records, *variables), routines, attributes, origin=Origin(file.source)
-    )
+    return ir.Module(file.name, "urscript", (*remarks, *variables), routines, attributes, origin=Origin(file.source))
 
 
 def _only_data(routine: ir.Routine, file: File) -> bool:

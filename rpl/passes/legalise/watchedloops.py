@@ -21,7 +21,9 @@ from rpl.passes.legalise.usage import assigned_in
 
 _WAITING = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.Pulse)
 _STOPPING = (ir.StopMotion, ir.ClearMotion, ir.StartMotion)
-_LEAVING = (ir.Return, ir.Goto, ir.Label, ir.Raise, ir.Halt)
+_JUMPING = (ir.Goto, ir.Label, ir.Raise, ir.Halt)
+_OPPOSITE = {"and": "or", "cand": "cor", "or": "and", "cor": "cand"}
+_LEAVES = "the program leaves the place from where it looks at it"
 _LONGEST_LOOK = 0.1  # s: a loop that looks less often is no watching
 
 
@@ -103,8 +105,8 @@ class WatchedTask:
     def parted(self, region: ir.Body) -> tuple[ir.Body, list[Event], ir.Body]:
         """What stands before the waiting, what ends the task meanwhile, and what is left when it has ended."""
         for node in walk(*region):
-            if isinstance(node, _LEAVING):
-                raise UnfitError("the program leaves the place from where it looks at it")
+            if isinstance(node, _JUMPING):
+                raise UnfitError(_LEAVES)
             if isinstance(node, ir.CallRoutine | ir.Call) and node.name.lower() in self.driving:
                 raise UnfitError("the program moves the robot too")
         self.events = []
@@ -115,6 +117,8 @@ class WatchedTask:
         if not rest:
             raise UnfitError("the program does not wait for its end")
         first, after = rest[0], rest[1:]
+        if any(isinstance(node, ir.Return) for node in walk(*before, first)):
+            raise UnfitError(_LEAVES)
         match first:
             case ir.TaskControl(op="join"):
                 done: ir.Body = ()
@@ -137,8 +141,8 @@ class WatchedTask:
     def alone(self, region: ir.Body) -> ir.Body:
         """The region as the work of a task of its own."""
         for node in walk(*region):
-            if isinstance(node, _LEAVING):
-                raise UnfitError("the program leaves the place from where it looks at it")
+            if isinstance(node, (*_JUMPING, ir.Return)):
+                raise UnfitError(_LEAVES)
             calls = isinstance(node, ir.CallRoutine | ir.Call) and node.name.lower() in self.driving
             if calls or isinstance(node, (*_STOPPING, ir.Move, ir.MoveExternal, ir.Spline)):
                 raise UnfitError("the program moves the robot too")
@@ -192,15 +196,8 @@ class WatchedTask:
         watched = [one for one in terms if not self.names(one) & self.ended]
         if not watched:
             return (wait,), after
-        parts = self.until_stop(after)
-        if parts is None:
-            raise UnfitError("the program goes on while it moves")
-        condition = _joined(watched, "cor")
-        hit = self.event(condition, parts[0])
-        return (replace(wait, condition=ir.Binary("cor", wait.condition, hit)),), (
-            *self.first_then(hit, parts[0]),
-            *parts[1],
-        )
+        hit, rest = self.behind(_joined(watched, "cor"), after)
+        return (replace(wait, condition=ir.Binary("cor", wait.condition, hit)),), rest
 
     def loop(self, loop: ir.While | ir.Loop | ir.Repeat, after: ir.Body) -> tuple[ir.Body, ir.Body]:
         """A loop that looks: each branch ends the task, or has found it ended."""
@@ -218,13 +215,51 @@ class WatchedTask:
         ]
         if not left:
             return (done,), after
-        parts = self.until_stop(after)
-        if parts is None:
-            raise UnfitError("the program goes on while it moves")
-        hit = self.event(negation(_joined(left, "cand")), parts[0])
+        hit, rest = self.behind(negation(_joined(left, "cand")), after)
         assert isinstance(done, ir.While)  # replace keeps the class
-        done = replace(done, condition=ir.Binary("cand", negation(hit), loop.condition))
-        return (done,), (*self.first_then(hit, parts[0]), *parts[1])
+        return (replace(done, condition=ir.Binary("cand", negation(hit), loop.condition)),), rest
+
+    def behind(self, condition: ir.Expression, after: ir.Body) -> tuple[ir.Expression, ir.Body]:
+        """What says that the condition came, and what is left to do: the program may leave first when the task has
+        ended by itself, or choose by the condition between that and ending the task."""
+        guards = 0
+        while guards < len(after) and self.found_ended(after[guards]):
+            guards += 1
+        told, rest = after[:guards], after[guards:]
+        parts = self.until_stop(rest)
+        if parts is not None:
+            hit = self.event(condition, parts[0])
+            return hit, (*told, *self.first_then(hit, parts[0]), *parts[1])
+        if rest and isinstance(choice := rest[0], ir.If):
+            ends = [body for body in (*(b for _, b in choice.branches), choice.otherwise) if self.controls(body)]
+            parts = self.until_stop(ends[0]) if len(ends) == 1 else None
+            decided = all(one == condition or self.known_at_end(one) for one, _ in choice.branches)
+            if parts is not None and decided:
+                hit = self.event(condition, parts[0])
+                ending = (*self.first_then(hit, parts[0]), *parts[1])
+                branches = tuple(
+                    (hit if one == condition else one, ending if body is ends[0] else body)
+                    for one, body in choice.branches
+                )
+                otherwise = ending if choice.otherwise is ends[0] else choice.otherwise
+                return hit, (*told, replace(choice, branches=branches, otherwise=otherwise), *rest[1:])
+        raise UnfitError("the program goes on while it moves")
+
+    def found_ended(self, statement: ir.Statement) -> bool:
+        """Does it leave the routine where the task has ended, and nothing else?"""
+        if not isinstance(statement, ir.If) or statement.otherwise or self.controls(statement):
+            return False
+        return all(
+            self.known_at_end(condition) and bool(body) and isinstance(body[-1], ir.Return)
+            for condition, body in statement.branches
+        )
+
+    def known_at_end(self, condition: ir.Expression) -> bool:
+        """Is the condition made of nothing but what the task says at its end?"""
+        if any(isinstance(node, ir.Signal | ir.System | ir.Call | ir.Builtin) for node in walk(condition)):
+            return False
+        names = self.names(condition)
+        return bool(names) and names <= self.ended
 
     def looks(self, body: ir.Body) -> ir.Body:
         return map_body(body, self.look)
@@ -257,6 +292,10 @@ def _terms(condition: ir.Expression, ops: tuple[str, ...]) -> list[ir.Expression
     match condition:
         case ir.Binary(op=op, left=left, right=right) if op in ops:
             return [*_terms(left, ops), *_terms(right, ops)]
+        case ir.Unary(op="not", operand=ir.Binary(op=op, left=left, right=right)) if (
+            op in _OPPOSITE and _OPPOSITE[op] in ops
+        ):
+            return [*_terms(negation(left), ops), *_terms(negation(right), ops)]
     return [condition]
 
 

@@ -66,6 +66,32 @@ end
 ON_THE_WAY = "now[1] > -0.095 and now[1] < -0.01"
 ONE_MOVE = "movel(corner, v=0.02)"
 MOVES = "while True:\n      movel(corner, v=0.02)\n      movel(home, v=0.02)\n    end"
+FOUND = """def found():
+    local h = run approach()
+    while not get_standard_digital_in(0) and not flag > 1:
+      sync()
+    end
+    if flag > 1:
+      count = 1
+      return False
+    end
+    kill h
+    stopl(2)
+    return True
+  end"""
+MET = """def met():
+    local h = run approach()
+    while not (get_standard_digital_in(0) or flag > 1):
+      sync()
+    end
+    if get_standard_digital_in(0):
+      kill h
+      stopl(2)
+      return True
+    end
+    count = 1
+    return False
+  end"""
 REGIONS = {
     "joined": ("h = run approach()\n  join h", ONE_MOVE, "norm(now[1]) < 0.0001", "flag == 2"),
     "joined at once": ("h = run approach()\n  count = 3\n  join h", ONE_MOVE, "norm(now[1]) < 0.0001", "count == 3"),
@@ -101,6 +127,18 @@ REGIONS = {
         ONE_MOVE,
         ON_THE_WAY,
         "count == 1",
+    ),
+    "a function that is left": (
+        f"{FOUND}\n  touched = found()",
+        ONE_MOVE,
+        ON_THE_WAY,
+        "touched and flag == 1 and count == 0",
+    ),
+    "a function that chooses": (
+        f"{MET}\n  touched = met()",
+        ONE_MOVE,
+        ON_THE_WAY,
+        "touched and flag == 1 and count == 0",
     ),
     "nothing comes": (
         "h = run approach()\n  while flag < 2 and not touched:\n    if get_standard_digital_in(1):\n"
