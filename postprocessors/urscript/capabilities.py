@@ -43,6 +43,7 @@ CAPABILITIES = Capabilities(
     concurrent_moves="moves",
     wrist_paths=False,
     turned_ways=frozenset(),
+    computed_decimals=False,
     notation="urscript",
     rotation="zyx",
     short_circuit=True,

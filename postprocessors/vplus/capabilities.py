@@ -56,6 +56,7 @@ CAPABILITIES = Capabilities(
     module_points="global",
     last_flag=tables.LAST_FLAG,
     most_arguments=5,  # a call stands in one line: what nothing reads is left out of longer ones
+    computed_decimals=False,
     notation="vplus",
     rotation="zyx",
     conversions=tables.words("real round_half_away trunc bit truth minus_bit floor code char"),

@@ -109,6 +109,7 @@ class Capabilities:
     printable_texts: a text holds only the printable signs of ASCII, so no bytes.
     leading_numbers: a text that is read as a number may go on behind it; without a number it is 0.
     text_decimals: a number with a fraction shows so many decimals in a text (0: six digits in all).
+    computed_decimals: a number can be rounded to a count of decimals that is computed.
     text_parts: without numbered storage as well, helpers read numbers from texts and search them by cutting and
     comparing parts.
     truth: `minus_one` when TRUE is the number -1 and there is no type of truth values.
@@ -246,6 +247,7 @@ class Capabilities:
     computed_messages: bool = True
     asks_numbers_only: bool = False
     text_find_from: bool = True
+    computed_decimals: bool = True
     text_parts: bool = False
     printable_texts: bool = False
     leading_numbers: bool = False

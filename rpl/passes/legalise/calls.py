@@ -29,6 +29,8 @@ _BIT_WEIGHTS = {"bit": 1, "minus_bit": -1}
 _TURNED = {"<": ">", ">": "<", "<=": ">=", ">=": "<="}
 # Procedures whose result is TRUE where texts have room enough.
 _ALWAYS_WORK = frozenset(("text_append", "text_copy", "text_clear", "format_into"))
+# Procedures that leave a text as it is where it has no room for the new one.
+_FILLING = frozenset(("text_append", "text_append_length", "text_copy"))
 _HELPER_FUNCTIONS = {
     "floor": "rpl_floor",
     "ceil": "rpl_ceil",
@@ -181,6 +183,9 @@ class _Calls(TextHoister):
         has = name in self.capabilities.procedures
         if name in self.capabilities.functions or (has and self.builds):
             return None
+        room = self.room_for(expression)
+        if room is not None:
+            return self.where_there_is_room(expression, room)
         if name == "text_append_length":
             return self.length_behind(expression)
         call = ir.Do(name, expression.arguments)
@@ -188,6 +193,41 @@ class _Calls(TextHoister):
         if done is None or name not in _ALWAYS_WORK:
             return None
         return tuple(inner for one in done for inner in super(_Calls, self).statement(one)), ir.BoolLiteral(True)
+
+    def room_for(self, expression: ir.Builtin) -> ir.Expression | None:
+        """Is there room for the longer text? None where its variable has no size of its own."""
+        if expression.function not in _FILLING or len(expression.arguments) != 2:
+            return None
+        target, text = expression.arguments
+        type = self.editor.type_of(target)
+        if not isinstance(type, ir.StringType) or not isinstance(type.capacity, ir.IntLiteral):
+            return None
+        size: ir.Expression = ir.Builtin("text_length", (text,))
+        if isinstance(text, ir.TextLiteral):
+            size = ir.IntLiteral(len(text.value))
+        elif isinstance(self.editor.type_of(text), ir.CharType):
+            size = ir.IntLiteral(1)
+        if expression.function != "text_copy":
+            size = ir.Binary("+", ir.Builtin("text_length", (target,)), size)
+        return ir.Binary("<=", size, type.capacity)
+
+    def where_there_is_room(self, expression: ir.Builtin, room: ir.Expression) -> Lowered:
+        """`ok = StrAdd(a[], b[])`: a text that is full stays as it is, and that is the result."""
+        whole = expression.function == "text_append_length"
+        result = self.editor.temporary("length" if whole else "fits", ir.IntType() if whole else ir.BoolType())
+        target = expression.arguments[0]
+        done: list[ir.Statement] = [
+            ir.Do("text_copy" if expression.function == "text_copy" else "text_append", expression.arguments)
+        ]
+        if whole:
+            done.append(ir.Assign(result, ir.Builtin("text_length", (target,))))
+            first: ir.Body = (ir.Assign(result, ir.IntLiteral(0)),)
+        else:
+            done.append(ir.Assign(result, ir.BoolLiteral(True)))
+            first = (ir.Assign(result, ir.BoolLiteral(False)),)
+        choice = ir.If(((room, tuple(done)),), origin=expression.origin)
+        body = self.body((*first, choice))
+        return body, result
 
     def length_behind(self, expression: ir.Builtin) -> Lowered | None:
         """The length of a text behind appending to it; there is room enough in texts."""

@@ -14,7 +14,7 @@ from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.errors import InternalError
 from rpl.passes.legalise import scanning, textparts
-from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.context import Context, names_in
 from rpl.passes.legalise.support import with_support
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.typing import normalise
@@ -416,6 +416,8 @@ class Helpers:
         read = normalise(read, diagnostics)
         if diagnostics.has_errors or not read.modules:
             raise InternalError(f"helper routines: {[item.as_text() for item in diagnostics]}")
+        inside = names_in(read) - {module.name.lower() for module in read.modules}
+        self.context.taken |= inside  # what later passes add to the helpers gets other names
         routines = [replace(_nowhere(routine), scope="global") for routine in read.modules[0].routines]
         return with_support(program, self.context, (), routines)
 

@@ -50,6 +50,7 @@ from rpl.passes.legalise.fewaxes import axes_of_arm
 from rpl.passes.legalise.flagdata import flags_as_data, named_flags
 from rpl.passes.legalise.flagreadings import flag_readings
 from rpl.passes.legalise.flatrecords import flat_records
+from rpl.passes.legalise.formats import formats
 from rpl.passes.legalise.functions import functions_to_procedures
 from rpl.passes.legalise.geometry import geometry
 from rpl.passes.legalise.givenarrays import given_arrays
@@ -85,6 +86,7 @@ from rpl.passes.legalise.movesettings import settings_at_moves
 from rpl.passes.legalise.movetimes import move_times
 from rpl.passes.legalise.nearjoints import near_joints
 from rpl.passes.legalise.nestedinterrupts import nested_interrupts
+from rpl.passes.legalise.neutralfunctions import neutral_functions
 from rpl.passes.legalise.nextmove import settings_of_next_move
 from rpl.passes.legalise.numbered import number_data
 from rpl.passes.legalise.numbers import numbers
@@ -197,12 +199,14 @@ PASSES: tuple[Pass, ...] = (
     straight_splines,
     home_positions,
     fold_pulses,
+    neutral_functions,
     rotation_vectors,
     levels_to_distances,
     displacements,
     whole_settings,
     changed_places,
     random_numbers,
+    formats,
     text_orders,
     text_bytes,
     leading_numbers,
