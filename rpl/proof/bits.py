@@ -36,9 +36,9 @@ def in_bits(a: Record, b: Record) -> tuple[Record, Record]:
     return (_apart(a, apart), _apart(b, apart)) if apart else (a, b)
 
 
-def with_wired_groups(record: Record, wired: Mapping[tuple[str, int], tuple[str, int, int]]) -> Record:
-    """The record with the bits of groups that have a number only, as the other program's wiring gives them."""
-    bits = {f"{kind}:{number}": f"{kind}:{first}-{last}" for (kind, number), (_, first, last) in wired.items()}
+def with_wired_groups(record: Record, bits: Mapping[str, str]) -> Record:
+    """The record with the bits of groups that have a name or a number only, as the other program's wiring gives them
+    (wiring.wired_bits)."""
 
     def named(one: Happening) -> Happening:
         more = {bits[name] for name in one.names if name in bits} if one.kind == "output" else None

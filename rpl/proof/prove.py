@@ -15,7 +15,7 @@ from rpl.proof.compare import Tolerance, Verdict, compare
 from rpl.proof.difference import Difference
 from rpl.proof.record import Record
 from rpl.proof.recording import record_of
-from rpl.proof.wiring import in_words_of, wired_groups
+from rpl.proof.wiring import in_words_of, wired_bits
 from rpl.runtime.limits import DEFAULTS, Limits
 
 if TYPE_CHECKING:
@@ -97,8 +97,8 @@ def prove_against(
     theirs = in_words_of(cell, program_a, program_b) if cell is not None else None
     record_b = recorded_run(program_b, robot_b, theirs, to_entry, limits)
     record_a, record_b = (
-        with_wired_groups(record_a, wired_groups(program_b)),
-        with_wired_groups(record_b, wired_groups(program_a)),
+        with_wired_groups(record_a, wired_bits(program_b)),
+        with_wired_groups(record_b, wired_bits(program_a)),
     )
     tolerance = Tolerance() if path_mm is None else replace(Tolerance(), path_mm=path_mm)
     verdict = compare(record_a, record_b, tolerance)

@@ -12,6 +12,7 @@ from dataclasses import replace
 from rpl import ir, registry
 from rpl.cell import Cell
 from rpl.linking import link
+from rpl.proof.record import bits_of
 from rpl.runtime.signals import joined_name, usual_key
 
 _WIRING = "signal_names"
@@ -53,6 +54,18 @@ def wired_groups(program: ir.Program) -> Wired:
                     if key[0].startswith("group"):
                         found[key] = (name, first, last)
     return found
+
+
+def wired_bits(program: ir.Program) -> dict[str, str]:
+    """By the name of a group, and by the number that it has elsewhere: the bits that the program declares for it
+    (`gojob` -> `group_out:33-40`)."""
+    named = {f"{kind}:{number}": f"{kind}:{a}-{b}" for (kind, number), (_, a, b) in wired_groups(program).items()}
+    for module in program.modules:
+        for name, one in _declared(module).items():
+            match one.signal:
+                case ir.Signal(kind=kind, index=ir.IntLiteral(value=first), last=ir.IntLiteral(value=last)):
+                    named[name] = f"{bits_of(kind)}:{first}-{last}"
+    return named
 
 
 _ELEMENT = re.compile(r"(\w+)\[(\d+)\](.*)", re.DOTALL)

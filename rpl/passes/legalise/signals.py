@@ -295,13 +295,13 @@ def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str
                 return f"{min(prefixes.get(kind, {kind}))}{number}" if alone else None
         return None
 
-    names, used = _named_and_numbered(program, known)
+    names, used = _named_and_numbered(program, known, alone)
     if not names:
         return program
     for kind in computed:  # any of them may be meant
         taken = used.setdefault(kind, set())
         taken.update(range(1, max({_REACH, *taken}) + 1))
-    numbers = _numbers(names, prefixes, used)
+    numbers = _numbers(names, prefixes, used, alone)
     declared: list[ir.Declaration] = []
     aliases: dict[tuple[str, str], str] = {}
     for (kind, key), name in names.items():
@@ -309,7 +309,7 @@ def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str
         if chosen:
             alias = context.fresh(name)
             aliases[kind, key] = alias
-            signal = _signal(kind, number)
+            signal = _signal(kind, number, alone)
             declared.append(ir.SignalDeclaration(alias, signal, scope="global"))
             context.diagnostics.report(NUMBERED, name=name, number=number)
 
@@ -319,7 +319,7 @@ def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str
             key = (expression.kind, name.lower())
             if key in aliases:
                 return ir.Name(aliases[key], origin=expression.origin)
-            return replace(_signal(expression.kind, numbers[key][0]), origin=expression.origin)
+            return replace(_signal(expression.kind, numbers[key][0], alone), origin=expression.origin)
         return rewrite_parts(expression, replaced)
 
     def replaced_body(body: ir.Body) -> ir.Body:
@@ -344,7 +344,7 @@ def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str
 
 
 def _named_and_numbered(
-    program: ir.Program, known: Callable[[ir.Signal], str | None]
+    program: ir.Program, known: Callable[[ir.Signal], str | None], alone: bool
 ) -> tuple[dict[tuple[str, str], str], dict[str, set[int]]]:
     """The names that routines use, by kind and folded name, and the numbers in use, by kind of the single signals."""
     names: dict[tuple[str, str], str] = {}
@@ -357,16 +357,21 @@ def _named_and_numbered(
     for node in walk(*program.modules):
         if isinstance(node, ir.Signal) and isinstance(node.index, ir.IntLiteral) and known(node) is None:
             last = node.last.value if isinstance(node.last, ir.IntLiteral) else node.index.value
-            bits = node.kind.replace("group", "digital")
+            bits = node.kind if node.last is None and not alone else _bits(node.kind)
             used.setdefault(bits, set()).update(range(node.index.value, last + 1))
     return names, used
 
 
-def _signal(kind: str, number: int) -> ir.Signal:
-    """A group of bits gets eight numbers in a row; its width is not known to the program."""
-    if kind.startswith("group"):
+def _bits(kind: str) -> str:
+    return kind.replace("group", "digital")
+
+
+def _signal(kind: str, number: int, alone: bool) -> ir.Signal:
+    """A group of bits gets eight numbers in a row, as its width is not known to the program; where groups have numbers
+    of their own (not `alone`) the controller knows its bits."""
+    if kind.startswith("group") and alone:
         last = ir.IntLiteral(number + WIDTH - 1)
-        return ir.Signal(kind.replace("group", "digital"), index=ir.IntLiteral(number), last=last)
+        return ir.Signal(_bits(kind), index=ir.IntLiteral(number), last=last)
     return ir.Signal(kind, index=ir.IntLiteral(number))
 
 
@@ -380,15 +385,15 @@ def _prefixes() -> dict[str, set[str]]:
 
 
 def _numbers(
-    names: dict[tuple[str, str], str], prefixes: dict[str, set[str]], numbered: dict[str, set[int]]
+    names: dict[tuple[str, str], str], prefixes: dict[str, set[str]], numbered: dict[str, set[int]], alone: bool
 ) -> dict[tuple[str, str], tuple[int, bool]]:
     """Number of each named signal, and whether it was chosen (not said by its name), off the `numbered`."""
     result: dict[tuple[str, str], tuple[int, bool]] = {}
     used: dict[str, set[int]] = {}
     for kind, key in names:
         match = re.fullmatch(r"([a-z_]+?)_?([1-9]\d{0,3})", key)
-        # The number of a group is not that of its first bit: groups are declared by their names.
-        if match and not kind.startswith("group") and match.group(1) in prefixes.get(kind, set()):
+        # The number of a group is not that of its first bit: groups of bits are declared by their names.
+        if match and not (alone and kind.startswith("group")) and match.group(1) in prefixes.get(kind, set()):
             number = int(match.group(2))
             if number not in used.setdefault(kind, set()):
                 used[kind].add(number)
@@ -396,11 +401,11 @@ def _numbers(
     for kind, key in names:
         if (kind, key) in result:
             continue
-        bits = kind.replace("group", "digital")
+        bits = _bits(kind) if alone else kind
         taken = used.setdefault(bits, set())
         number, taken = 1, taken | numbered.get(bits, set())
         # Groups: whole bytes of the numbers, which every controller can take at once.
-        width = WIDTH if kind.startswith("group") else 1
+        width = WIDTH if alone and kind.startswith("group") else 1
         while any(number + bit in taken for bit in range(width)):
             number += width
         used[bits].update(range(number, number + width))

@@ -12,6 +12,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.bitgroups import groups_to_bits, shared_groups_to_bits
 from rpl.passes.legalise.signals import number_signals
 from rpl.proof.prove import prove_programs
+from rpl.proof.wiring import wired_bits
 
 from .executed import EVERYTHING, context, passed, read, run
 
@@ -111,6 +112,43 @@ def test_groups_with_numbers_of_their_own_get_free_bits(numbered: bool) -> None:
     # Bytes in which the program switches nothing singly.
     chosen = {"go2": "digital_out 17-24", "go1": "digital_out 25-32", "gi1": "digital_in 1-8"}
     assert found == ({} if numbered else chosen)
+
+
+NAMED_GROUPS = """MODULE t
+  PROC t()
+    SetGO goJob,5;
+    SetGO go3,giType;
+    SetDO do1,1;
+  ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize(
+    ("numbered", "expected"),
+    [
+        (False, {"goJob": (9, 16), "go3": (17, 24), "giType": (1, 8)}),
+        (True, {"goJob": (1, None), "giType": (1, None)}),  # GO[1:goJob]; go3 is GO[3]
+    ],
+)
+def test_named_groups_get_bits_or_a_number_of_their_own(
+    numbered: bool, expected: dict[str, tuple[int, int | None]]
+) -> None:
+    program = read(NAMED_GROUPS, "rapid")
+    given = context(program, replace(EVERYTHING, numbered_groups=numbered))
+    found = {}
+    for module in number_signals(program, given).modules:
+        for one in module.declarations:
+            if isinstance(one, ir.SignalDeclaration) and isinstance(one.signal.index, ir.IntLiteral):
+                last = one.signal.last
+                found[one.name] = (one.signal.index.value, last.value if isinstance(last, ir.IntLiteral) else None)
+    assert found == expected
+
+
+def test_the_proof_knows_the_bits_of_a_group_that_has_a_name_only() -> None:
+    program = read(NAMED_GROUPS, "rapid")
+    given = context(program, replace(EVERYTHING, numbered_groups=False))
+    assert wired_bits(number_signals(program, given))["gojob"] == "group_out:9-16"
 
 
 def test_the_proof_knows_where_these_groups_are_wired() -> None:
