@@ -74,6 +74,7 @@ CAPABILITIES = Capabilities(
     condition_terms=tables.SURE_TERMS,
     functions_alone=True,
     index_base=None,
+    numbered_messages=True,
     longest_message=tables.LONGEST_MESSAGE,
     asks_numbers_only=True,
     group_sizes=(8, 4),

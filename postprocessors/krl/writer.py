@@ -85,12 +85,15 @@ class _Module:
         return found
 
     def attributes(self) -> tuple[list[str], list[str]]:
-        """File attributes of the program and of the data list; other languages' attributes have no place here."""
+        """File attributes of the program and of the data list; other languages' attributes have no place here, though
+        some are called the same (`///USER` of a job is a user frame)."""
         program: list[str] = []
         data: list[str] = []
+        source = self.module.origin.source
+        foreign = source is not None and not source.path.lower().endswith((*_KRL_FILES, ".rpl"))
         for name, value in self.module.attributes:
             of_data, bare = name.startswith("dat "), name.removeprefix("dat ")
-            if bare.upper() in tables.ATTRIBUTES:
+            if bare.upper() in tables.ATTRIBUTES and (not foreign or bare.upper() == "COMMENT"):
                 (data if of_data else program).append(f"{bare} {value}".rstrip())
         return program, data
 

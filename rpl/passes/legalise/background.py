@@ -307,8 +307,9 @@ class _Maker:
         ]
         if plan.stops is not None:
             given.append(ir.Assign(ir.Name(plan.stops.name), _FALSE))
-        begin = ir.If(((ir.Unary("not", runs), (*given, ir.Assign(runs, _TRUE))),), origin=statement.origin)
-        return (begin,)
+        if not given:  # beginning a task that runs changes nothing
+            return (ir.Assign(runs, _TRUE, origin=statement.origin),)
+        return (ir.If(((ir.Unary("not", runs), (*given, ir.Assign(runs, _TRUE))),), origin=statement.origin),)
 
     # ---- tasks that are ended from outside
 

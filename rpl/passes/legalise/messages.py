@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.jumps import inside
@@ -61,6 +62,27 @@ def message_lines(program: ir.Program, context: Context) -> ir.Program:
         for module in program.modules
     )
     return replace(program, modules=modules)
+
+
+def senders_as_texts(program: ir.Program, context: Context) -> ir.Program:
+    """The number of an alarm as a text, where what stands in front of a message is one."""
+    if context.capabilities.numbered_messages:
+        return program
+
+    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        def change(node: object) -> object:
+            if not isinstance(node, ir.Message | ir.Dialog) or node.sender is None:
+                return node
+            match node.sender, editor.type_of(node.sender):
+                case ir.IntLiteral(value=number), _:
+                    return replace(node, sender=ir.TextLiteral(str(number), origin=node.sender.origin))
+                case sender, ir.IntType() | ir.RealType():
+                    return replace(node, sender=ir.Builtin("value_text", (sender,), origin=sender.origin))
+            return node
+
+        return rewrite(routine, change)
+
+    return edit_routines(program, context, work)
 
 
 def _lines(message: ir.Message) -> ir.Body:

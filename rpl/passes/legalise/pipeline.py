@@ -78,7 +78,7 @@ from rpl.passes.legalise.logic import decide_logic
 from rpl.passes.legalise.longlogic import long_logic
 from rpl.passes.legalise.lookahead import stop_blends
 from rpl.passes.legalise.loops import fit_loops
-from rpl.passes.legalise.messages import message_lines, split_messages
+from rpl.passes.legalise.messages import message_lines, senders_as_texts, split_messages
 from rpl.passes.legalise.mixedspeeds import mixed_speeds
 from rpl.passes.legalise.modal import modal_to_explicit
 from rpl.passes.legalise.modulepoints import points_of_modules
@@ -310,6 +310,7 @@ PASSES: tuple[Pass, ...] = (
     decide_logic,
     number_dialogs,
     message_lines,
+    senders_as_texts,
     values_beside_messages,
     rewrite_calls,
     split_messages,
