@@ -14,9 +14,10 @@ from rpl import ir, registry
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Arm, Context, rules_of
+from rpl.passes.legalise.flagwrites import FlagFlow, FlagValues, only_turns
 from rpl.passes.legalise.flow import Use, Uses
 from rpl.passes.legalise.impliedflags import Known, implied_flags
-from rpl.passes.legalise.walk import Rewriter
+from rpl.passes.legalise.walk import Rewriter, unchanged_in
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.typewords import component_names, type_word
 from rpl.passes.values import Record, Target, component, moved
@@ -83,6 +84,8 @@ class _Configurations(Rewriter):
         self.implications: Known = {}
         self.unturned = ""  # why the target looked at now has flags, but none of its turns
         self.results: dict[int, dict[str, int] | _Refused] = trial.results if trial else {}
+        self.loose: set[int] = trial.loose if trial else set()  # variables whose flags the program sets one by one
+        self.flags: FlagFlow | None = trial.flags if trial else None
         self.exact, self.nearest = False, False  # are there joint moves to converted, to other targets?
         self.posed = False  # are there path moves to poses, which say nothing about the arm's posture?
         self.uses: Uses
@@ -130,7 +133,11 @@ class _Configurations(Rewriter):
         if self.foreign and isinstance(self.type_of(move.target), ir.PoseType):
             self.nearest = True  # a pose says nothing about the arm's posture
             return self.unchecked(done)
-        found = [self.results[key] for key in self.uses.reach(move.target, self.scope) if key in self.results]
+        reached = self.uses.reach(move.target, self.scope)
+        found = [self.results[key] for key in reached if key in self.results]
+        if not self.near and not self.loose.isdisjoint(reached):
+            self.nearest = True
+            return self.unchecked(done)
         if not found:
             return done
         if not any(isinstance(one, _Refused) for one in found):
@@ -207,12 +214,51 @@ class _Configurations(Rewriter):
         if not self.foreign:
             return super().statement(statement)
         match statement:
-            case ir.Assign(target=ir.Field(name=name) as target) if self.is_flag(target):
+            case ir.Assign(target=ir.Field(name=name) as target, value=value) if self.is_flag(target):
+                if self.set_alike(statement, target, value):
+                    return []
                 self.context.diagnostics.report(FLAG_ACCESS, statement.origin, name=name)
                 return [ir.Opaque(statement.origin.text or f"assignment to {name}", origin=statement.origin)]
             case ir.Assign(target=ir.Field(base=base, name="conf"), value=value):
                 return self.copied(statement, base, value)
         return super().statement(statement)
+
+    def set_alike(self, statement: ir.Assign, target: ir.Field, value: ir.Expression) -> bool:
+        """May the flag stay as it is? Where that is another one, it says how far axes turn, which is told."""
+        given = self.flag_flow.given(value, target.name, self.scope)
+        found = self.flag_values(target)
+        if found.complete and found.places and found.places | found.set == given.places | given.set == {found.only}:
+            return True
+        part = isinstance(self.type_of(target.base), ir.TargetType) or isinstance(target.base, ir.Field)
+        if self.arm is None or not part:
+            return False
+        reason = f"{target.name} is set in the program"
+        if found.only is not None and not found.places:
+            self.context.diagnostics.report(NOT_CONVERTED, statement.origin, reason=reason)
+        elif self.says_turns(target):
+            self.context.diagnostics.report(WITHOUT_TURNS, statement.origin, reason=reason)
+        else:
+            return False
+        self.loose |= set(self.uses.roots(target.base, self.scope))
+        return True
+
+    def flag_values(self, flag: ir.Field) -> FlagValues:
+        return self.flag_flow.values(flag.base, flag.name, self.scope)
+
+    @property
+    def flag_flow(self) -> FlagFlow:
+        """What flags may be, followed through the program when first asked for."""
+        if self.flags is None:
+            names = {
+                name for module in self.source.modules for name in registry.dialect(module.dialect).notation_fields
+            }
+            self.flags = FlagFlow.of_program(self.source, self.scopes, names, unchanged_in(self.source))
+        return self.flags
+
+    def says_turns(self, flag: ir.Field) -> bool:
+        base = self.type_of(flag.base)
+        notation = _notation(base.notation) if isinstance(base, ir.TargetType | ir.ConfigType) else None
+        return self.arm is not None and notation is not None and only_turns(_any(self.arm), notation, flag.name)
 
     def copied(self, statement: ir.Assign, base: ir.Expression, value: ir.Expression) -> list[ir.Statement]:
         """One target's configuration to another's; it is copied flag by flag where targets have them side by side."""
@@ -242,6 +288,9 @@ class _Configurations(Rewriter):
     def expression(self, expression: ir.Expression) -> ir.Expression:
         match expression:
             case ir.Field(name=name) if self.foreign and self.is_flag(expression):
+                known = self.flag_values(expression).only
+                if known is not None:
+                    return ir.IntLiteral(known, origin=expression.origin)
                 self.context.diagnostics.report(FLAG_ACCESS, expression.origin, name=name)
                 self.before.append(ir.Opaque(expression.origin.text or name, origin=expression.origin))
                 return ir.IntLiteral(0)

@@ -242,3 +242,54 @@ def test_a_program_with_a_task_beside_it_goes_unchecked_too(kuka: RobotModel) ->
     program = replace(program, modules=(*program.modules, module), tasks=(ir.Task("sps", "sps", "background"),))
     done = configurations(program, context(program, "krl", kuka))
     assert lines(done)[:2] == ["$joint_configuration_check := False", "$path_configuration_check := False"]
+
+
+CARRIED = """DEF t()
+DECL POS P
+INT N
+N=2
+P=SHIFT[N]:P1
+%s
+PTP P
+END
+====
+DEFDAT t
+DECL FRAME SHIFT[2]
+SHIFT[1]={X 50,Y 0,Z 0,A 0,B 0,C 0}
+SHIFT[2]={X -50,Y 0,Z 0,A 0,B 0,C 0}
+DECL POS P1=%s
+ENDDAT
+"""
+
+
+@pytest.mark.parametrize(
+    ("statement", "codes", "unchecked"),
+    [
+        ("P.S=P1.S", [], False),
+        ("P.T=P1.T", [], False),
+        ("P.S=2", [], False),  # that is what P1 has
+        ("P.T=3", ["configuration-without-turns"], True),
+        ("P.S=N", ["configuration-field"], False),
+        ("P.S=6", ["configuration-field"], False),
+    ],
+)
+def test_flags_carried_to_a_computed_place(kuka: RobotModel, statement: str, codes: list[str], unchecked: bool) -> None:
+    """What a place has already is not set again; how far axes turn is left to the controller; a posture is not."""
+    pos = krl_pos(kuka, [10, -70, 100, 20, 40, -30])
+    assert "S 2" in pos
+    program = read(CARRIED % (statement, pos), "krl")
+    surroundings = context(program, "krl", kuka)
+    done = configurations(program, surroundings)
+    assert [item.code.name for item in surroundings.diagnostics] == codes
+    assert ("Opaque" in lines(done)) == ("configuration-field" in codes)
+    assert ("$joint_configuration_check := False" in lines(done)) == unchecked
+
+
+def test_a_flag_that_is_always_the_same_is_a_number(kuka: RobotModel) -> None:
+    pos = krl_pos(kuka, [10, -70, 100, 20, 40, -30])
+    text = CARRIED % ("N=P.S\nPTP P\nP=$POS_ACT\nN=P.T", pos)
+    for wanted, program in ((["Opaque"] * 2, read(text, "krl")), ([], read(text.replace("P=$POS_ACT\n", ""), "krl"))):
+        surroundings = context(program, "krl", kuka)
+        done = configurations(program, surroundings)
+        assert [line for line in lines(done) if line == "Opaque"] == wanted
+        assert lines(done).count("N := 2") == (1 if wanted else 2)
