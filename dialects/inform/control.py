@@ -19,6 +19,7 @@ from .data import ARITHMETIC, BITS, FUNCTIONS, Statements
 from .early import anticipated, with_actions
 from .kinds import labels_of
 from .operands import tags_of
+from .operator import asked
 from .signals import is_digital
 from .split import code_of
 from .syntax import Bracket, Command, JobName, LabelBy, LabelName, Nest, Operand, Relation, Word
@@ -53,7 +54,7 @@ class Control(Tasks):
             if self.anticipation is not None:
                 anticipated(done, self.anticipation, made, self.diagnostics)
             elif early is None or all(isinstance(one, ir.Nothing) for one in made):
-                done.extend(made)
+                done.extend(asked(done, made))
                 self.early = self.early or early
             else:
                 with_actions(done, early, made, self.diagnostics)

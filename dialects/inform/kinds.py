@@ -362,7 +362,8 @@ class Flow:
         self.project.argument(name, _CALLER, self.held(SHIFTED, state))
         left = None
         if command.word != "PSTART":
-            self.project.argument(name, _CALLER_TOOL, Kind("tool", tool=self.tool(state)))
+            if (tool := self.caller_tool(state)) is not None:
+                self.project.argument(name, _CALLER_TOOL, tool)
             left = self.project.tools_left.get((name.upper(), 0))
         if left is not None and left.tool != INHERITED:
             now = self.held(TOOL, state)
@@ -383,6 +384,13 @@ class Flow:
         if tool == INHERITED:
             tool = self.project.arguments.get((self.job.name.upper(), _CALLER_TOOL), NOTHING).tool
         return ir.IntLiteral(self.job.tool) if tool is None else tool
+
+    def caller_tool(self, state: State) -> Kind | None:
+        """The tool that a called job finds; None where no move is known that came before (it takes its own then)."""
+        known = self.project.arguments.get((self.job.name.upper(), _CALLER_TOOL))
+        if self.held(TOOL, state).tool == INHERITED and known is None:
+            return None
+        return Kind("tool", tool=self.tool(state))
 
     def ends(self, state: State | None) -> None:
         if state is not None:

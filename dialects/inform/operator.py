@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from rpl import ir
 from rpl.reading.shapes import StatementError
@@ -17,6 +18,26 @@ _PLACE = re.compile(r"%[dsf]")
 _NUMBER_PLACE = re.compile(r"%[xo%]")
 # M: SMODE= of SETUALM: 0 every task stops (as without it), 1 none, 2 this one.
 GOES_ON = ir.IntLiteral(1)
+
+
+def asked(done: list[ir.Statement], made: Statements) -> Statements:
+    """What a line has become. The messages that are the question of an INPUT are taken off `done`: the dialog shows
+    them, and nobody sees them twice."""
+    match made:
+        case (ir.Dialog(kind="number", text=text, origin=origin) as dialog,):
+            left, comments = text, origin.comments
+            while done and isinstance(last := done[-1], ir.Message):
+                whole = left == last.text
+                if not whole and not (isinstance(left, ir.Binary) and left.right == last.text):
+                    break
+                comments = (*last.origin.comments, *comments)
+                done.pop()
+                if whole:
+                    break
+                assert isinstance(left, ir.Binary)
+                left = left.left
+            return (replace(dialog, origin=replace(origin, comments=comments)),)
+    return made
 
 
 class Operator(Motion):

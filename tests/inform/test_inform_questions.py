@@ -22,6 +22,13 @@ def test_what_the_operator_types(place: str, answer: str) -> None:
     assert outputs(run(job(body), cell=CELL.format(answer=answer))) == [("OT#(1)", True)]
 
 
+@pytest.mark.parametrize("question", ['MSG "number of racks?"', 'MSG "number of "\nMSG "racks?"'])
+def test_a_question_is_shown_once(question: str) -> None:
+    result = run(job(f"'the racks\n{question}\nINPUT B010"), cell=CELL.format(answer=3))
+    texts = [event.data["text"] for event in result.trace if event.kind == "message"]
+    assert texts == ["number of racks?"]
+
+
 FORMS = {
     "krl": (
         "t.src",
