@@ -34,6 +34,7 @@ CAPABILITIES = Capabilities(
     concurrent_moves="moves",
     ways_from_here=True,
     wrist_paths=False,
+    waits_at_rest=False,
     notation="inform",
     rotation="zyx",
     conversions=frozenset(("real", "trunc", "round_half_away", "bit", "truth", "floor", "code", "char")),

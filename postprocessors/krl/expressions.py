@@ -122,6 +122,8 @@ class Expressions:
                 return text
             case ir.Convert(how="code", operand=ir.TextLiteral(value=sign)) if len(sign) == 1:
                 return printer.printed(ir.IntLiteral(ord(sign)))
+            case ir.Convert(how="code", operand=ir.Convert(how="char", operand=code)):
+                return printer.printed(code)
             case ir.Convert(how="char", operand=ir.IntLiteral(value=number)) if number in range(32, 127):
                 return printer.printed(ir.TextLiteral(chr(number)))
             case ir.Convert(how=how, operand=operand) if how in tables.SILENT_CONVERSIONS:

@@ -46,6 +46,7 @@ CAPABILITIES = Capabilities(
     names=NameRules(longest=36, case_sensitive=False, reserved=tables.RESERVED),
     modal_motion=True,
     printable_texts=True,
+    waits_at_rest=False,
     notation="tp",
     rotation="zyx",
     conversions=frozenset(("real", "trunc", "round_half_away")),

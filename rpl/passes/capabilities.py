@@ -57,7 +57,8 @@ class Capabilities:
     listed in order); partial_aggregates: some may be left out; constant_aggregates: members must be constants.
     whole_places: a component is set by making a new place of the old one, which must have a value. untyped_places: what
     holds a place holds a pose or joints, as it was given last; a component is one of what is there.
-    for_real: the counter of a FOR may be a real number. wait_timeout: WaitUntil takes a timeout. timers: how many
+    for_real: the counter of a FOR may be a real number. waits_at_rest: waits say that
+    the robot stands before they begin. wait_timeout: WaitUntil takes a timeout. timers: how many
     system timers there are (`timer[1]` ...). counted_clocks: there are no stop watches, but a task can count them in
     steps of so many seconds (0: none can, or there are some).
     dynamic_calls: a procedure may be called by a name computed at run time.
@@ -183,6 +184,7 @@ class Capabilities:
     signal_prefixes: Mapping[str, str] = field(default_factory=dict)
     for_real: bool = False
     wait_timeout: bool = False
+    waits_at_rest: bool = True
     timers: int = 0
     counted_clocks: float = 0.0
     dynamic_calls: bool = False

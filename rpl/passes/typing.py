@@ -109,6 +109,11 @@ def normalise(program: ir.Program, diagnostics: Diagnostics) -> ir.Program:
         return changed(program, modules=each(program.modules, lambda module: _module(module, scopes, diagnostics)))
 
 
+def _sign(expression: ir.Expression, type: ir.Type | None) -> ir.Type | None:
+    """A text that is written out and of one sign is a character, where characters are numbers too."""
+    return ir.CharType() if isinstance(expression, ir.TextLiteral) and len(expression.value) == 1 else type
+
+
 def _module(module: ir.Module, scopes: ProgramScope, diagnostics: Diagnostics) -> ir.Module:
     typer = Typer(scopes.module(module), diagnostics)
     declarations = each(module.declarations, typer.declaration)
@@ -393,6 +398,7 @@ class Typer:
         self, left: ir.Expression, left_type: ir.Type | None, right: ir.Expression, right_type: ir.Type | None
     ) -> tuple[ir.Expression, ir.Expression]:
         if self.rules.char_numbers:
+            left_type, right_type = _sign(left, left_type), _sign(right, right_type)
             if isinstance(left_type, ir.CharType) and isinstance(right_type, ir.NUMBER_TYPES):
                 return self.convert("code", left), right
             if isinstance(right_type, ir.CharType) and isinstance(left_type, ir.NUMBER_TYPES):

@@ -189,6 +189,7 @@ class Modal:
                 corner += 1
                 continue
             corner = corner if isinstance(statement, ir.Nothing) else None
+            fly_by = fly_by and not (isinstance(statement, ir.WaitUntil) and statement.in_position)
             if fly_by and isinstance(statement, ir.WaitUntil | ir.Assign) and _stops(statement):
                 allowed = bool(done) and isinstance(done[-1], ir.LookAhead)
                 if "LookAhead" in self.context.capabilities.statements and not allowed:
@@ -355,10 +356,14 @@ class Modal:
         return ir.Speed(duration=move.speed.duration) if kept else None
 
     def own_speed(self, move: ir.Move) -> ir.Speed | None:
-        """A time or a turning speed that the target's moves say themselves, so that it does not become a modal one."""
+        """A time, a turning speed or a leading axis' speed that the target's moves say themselves, so that it does not
+        become a modal one."""
         timed, speed, can = self.timed(move), move.speed, self.context.capabilities
         if timed is not None or speed is None or "speed" not in can.move_settings:
             return timed
+        if move.kind == "joint" and speed.axis is not None and speed.joint is None and "axis" in can.speeds:
+            rate = speed.axis_acceleration if "axis_acceleration" in can.speeds else None
+            return ir.Speed(axis=speed.axis, axis_acceleration=rate)
         alone = speed.path is None and speed.profile is None and speed.rotation is not None and move.kind != "joint"
         return ir.Speed(rotation=speed.rotation) if alone and "rotation" in can.speeds else None
 

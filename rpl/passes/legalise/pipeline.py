@@ -8,6 +8,7 @@ from rpl import ir
 from rpl.passes.legalise.accelerations import accelerations_of_moves
 from rpl.passes.legalise.actionarguments import action_arguments
 from rpl.passes.legalise.aggregates import aggregates
+from rpl.passes.legalise.aheadreadings import ahead_readings
 from rpl.passes.legalise.aliases import without_aliases
 from rpl.passes.legalise.arcpoints import whole_arc_points
 from rpl.passes.legalise.arithmetic import arithmetic
@@ -112,6 +113,7 @@ from rpl.passes.legalise.readoverrides import read_overrides
 from rpl.passes.legalise.references import references_as_copies
 from rpl.passes.legalise.refusals import refuse
 from rpl.passes.legalise.repeatedmoves import repeated_moves
+from rpl.passes.legalise.restingwaits import resting_waits
 from rpl.passes.legalise.results import list_results
 from rpl.passes.legalise.resumes import resumes
 from rpl.passes.legalise.rotationvectors import rotation_vectors
@@ -303,6 +305,7 @@ PASSES: tuple[Pass, ...] = (
     array_sizes,
     check_errors,
     labels_to_structure,
+    resting_waits,
     fit_waits,
     pulse_levels,
     poll_waits,
@@ -354,6 +357,7 @@ PASSES: tuple[Pass, ...] = (
     structure_to_labels,
     steps,
     name_errors,
+    ahead_readings,
     polled_ahead,
     said_once,
     drop_unused,

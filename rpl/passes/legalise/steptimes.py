@@ -12,13 +12,15 @@ from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context, rules_of
 
 _STEP = ir.System("step_time")
+_CYCLE_S = 0.012  # of a source that says nothing about it: the cycle in which controllers interpolate
 
 
 def step_times(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such a system variable."""
     if _STEP.name in context.capabilities.system_variables or _STEP not in list(walk(*program.modules)):
         return program
-    seconds = max(rules_of(context.source).wait_poll_s, context.capabilities.shortest_wait_s)
+    cycle = rules_of(context.source).wait_poll_s or _CYCLE_S
+    seconds = max(cycle, context.capabilities.shortest_wait_s)
     known = ir.RealLiteral(seconds)
     modules = tuple(rewrite(module, lambda node: known if node == _STEP else node) for module in program.modules)
     return replace(program, modules=modules)
