@@ -12,7 +12,7 @@ from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import statements, walk
 from rpl.reading.pieces import Block, Item, ModulePart
 
-from . import tables
+from . import modal, tables
 from .header import Header
 from .motion import MISSING_POSITION, NOT_TAUGHT
 from .statements import CHOSEN_NUMBER, CHOSEN_TRUTH, HIT, TIMED_OUT
@@ -36,10 +36,11 @@ class Listing:
 
 @dataclass(slots=True)
 class Builder:
-    """Builds closed blocks. `name`: how a program is called in the IR."""
+    """Builds closed blocks. `name`: how a program is called in the IR. `conditions`: what they set (modal.py)."""
 
     diagnostics: Diagnostics
     program: str = ""
+    conditions: modal.Values = field(default_factory=dict)
     nested: int = 0
     routines: list[ir.Routine] = field(default_factory=list)
 
@@ -61,6 +62,10 @@ class Builder:
             else:
                 self.diagnostics.report(MISPLACED, item.origin, what="this")
         return tuple(_grouped(done, self.diagnostics))
+
+    def settled(self, items: Iterable[Item]) -> ir.Body:
+        """A whole program's lines, its moves with the conditions that hold for them."""
+        return modal.settled(self.body(items), self.conditions)
 
     def branch(self, block: Block) -> Item:
         condition = cast(ir.Expression, block.open.data)
@@ -101,7 +106,7 @@ class Builder:
         move, (_, delay) = block.open.data
         self.nested += 1
         name = f"{self.program}_P{self.nested}"
-        body = self.body(item for section in block.sections for item in section.items)
+        body = self.settled(item for section in block.sections for item in section.items)
         flags = _local_flags(list(statements(body)))
         self.routines.append(ir.Routine(name, declarations=flags, body=body, scope="global", origin=block.open.origin))
         action = ir.CallRoutine(name, origin=block.open.origin)
@@ -125,7 +130,7 @@ class Builder:
                         lines.append(item)
                     case _:
                         self.diagnostics.report(MISPLACED, item.origin, what="a statement among the positions")
-        body = self.body(lines)
+        body = self.settled(lines)
         inside = list(statements(body))
         nested = list(statements(*(routine.body for routine in self.routines)))
         declared = (*self.used_positions(positions, inside + nested), *_local_flags(inside))
@@ -184,7 +189,7 @@ def _local_flags(inside: list[ir.Statement]) -> tuple[ir.Variable, ...]:
         TIMED_OUT: any(isinstance(node, ir.WaitUntil) and node.timed_out is not None for node in inside),
     }
     flags = tuple(ir.Variable(name, ir.BoolType(), scope="routine") for name in (HIT, TIMED_OUT) if used[name])
-    return *flags, *_chosen(inside), *_local_registers(inside)
+    return *flags, *modal.chosen(inside), *_chosen(inside), *_local_registers(inside)
 
 
 def _chosen(inside: list[ir.Statement]) -> Iterable[ir.Variable]:

@@ -13,9 +13,9 @@ from rpl.diagnostics import Severity, code
 from rpl.reading.pieces import Open
 from rpl.reading.shapes import StatementError, SyntaxTree
 
-from . import tables
+from . import modal, tables
 from .expressions import Typed
-from .statements import HIT, SKIP_BY_TEXT, Lowered, Many, Statements
+from .statements import HIT, Lowered, Many, Statements
 
 OTHER_FRAME = code(
     "tp-other-frame",
@@ -131,10 +131,10 @@ class Motion(Statements):
         if len(tree.children) > 1:
             given = self.typed(_tree(tree.children[1]))
         else:
-            known = self.offsets.get(word)
-            if known is None:
+            known = modal.OFFSET if word == "offset" else modal.TOOL_OFFSET
+            if known not in self.offsets:
                 raise StatementError(f"no {word.upper()} CONDITION stands before this move", 0)
-            given = known
+            given = Typed(ir.Name(known), self.offsets[known])
         if given.kind not in ("p", "j"):
             raise StatementError("an offset is a position register", 0)
         options.offsets.append((word, given))
@@ -294,14 +294,10 @@ class Motion(Statements):
     def search(self, options: Options) -> ir.Search | None:
         if options.skip is None:
             return None
-        condition: ir.Expression = ir.VendorValue("tp", "SKIP CONDITION", ir.BoolType(), origin=self.origin)
-        if self.condition is not None:
-            condition = self.condition[0]
-            if self.conditions > 1:
-                self.diagnostics.report(SKIP_BY_TEXT, self.origin, what="SKIP CONDITION", line=self.condition[1])
+        self.modal.setdefault(modal.SKIP, [])
         latch = options.skip[2]
         found = latch[0].node if latch is not None and latch[1].kind == "p" and latch[0].kind == "p" else None
-        return ir.Search(condition, found, "stop", "rising", ir.Name(HIT, origin=self.origin))
+        return ir.Search(ir.Name(modal.SKIP), found, "stop", "rising", ir.Name(HIT, origin=self.origin))
 
     def after(self, options: Options) -> Many:
         """Skip,LBL[n]: without the condition the program jumps; SkipJump jumps with it."""

@@ -150,8 +150,8 @@ def _read_listing(
     lowering = Motion(facts, diagnostics)
     kinds = {number: position.kind for number, position in file.positions.items()}
     lowering.place = Place(file.name, kinds, file.labels, file.taught)
-    lowering.offsets = {}
-    builder = Builder(diagnostics, file.name)
+    lowering.modal, lowering.offsets = {}, {}
+    builder = Builder(diagnostics, file.name, lowering.modal)
     done = assemble(file.source, "tp", iter(file.pieces), _parser(), lowering.lower, builder, diagnostics)
     modules = []
     for item in done.items:

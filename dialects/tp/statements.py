@@ -18,7 +18,7 @@ from rpl.reading.pieces import Close, Element, Middle, Open
 from rpl.reading.shapes import StatementError, SyntaxTree
 from rpl.source import Origin
 
-from . import tables
+from . import modal, tables
 from .expressions import Choice, Expressions, Pieces, Typed
 from .header import read_header
 from .positions import parse_position, variable
@@ -32,11 +32,6 @@ INSTRUCTION = code(
     Severity.INFO,
     "{text} is an instruction of an application or a macro; only the controller knows what it does",
     "give the macro's program, or say in the cell file what it stands for ([[vendor]])",
-)
-SKIP_BY_TEXT = code(
-    "tp-condition-by-text",
-    Severity.WARNING,
-    "this program sets {what} in several places; here the one of line {line} is taken",
 )
 MARKER = code(
     "tp-marker-once",
@@ -54,9 +49,8 @@ CHOSEN_TRUTH, CHOSEN_NUMBER = "chosen_truth_", "chosen_number_"
 class Statements(Expressions):
     """Lowers statement trees."""
 
-    condition: tuple[ir.Expression, int] | None = None
-    conditions = 0
-    offsets: dict[str, Typed]
+    modal: dict[str, list[ir.Expression]]  # values of the conditions (see modal.py), in their order
+    offsets: dict[str, str]  # kinds of the offsets among them
     interrupts = 0
     choices = 0
 
@@ -424,25 +418,31 @@ class Statements(Expressions):
         return ir.WaitUntil(condition, limit, late, origin=self.origin)
 
     def on_skip_condition(self, tree: SyntaxTree) -> Lowered:
-        """What later moves with Skip watch. It is part of those moves, so nothing is left here."""
+        """What later moves with Skip watch: part of those moves (see modal.py)."""
         expression = _tree(tree.children[0])
         edge = self.edge_of(expression)
-        self.condition = (edge[1] if edge else self.truth(expression), self.origin.line)
-        self.conditions += 1
-        return ir.Nothing(origin=self.origin)
+        return self.set_modal(modal.SKIP, edge[1] if edge else self.truth(expression))
+
+    def set_modal(self, word: str, value: ir.Expression) -> ir.Assign:
+        given = self.modal.setdefault(word, [])
+        given.append(value)
+        return modal.mark(word, len(given), self.origin)
 
     def on_offset_condition(self, tree: SyntaxTree) -> Lowered:
-        return self.modal_offset("offset", tree)
+        return self.modal_offset(modal.OFFSET, tree)
 
     def modal_offset(self, word: str, tree: SyntaxTree) -> Lowered:
         """What later moves with a bare Offset take. With a frame of its own the offset means something else."""
-        self.offsets[word] = self.typed(_tree(tree.children[0]))
+        given = self.typed(_tree(tree.children[0]))
+        if self.offsets.setdefault(word, given.kind) != given.kind:
+            raise StatementError("the offsets of one program are either positions or joints", 0)
+        made = self.set_modal(word, given.node)
         if len(tree.children) > 1:
-            return self.vendor(self.origin_line(), "unknown")
-        return ir.Nothing(origin=self.origin)
+            return self.vendor(self.origin_line(), "unknown"), made
+        return made
 
     def on_tool_offset_condition(self, tree: SyntaxTree) -> Lowered:
-        return self.modal_offset("tool_offset", tree)
+        return self.modal_offset(modal.TOOL_OFFSET, tree)
 
     # ---- the operator, settings
 
@@ -484,7 +484,6 @@ __all__ = [
     "CHOSEN_NUMBER",
     "CHOSEN_TRUTH",
     "HIT",
-    "SKIP_BY_TEXT",
     "TIMED_OUT",
     "Lowered",
     "Many",

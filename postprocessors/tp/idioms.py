@@ -19,7 +19,16 @@ from .assignments import Assignments
 from .expressions import Expressions
 from .flow import Labels, single_jump
 from .lines import Line
-from .own import alarm_number, raw_text, table_change, table_select, without_trunc
+from .own import (
+    alarm_number,
+    is_modal_mark,
+    modal_choice,
+    modal_condition,
+    raw_text,
+    table_change,
+    table_select,
+    without_trunc,
+)
 
 _MOTION = ("J ", "L ", "C ", "A ", "S ")
 
@@ -68,7 +77,7 @@ class Idioms:
         """How many statements were written together; 0: there is no idiom here."""
         finders: tuple[Callable[[ir.Body], int], ...] = (
             *(self.frame_number, self.frame_value, self.alarm, self.limited_wait, self.search, self.standstill),
-            *(self.loose_triggers,),
+            *(self.loose_triggers, self.condition, self.under_conditions),
             *(self.counting, self.chosen_place, self.rare_options, self.end_of_monitor, self.watched),
         )
         lines = self.printer.lines
@@ -158,6 +167,28 @@ class Idioms:
                 self.printer.searching(move, self.printer.labels.number(jump[1]), word=word, kept=kept)
                 return self.done(body, count)
         return 0
+
+    def condition(self, body: ir.Body) -> int:
+        """`SKIP CONDITION DI[1]=ON`, one of several that can be in force at a move."""
+        if not is_modal_mark(body[0]):
+            return 0
+        self.printer.line(modal_condition(body[0].origin), body[0].origin)
+        return self.done(body, 1)
+
+    def under_conditions(self, body: ir.Body) -> int:
+        """A move that several conditions can be in force at: the controller itself knows which one it is."""
+        move, text = modal_choice(body[0]), raw_text(body[0].origin)
+        if move is None or text is None:
+            return 0
+        count = self.search((replace(move, origin=body[0].origin), *body[1:])) if isinstance(move, ir.Move) else 0
+        if count:
+            self.printer.ledger.merged(body[0])
+            return count
+        count = 1
+        while count < len(body) and body[count].origin.start == body[0].origin.start:
+            count += 1  # the jump of a Skip
+        self.raw(text, *body[:count])
+        return count
 
     def kept_joints(self, statement: ir.Statement, hit: ir.Expression) -> str:
         """`PR[3]=JPOS` where the statement keeps the joints of a search that found something."""

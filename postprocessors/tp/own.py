@@ -17,6 +17,8 @@ WAIT_LIMIT = "$WAITTMOUT"
 _TABLES = {"base": "UFRAME", "tool": "UTOOL"}
 _NUMBERED = re.compile(r"\s*\d*\s*:\s*(.*?)\s*;?\s*\Z", re.DOTALL)
 _CONDITION = re.compile(r"(?:SKIP|OFFSET|TOOL_OFFSET)\s+CONDITION\b", re.IGNORECASE)
+# What the reader calls the numbers of a program's conditions, where more than one can be in force at a move.
+MODAL = ("SKIP_CONDITION", "OFFSET_CONDITION", "TOOL_OFFSET_CONDITION")
 _ALARM = re.compile(r"UALM\[(\d+)\]")
 
 
@@ -75,6 +77,24 @@ def modal_condition(origin: Origin) -> str:
     """`SKIP CONDITION DI[5]=ON`: the reader has put it into the moves, and keeps its line as a layout line."""
     text = " ".join((raw_text(origin) or "").split())
     return text if _CONDITION.match(text) else ""
+
+
+def modal_choice(statement: ir.Statement) -> ir.Statement | None:
+    """The first of the moves that a listing's move became, one for each condition that can be in force there."""
+    match statement:
+        case ir.If(branches=((ir.Binary("=", ir.Name(id=word), ir.IntLiteral()), (move,)), *_), otherwise=(_,)) if (
+            word.upper() in MODAL and from_listing(statement.origin)
+        ):
+            return move
+    return None
+
+
+def is_modal_mark(statement: ir.Statement) -> bool:
+    """Does it keep the number of the condition that a line of the listing puts in force?"""
+    match statement:
+        case ir.Assign(target=ir.Name(id=word), value=ir.IntLiteral()):
+            return word.upper() in MODAL and modal_condition(statement.origin) != ""
+    return False
 
 
 def without_trunc(value: ir.Expression) -> ir.Expression:

@@ -22,7 +22,7 @@ from .expressions import Expressions
 from .flow import Labels
 from .frames import Frames, free_numbers, highest_free_registers, kept_registers
 from .lines import Line
-from .own import monitors_of, quiet_routines, steps_in
+from .own import MODAL, monitors_of, quiet_routines, steps_in
 from .positions import Points, point_number
 from .posture import assumed_postures, choose_postures, frames_only, moved_to
 from .statements import Printer
@@ -50,7 +50,7 @@ SAME_NAME = code(
 
 _NO_DATE = "DATE 00-01-01  TIME 00:00:00"  # the same text for the same program
 # Variables that stand for what the controller has without any declaration, in programs read from listings.
-_CONTROLLERS_OWN = ("UTOOL", "UFRAME", "UTOOL_NUM", "UFRAME_NUM", "WAIT_TIMED_OUT", "SKIP_HIT")
+_CONTROLLERS_OWN = ("UTOOL", "UFRAME", "UTOOL_NUM", "UFRAME_NUM", "WAIT_TIMED_OUT", "SKIP_HIT", *MODAL)
 _COMPUTED = "?"  # stands for a program whose name a register holds
 _MOTION = ("J ", "L ", "C ", "A ")
 

@@ -197,6 +197,49 @@ def test_skip_stops_at_the_signal_and_goes_on() -> None:
     assert outputs(run(listing(lines))) == [("DO[3]", True)]
 
 
+CHOSEN_SKIP = (
+    "J P[2] 50% FINE\nIF DI[9]=ON,JMP LBL[5]\nSKIP CONDITION DI[1]=ON\nJMP LBL[6]\nLBL[5]\nSKIP CONDITION DI[2]=ON\n"
+    "LBL[6]\nL P[3] 50mm/sec FINE Skip,LBL[1]\nDO[1]=ON\nEND\nLBL[1]\nDO[3]=ON"
+)
+
+
+@pytest.mark.parametrize(("chosen", "signal", "met"), [(0, 1, 1), (0, 2, 3), (1, 1, 3), (1, 2, 1)])
+def test_the_skip_condition_that_was_executed_last_holds(chosen: int, signal: int, met: int) -> None:
+    inputs = [(0.0, "DI[9]", chosen), (2.0, f"DI[{signal}]", 1)]
+    cell = "\n".join(
+        f'[[input]]\ntime = {time}\nsignal = "{name}"\nvalue = {"true" if value else "false"}'
+        for time, name, value in inputs
+    )
+    assert outputs(run(listing(CHOSEN_SKIP), cell=cell)) == [(f"DO[{met}]", True)]
+
+
+def test_a_condition_that_is_set_below_holds_in_the_next_pass() -> None:
+    lines = (
+        "SKIP CONDITION DI[1]=ON\nLBL[3]\nJ P[2] 50% FINE\nL P[3] 200mm/sec FINE Skip,LBL[1]\nDO[1]=ON\nEND\n"
+        "LBL[1]\nSKIP CONDITION DI[2]=ON\nJMP LBL[3]"
+    )
+    cell = '[[input]]\ntime = 5.0\nsignal = "DI[2]"\nvalue = true'
+    assert outputs(run(listing(lines), cell=cell)) == [("DO[1]", True)]
+
+
+def test_one_condition_that_can_be_in_force_needs_no_choice() -> None:
+    lines = "SKIP CONDITION DI[1]=ON\nL P[3] 50mm/sec FINE Skip,LBL[1]\nLBL[1]\nSKIP CONDITION DI[2]=ON\n"
+    made = body(lines + "L P[2] 50mm/sec FINE Skip,LBL[2]\nLBL[2]")
+    assert [line.split("SEARCH ")[1].split(" HIT")[0] for line in made if "SEARCH" in line] == ["di[1]", "di[2]"]
+    assert not [line for line in made if "condition" in line]
+
+
+def test_the_offset_condition_that_was_executed_last_holds() -> None:
+    lines = (
+        "PR[1]=LPOS-LPOS\nPR[2]=PR[1]\nPR[1,3]=10\nPR[2,3]=20\nOFFSET CONDITION PR[1]\n"
+        "IF DI[9]=ON,JMP LBL[5]\nOFFSET CONDITION PR[2]\nLBL[5]\nL P[2] 100mm/sec FINE\nPR[3]=LPOS\n"
+        "L P[2] 100mm/sec FINE Offset\nPR[4]=LPOS\nR[1]=PR[4,3]-PR[3,3]\nIF R[1]>15,DO[2]=ON\nIF R[1]<15,DO[1]=ON"
+    )
+    assert outputs(run(listing("J P[2] 50% FINE\n" + lines))) == [("DO[2]", True)]
+    chosen = '[[input]]\ntime = 0.0\nsignal = "DI[9]"\nvalue = true'
+    assert outputs(run(listing("J P[2] 50% FINE\n" + lines), cell=chosen)) == [("DO[1]", True)]
+
+
 def test_a_frame_that_is_certainly_another_is_reported() -> None:
     found = read(listing("UFRAME_NUM=1\nL P[2] 100mm/sec FINE"))[1]
     assert reports(found) == ["tp-other-frame"]
