@@ -10,6 +10,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import reduce
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
@@ -26,6 +27,7 @@ INTO_FOR = code(
     "a jump goes into this counting loop from outside; what its counter and its end are then is not defined",
 )
 _DEEP = 50_000
+_Choice = tuple[list[tuple[ir.Expression, ir.Body]], ir.Body]
 
 
 def labels_to_structure(program: ir.Program, context: Context) -> ir.Program:
@@ -113,6 +115,7 @@ class _Tidy:
             branches.pop()
         if not branches:
             return otherwise
+        branches, otherwise = self.without_empty(branches, otherwise)
         if len(branches) > 1 or (not branches[0][1] and not otherwise):
             filled = tuple((condition, body or (ir.Nothing(),)) for condition, body in branches)
             return (replace(statement, branches=filled, otherwise=otherwise),)
@@ -124,6 +127,17 @@ class _Tidy:
         if otherwise and not goes_on(otherwise):
             return (replace(statement, branches=((opposite(condition), otherwise),), otherwise=()), *body)
         return (replace(statement, branches=((condition, body),), otherwise=otherwise),)
+
+    def without_empty(self, branches: list[tuple[ir.Expression, ir.Body]], otherwise: ir.Body) -> _Choice:
+        """Branches that do nothing, and one behind them that does: one condition of several terms."""
+        last = ([], otherwise) if otherwise else ([branches[-1][0]], branches[-1][1])
+        empty = [condition for condition, _ in (branches if otherwise else branches[:-1])]
+        if len(branches) < 2 or not last[1] or any(body for _, body in branches[: len(empty)]):
+            return branches, otherwise
+        if not all(self.silent(condition) for condition, _ in branches[1:]):
+            return branches, otherwise
+        terms = [term for condition in (*map(opposite, empty), *last[0]) for term in _terms(condition)]
+        return [(reduce(lambda left, right: ir.Binary("and", left, right), terms), last[1])], ()
 
     def silent(self, condition: ir.Expression) -> bool:
         return self.editor.effects.quiet(condition) and self.editor.effects.safe(condition)
@@ -140,3 +154,9 @@ class _Tidy:
                 if "Repeat" in self.has and not passes_on(tuple(rest)) and not origin.comments:
                     return ir.Repeat(condition, tuple(rest), origin=origin)
         return statement
+
+
+def _terms(condition: ir.Expression) -> list[ir.Expression]:
+    if isinstance(condition, ir.Binary) and condition.op == "and":
+        return [*_terms(condition.left), *_terms(condition.right)]
+    return [condition]

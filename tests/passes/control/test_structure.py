@@ -56,6 +56,17 @@ CASES: list[tuple[str, ir.Body, ir.Body]] = [
         (step(1), when(NOT_A, step(2), when(NOT_B, step(3)))),
     ),
     (
+        "jumps over one step",
+        (goto(A, "end"), goto(B, "end"), goto(less("a", 0), "end"), step(1), ir.Label("end"), step(2)),
+        (
+            when(
+                ir.Binary("and", ir.Binary("and", NOT_A, NOT_B), ir.Binary(">=", ir.Name("a"), number(0))),
+                step(1),
+            ),
+            step(2),
+        ),
+    ),
+    (
         "two that fail",
         (
             *(goto(B, "bad"), step(1), goto(A, "bad"), step(2), ir.Goto("end")),
