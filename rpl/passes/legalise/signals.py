@@ -101,6 +101,11 @@ class _Named:
         self.highest: dict[str, int] = {}
         self.dynamic: dict[str, str] = {}
         self.given: dict[str, int] = {}  # the highest whole number that a place is set to
+        self.parameters = {
+            routine.name.lower(): tuple(one.name for one in routine.parameters)
+            for module in program.modules
+            for routine in module.routines
+        }
         self.flags: str | None = None
         self.flags_watched = False  # an interrupt comes with each change of one
         self.scope: Scope | None = None
@@ -144,6 +149,19 @@ class _Named:
             case ir.For(counter=name, start=start, stop=stop):
                 ends = [one.value for one in (start, stop) if isinstance(one, ir.IntLiteral)]
                 self.given[name.lower()] = max([self.given.get(name.lower(), 0), *ends])
+            case ir.CallRoutine(name=str() as name, arguments=arguments):
+                for place, argument in zip(self.parameters.get(name.lower(), ()), arguments, strict=False):
+                    key = (argument.name or place).lower()
+                    if isinstance(argument.value, ir.IntLiteral):
+                        self.given[key] = max(self.given.get(key, 0), argument.value.value)
+
+    def put_into(self, index: ir.Expression) -> list[int]:
+        """The whole numbers that the program puts into an index, as far as they are seen; `n - 1000` counts too."""
+        match index:
+            case ir.Binary(op="-" | "+" as op, left=ir.Name() | ir.Index() as left, right=ir.IntLiteral(value=offset)):
+                found = self.given.get(_place(left), 0)
+                return [found - offset if op == "-" else found + offset] if found else []
+        return [self.given.get(_place(node), 0) for node in walk(index) if isinstance(node, ir.Name | ir.Index)]
 
     def in_scope(self, scope: Scope) -> _Named:
         self.scope = scope
@@ -208,8 +226,8 @@ class _Named:
         """The routine for signals of the kind. What the program itself puts into the index is in reach."""
         if what not in self.dynamic:
             self.dynamic[what] = self.context.fresh(f"rpl_{what}")
-        numbers = [self.given.get(_place(node), 0) for node in walk(index) if isinstance(node, ir.Name | ir.Index)]
-        self.highest[kind] = max([self.highest.get(kind, 0), *(one for one in numbers if one <= _MOST)])
+        numbers = (one for one in self.put_into(index) if one <= _MOST)
+        self.highest[kind] = max([self.highest.get(kind, 0), *numbers])
         self.context.diagnostics.report(DYNAMIC, origin, last=self.reach(kind))
         return self.dynamic[what]
 
