@@ -427,13 +427,16 @@ class _Priorities:
         return [rewrite_parts(statement, lambda expression: expression, self.body)]
 
     def every(self, statement: ir.OrderInterrupt, name: str, time: ir.Expression) -> list[ir.Statement]:
-        """A timer that counts up to zero; its interrupt sets it back by the period, so that no time is lost."""
+        """A timer that counts up to zero; its interrupt sets it back by the period, so that no time is lost. Periods
+        that pass while it has to wait come once, and the next one at its own time."""
         if name not in self.timer_of:
             self.timer_of[name] = self.context.capabilities.timers - len(self.timer_of)
         timer, stopped = self.timer(name, "timer"), self.timer(name, "timer_stopped")
         priority, later = ir.IntLiteral(self.priority_of[name]), replace(statement.origin, comments=())
         off = ir.ControlInterrupt("off", priority)
-        again = off if statement.once else ir.Assign(timer, ir.Binary("-", timer, time))
+        back = ir.Assign(timer, ir.Binary("-", timer, time))
+        passed = ir.Binary("<=", timer, ir.IntLiteral(0))
+        again = off if statement.once else ir.Repeat(passed, (back,))
         routine = self.context.fresh(f"{self.routine_of[name]}_timer")
         call = ir.CallRoutine(self.routine_of[name])
         self.made.append(ir.Routine(routine, body=(again, call), scope="global"))
