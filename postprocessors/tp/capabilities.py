@@ -108,6 +108,7 @@ CAPABILITIES = Capabilities(
     asked_frames=False,
     most_arguments=tables.MOST_ARGUMENTS,
     pulse_levels=False,
+    pulse_times=False,
     static_locals=True,
     local_clocks=False,
 )

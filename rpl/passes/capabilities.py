@@ -151,7 +151,7 @@ class Capabilities:
     watching_tasks: path events, searches and interrupts stand in `statements` although moves and the controller have
     none: the passes make tasks of them that watch beside the move (pathevents, watching). watched_interrupts: only
     interrupts are such tasks; one that stops the robot ends its moves by a search. pulse_levels: a Pulse may be to any
-    level (else it is to high).
+    level (else it is to high). pulse_times: its length may be computed (else it is a number).
 
     declared_groups: a group of signals exists only by a declaration with a name (KRL SIGNAL). signal_groups: a group
     can be named by its first and last signal, or a pass or the writer finds a name for it. Where signals have names
@@ -282,6 +282,7 @@ class Capabilities:
     watching_tasks: bool = False
     watched_interrupts: bool = False
     pulse_levels: bool = True
+    pulse_times: bool = True
     declared_groups: bool = False
     signal_groups: bool = True
     group_sizes: tuple[int, ...] = ()

@@ -1,6 +1,7 @@
-"""Pulses to low, and to the opposite of what the output is, for targets whose pulses are to high.
+"""Pulses to low, and to the opposite of what the output is, for targets whose pulses are to high; pulses whose length
+is computed, for targets where it is a number.
 
-A pulse to low is set now, and a task of its own sets the output back after its time. Of an output that is known only in
+Such a pulse is set now, and a task of its own sets the output back after its time. Of an output that is known only in
 the run (one that a routine is given) the pulse to high is written, and the one to low stays for the writer.
 """
 
@@ -12,6 +13,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.effects import is_constant
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.support import with_support
 from rpl.passes.scope import Scope
@@ -20,13 +22,18 @@ _HIGH, _LOW = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
 
 def pulse_levels(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets that pulse to high and can begin a task."""
+    """Only for targets that pulse to high, or for known times, and can begin a task."""
     can = context.capabilities
-    if can.pulse_levels or "start" not in can.task_operations or "TaskControl" not in can.statements:
-        return program
-    if not any(isinstance(one, ir.Pulse) and one.value != _HIGH for one in walk(*program.modules)):
+    if (
+        (can.pulse_levels and can.pulse_times)
+        or "start" not in can.task_operations
+        or "TaskControl" not in can.statements
+    ):
         return program
     worker = _Pulses(context)
+    pulses = [one for one in walk(*program.modules) if isinstance(one, ir.Pulse)]
+    if all(one.value == _HIGH and worker.measured(one) for one in pulses):
+        return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         return edit_bodies(routine, lambda body: map_body(body, lambda one: worker.statement(one, editor.scope)))
@@ -40,15 +47,21 @@ class _Pulses:
     """The tasks, one for each output, and the data that says for how long."""
 
     context: Context
-    tasks: dict[ir.Expression, tuple[str, str]] = field(default_factory=dict)
+    tasks: dict[tuple[ir.Expression, bool], tuple[str, str]] = field(default_factory=dict)
     times: list[ir.Variable] = field(default_factory=list)
     routines: list[ir.Routine] = field(default_factory=list)
 
     def statement(self, statement: ir.Statement, scope: Scope) -> ir.Body:
         match statement:
-            case ir.Pulse(signal=signal, value=value) if value != _HIGH and _is_one(signal, scope):
-                low = self.low(signal, statement.duration)
-                high = (ir.Pulse(signal, _HIGH, statement.duration),)
+            case ir.Pulse(signal=signal, value=value) if value == _HIGH:
+                if self.measured(statement) or not _is_one(signal, scope):
+                    return (statement,)
+                return expansion(statement.origin, self.set_back(signal, _HIGH, statement.duration))
+            case ir.Pulse(signal=signal, value=value) if _is_one(signal, scope):
+                low = self.set_back(signal, _LOW, statement.duration)
+                high: ir.Body = (ir.Pulse(signal, _HIGH, statement.duration),)
+                if not self.measured(statement):
+                    high = self.set_back(signal, _HIGH, statement.duration)
                 if value == _LOW:
                     return expansion(statement.origin, low)
                 if value == ir.Unary("not", signal):
@@ -60,16 +73,22 @@ class _Pulses:
                 return expansion(statement.origin, (ir.If(((ir.Unary("not", signal), high),), stays),))
         return (inside(statement, lambda inner: map_body(inner, lambda one: self.statement(one, scope))),)
 
-    def low(self, signal: ir.Expression, duration: ir.Expression) -> ir.Body:
-        if signal not in self.tasks:
+    def measured(self, pulse: ir.Pulse) -> bool:
+        """Can the target say how long the pulse is?"""
+        return self.context.capabilities.pulse_times or is_constant(pulse.duration)
+
+    def set_back(self, signal: ir.Expression, level: ir.BoolLiteral, duration: ir.Expression) -> ir.Body:
+        """The level now, and a task that gives the output the other one."""
+        if (signal, level.value) not in self.tasks:
             task, time = self.context.fresh("rpl_pulse"), self.context.fresh("rpl_pulse_time")
-            self.tasks[signal] = task, time
+            self.tasks[signal, level.value] = task, time
             self.times.append(ir.Variable(time, ir.RealType(), ir.RealLiteral(0.0), scope="global"))
             wait = ir.Wait(ir.Quantity(ir.Name(time), "s"))
-            self.routines.append(ir.Routine(task, body=(wait, ir.Assign(signal, _HIGH)), scope="global"))
-        task, time = self.tasks[signal]
+            back = ir.Assign(signal, _LOW if level.value else _HIGH)
+            self.routines.append(ir.Routine(task, body=(wait, back), scope="global"))
+        task, time = self.tasks[signal, level.value]
         return (
-            ir.Assign(signal, _LOW),
+            ir.Assign(signal, level),
             ir.Assign(ir.Name(time), duration),
             ir.TaskControl("start", task),
         )
