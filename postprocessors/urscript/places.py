@@ -313,8 +313,11 @@ def is_matrix(type: ir.ArrayType, scope: Scope) -> bool:
 def _less(index: ir.Expression, by: int) -> ir.Expression:
     if by == 0:
         return index
-    if isinstance(index, ir.IntLiteral):
-        return ir.IntLiteral(index.value - by)
+    match index:
+        case ir.IntLiteral(value=number):
+            return ir.IntLiteral(number - by)
+        case ir.Binary(op="+", left=left, right=ir.IntLiteral(value=number)) if number == by:
+            return left  # an index that a pass has shifted to arrays from one
     return ir.Binary("-", index, ir.IntLiteral(by))
 
 
