@@ -18,6 +18,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.editing import edit_bodies, map_body
 from rpl.passes.legalise.jumps import inside
+from rpl.passes.legalise.movesettings import plain
 from rpl.passes.scope import Scope
 from rpl.source import NOWHERE, Origin
 
@@ -41,6 +42,7 @@ _NOT_SHARED = (ir.ClockType, ir.InterruptType, ir.TriggerType)
 _PLACES = frozenset(("tool", "base", "null_frame", "actual_pose", "actual_joints"))
 _WAITS = (ir.Wait, ir.WaitUntil, ir.Pulse)
 _FALSE, _TRUE = ir.BoolLiteral(False), ir.BoolLiteral(True)
+_SHORT_WAIT = 0.1  # s: no task has to end sooner
 
 
 @dataclass(frozen=True, slots=True)
@@ -321,12 +323,15 @@ class _Maker:
 
 
 def leaving_at(routine: ir.Routine, stop: ir.Name, context: Context, leaving: ir.Body) -> ir.Routine:
-    """The routine of a task that does `leaving` at its next wait when the flag `stop` is set."""
+    """The routine of a task that does `leaving` at its next wait when the flag `stop` is set. Behind a short wait it
+    looks at the flag, as a wait that ends by a clock would last for whole cycles of the controller."""
     leave = ir.If(((stop, leaving),))
     late = ir.Variable(context.fresh("late"), ir.BoolType(), scope="routine")
 
     def statement(one: ir.Statement) -> ir.Body:
         match one:
+            case ir.Wait(time=time) if _is_short(time):
+                return (one, leave)
             case ir.Wait(time=time, origin=origin):
                 waiting = ir.WaitUntil(stop, timeout=time, timed_out=ir.Name(late.name), origin=origin)
                 return (waiting, leave)
@@ -337,7 +342,14 @@ def leaving_at(routine: ir.Routine, stop: ir.Name, context: Context, leaving: ir
         return (inside(one, lambda body: map_body(body, statement)),)
 
     done = edit_bodies(routine, lambda body: map_body(body, statement))
+    if not any(isinstance(node, ir.Name) and node.id == late.name for node in walk(*done.body)):
+        return done
     return replace(done, declarations=(*done.declarations, late))
+
+
+def _is_short(time: ir.Expression) -> bool:
+    value = plain(time)
+    return isinstance(value, ir.RealLiteral | ir.IntLiteral) and value.value <= _SHORT_WAIT
 
 
 def waits(part: ir.Statement | ir.Routine) -> bool:
