@@ -259,8 +259,9 @@ class Motion:
         shown = self.expressions.element(pose) if isinstance(pose, ir.Index | ir.Name) else None
         if shown is not None and shown.startswith("PR["):
             return shown
-        if shown is None and not self.before:
-            point = self.points.place(self.points.add(position_of(pose, self.expressions.scope)))
+        point = shown if shown is not None and shown.startswith("P[") else None
+        if (shown is None or point is not None) and not self.before:
+            point = point or self.points.place(self.points.add(position_of(pose, self.expressions.scope)))
             self.before.append(Line(f"  PR[{self.scratch}]={point}"))
             return f"PR[{self.scratch}]"
         raise CannotSayError("an offset is constant or in a position register")

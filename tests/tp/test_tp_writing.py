@@ -271,6 +271,8 @@ def test_a_way_along_the_tool_goes_from_the_point_before() -> None:
 def test_a_way_along_the_tool_in_a_position_register() -> None:
     found = lines("MOVE LINEAR TO P1 SPEED 100 mm/s\nMOVE LINEAR BY PR[7] IN TOOL SPEED 100 mm/s")
     assert found[1:] == ["L P[1] 100mm/sec FINE Tool_Offset,PR[7]"]
+    found = lines("MOVE LINEAR TO PR[3] : P1 SPEED 100 mm/s")  # a taught point seen from a computed frame
+    assert found == ["PR[100]=P[1]", "L PR[3] 100mm/sec FINE Tool_Offset,PR[100]"]
     codes = listing("MOVE LINEAR BY inverse(PR[7]) IN TOOL SPEED 100 mm/s")[1]
     assert "tp-guarded-stop" in codes
 
