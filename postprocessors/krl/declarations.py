@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.scope import Scope
@@ -46,12 +47,20 @@ def type_parts(type: ir.Type, expressions: Expressions) -> tuple[str, str]:
     raise CannotSayError(f"KRL has no type for {type.__class__.__name__.removesuffix('Type').lower()}")
 
 
+def sized(type: ir.Type) -> ir.Type:
+    """The type with a length for its texts: only parameters are declared without one."""
+    match type:
+        case ir.StringType(capacity=None):
+            return ir.StringType(ir.IntLiteral(tables.DEFAULT_TEXT_CAPACITY))
+        case ir.ArrayType(element=element):
+            return replace(type, element=sized(element))
+    return type
+
+
 def variable_line(variable: ir.Variable, scope: Scope, in_data: bool) -> str:
     """One variable. In a data list with its value; in a routine the value is assigned later."""
     expressions = Expressions(scope)
-    type = variable.type
-    if isinstance(type, ir.StringType) and type.capacity is None:
-        type = ir.StringType(ir.IntLiteral(tables.DEFAULT_TEXT_CAPACITY))
+    type = sized(variable.type)
     word, brackets = type_parts(type, expressions)
     words = ["DECL"]
     if in_data and variable.scope in ("task", "global"):
@@ -106,7 +115,7 @@ def record_line(record: ir.RecordDeclaration, scope: Scope) -> str:
     expressions = Expressions(scope)
     parts, last = [], ""
     for name, type in record.fields:
-        word, brackets = type_parts(type, expressions)
+        word, brackets = type_parts(sized(type), expressions)
         parts.append(f"{word} {name}{brackets}" if word != last else f"{name}{brackets}")
         last = word
     return f"{_scope(record.scope)}STRUC {record.name} {','.join(parts)}"

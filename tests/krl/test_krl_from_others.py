@@ -5,7 +5,8 @@ from __future__ import annotations
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.passes.typing import normalise
-from rpl.project import ReadProgram
+from rpl.project import ReadProgram, read_sources
+from rpl.source import source_from_text
 from rpl.translation import translate_program
 
 FAST = ((ir.System("path_speed"), ir.Quantity(ir.RealLiteral(500.0), "mm/s")),)
@@ -90,3 +91,26 @@ def test_outputs_behind_a_stop_stay_where_they_are() -> None:
     move = ir.Move("linear", ir.Name("p"), speed=ir.Speed(path=ir.RealLiteral(50.0)), blend=ir.BlendStop())
     lines, named, _ = krl(move, output, source="tp")
     assert "$OUT[1]=TRUE" in lines and "corner-output" not in named
+
+
+TEXTS = """MODULE Data
+  RECORD partdata
+    string name;
+    num size;
+  ENDRECORD
+  VAR partdata one;
+  VAR string texts{3};
+  PROC main()
+    one.name:=texts{2};
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_texts_in_structures_and_arrays_have_a_length() -> None:
+    diagnostics = Diagnostics()
+    found = read_sources([source_from_text("Data.mod", TEXTS)], "rapid", diagnostics)
+    done = translate_program(found, "krl", None, None, diagnostics)
+    lines = [line for file in done.files for line in file.data.decode("latin-1").splitlines()]
+    assert "GLOBAL STRUC partdata CHAR name[80],INT size" in lines
+    assert "DECL GLOBAL CHAR texts[3,80]" in lines
