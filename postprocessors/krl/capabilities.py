@@ -37,6 +37,7 @@ CAPABILITIES = Capabilities(
     concurrent_moves="advance",
     paths_to_joints=False,
     module_points="list",
+    widest_group=32,
     notation="krl",
     rotation="zyx",
     enums=True,

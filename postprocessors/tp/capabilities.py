@@ -47,6 +47,7 @@ CAPABILITIES = Capabilities(
     modal_motion=True,
     printable_texts=True,
     waits_at_rest=False,
+    widest_group=16,
     notation="tp",
     rotation="zyx",
     conversions=frozenset(("real", "trunc", "round_half_away")),

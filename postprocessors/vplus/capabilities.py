@@ -57,6 +57,7 @@ CAPABILITIES = Capabilities(
     last_flag=tables.LAST_FLAG,
     most_arguments=5,  # a call stands in one line: what nothing reads is left out of longer ones
     computed_decimals=False,
+    widest_group=32,
     notation="vplus",
     rotation="zyx",
     conversions=tables.words("real round_half_away trunc bit truth minus_bit floor code char"),

@@ -156,6 +156,7 @@ class Capabilities:
     declared_groups: a group of signals exists only by a declaration with a name (KRL SIGNAL). signal_groups: a group
     can be named by its first and last signal, or a pass or the writer finds a name for it. Where signals have names
     (signal_prefixes), a group has one of its own; groups of which a part is used otherwise are written bit by bit.
+    widest_group: bits of a group at most, where a program shows that eight are not enough.
     group_sizes: a group has so many signals and begins behind a multiple of them (empty: any).
     computed_groups: a group may have computed numbers. Without it, or where groups are declared or have names, such
     groups of a constant width are written bit by bit.
@@ -286,6 +287,7 @@ class Capabilities:
     declared_groups: bool = False
     signal_groups: bool = True
     group_sizes: tuple[int, ...] = ()
+    widest_group: int = 8
     computed_groups: bool = True
     numbered_groups: bool = False
     write_only: frozenset[str] = frozenset()

@@ -16,6 +16,7 @@ from rpl import ir, registry
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.groupwidths import TOO_NARROW, WIDTH, group_widths
 from rpl.passes.legalise.signalnumbers import numbers_as_arguments, parameters_as_numbers
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
@@ -34,8 +35,6 @@ _REACH = 32
 _FLAGS = 64
 _MOST = 1024  # beyond it a number that the program puts somewhere is none of a signal
 _VALUES: dict[str, ir.Type] = {"analog": ir.RealType(), "group": ir.IntType()}
-# Bits of a group whose width only its controller's configuration says.
-WIDTH = 8
 
 
 def name_signals(program: ir.Program, context: Context) -> ir.Program:
@@ -319,7 +318,9 @@ def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str
     for kind in computed:  # any of them may be meant
         taken = used.setdefault(kind, set())
         taken.update(range(1, max({_REACH, *taken}) + 1))
-    numbers = _numbers(names, prefixes, used, alone)
+    widest = context.capabilities.widest_group
+    widths = group_widths(program, known, widest, WIDTH if alone else widest)
+    numbers = _numbers(names, prefixes, used, alone, {key: bits for key, (bits, _) in widths.items()})
     declared: list[ir.Declaration] = []
     aliases: dict[tuple[str, str], str] = {}
     for (kind, key), name in names.items():
@@ -327,9 +328,12 @@ def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str
         if chosen:
             alias = context.fresh(name)
             aliases[kind, key] = alias
-            signal = _signal(kind, number, alone)
+            bits, fits = widths.get((kind, key), (WIDTH, True))
+            signal = _signal(kind, number, alone, bits)
             declared.append(ir.SignalDeclaration(alias, signal, scope="global"))
             context.diagnostics.report(NUMBERED, name=name, number=number)
+            if not fits:
+                context.diagnostics.report(TOO_NARROW, name=name, bits=bits, most=(1 << bits) - 1)
 
     def replaced(expression: ir.Expression) -> ir.Expression:
         name = known(expression) if isinstance(expression, ir.Signal) else None
@@ -384,11 +388,11 @@ def _bits(kind: str) -> str:
     return kind.replace("group", "digital")
 
 
-def _signal(kind: str, number: int, alone: bool) -> ir.Signal:
-    """A group of bits gets eight numbers in a row, as its width is not known to the program; where groups have numbers
-    of their own (not `alone`) the controller knows its bits."""
+def _signal(kind: str, number: int, alone: bool, width: int = WIDTH) -> ir.Signal:
+    """A group of bits gets numbers in a row; where groups have numbers of their own (not `alone`) the controller knows
+    its bits."""
     if kind.startswith("group") and alone:
-        last = ir.IntLiteral(number + WIDTH - 1)
+        last = ir.IntLiteral(number + width - 1)
         return ir.Signal(_bits(kind), index=ir.IntLiteral(number), last=last)
     return ir.Signal(kind, index=ir.IntLiteral(number))
 
@@ -403,7 +407,11 @@ def _prefixes() -> dict[str, set[str]]:
 
 
 def _numbers(
-    names: dict[tuple[str, str], str], prefixes: dict[str, set[str]], numbered: dict[str, set[int]], alone: bool
+    names: dict[tuple[str, str], str],
+    prefixes: dict[str, set[str]],
+    numbered: dict[str, set[int]],
+    alone: bool,
+    widths: dict[tuple[str, str], int],
 ) -> dict[tuple[str, str], tuple[int, bool]]:
     """Number of each named signal, and whether it was chosen (not said by its name), off the `numbered`."""
     result: dict[tuple[str, str], tuple[int, bool]] = {}
@@ -423,9 +431,9 @@ def _numbers(
         taken = used.setdefault(bits, set())
         number, taken = 1, taken | numbered.get(bits, set())
         # Groups: whole bytes of the numbers, which every controller can take at once.
-        width = WIDTH if alone and kind.startswith("group") else 1
+        width = widths.get((kind, key), WIDTH) if alone and kind.startswith("group") else 1
         while any(number + bit in taken for bit in range(width)):
-            number += width
+            number += min(width, WIDTH)
         used[bits].update(range(number, number + width))
         result[kind, key] = (number, True)
     return result
