@@ -104,6 +104,7 @@ from rpl.passes.legalise.polling import poll_waits
 from rpl.passes.legalise.possiblecases import possible_cases
 from rpl.passes.legalise.prelude import link_prelude
 from rpl.passes.legalise.programtimes import program_times
+from rpl.passes.legalise.pulsedoutputs import pulsed_outputs
 from rpl.passes.legalise.pulselevels import pulse_levels
 from rpl.passes.legalise.pulses import fold_pulses
 from rpl.passes.legalise.randomnumbers import random_numbers
@@ -309,6 +310,7 @@ PASSES: tuple[Pass, ...] = (
     labels_to_structure,
     resting_waits,
     fit_waits,
+    pulsed_outputs,
     pulse_levels,
     poll_waits,
     unroll_switches,
