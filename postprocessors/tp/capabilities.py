@@ -36,6 +36,7 @@ CAPABILITIES = Capabilities(
     system_variables=frozenset(
         ("tool", "base", "override", "actual_pose", "actual_joints", "timer", "timer_stopped", "null_frame", "world")
     ),
+    joined_texts=tables.LONGEST_PLAIN + 1,
     operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary, "-", "+", "&")),
     types=frozenset(
         (

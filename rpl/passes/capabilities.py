@@ -103,6 +103,7 @@ class Capabilities:
     records, arrays (False only with banks: consecutive numbers),
     texts: whether there are any. line_ends: they may have line ends (else a message is shown line by line).
     longest_message: characters of a message's line (0: any).
+    joined_texts: texts that one assignment joins at most (0: any).
     numbered_messages: who sends a message may be a number (the number of an alarm); else it is a text.
     computed_messages: a message may show computed text (else it names the registers of its values).
     asks_numbers_only: the operator can type a number, and the question is a message in front of it. text_case:
@@ -248,6 +249,7 @@ class Capabilities:
     texts: bool = True
     line_ends: bool = False
     longest_message: int = 0
+    joined_texts: int = 0
     numbered_messages: bool = False
     computed_messages: bool = True
     asks_numbers_only: bool = False

@@ -140,11 +140,16 @@ class _Steps(Hoister):
         while isinstance(pieces[0], ir.Binary) and pieces[0].op == "&":
             pieces[:1] = [pieces[0].left, pieces[0].right]
         before, values = self.several(pieces, [False] * len(pieces))
-        if all(new is old for new, old in zip(values, pieces, strict=True)):
+        most = self.can.joined_texts or len(values)
+        if len(values) <= most and all(new is old for new, old in zip(values, pieces, strict=True)):
             return before, expression
-        done = values[0]
+        done, count = values[0], 1
         for one in values[1:]:
-            done = ir.Binary("&", done, one, origin=expression.origin)
+            if count == most:
+                name = self.temporary(ir.StringType())
+                before = (*before, ir.Assign(name, done, origin=replace(expression.origin, comments=())))
+                done, count = name, 1
+            done, count = ir.Binary("&", done, one, origin=expression.origin), count + 1
         return before, done
 
     simple_parts = False
