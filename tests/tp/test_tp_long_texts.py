@@ -35,6 +35,6 @@ def test_a_text_of_many_pieces(form: str) -> None:
     diagnostics = Diagnostics()
     files = translate_program(read, "tp", None, None, diagnostics).files
     assert {one.code.name for one in diagnostics.of(Severity.LOSS)} <= {"tp-text-case"}
-    assert len(re.findall(r":step\d*\]=", "".join(one.data.decode() for one in files))) == steps
+    assert len(re.findall(r":step\d*\]=", files[0].data.decode())) == steps
     back = read_sources([source_from_bytes(f.path, f.data) for f in files], "tp", Diagnostics())
     assert [value for _, _, value in run_program(back.program, None, None, "T").outputs] == [True]
