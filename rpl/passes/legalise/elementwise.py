@@ -24,7 +24,9 @@ _DONE, _ONE, _OTHER, _PRODUCT = "done", "one", "other", "product"
 
 def elementwise(program: ir.Program, context: Context) -> ir.Program:
     """The program without the functions of this kind that the target lacks."""
-    lacking = {*_OPERATORS, *_MOVED, "pose_of"} - context.capabilities.functions
+    can = context.capabilities
+    alone = can.functions - (can.move_functions & set(_MOVED))  # what only a move's target may be is lacking elsewhere
+    lacking = {*_OPERATORS, *_MOVED, "pose_of"} - alone
     if not lacking:
         return program
     return _Worker(context, frozenset(lacking)).program(program)
@@ -58,11 +60,23 @@ class _Worker:
                 return self.call(node, scope)
             return node
 
+        def parts(statement: ir.Statement) -> ir.Statement:
+            target = statement.target if isinstance(statement, ir.Move) else None
+            if isinstance(statement, ir.Move) and isinstance(target, ir.Builtin) and self.moves(target):
+                inner = rewrite_parts(target, expression)
+                return rewrite_parts(statement, lambda node: inner if node is target else expression(node), body)
+            return rewrite_parts(statement, expression, body)
+
         def body(statements: ir.Body) -> ir.Body:
-            return tuple(rewrite_parts(statement, expression, body) for statement in statements)
+            return tuple(parts(statement) for statement in statements)
 
         handlers = tuple(replace(handler, body=body(handler.body)) for handler in routine.handlers)
         return replace(routine, body=body(routine.body), undo=body(routine.undo), handlers=handlers)
+
+    def moves(self, target: ir.Builtin) -> bool:
+        """Does a move of the target's say this itself?"""
+        can = self.context.capabilities
+        return target.function in _MOVED and target.function in can.move_functions & can.functions
 
     def call(self, node: ir.Builtin, scope: Scope) -> ir.Expression:
         """The call of the function for these types; the node where a type is not known."""

@@ -36,8 +36,9 @@ _BEFORE = (ir.Nothing, ir.Assign, ir.Message)
 
 
 def error_routines(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets without OnError."""
-    if "OnError" in context.capabilities.statements:
+    """Only for targets without OnError, and for programs that raise errors of their own where the target cannot."""
+    raised = any(isinstance(one, ir.Raise) for one in walk(*program.modules))
+    if "OnError" in context.capabilities.statements and not (raised and "Raise" not in context.capabilities.statements):
         return program
     found = [
         (routine, one)

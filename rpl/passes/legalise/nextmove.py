@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.capabilities import Capabilities
 from rpl.passes.legalise.activations import Activations, called
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body
@@ -23,12 +24,15 @@ UNCERTAIN = code(
     Severity.LOSS,
     "{setting} is set for the next move, and which one that is cannot be said here: {reason}",
 )
+# Settings that moves say with their speed and their corner.
+_AT_MOVES = frozenset(("path_speed", "joint_speed", "blend_distance", "blend_joint"))
 _OTHER_MOTION = (ir.MoveExternal, ir.Spline)
 
 
 def settings_of_next_move(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets without settings for one move."""
-    if context.capabilities.next_move_settings:
+    """Only for targets without settings for one move; where these say no speeds and corners, for those."""
+    can = context.capabilities
+    if can.next_move_settings and not can.move_settings & {"speed", "blend"}:
         return program
     facts = Activations.of(program)
     moving = {key for key, routine in facts.routines.items() if any(map(_moves, _every(routine)))}
@@ -36,7 +40,7 @@ def settings_of_next_move(program: ir.Program, context: Context) -> ir.Program:
     outermost = set(facts.routines) - {one for callees in facts.calls.values() for one in callees}
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        if not any(isinstance(one, ir.SetForNextMove) for one in _every(routine)):
+        if not any(_attached(one, can) for one in _every(routine)):
             return routine
         follow = _Follow(editor, movers, id(routine) in outermost)
         for body in bodies(routine):
@@ -47,6 +51,15 @@ def settings_of_next_move(program: ir.Program, context: Context) -> ir.Program:
         return edit_bodies(routine, _Attach(editor, follow).body)
 
     return edit_routines(program, context, work)
+
+
+def _attached(statement: ir.Statement, can: Capabilities) -> bool:
+    """Is it a setting that the target has to say at the move?"""
+    if not isinstance(statement, ir.SetForNextMove):
+        return False
+    setting = statement.setting.value if isinstance(statement.setting, ir.Magnitude) else statement.setting
+    name = setting.name if isinstance(setting, ir.System) else ""
+    return not can.next_move_settings or name in _AT_MOVES
 
 
 def _every(routine: ir.Routine) -> list[ir.Statement]:
@@ -103,6 +116,8 @@ class _Follow:
 
     def statement(self, statement: ir.Statement, waiting: Waiting) -> Waiting | None:
         match statement:
+            case ir.SetForNextMove() if not _attached(statement, self.editor.capabilities):
+                return waiting
             case ir.SetForNextMove():
                 pending = self.every.setdefault(id(statement), _Pending(statement))
                 # a later value for the same setting takes the place of the earlier one
@@ -167,7 +182,7 @@ class _Attach:
 
     def statement(self, statement: ir.Statement) -> ir.Body:
         match statement:
-            case ir.SetForNextMove(value=value):
+            case ir.SetForNextMove(value=value) if _attached(statement, self.editor.capabilities):
                 pending = self.follow.every[id(statement)]
                 if pending.lost:
                     return (statement,)
