@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.reading.pieces import COMMENT, Piece
-from rpl.source import Origin, Source
+from rpl.source import Comment, Origin, Source
 
 from . import tables
 from .dumps import Dump
@@ -215,7 +215,7 @@ def _labels(facts: Facts, text: str) -> None:
     if text.lstrip().startswith(("!", "//")):
         return
     for note in without_notes(text)[1]:
-        if note.text and note.bank in ("R", "PR", "SR", "I"):
+        if note.text and note.bank in ("R", "PR", "SR", "I", *tables.NUMBERED_SIGNALS, *tables.NAMED_SIGNALS):
             facts.labels.setdefault(("R" if note.bank == "I" else note.bank, note.number), note.text)
 
 
@@ -274,11 +274,19 @@ def declarations(facts: Facts, dump: Dump) -> tuple[ir.Declaration, ...]:
     if facts.wait_timeout:
         value = ir.IntLiteral(tables.WAIT_TIMEOUT_DEFAULT)
         made.append(_global(tables.WAIT_TIMEOUT, ir.IntType(), value))
+    if said := _notes(facts, *tables.NUMBERED_SIGNALS, *tables.NAMED_SIGNALS):
+        made.append(ir.Unread("", origin=Origin(comments=said)))
     return tuple(made)
 
 
 def _global(name: str, type: ir.Type, initial: ir.Expression | None, label: str = "") -> ir.Variable:
     return ir.Variable(name, type, initial, "persistent", "global", label)
+
+
+def _notes(facts: Facts, *banks: str) -> tuple[Comment, ...]:
+    """`DI[3] door closed`: what the listings' brackets say of signals, and of registers that are one array."""
+    said = ((bank, number, text) for (bank, number), text in facts.labels.items() if bank in banks)
+    return tuple(Comment(f"{bank}[{number}] {text}") for bank, number, text in sorted(said))
 
 
 def _bank(bank: str, facts: Facts, dump: Dump) -> Iterable[ir.Declaration]:
@@ -297,10 +305,12 @@ def _array(bank: str, last: int, facts: Facts, dump: Dump) -> Iterable[ir.Declar
     bound = (ir.IntLiteral(last),)
     if bank != "PR":
         values = tuple((None, _one(bank, number, facts, dump)[1] or ir.IntLiteral(0)) for number in range(1, last + 1))
-        yield _global(bank, ir.ArrayType(_one(bank, 1, facts, dump)[0], bound), ir.Aggregate(values))
+        whole = _global(bank, ir.ArrayType(_one(bank, 1, facts, dump)[0], bound), ir.Aggregate(values))
+        yield replace(whole, origin=Origin(comments=_notes(facts, bank)))
         return
     kind = facts.register_kind(None)
-    yield _global(bank, ir.ArrayType(type_of_kind(kind), bound), None)
+    whole = _global(bank, ir.ArrayType(type_of_kind(kind), bound), None)
+    yield replace(whole, origin=Origin(comments=_notes(facts, bank)))
     for number in range(1, last + 1):
         if number in dump.positions and dump.positions[number][0].kind == kind:
             position, origin = dump.positions[number]

@@ -127,10 +127,13 @@ class Expressions:
             parts = _NAMED.fullmatch(signal.name)
             if parts is None or parts["kind"].upper() not in (*tables.NAMED_SIGNALS, *tables.LAST_SIGNAL):
                 raise CannotSayError(f"the signal {signal.name} has no number")
-            return f"{parts['kind'].upper()}[{int(parts['number'])}]"
-        word = tables.SIGNALS.get(signal.kind)
-        if word is None or signal.index is None:
+            word, at = parts["kind"].upper(), int(parts["number"])
+            said = comment(self.names.get((word, at), ""))
+            return f"{word}[{at}{':' + said if said else ''}]"
+        known = tables.SIGNALS.get(signal.kind)
+        if known is None or signal.index is None:
             raise CannotSayError("a signal needs a number")
+        word = known
         if signal.last is not None:
             raise CannotSayError("a group of signals has a number of its own, given at the controller")
         value = constant(signal.index)

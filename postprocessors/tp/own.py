@@ -13,12 +13,15 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.usage import doing
 from rpl.source import Origin
 
+from . import tables
+
 WAIT_LIMIT = "$WAITTMOUT"
 _TABLES = {"base": "UFRAME", "tool": "UTOOL"}
 _NUMBERED = re.compile(r"\s*\d*\s*:\s*(.*?)\s*;?\s*\Z", re.DOTALL)
 _CONDITION = re.compile(r"(?:SKIP|OFFSET|TOOL_OFFSET)\s+CONDITION\b", re.IGNORECASE)
 # What the reader calls the numbers of a program's conditions, where more than one can be in force at a move.
 MODAL = ("SKIP_CONDITION", "OFFSET_CONDITION", "TOOL_OFFSET_CONDITION")
+_NOTED = re.compile(r"([A-Z]+)\[(\d+)\] (.+)")
 _ALARM = re.compile(r"UALM\[(\d+)\]")
 
 
@@ -67,6 +70,18 @@ def raw_text(origin: Origin) -> str | None:
     """The instruction as it stands in the listing, without number and closing sign; None when it was read elsewhere."""
     found = _NUMBERED.match(origin.text)
     return found[1] if found else None
+
+
+def noted_names(origin: Origin) -> dict[tuple[str, int], str]:
+    """The names of registers and signals in the remarks that the reader of listings makes: by bank or kind of signal,
+    and number."""
+    found: dict[tuple[str, int], str] = {}
+    if origin.source is None:
+        for remark in origin.comments:
+            if parts := _NOTED.fullmatch(remark.text):
+                kinds = [kind for kind, word in tables.SIGNALS.items() if word == parts[1]]
+                found.update({(kind, int(parts[2])): parts[3] for kind in (kinds or [parts[1]])})
+    return found
 
 
 def from_listing(origin: Origin) -> bool:

@@ -22,7 +22,7 @@ from .expressions import Expressions
 from .flow import Labels
 from .frames import Frames, free_numbers, highest_free_registers, kept_registers
 from .lines import Line
-from .own import MODAL, monitors_of, quiet_routines, steps_in
+from .own import MODAL, monitors_of, noted_names, quiet_routines, steps_in
 from .positions import Points, point_number
 from .posture import assumed_postures, choose_postures, frames_only, moved_to
 from .statements import Printer
@@ -305,10 +305,12 @@ def _is_bank(name: str) -> bool:
 
 
 def _labels_of_registers(program: ir.Program) -> dict[tuple[str, int], str]:
-    """Comments of registers that are variables of their own."""
+    """Comments of registers that are variables of their own, and those that a listing's reader has kept in remarks."""
     found: dict[tuple[str, int], str] = {}
     for module in program.modules:
         for declaration in module.declarations:
+            if isinstance(declaration, ir.Unread) or (isinstance(declaration, ir.Variable) and not declaration.label):
+                found.update(noted_names(declaration.origin))
             if isinstance(declaration, ir.Variable) and declaration.label:
                 bank = declaration.name.upper().rstrip("0123456789")
                 digits = declaration.name[len(bank) :]

@@ -256,3 +256,11 @@ def test_a_time_before_a_corner_counts_before_the_corner_is_known() -> None:
     by_time, by_way = (run(listing(lines.format(when))).outputs for when in ("TB    .10sec", "DB   10.0mm"))
     assert by_time[0][1:] == by_way[0][1:]
     assert by_time[0][0] == pytest.approx(by_way[0][0], abs=0.004)
+
+
+def test_what_the_brackets_say_of_signals_and_whole_banks_is_kept() -> None:
+    program, found = read(listing("R[R[1:at]]=0\nR[9:count]=1\nDO[3:lamp]=ON\nWAIT RI[1:part]=ON\nDO[3]=OFF"))
+    said = [
+        remark.text for module in program.modules for given in module.declarations for remark in given.origin.comments
+    ]
+    assert said == ["R[1] at", "R[9] count", "DO[3] lamp", "RI[1] part"] and not reports(found)

@@ -58,6 +58,7 @@ SAME = [
     "IF DI[1]=ON,JMP LBL[1]\nSKIP CONDITION DI[5]=ON\nLBL[1]\nSKIP CONDITION DI[6]=ON\nIF DI[2]=ON,JMP LBL[2]\n"
     "SKIP CONDITION DI[7]=ON\nLBL[2]\nL P[1:home] 50mm/sec FINE Skip,LBL[9],PR[7]=LPOS\nLBL[9]",
     "OFFSET CONDITION PR[1]\nIF DI[2]=ON,JMP LBL[2]\nOFFSET CONDITION PR[2]\nLBL[2]\nL P[2] 50mm/sec FINE Offset",
+    "R[R[8:at]]=0\nR[19:stack ok]=1\nDO[35:search]=ON\nWAIT RI[1:vacuum]=ON\nF[2:shift end]=(DI[3:door])",
     "R[95]=$MCR.$GENOVERRIDE",
     "IF R[1]=5 AND DI[2]=ON,JMP LBL[3]\nLBL[3]",
     "IF (!DI[1] AND (F[1] OR RI[2])) THEN\nCALL A\nCALL A\nELSE\nEND\nENDIF",
