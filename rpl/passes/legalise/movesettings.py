@@ -16,6 +16,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.modal import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, ZONE_MM_PER_PERCENT, says
 from rpl.passes.legalise.modalflow import SETTINGS, Flow, State
+from rpl.passes.legalise.servedsettings import only_served
 from rpl.passes.legalise.tooldata import PLACES
 from rpl.passes.rewrite import rewrite_parts
 
@@ -80,7 +81,8 @@ class _Settings:
             return program
         data = tuple(self.declared(name, variable) for name, variable in self.variables.items())
         home = ir.Module(self.context.fresh("rpl_settings"), program.modules[0].dialect, data, public=True)
-        return replace(program, modules=(*program.modules, home))
+        program = replace(program, modules=(*program.modules, home))
+        return only_served(program, self.variables.values())
 
     def modules(self) -> tuple[ir.Module, ...]:
         return tuple(
