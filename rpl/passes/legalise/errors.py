@@ -22,6 +22,7 @@ from rpl.passes.legalise.editing import (
     negation,
 )
 from rpl.passes.legalise.effects import Effects, blocks, is_constant, statements_in
+from rpl.passes.legalise.knownerrors import settled
 from rpl.passes.legalise.raising import Raising, raising_of
 from rpl.passes.legalise.support import default_value, with_support
 from rpl.passes.rewrite import rewrite_parts
@@ -363,8 +364,9 @@ class _Handling(_Passing):
 
     def caught_here(self, raised: ir.Raise) -> ir.Body:
         """An error that is raised beside its handler needs no flag."""
-        number = () if raised.code is None else (ir.Assign(self.names.number, raised.code),)
-        return (*number, *self.handler())
+        if raised.code is None:
+            return self.handler()
+        return (ir.Assign(self.names.number, raised.code), *settled(self.handler(), self.names.number, raised.code))
 
     def guarded(self, steps: ir.Body) -> ir.Body:
         """Steps behind one that raised are left out."""
