@@ -112,6 +112,7 @@ from rpl.passes.legalise.reactions import reactions
 from rpl.passes.legalise.reactionsearches import reaction_searches
 from rpl.passes.legalise.readoverrides import read_overrides
 from rpl.passes.legalise.readports import read_ports
+from rpl.passes.legalise.recordsinuse import records_in_use
 from rpl.passes.legalise.references import references_as_copies
 from rpl.passes.legalise.refusals import refuse
 from rpl.passes.legalise.repeatedmoves import repeated_moves
@@ -191,6 +192,7 @@ PASSES: tuple[Pass, ...] = (
     axes_of_arm,
     copied_flags,
     read_ports,
+    records_in_use,
     seen_half,
     step_times,
     load_readings,
