@@ -6,6 +6,7 @@ move: it goes on there, drives to the end of the move, or leaves the level of th
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from rpl import ir
@@ -23,23 +24,28 @@ CORNER = code(
 )
 
 
-def unending(one: ir.DeclareInterrupt, brakes: bool, data: bool = False) -> str:
-    """Why no move can end for it; empty when one can. `data`: a move may end at a truth value too."""
+def unending(
+    one: ir.DeclareInterrupt, brakes: bool, data: bool = False, signals: Mapping[str, ir.Signal] | None = None
+) -> str:
+    """Why no move can end for it; empty when one can. `data`: a move may end at a truth value too; `signals`: those
+    that have names, folded."""
     if not brakes and not one.stops:
         return "it takes time while the robot moves on"
-    if not _looks_at_input(one.condition, data):
+    if not _looks_at_input(one.condition, data, signals or {}):
         return "a move ends at one input only"
     return ""
 
 
-def _looks_at_input(condition: ir.Expression, data: bool) -> bool:
+def _looks_at_input(condition: ir.Expression, data: bool, signals: Mapping[str, ir.Signal]) -> bool:
     match condition:
+        case ir.Name(id=name) if name.lower() in signals:
+            return _looks_at_input(signals[name.lower()], data, {})
         case ir.Name():
             return data
         case ir.Signal(kind="digital_in", last=None):
             return True
         case ir.Unary(op="not", operand=operand) | ir.Binary(op="=" | "<>", left=operand, right=ir.BoolLiteral()):
-            return _looks_at_input(operand, data)
+            return _looks_at_input(operand, data, signals)
     return False
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.passes.legalise.effects import children, everything
 
 
@@ -17,6 +18,18 @@ class Keys(Protocol):
     """What is asked of the interrupts."""
 
     def arms(self, statement: ir.ControlInterrupt) -> bool | None: ...
+
+
+@dataclass(frozen=True, slots=True)
+class Armed:
+    """One interrupt by its number."""
+
+    key: int
+
+    def arms(self, statement: ir.ControlInterrupt) -> bool | None:
+        handle = statement.handle
+        other = isinstance(handle, ir.IntLiteral) and handle.value != self.key
+        return None if other or statement.op not in ("on", "off", "delete") else statement.op == "on"
 
 
 def armed_statements(program: ir.Program, keys: Keys) -> frozenset[int]:
@@ -31,6 +44,31 @@ def armed_statements(program: ir.Program, keys: Keys) -> frozenset[int]:
             reach.exits[name] = reach.exits.get(name, False) or end or reach.leaving
         if before == (reach.entries, reach.exits, len(reach.marked)):
             return frozenset(reach.marked)
+
+
+def with_calls(program: ir.Program, marked: frozenset[int], declaring: frozenset[str]) -> frozenset[int]:
+    """Also the calls of routines that arm the interrupt themselves: what leaves its level comes back behind these, up
+    to the routine that declares it (by folded name)."""
+    routines = {routine.name.lower(): routine for module in program.modules for routine in module.routines}
+    calls = {
+        name: [node for node in walk(*routine.body) if isinstance(node, ir.CallRoutine)]
+        for name, routine in routines.items()
+    }
+    ways = {
+        name
+        for name, routine in routines.items()
+        if name not in declaring and any(id(node) in marked for node in walk(*routine.body))
+    }
+    while True:
+        more = {
+            name
+            for name, found in calls.items()
+            if name not in declaring and any(call.name.lower() in ways for call in found)
+        }
+        if more <= ways:
+            break
+        ways |= more
+    return marked | {id(call) for found in calls.values() for call in found if call.name.lower() in ways}
 
 
 @dataclass(slots=True)

@@ -20,7 +20,7 @@ from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expa
 from rpl.passes.legalise.endedmoves import EndedMoves, unending
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.movers import Movers
-from rpl.passes.legalise.reach import armed_statements
+from rpl.passes.legalise.reach import Armed, armed_statements, with_calls
 from rpl.passes.legalise.searchtasks import SearchTasks
 from rpl.passes.legalise.served import MOTION, Served, Watch
 from rpl.passes.legalise.support import with_support
@@ -63,29 +63,40 @@ def watching(program: ir.Program, context: Context) -> ir.Program:
     movers = Movers(beside, ProgramScope(program))
     watches = _Watches(program, beside)
     watches.collect()
-    kind = Served if can.watching_tasks else EndedMoves
-    served = kind(program, context, beside, movers, watches.served())
-    marked = armed_statements(program, served) if served.watches else frozenset()
-    served.marked = marked
+    serving: list[Served] = []
+    for some in watches.together():
+        served = (Served if can.watching_tasks else EndedMoves)(program, context, beside, movers, some)
+        served.marked = armed_statements(program, served)
+        if served.leaves:
+            served.marked = with_calls(program, served.marked, served.declaring)
+        serving.append(served)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         done = routine
-        if served.watches:
-            done = served.routine(editor, routine, done)
-        elif searches:
+        for one in serving:
+            done = one.routine(editor, routine, done)
+        if searches and not serving:
             done = edit_bodies(done, SearchTasks(editor, routine, beside, movers).body)
-        if concurrent and not served.watches:
+        if concurrent and not serving:
             done = edit_bodies(done, ConcurrentMoves(editor, routine, beside, movers).body)
         return edit_bodies(done, watches.body) if interrupts else done
 
     done = edit_routines(program, context, work)
-    served.finish()
+    for one in serving:
+        one.finish()
     movers.finish()
     done = watches.levels(beside.placed(done))
     done = replace(done, tasks=(*done.tasks, *watches.by_urgency()))
-    done = exposed(done, called_names((*served.made, *watches.made)))
-    made = (*served.made, *watches.made)
-    return with_support(done, context, (*movers.data(), *served.data(), *watches.data), made, done.modules[0].task)
+    made = (*(routine for one in serving for routine in one.made), *watches.made)
+    done = exposed(done, called_names(made))
+    data = (*movers.data(), *(datum for one in serving for datum in one.data()), *watches.data)
+    return with_support(done, context, data, made, done.modules[0].task)
+
+
+def _signals(program: ir.Program) -> dict[str, ir.Signal]:
+    """The physical signals by their names, folded."""
+    found = (node for module in program.modules for node in module.declarations)
+    return {one.name.lower(): one.signal for one in found if isinstance(one, ir.SignalDeclaration)}
 
 
 def _name(action: ir.Assign | ir.CallRoutine) -> str:
@@ -121,8 +132,18 @@ class _Watches:
     mask: str = ""
     periods: dict[int, list[ir.Expression]] = field(default_factory=dict)  # of interrupts that come by time
 
-    def served(self) -> dict[int, Watch]:
-        return {key: one for key, one in self.watches.items() if one.served}
+    def together(self) -> list[dict[int, Watch]]:
+        """Those that the program serves: all at once, or one by one where a move looks at one condition."""
+        served = {key: one for key, one in self.watches.items() if one.served}
+        if self.beside.context.capabilities.watching_tasks:
+            return [served] if served else []
+        return [{key: one} for key, one in served.items()]
+
+    def overlap(self, key: int, other: int) -> bool:
+        """Is there a statement that runs while both may come?"""
+        both = [armed_statements(self.program, Armed(one)) for one in (key, other)]
+        named = {id(node) for node in walk(*self.program.modules) if isinstance(node, ir.ControlInterrupt)}
+        return bool(both[0] & both[1] - named)
 
     def flag(self, stem: str) -> str:
         name = self.beside.context.fresh(stem)
@@ -204,9 +225,11 @@ class _Watches:
             return "it moves the robot without braking first"
         if self.beside.context.capabilities.watching_tasks or not self.takes_time(one):
             return ""
-        if any(other.served for other in self.watches.values() if other.key != key):
+        others = [other.key for other in self.watches.values() if other.served and other.key != key]
+        if any(self.overlap(key, other) for other in others):
             return "another one stops the robot already, and a move looks at one condition"
-        return unending(one, name in brakes, self.beside.context.capabilities.searched_data)
+        data = self.beside.context.capabilities.searched_data
+        return unending(one, name in brakes, data, _signals(self.program))
 
     def takes_time(self, one: ir.DeclareInterrupt) -> bool:
         if one.stops:
