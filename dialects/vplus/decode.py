@@ -83,10 +83,9 @@ def _function(name: str, origin: Origin, *arguments: ir.Expression) -> ir.Builti
     return ir.Builtin(name, arguments, origin=origin)
 
 
-def _rest(text: ir.Expression, first: ir.Expression, origin: Origin) -> ir.Expression:
-    """The text from a position to its end; `first` is one more than what is taken off."""
-    length = _function("text_length", origin, text)
-    left = ir.Binary("+", ir.Binary("-", length, first, origin=origin), ir.IntLiteral(1), origin=origin)
+def _rest(text: ir.Expression, first: ir.Expression, taken: ir.Expression, origin: Origin) -> ir.Expression:
+    """The text from a position to its end; `first` is one more than what is `taken` off."""
+    left = ir.Binary("-", _function("text_length", origin, text), taken, origin=origin)
     return _function("text_part", origin, text, first, left)
 
 
@@ -95,10 +94,11 @@ def _word(
 ) -> tuple[ir.Statement, ...]:
     found = _function("text_find_any", origin, text, ir.IntLiteral(1), separators)
     count = ir.Binary("-", found, ir.IntLiteral(1), origin=origin)
-    after = ir.Binary("+", _function("text_length", origin, target), ir.IntLiteral(1), origin=origin)
+    taken = _function("text_length", origin, target)
+    after = ir.Binary("+", taken, ir.IntLiteral(1), origin=origin)
     return (
         ir.Assign(target, _function("text_part", origin, text, ir.IntLiteral(1), count), origin=origin),
-        ir.Assign(text, _rest(text, after, origin), origin=origin),
+        ir.Assign(text, _rest(text, after, taken, origin), origin=origin),
     )
 
 
@@ -113,7 +113,7 @@ def _separators(
     )
     body: ir.Body = (
         ir.Assign(target, ir.Binary("&", target, first, origin=origin), origin=origin),
-        ir.Assign(text, _rest(text, ir.IntLiteral(2), origin), origin=origin),
+        ir.Assign(text, _rest(text, ir.IntLiteral(2), one, origin), origin=origin),
     )
     condition = ir.Binary("cand", any_left, is_separator, origin=origin)
     return (
