@@ -321,19 +321,7 @@ def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str
     widest = context.capabilities.widest_group
     widths = group_widths(program, known, widest, WIDTH if alone else widest)
     numbers = _numbers(names, prefixes, used, alone, {key: bits for key, (bits, _) in widths.items()})
-    declared: list[ir.Declaration] = []
-    aliases: dict[tuple[str, str], str] = {}
-    for (kind, key), name in names.items():
-        number, chosen = numbers[kind, key]
-        if chosen:
-            alias = context.fresh(name)
-            aliases[kind, key] = alias
-            bits, fits = widths.get((kind, key), (WIDTH, True))
-            signal = _signal(kind, number, alone, bits)
-            declared.append(ir.SignalDeclaration(alias, signal, scope="global"))
-            context.diagnostics.report(NUMBERED, name=name, number=number)
-            if not fits:
-                context.diagnostics.report(TOO_NARROW, name=name, bits=bits, most=(1 << bits) - 1)
+    declared, aliases = _chosen(context, names, numbers, widths, alone)
 
     def replaced(expression: ir.Expression) -> ir.Expression:
         name = known(expression) if isinstance(expression, ir.Signal) else None
@@ -363,6 +351,30 @@ def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str
         name = context.fresh("rpl_signals")
         modules.append(ir.Module(name, modules[0].dialect, tuple(declared), task=modules[0].task, public=True))
     return replace(program, modules=tuple(modules))
+
+
+def _chosen(
+    context: Context,
+    names: dict[tuple[str, str], str],
+    numbers: dict[tuple[str, str], tuple[int, bool]],
+    widths: dict[tuple[str, str], tuple[int, bool]],
+    alone: bool,
+) -> tuple[list[ir.Declaration], dict[tuple[str, str], str]]:
+    """Declarations of the signals whose numbers were chosen, and their names; each is reported."""
+    declared: list[ir.Declaration] = []
+    aliases: dict[tuple[str, str], str] = {}
+    for (kind, key), name in names.items():
+        number, chosen = numbers[kind, key]
+        if chosen:
+            alias = context.fresh(name)
+            aliases[kind, key] = alias
+            bits, fits = widths.get((kind, key), (WIDTH, True))
+            signal = _signal(kind, number, alone, bits)
+            declared.append(ir.SignalDeclaration(alias, signal, scope="global"))
+            context.diagnostics.report(NUMBERED, name=name, number=number)
+            if not fits:
+                context.diagnostics.report(TOO_NARROW, name=name, bits=bits, most=(1 << bits) - 1)
+    return declared, aliases
 
 
 def _named_and_numbered(
