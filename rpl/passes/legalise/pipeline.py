@@ -29,6 +29,7 @@ from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.constantorientations import constant_orientations
 from rpl.passes.legalise.context import Context, Pass, names_in
 from rpl.passes.legalise.copiedflags import copied_flags
+from rpl.passes.legalise.cornercalls import corner_calls
 from rpl.passes.legalise.cornerleads import corner_leads
 from rpl.passes.legalise.corners import corners
 from rpl.passes.legalise.criticals import without_criticals
@@ -332,6 +333,7 @@ PASSES: tuple[Pass, ...] = (
     accelerations_of_moves,
     settings_of_one_move,
     corner_leads,
+    corner_calls,
     modal_to_explicit,
     tool_data,
     own_places,
