@@ -84,6 +84,7 @@ class Motion:
     line_of_last: int | None = None
     stands: bool = False  # the move before ended in a stop
     running: bool = False  # the move before has NWAIT
+    corners: bool = False  # moves of this program go round corners, and this job does not run beside it
     before: Goal | None = None  # where the move before the last one went, when that was an arc
     reported: set[tuple[Code, str]] = field(default_factory=set)
 

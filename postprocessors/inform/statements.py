@@ -51,6 +51,7 @@ SEARCHED = code(
 )
 _HALTS = {"stop": "PAUSE", "exit": "ABORT"}
 _POLL_S = 0.01
+_SLOW_MM_S = 100.0  # of a move by nothing
 
 
 class Printer(StatementPrinter[str]):
@@ -168,6 +169,8 @@ class Printer(StatementPrinter[str]):
                 self.put(lines, origin)
             case ir.Move():
                 self.move(statement)
+            case ir.WaitForMotion() if self.motion.corners and not self.motion.running:
+                self.move(_no_way(origin))
             case ir.WaitUntil():
                 self.waiting(statement)
             case ir.Message():
@@ -491,6 +494,13 @@ class Printer(StatementPrinter[str]):
 
 # Routines that programs bring along and that only calculate.
 _CALCULATING = frozenset(("rpl_length", "rpl_min", "rpl_max", "rpl_trunc", "rpl_floor", "rpl_frame", "rpl_tool_offset"))
+
+
+def _no_way(origin: Origin) -> ir.Move:
+    """A move by nothing that ends exactly: behind a corner that the robot still goes round it ends at the point."""
+    nothing = ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in "xyzabc"))
+    speed = ir.Speed(path=ir.RealLiteral(_SLOW_MM_S))
+    return ir.Move("linear", nothing, speed=speed, relative="base", blend=ir.BlendStop(), origin=origin)
 
 
 def _awaited(body: ir.Body, at: int) -> bool:

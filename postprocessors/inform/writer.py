@@ -81,6 +81,12 @@ class _Writer:
         self.tools: dict[int, int] = {}  # id of a routine -> the tool of its positions in variables
         self.choose_tools()
         self.beside = _beside(program)
+        self.corners = any(
+            isinstance(node, ir.Move) and not isinstance(node.blend, ir.BlendStop | None)
+            for module in program.modules
+            for routine in module.routines
+            for node in walk(routine.body)
+        )
         self.moving = closure(program, (ir.Move, ir.MoveExternal, ir.Spline, ir.Vendor, ir.Opaque))
         robot = context.robot
         self.counting = _counts_joints(program) or (winding(robot) and _goes_to_joints(program, self.constants))
@@ -199,6 +205,7 @@ class _Writer:
         positions.number = assignments.number
         motion = Motion(positions, assignments.number, self.diagnostics)
         motion.names = {name: int(name[1:]) for name in constants.points if name[:1] == "C" and name[1:].isdigit()}
+        motion.corners = self.corners and not self.registers.jobs
         labels = Labels.of(routine.body)
         tasks, moving = self.tasks, self.moving
         return Printer(assignments, motion, labels, self.jobs, tasks, moving, self.ledger, self.diagnostics)
