@@ -81,7 +81,11 @@ def _declaring(module: ir.Module, records: Sequence[ir.RecordDeclaration]) -> ir
 
 def _module(file: File, project: Project, inference: Inference, names: Names, diagnostics: Diagnostics) -> ir.Module:
     routines = tuple([_routine(function, project, inference, names, diagnostics) for function in file.functions])
-    variables = [_global(symbol, file, project, inference, names, diagnostics) for symbol in file.globals.values()]
+    variables = [
+        _global(symbol, file, project, inference, names, diagnostics)
+        for symbol in file.globals.values()
+        if not symbol.only_handle
+    ]
     routines = tuple([routine for routine in routines if not _only_data(routine, file)])
     remarks = tuple(ir.Unread("", origin=node.origin) for node in file.leading)
     attributes = (("start", f"{file.start}()"),) if file.start else ()
@@ -146,7 +150,9 @@ def _routine(
         ir.Parameter(symbol.spelled, ir.JointsType() if symbol.is_joints else lowering.type(symbol.kind))
         for symbol in function.parameters.values()
     )
-    declared = tuple(_variable(symbol, names, "routine") for symbol in function.locals.values())
+    declared = tuple(
+        _variable(symbol, names, "routine") for symbol in function.locals.values() if not symbol.only_handle
+    )
     return ir.Routine(
         function.name,
         "function" if gives else "procedure",

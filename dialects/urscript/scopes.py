@@ -23,8 +23,8 @@ from .nodes import Block, Define, Expr, Node
 @dataclass(slots=True, eq=False)
 class Symbol:
     """One variable or parameter. uses: `joints` passed as a place of the arm, `array` indexed by a computed number or
-    used as a whole list. `stores`: how many statements assign it. `given`: the one statement of the program that gives
-    it a constant value; it becomes the declaration's."""
+    used as a whole list. `stores`: how many statements assign it. `read`: more than `join` and `kill` look at
+    it. `given`: the one statement of the program that gives it a constant value; it becomes the declaration's."""
 
     name: str
     origin: Origin
@@ -34,9 +34,16 @@ class Symbol:
     joints_use: bool = False
     array_use: bool = False
     stores: int = 0
+    read: bool = False
     parameter: bool = False
     given: nodes.Store | None = None
     told_apart: str = ""
+
+    @property
+    def only_handle(self) -> bool:
+        """Does it hold nothing but the number of one thread, for `join` and `kill`?"""
+        kind = self.kind
+        return kind is not None and kind.word == "thread" and len(kind.threads) == 1 and not self.read
 
     @property
     def spelled(self) -> str:
@@ -347,9 +354,25 @@ def count_stores(project: Project) -> None:
                 symbol = project.symbol(target.name, function)
                 if symbol is not None:
                     symbol.stores += 1
+            for name in _read_names(node):
+                symbol = project.symbol(name, function)
+                if symbol is not None:
+                    symbol.read = True
     for file in project.files:
         if file.program is not None:
             _find_given(file, file.program)
+
+
+def _read_names(node: Node) -> Iterator[str]:
+    """Variables that a statement looks at, the handles of `join` and `kill` aside."""
+    stack = [] if isinstance(node, nodes.Thread) else [*own_expressions(node)]
+    if isinstance(node, nodes.Store) and isinstance(node.target, nodes.Var):
+        stack = [node.value]
+    while stack:
+        part = stack.pop()
+        if isinstance(part, nodes.Var):
+            yield part.name
+        stack.extend(nodes.parts(part))
 
 
 def _is_constant(node: Node) -> bool:

@@ -287,7 +287,8 @@ class Statements(Calls):
         if later is not None:
             return (later,)
         start = ir.TaskControl("start", name, origin=self.origin)
-        if target is None:
+        symbol = None if target is None else self.symbol(target)
+        if target is None or (symbol is not None and symbol.only_handle):
             return (start,)
         number = ir.IntLiteral(self.thread_number(name))
         if not isinstance(target, nodes.Var):

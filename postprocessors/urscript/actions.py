@@ -24,6 +24,7 @@ class Sharing(Protocol):
 
     watches: dict[str, str]
     threads: list[tuple[str, ...]]
+    handles: dict[str, str]
 
     def fresh(self, stem: str) -> str: ...
 
@@ -118,10 +119,17 @@ class Actions:
             case ir.Critical(enter=enter):
                 return "enter_critical" if enter else "exit_critical"
             case ir.TaskControl(op="start", task=task, arguments=()):
-                return f"global {task}_run = run {task}()"
+                return f"global {self.handle(task)} = run {task}()"
             case ir.TaskControl(op="stop" | "join" as op, task=task):
-                return f"{'kill' if op == 'stop' else 'join'} {task}_run"
+                return f"{'kill' if op == 'stop' else 'join'} {self.handle(task)}"
         raise CannotSayError(f"there is no {statement.__class__.__name__}")
+
+    def handle(self, task: str) -> str:
+        """The global that holds the number of the running thread: no name that the program has itself."""
+        output = self.printer.output
+        if task not in output.handles:
+            output.handles[task] = output.fresh(f"{task}_run")
+        return output.handles[task]
 
     # ---- assignments
 

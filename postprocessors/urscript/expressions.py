@@ -118,6 +118,8 @@ class Expressions:
                 own = self.places.component(base, name)
                 if own is not None and own[1] == unit:
                     return own[0]
+            case ir.Builtin(function="distance", arguments=(one, other)), "m":
+                return self.geometry.apart(one, other)
             case ir.Builtin(), "rad":
                 inner = self.angle(value)
                 if inner is not None:

@@ -97,6 +97,12 @@ class Geometry:
 
     # ---- poses and joints
 
+    def apart(self, one: ir.Expression, other: ir.Expression) -> str:
+        """How far two places are from each other, in m."""
+        if isinstance(one, ir.Field) and isinstance(other, ir.Field) and one.name == other.name == "trans":
+            one, other = one.base, other.base
+        return f"point_dist({self.expressions.text(one)}, {self.expressions.text(other)})"
+
     def function(self, name: str, values: tuple[ir.Expression, ...]) -> str | Printed | None:
         """Geometric functions; None when URScript has no such function."""
         text = self.expressions.text
@@ -117,10 +123,8 @@ class Geometry:
                 place_text = [short(self.expressions.measured(one, "m")) for one in (x, y, z)]
                 turn = [short(self.expressions.measured(one, "rad")) for one in (rx, ry, rz)]
                 return f"p[{', '.join((*place_text, *turn))}]"
-            case "distance", (ir.Field(base=one, name="trans"), ir.Field(base=other, name="trans")):
-                return Printed(f"point_dist({text(one)}, {text(other)}) * 1000.0", tables.PRODUCT)
             case "distance", (one, other):
-                return Printed(f"point_dist({text(one)}, {text(other)}) * 1000.0", tables.PRODUCT)
+                return Printed(f"{self.apart(one, other)} * 1000.0", tables.PRODUCT)
             case "rotation_angle", (one, other):
                 return self.expressions.helper("rpl_turn", text(one), text(other))
             case "rotation_zyx", angles:

@@ -2,6 +2,7 @@
 
 A pose in metres and radians gives 89.99999999 where its source had 90, so a number that is kept, compared or cut is
 rounded first. Five decimals are far below what a robot repeats, and keep whole numbers within 32 bits up to 20 m.
+What the source itself reads in metres or radians (`Magnitude`) is the same number here.
 """
 
 from __future__ import annotations
@@ -70,7 +71,7 @@ def reads(value: ir.Expression, scope: Scope) -> bool:
     """Does the number come out of a pose or of joints, not rounded yet?"""
     if isinstance(value, ir.Builtin) and value.function in ("round", "trunc", "floor", "ceil", "sign"):
         return False
-    for node in walk((value,)):
+    for node in walk((rewrite(value, _without_measures),)):
         match node:
             case ir.Field(base=base) if isinstance(type_of(base, scope), _PLACES):
                 return True
@@ -79,6 +80,10 @@ def reads(value: ir.Expression, scope: Scope) -> bool:
             case ir.Builtin(function="euler_x" | "euler_y" | "euler_z" | "zyz_yaw" | "zyz_pitch" | "zyz_roll"):
                 return True
     return False
+
+
+def _without_measures(node: object) -> object:
+    return ir.RealLiteral(0.0) if isinstance(node, ir.Magnitude) else node
 
 
 def _is_number(target: ir.Expression, scope: Scope) -> bool:

@@ -55,6 +55,7 @@ class Output:
     notes: Notes = field(default_factory=Notes)
     threads: list[tuple[str, ...]] = field(default_factory=list)
     watches: dict[str, str] = field(default_factory=dict)  # stop watch -> the variable that says whether it runs
+    handles: dict[str, str] = field(default_factory=dict)  # thread -> the variable with the number of the running one
     counting: list[str] = field(default_factory=list)  # threads that run from the beginning
 
     def watch(self, name: str) -> tuple[str, str]:

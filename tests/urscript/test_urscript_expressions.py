@@ -113,7 +113,7 @@ KINDS = [
     ('x = rpc_factory("xmlrpc", "http://host")', "x", ir.VendorType("urscript", "handle")),
     ("x = socket_read_ascii_float(3)", "x", ir.ArrayType(ir.RealType(), (ir.IntLiteral(3),), 0)),
     ("def f(n):\nreturn n > 1\nend\nx = f(2)", "x", ir.BoolType()),
-    ("thread t():\nsync()\nend\nx = run t()", "x", ir.IntType()),
+    ("thread t():\nsync()\nend\nx = run t()\ny = x + 1", "x", ir.IntType()),
 ]
 
 
