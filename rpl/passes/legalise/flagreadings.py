@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING
 
 from rpl import ir, registry
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.flagwrites import FlagFlow
 from rpl.passes.legalise.usage import each_expression, each_statement
-from rpl.passes.legalise.walk import Rewriter
+from rpl.passes.legalise.walk import Rewriter, unchanged_in
 from rpl.passes.rewrite import rewrite_parts
 
 if TYPE_CHECKING:
@@ -46,6 +47,7 @@ class _Known:
     flags: dict[int, set[str]] = field(default_factory=dict)
     broken: set[int] = field(default_factory=set)
     copies: list[tuple[int, int]] = field(default_factory=list)  # to, from
+    computed: list[tuple[int, frozenset[str]]] = field(default_factory=list)  # gets a place with these flags known
 
 
 class _Look(Rewriter):
@@ -55,6 +57,7 @@ class _Look(Rewriter):
         super().__init__(program, context)
         self.known = _Known()
         self.arm = _facts(context)
+        self.flow: FlagFlow | None = None
 
     @property
     def flags(self) -> dict[int, set[str]]:
@@ -67,6 +70,9 @@ class _Look(Rewriter):
             for to, given in known.copies:
                 known.flags.setdefault(given, set()).update(known.flags.get(to, ()))
                 if given in known.broken and to in known.flags:
+                    known.broken.add(to)
+            for to, flags in known.computed:
+                if not known.flags.get(to, set()) <= flags:
                     known.broken.add(to)
         known.flags = {key: flags for key, flags in known.flags.items() if flags and key not in known.broken}
 
@@ -141,6 +147,8 @@ class _Look(Rewriter):
         match self.origin(value):
             case ir.Name() as other if (given := self.key(other)) is not None:
                 self.known.copies.append((key, given))
+            case ir.Aggregate() as written if not isinstance(value, ir.Aggregate):
+                self.known.computed.append((key, frozenset(self.written(written) or ())))
             case ir.Aggregate() as written if self.written(written) is not None:
                 pass
             case joints if joints is not None and self.arm and isinstance(self.type_of(joints), ir.JointsType):
@@ -159,7 +167,20 @@ class _Look(Rewriter):
                 return self.origin(first)
             case ir.Name() | ir.Aggregate():
                 return value
+            case ir.Call() | ir.Binary(op=":"):
+                return self.always(value)
         return None
+
+    def always(self, place: ir.Expression) -> ir.Aggregate | None:
+        """The flags that a computed place has, whatever it is."""
+        fields = self.fields(place)
+        if not fields:
+            return None
+        if self.flow is None:
+            self.flow = FlagFlow.of_program(self.source, self.scopes, fields, unchanged_in(self.source))
+        found = {name: self.flow.values(place, name, self.scope).only for name in fields}
+        known = tuple((name, ir.IntLiteral(value)) for name, value in found.items() if value is not None)
+        return ir.Aggregate(known) if known else None
 
     def written(self, target: ir.Aggregate) -> dict[str, ir.Expression] | None:
         """The flags of a written target; None when they have no names."""
@@ -177,7 +198,7 @@ class _Kept(_Look):
 
     def __init__(self, program: ir.Program, context: Context, look: _Look) -> None:
         super().__init__(program, context)
-        self.scopes, self.followed = look.scopes, look.known.flags
+        self.scopes, self.followed, self.flow = look.scopes, look.known.flags, look.flow
         self.names: dict[tuple[int, str], str] = {}
         self.live: set[int] = set()
         self.last = False
