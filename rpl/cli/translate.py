@@ -202,7 +202,8 @@ def _prove(
     with waiting("proving"):
         again_named = with_signal_names(back.program, translation.program)
         entry = entry_name(read.program)
-        to_entry = translation.renamed.get(entry, entry) if entry else None
+        # A script begins with itself, also where the first routine is called besides and stands in it as one of many.
+        to_entry = back.program.entry or translation.renamed.get(entry, entry) if entry else None
         return prove_programs(
             read.program, again_named, robot, to_robot, load_cell(cell), entry=entry, to_entry=to_entry
         )

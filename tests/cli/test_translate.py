@@ -160,3 +160,15 @@ def test_a_file_of_numbers_that_is_none(
         given.write_text(text)
     assert run(["translate", str(program), "--to", "tp", "--registers", str(given)]) == 2
     assert answer in capsys.readouterr().err
+
+
+def test_a_script_is_proved_from_its_own_beginning(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A program whose name a register may hold stands in the script as one of its routines."""
+    lines = (
+        "R[1]=R[1]+1 ;\nSR[1]='PART' ;\nSR[2]=R[1] ;\nSR[3]=SR[1]+SR[2] ;\nCALL SR[3] ;\nDO[1]=(R[1]=1 AND R[2]=7) ;"
+    )
+    for name, body in (("MAIN", lines), ("PART1", "R[2]=7 ;"), ("PART2", "R[2]=8 ;")):
+        (tmp_path / f"{name}.LS").write_text(f"/PROG {name}\n/ATTR\n/MN\n{body}\n/POS\n/END\n")
+    wanted = ["translate", str(tmp_path), "--to", "urscript", "-o", str(tmp_path / "out"), "--prove", "--json"]
+    assert run(wanted) == 0
+    assert json.loads(capsys.readouterr().out)["proof"]["equal"]

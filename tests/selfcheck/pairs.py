@@ -162,9 +162,8 @@ def pair_of(name: str, target: str) -> Pair:
         cell = cell_of(name)
         theirs = in_words_of(cell, read.program, named) if cell is not None else None
         entry = entry_name(read.program, project.entry)
-        result = run_program(
-            named, project.robot, theirs, translation.renamed.get(entry, entry) if entry else None, LIMIT_S
-        )
+        begins = named.entry or translation.renamed.get(entry, entry) if entry else None
+        result = run_program(named, project.robot, theirs, begins, LIMIT_S)
     except RplError as error:
         return Pair(everything, end=f"error: {type(error).__name__}: {error}")
     on = switched_on(result)
