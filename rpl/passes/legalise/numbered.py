@@ -76,6 +76,7 @@ class _Numbered(Rewriter):
         self.first: list[ir.Statement] = []
         self.helpers: list[ir.Expression] = []
         self.helpers_in_use = 0
+        self.chosen_here: dict[tuple[tuple[tuple[ir.Expression, int], ...], int], ir.Expression] = {}
         self.larger: dict[str, Bank] = {}
         self.planned()
 
@@ -250,6 +251,7 @@ class _Numbered(Rewriter):
 
     def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
         self.first, self.helpers = [], []
+        self.chosen_here.clear()
         self.points.begin(routine)
         done = super().routine(module, routine)
         return replace(
@@ -289,6 +291,7 @@ class _Numbered(Rewriter):
 
     def placed(self, statement: ir.Statement) -> list[ir.Statement]:
         self.helpers_in_use = 0
+        self.chosen_here.clear()
         if isinstance(statement, ir.For) and not statement.scoped:
             symbol = self.scope.value(statement.counter)
             place = None if symbol is None else self.places.get(id(symbol.declaration))
@@ -384,7 +387,10 @@ class _Numbered(Rewriter):
         first, stride = terms[0]
         if len(terms) == 1 and stride == 1 and offset == 0 and is_operand(first):
             return ir.Index(bank, (first,))
-        helper = self.helper()
+        known = self.chosen_here.get((tuple(terms), offset))
+        if known is not None:  # the same place again in this statement
+            return ir.Index(bank, (known,))
+        helper = self.chosen_here[tuple(terms), offset] = self.helper()
         made: ir.Expression | None = None
         for value, factor in terms:
             product = value if factor == 1 else ir.Binary("*", value, ir.IntLiteral(factor))
