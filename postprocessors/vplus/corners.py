@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cache, partial
 
 from rpl import ir
 from rpl.ir.walk import expressions, walk
@@ -41,6 +41,7 @@ class Corners:
     routines: dict[str, ir.Routine] = field(default_factory=dict)
     callers: dict[str, list[Callable[[], str]]] = field(default_factory=dict)
     open: set[str] = field(default_factory=set)
+    behind: dict[tuple[str, frozenset[str]], str] = field(default_factory=dict)  # what follows routines, of one move
     labels: dict[tuple[str, str], Callable[[], str]] = field(default_factory=dict)
     homes: dict[int, str] = field(default_factory=dict)  # routine of each jump, by the jump's identity
     current: str = ""
@@ -63,6 +64,7 @@ class Corners:
         """Stop at the corner where what acts stands right behind it; where only some ways lead to something that acts,
         in front of that."""
         self.actors.clear()
+        self.behind.clear()
         if move.rest() != ACTS:
             return
         actors = [actor for actor in self.actors.values() if actor is not None]
@@ -124,10 +126,13 @@ class Corners:
         """What follows a routine's end at any of its calls."""
         if key in self.open:
             return MOVES
-        self.open.add(key)
-        found = [rest() for rest in self.callers.get(key, ())]
-        self.open.discard(key)
-        return ACTS if ACTS in found else MOVES
+        asked = key, frozenset(self.open)
+        if asked not in self.behind:
+            self.open.add(key)
+            found = [rest() for rest in self.callers.get(key, ())]
+            self.open.discard(key)
+            self.behind[asked] = ACTS if ACTS in found else MOVES
+        return self.behind[asked]
 
     def first(self, body: ir.Body, rest: Callable[[], str]) -> str:
         """What comes first: a move, or something that acts or looks at the world."""
@@ -178,7 +183,8 @@ class Corners:
             asked = [statement.selector]
         if any(map(looks, asked)):
             return self.acts(statement)
-        found = [self.first(body, rest) for body in (*_bodies(statement), ())]
+        behind = cache(rest)  # the ways meet again behind: looked at once, however many choices follow each other
+        found = [self.first(body, behind) for body in (*_bodies(statement), ())]
         return ACTS if ACTS in found else found[0]
 
     def called(self, name: str, call: ir.Statement) -> str:

@@ -18,7 +18,7 @@ VAR n: INT = 0 -- at its line
 PROCEDURE main()
     -- first of all
     n = limit
-    SET do(1) TO n = 4 -- behind it
+    SET do[1] TO n = 4 -- behind it
 END PROCEDURE
 """
 FOLDED = """DEF demo()
