@@ -23,6 +23,12 @@ GUARDED = code(
     "KRL cannot say this: {reason}",
     "the program stops there with HALT; write the line by hand",
 )
+DIALOG = code(
+    "krl-dialog-lost",
+    Severity.LOSS,
+    "{reason}",
+    "the program stops there with HALT; ask by keys, or let the operator set a variable and read that instead",
+)
 LONG_LINE = code("krl-long-line", Severity.WARNING, "a line of {length} characters; controllers read at most {most}")
 
 _STEP = "  "
@@ -312,7 +318,7 @@ class Printer(StatementPrinter[str]):
                 shown.pop()
             return f"{tables.MESSAGES[statement.kind]}({','.join(shown)})"
         if statement.kind != "keys" or statement.timeout is not None:
-            raise CannotSayError("KRL's dialogs are answered by a key, without a time limit")
+            raise CannotSayError("KRL's dialogs are answered by a key, without a time limit", DIALOG)
         shown[0:0] = [text(statement.answer)]
         shown.extend([""] * (6 - len(shown)))
         shown.extend(text(key) if key is not None else "" for key in statement.keys)

@@ -29,6 +29,12 @@ GUARDED = code(
     "TP cannot say this: {reason}",
     "the program stops there with PAUSE; write the line by hand",
 )
+DIALOG = code(
+    "tp-dialog-lost",
+    Severity.LOSS,
+    "{reason}",
+    "the program stops there with PAUSE; let the operator set an input or a register, and read that instead",
+)
 WAIT_ROUNDED = code("tp-wait-rounded", Severity.WARNING, "a time of {time:g} s is written in hundredths of a second")
 SPLIT_MESSAGE = code(
     "tp-split-message", Severity.WARNING, "a message of more than {most} characters is written in several lines"
@@ -230,6 +236,8 @@ class Printer(StatementPrinter[Line]):
                 raise CannotSayError("a program that runs beside takes no arguments")
             case ir.TaskControl(op="start", task=name):
                 return f"RUN {name.upper()}"
+            case ir.Dialog():
+                raise CannotSayError("TP programs show messages, but ask the operator nothing", DIALOG)
         raise CannotSayError(f"there is no {statement.__class__.__name__} of this kind")
 
     def seconds(self, time: ir.Expression, origin: Origin) -> str:
