@@ -255,19 +255,27 @@ class Actions:
 
     def arguments(self, name: str, given: tuple[ir.Argument, ...]) -> str:
         routine = self.expressions.scope.routine(name)
-        shown = []
+        shown, values = [], {}
         for at, argument in enumerate(given):
             parameter = routine.parameters[at] if routine is not None and at < len(routine.parameters) else None
             shown.append("" if argument.value is None else self.argument(argument.value, parameter, routine))
+            if argument.value is not None and self.is_a_value(argument.value, parameter):
+                values[at] = argument.value
         while sum(len(one) + 2 for one in shown) > tables.LONGEST_LINE - len(name) - 10:
-            at = max(range(len(shown)), key=lambda place: len(shown[place]))
-            value = given[at].value
-            if len(shown[at]) <= _LONGEST_NAME or value is None or isinstance(value, ir.Name | ir.Index):
+            longest = max(values, key=lambda place: len(shown[place]), default=None)
+            if longest is None or len(shown[longest]) <= _LONGEST_NAME:
                 break
-            shown[at] = self.expressions.moved_in_front(value)
+            shown[longest] = self.expressions.moved_in_front(values.pop(longest))
         while shown and not shown[-1]:
             shown.pop()
         return f"({', '.join(shown)})" if shown else "()"
+
+    def is_a_value(self, value: ir.Expression, parameter: ir.Parameter | None) -> bool:
+        """Does the callee get only the value, so that a variable beside it serves as well?"""
+        if isinstance(self.expressions.type(value), ir.ArrayType):
+            return False
+        by_value = parameter is not None and parameter.mode == "value"
+        return by_value or not isinstance(value, ir.Name | ir.Index)
 
     def argument(self, value: ir.Expression, parameter: ir.Parameter | None, routine: ir.Routine | None) -> str:
         """Variables are passed by reference; where the callee changes its copy, brackets pass the value."""
