@@ -94,6 +94,8 @@ def _in_base_units(value: ir.Expression) -> ir.Expression:
 
 def _named(move: ir.Move) -> Iterator[str]:
     """Settings that a move names itself: they are read where it says so."""
+    if move.frame is not None:
+        yield _FRAME
     for place, _ in move.settings:
         if isinstance(place, ir.System):
             yield place.name

@@ -40,7 +40,7 @@ def drop_unused(program: ir.Program, context: Context) -> ir.Program:
     if not parts:
         return program
     used = _names(replace(program, modules=tuple(own)))
-    used |= {program.entry.lower()} | {task.entry.lower() for task in program.tasks}
+    used |= {_called(program.entry), *(_called(task.entry) for task in program.tasks)}
     kept: set[int] = set()
     size = -1
     while size != len(kept):
@@ -132,7 +132,14 @@ def _declares(one: ir.Declaration | ir.Routine) -> set[str]:
             return {base.id.lower()} if isinstance(base, ir.Name) else set()
         case ir.Unread():
             return set()
+        case ir.Routine(name=name):
+            return {_called(name)}  # data may have the same name
     return {one.name.lower()}
+
+
+def _called(name: str) -> str:
+    """How a routine's name stands among the names in use."""
+    return f"{name.lower()}()"
 
 
 def _names(node: ir.Program | ir.Declaration | ir.Routine) -> set[str]:
@@ -148,7 +155,9 @@ def _names(node: ir.Program | ir.Declaration | ir.Routine) -> set[str]:
 
     def expression(one: ir.Expression) -> ir.Expression:
         match one:
-            case ir.Name(id=name) | ir.Call(name=name) | ir.EnumLiteral(member=name):
+            case ir.Call(name=name):
+                found.update((name.lower(), _called(name)))
+            case ir.Name(id=name) | ir.EnumLiteral(member=name):
                 found.add(name.lower())
             case ir.Aggregate(type_name=word) if word and word not in _BUILT_IN:
                 found.add(word.lower())
@@ -157,10 +166,12 @@ def _names(node: ir.Program | ir.Declaration | ir.Routine) -> set[str]:
     def body(statements: ir.Body) -> ir.Body:
         for one in statements:
             match one:
-                case ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name) | ir.For(counter=name):
+                case ir.For(counter=name):
                     found.add(name.lower())
+                case ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name):
+                    found.update((name.lower(), _called(name)))
                 case ir.TaskControl(task=str() as name) | ir.OnError(routine=str() as name):
-                    found.add(name.lower())
+                    found.update((name.lower(), _called(name)))
             rewrite_parts(one, expression, body)
         return statements
 
