@@ -1,23 +1,34 @@
-"""Formats that V+ cannot fill as they say are named."""
+"""Formats with fillings come along as functions of the program, formats that V+ has are written as its own."""
 
 import pytest
 
-from rpl.diagnostics import Diagnostics
+from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import read_sources
-from rpl.source import source_from_text
+from rpl.simulation import run_program
+from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
+ROBOT = "kuka_kr6r900sixx"
 PROGRAM = """VAR s: STRING[40]
 VAR n: INT = 13
 PROCEDURE main()
     s = format("FORM|", n)
+    SET do[1] TO s = "TEXT|"
 END PROCEDURE
 """
 
 
-@pytest.mark.parametrize(("form", "named"), [("%03d", True), ("%-5d", True), ("%5d", False), ("%d", False)])
-def test_filling_is_named(form: str, named: bool) -> None:
-    read = read_sources([source_from_text("p.rpl", PROGRAM.replace("FORM", form))], "rpl", Diagnostics())
+@pytest.mark.parametrize(
+    ("form", "text", "alone"),
+    [("%03d", "013", False), ("%-5d", "13   ", False), ("%5d", "   13", True), ("%d", "13", True)],
+)
+def test_formats_mean_the_same(form: str, text: str, alone: bool) -> None:
     diagnostics = Diagnostics()
-    translate_program(read, "vplus", "kuka_kr6r900sixx", None, diagnostics)
-    assert any(item.code.name == "vplus-format-filling" for item in diagnostics) == named
+    program = PROGRAM.replace("FORM", form).replace("TEXT", text)
+    read = read_sources([source_from_text("p.rpl", program)], "rpl", diagnostics)
+    written = translate_program(read, "vplus", ROBOT, None, diagnostics)
+    assert not diagnostics.of(Severity.LOSS)
+    sources = [source_from_bytes(file.path, file.data) for file in written.files]
+    assert (sources[0].text.count(".PROGRAM") == 1) == alone
+    back = read_sources(sources, "vplus", diagnostics)
+    assert [value for _, _, value in run_program(back.program, ROBOT, None, "main").outputs] == [True]
