@@ -333,7 +333,10 @@ class Whole:
                 break
         if self.goes_on and not rests:
             self.context.diagnostics.report(STOPPED_FOR_POSITION, move.origin)
-            done.append(ir.WaitForMotion(origin=replace(move.origin, comments=())))
+            at = len(done)
+            while at and isinstance(done[at - 1], ir.Trigger):  # what belongs to the move stays in front of it
+                at -= 1
+            done.insert(at, ir.WaitForMotion(origin=replace(move.origin, comments=())))
 
 
 _BLOCKS = (ir.If, ir.Switch, ir.For, ir.While, ir.Repeat, ir.Loop)
