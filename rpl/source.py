@@ -60,8 +60,8 @@ class Source:
 
 @dataclass(frozen=True, slots=True)
 class Comment:
-    """A remark of the source (text without the comment sign). `behind`: it stood on the line of its statement; `layout`:
-    it is a mark of the source's editor, such as a fold."""
+    """A remark of the source (text without the comment sign). `behind`: it stood on the line of its statement.
+    `layout`: it is a mark of the source's editor, such as a fold."""
 
     text: str
     behind: bool = False
