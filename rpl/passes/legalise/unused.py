@@ -142,16 +142,19 @@ def _called(name: str) -> str:
     return f"{name.lower()}()"
 
 
+def _named_types(type: ir.Type | None) -> set[str]:
+    """The name of a type of the program's own, of an array that of its elements."""
+    while isinstance(type, ir.ArrayType):
+        type = type.element
+    return {type.name.lower()} if isinstance(type, ir.NamedType) else set()
+
+
 def _names(node: ir.Program | ir.Declaration | ir.Routine) -> set[str]:
     """Every name that the node mentions, folded: of values, routines, types and members."""
     found: set[str] = set()
 
     def types(type: ir.Type | None) -> None:
-        match type:
-            case ir.NamedType(name=name):
-                found.add(name.lower())
-            case ir.ArrayType(element=element):
-                types(element)
+        found.update(_named_types(type))
 
     def expression(one: ir.Expression) -> ir.Expression:
         match one:
