@@ -240,9 +240,8 @@ def _tp_read_number(arguments: Arguments, expressions: Expressions, origin: Orig
     return ir.Dialog(answer, text, kind="number", timeout=arguments.options.get("maxtime"), origin=origin)
 
 
-def _ui_message(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
-    """UIMsgBox [\\Header] line [\\MsgLine2] ... [\\Buttons] [\\Result]: a choice whose answer is
-    taken, or it waits to be acknowledged (by which key is all the same)."""
+def _shown(arguments: Arguments) -> tuple[ir.Expression | None, ir.Expression, dict[str, ir.Expression | None]]:
+    """Header and lines of a box on the screen, and the options that say more than how it looks."""
     text = arguments.need(1)[0]
     options = dict(arguments.options)
     header = options.pop("header", None)
@@ -252,6 +251,13 @@ def _ui_message(arguments: Arguments, expressions: Expressions, origin: Origin) 
             text = _joined(_joined(text, ir.TextLiteral(" ")), more)
     for harmless in ("wrap", "icon", "image"):
         options.pop(harmless, None)
+    return header, text, options
+
+
+def _ui_message(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
+    """UIMsgBox [\\Header] line [\\MsgLine2] ... [\\Buttons] [\\Result]: a choice whose answer is
+    taken, or it waits to be acknowledged (by which key is all the same)."""
+    header, text, options = _shown(arguments)
     buttons, result = options.pop("buttons", None), options.pop("result", None)
     if result is not None:
         limit = options.pop("maxtime", None)
@@ -263,15 +269,7 @@ def _ui_message(arguments: Arguments, expressions: Expressions, origin: Origin) 
 
 def _ui_write(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
     """UIMsgWrite [\\Header] line [\\MsgLine2] ...: a message that nobody has to acknowledge."""
-    text = arguments.need(1)[0]
-    options = dict(arguments.options)
-    header = options.pop("header", None)
-    for line in ("msgline2", "msgline3", "msgline4", "msgline5"):
-        more = options.pop(line, None)
-        if more is not None:
-            text = _joined(_joined(text, ir.TextLiteral(" ")), more)
-    for harmless in ("wrap", "icon", "image"):
-        options.pop(harmless, None)
+    header, text, options = _shown(arguments)
     return None if options else ir.Message("write", text, sender=header, origin=origin)
 
 

@@ -12,13 +12,11 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from rpl import ir
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import ProgramScope
 from rpl.passes.legalise.flow import Uses
-from rpl.passes.legalise.usage import bodies, each_expression, each_statement
+from rpl.passes.legalise.usage import bodies, each_statement
 from rpl.passes.scope import Scope
 from rpl.passes.values import Target
 
@@ -70,23 +68,8 @@ class FlagFlow(Uses):
                 inner = scopes.routine(module, routine)
                 flow.declared(routine.declarations, inner)
                 for body in bodies(routine):
-                    each_statement(body, partial(flow.look, scope=inner, routine=routine))
+                    each_statement(body, partial(flow.values_of, scope=inner, routine=routine))
         return flow
-
-    def look(self, statement: ir.Statement, scope: Scope, routine: ir.Routine) -> None:
-        match statement:
-            case ir.Assign(target=target, value=value):
-                self.feed_place(target, value, scope)
-            case ir.Return(value=value) if value is not None:
-                self.feed(id(routine), value, scope)
-            case ir.CallRoutine(name=name, arguments=arguments, dynamic=None):
-                self.passed(name, arguments, scope)
-
-        def calls(expression: ir.Expression) -> None:
-            if isinstance(expression, ir.Call):
-                self.passed(expression.name, expression.arguments, scope)
-
-        each_expression(statement, calls)
 
     def feed_place(self, target: ir.Expression, value: ir.Expression, scope: Scope) -> None:
         if isinstance(target, ir.Field) and target.name in self.fields:
@@ -135,8 +118,9 @@ class FlagFlow(Uses):
         if isinstance(value, ir.Field) and value.name == flag:
             return self.values(value.base, flag, scope, asked)
         number = constant(value, scope, self.unchanged)
-        known = isinstance(number, int) and not isinstance(number, bool)
-        return FlagValues(frozenset(), frozenset((number,)) if known else frozenset(), known)  # type: ignore[arg-type]
+        if isinstance(number, int) and not isinstance(number, bool):
+            return FlagValues(frozenset(), frozenset((number,)), True)
+        return FlagValues(frozenset(), frozenset(), False)
 
 
 def _flag_of(place: ir.Aggregate, scope: Scope, flag: str, unchanged: Unchanged | None) -> int | None:
@@ -150,7 +134,10 @@ def _flag_of(place: ir.Aggregate, scope: Scope, flag: str, unchanged: Unchanged 
 
 
 def only_turns(arm: RobotModel, notation: Notation, flag: str) -> bool:
-    """Do the other flags of the notation name the posture of the arm by themselves?"""
+    """Do the other flags of the notation name the posture of the arm by themselves? Joint values from all over the
+    ranges are tried, the same ones each time."""
+    import numpy as np  # most translations ask nothing of the arm
+
     low, high = arm.limits[:, 0], arm.limits[:, 1]
     spread = np.random.default_rng(1).uniform(0.0, 1.0, size=(_TRIED, len(low)))
     known: dict[tuple[tuple[str, int], ...], object] = {}

@@ -432,17 +432,21 @@ class Uses:
                     self.feed_place(assign.target, assign.value, scope)
 
     def statement(self, statement: ir.Statement, scope: Scope, routine: ir.Routine, flow: ModalFlow) -> None:
+        if isinstance(statement, ir.Move):
+            frames = flow.frames.get(id(statement), Frames(None, None))
+            for place in (statement.target, statement.via):
+                if place is not None:
+                    use = Use(frames, statement.kind == "joint", _moved(place, scope))
+                    self.moves.extend((root, use) for root in self.roots(place, scope))
+        self.values_of(statement, scope, routine)
+
+    def values_of(self, statement: ir.Statement, scope: Scope, routine: ir.Routine) -> None:
+        """What the statement puts where: by assignments, results, and arguments of calls."""
         match statement:
             case ir.Assign(target=target, value=value):
                 self.feed_place(target, value, scope)
             case ir.Return(value=value) if value is not None:
                 self.feed(id(routine), value, scope)
-            case ir.Move(target=target, via=via, kind=kind):
-                frames = flow.frames.get(id(statement), Frames(None, None))
-                for place in (target, via):
-                    if place is not None:
-                        use = Use(frames, kind == "joint", _moved(place, scope))
-                        self.moves.extend((root, use) for root in self.roots(place, scope))
             case ir.CallRoutine(name=name, arguments=arguments, dynamic=None):
                 self.passed(name, arguments, scope)
 

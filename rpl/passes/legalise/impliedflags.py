@@ -10,8 +10,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
     from rpl.emulator.model import RobotModel
@@ -34,6 +32,8 @@ def implied_flags(
 
 
 def _found(arm: RobotModel, notation: Notation, flags: Mapping[str, int], wanted: Notation) -> dict[str, int]:
+    import numpy as np  # most translations ask nothing of the arm
+
     low, high = arm.limits[:, 0], arm.limits[:, 1]
     spread = np.random.default_rng(1).uniform(-_SHARE, _SHARE, size=(_TRIED, len(low)))
     common: dict[str, int] | None = None
