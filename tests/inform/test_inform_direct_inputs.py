@@ -7,12 +7,11 @@ from pathlib import Path
 import pytest
 
 from rpl.cell import Cell, Input, read_cell
-from rpl.diagnostics import Diagnostics, Severity
+from rpl.diagnostics import Diagnostics
 from rpl.project import read_sources
-from rpl.proof.wiring import in_words_of, with_signal_names
 from rpl.simulation import run_program
-from rpl.source import source_from_bytes, source_from_text
-from rpl.translation import translate_program
+from rpl.source import source_from_text
+from tests.there_and_back import there_and_back
 
 ARM = "motoman_gp7"
 JOB = """/JOB
@@ -49,22 +48,15 @@ def test_the_cell_file_names_it(spelling: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("target", ["krl", "rapid", "tp", "urscript", "vplus", "inform"])
 def test_every_language_has_a_signal_for_it(target: str) -> None:
-    read = read_sources([source_from_text("FEEL.JBI", JOB)], "inform", Diagnostics())
-    diagnostics = Diagnostics()
-    files = translate_program(read, target, ARM, None, diagnostics).files
-    assert not diagnostics.of(Severity.LOSS)
-    assert not any(b"9001" in one.data for one in files)
+    journey = there_and_back({"FEEL.JBI": JOB}, "inform", target, ARM)
+    assert not journey.losses
+    assert "9001" not in journey.text
     if target == "inform":
-        assert any(b"SRCH RIN#(1)=ON" in one.data for one in files)
+        assert "SRCH RIN#(1)=ON" in journey.text
 
 
 @pytest.mark.parametrize("target", ["krl", "rapid", "tp", "urscript", "vplus"])
 def test_a_cell_file_in_the_words_of_the_source_serves_the_translation(target: str) -> None:
-    read = read_sources([source_from_text("FEEL.JBI", JOB)], "inform", Diagnostics())
-    translation = translate_program(read, target, ARM, None, Diagnostics())
-    back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, Diagnostics())
-    named = with_signal_names(back.program, translation.program)
-    cell = Cell(inputs=(Input(2.5, "RIN#(1)", True),))
-    entry = translation.renamed.get("FEEL", "FEEL")
-    outputs = run_program(named, ARM, in_words_of(cell, read.program, named), entry).outputs
-    assert [value for *_, value in outputs] == [True]
+    journey = there_and_back({"FEEL.JBI": JOB}, "inform", target, ARM)
+    result = journey.run("FEEL", Cell(inputs=(Input(2.5, "RIN#(1)", True),)))
+    assert [value for *_, value in result.outputs] == [True]

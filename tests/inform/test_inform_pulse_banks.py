@@ -7,11 +7,10 @@ import pytest
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import ReadProgram, read_sources
-from rpl.proof.prove import prove_programs
 from rpl.runtime.trace import RunResult
 from rpl.simulation import run_program
-from rpl.source import source_from_bytes, source_from_text
-from rpl.translation import translate_program
+from rpl.source import source_from_text
+from tests.there_and_back import there_and_back
 
 ARM = "motoman_mh24"
 JOB = """/JOB
@@ -81,14 +80,11 @@ def outputs(result: RunResult) -> list[tuple[str, object]]:
 
 @pytest.mark.parametrize("target", ["tp", "urscript", "krl", "vplus"])
 def test_such_a_bank_elsewhere(target: str) -> None:
-    source = read("000", "MOVJ P000 VJ=20.00 PL=0")
-    assert outputs(run_program(source.program, ARM)) == [("OT#(1)", True)]
-    diagnostics = Diagnostics()
-    done = translate_program(source, target, ARM, None, diagnostics)
-    assert not diagnostics.has_errors
-    assert not [one.as_text() for one in diagnostics.of(Severity.LOSS)]
-    back = read_sources([source_from_bytes(one.path, one.data) for one in done.files], target, Diagnostics())
-    result = prove_programs(source.program, back.program, ARM)
+    job = JOB.format(pulses="000", then="MOVJ P000 VJ=20.00 PL=0")
+    journey = there_and_back({"TABLE.JBI": job}, "inform", target, ARM)
+    assert outputs(run_program(journey.source.program, ARM)) == [("OT#(1)", True)]
+    assert not journey.found.has_errors and not journey.losses
+    result = journey.prove("TABLE")
     assert result.equal, result.as_text()
-    larger = [one for one in diagnostics.of(Severity.WARNING) if one.code.name == "registers-set-up"]
+    larger = [one for one in journey.found.of(Severity.WARNING) if one.code.name == "registers-set-up"]
     assert bool(larger) == (target == "tp")  # 128 positions, and the controller has 100 as delivered

@@ -4,11 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rpl.diagnostics import Diagnostics, Severity
-from rpl.project import read_sources
-from rpl.simulation import run_program
-from rpl.source import source_from_bytes, source_from_text
-from rpl.translation import translate_program
+from tests.there_and_back import there_and_back
 
 JOB = """/JOB
 //NAME BYTES
@@ -35,14 +31,9 @@ END
 
 @pytest.mark.parametrize("target", ["krl", "rapid", "rpl", "tp", "urscript", "vplus", "inform"])
 def test_each_signal_is_written_and_read(target: str) -> None:
-    diagnostics = Diagnostics()
-    read = read_sources([source_from_text("BYTES.JBI", JOB)], "inform", Diagnostics())
-    translation = translate_program(read, target, None, None, diagnostics)
-    assert [item.as_text() for item in diagnostics.of(Severity.LOSS)] == []
-    again = Diagnostics()
-    back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, again)
-    assert not again.has_errors, [item.as_text() for item in again]
-    result = run_program(back.program, None, None, translation.renamed.get("BYTES", "BYTES"))
+    journey = there_and_back({"BYTES.JBI": JOB}, "inform", target)
+    assert not journey.losses
+    result = journey.run("BYTES")
     on = [value for _, _, value in result.outputs]
     assert (result.status, len(on), on[-1]) == ("finished", 6, True), result.fault
 
@@ -65,14 +56,9 @@ END
 
 @pytest.mark.parametrize("target", ["krl", "rapid", "rpl", "urscript", "vplus", "inform"])
 def test_a_pulse_of_a_computed_signal(target: str) -> None:
-    diagnostics = Diagnostics()
-    read = read_sources([source_from_text("PULSED.JBI", PULSED)], "inform", Diagnostics())
-    translation = translate_program(read, target, None, None, diagnostics)
-    assert [item.as_text() for item in diagnostics.of(Severity.LOSS)] == []
-    again = Diagnostics()
-    back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, again)
-    assert not again.has_errors, [item.as_text() for item in again]
-    result = run_program(back.program, None, None, translation.renamed.get("PULSED", "PULSED"))
+    journey = there_and_back({"PULSED.JBI": PULSED}, "inform", target)
+    assert not journey.losses
+    result = journey.run("PULSED")
     assert result.status == "finished", result.fault
     (rises, _, on), (falls, _, off) = result.outputs
     assert (on, off) == (True, False) and falls - rises == pytest.approx(0.5, abs=0.05)

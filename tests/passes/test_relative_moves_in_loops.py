@@ -4,11 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rpl.diagnostics import Diagnostics, Severity
-from rpl.project import read_sources
-from rpl.simulation import run_program
-from rpl.source import source_from_bytes, source_from_text
-from rpl.translation import translate_program
+from tests.there_and_back import there_and_back
 
 PROGRAM = """.PROGRAM main()
  AUTO j[6], k
@@ -28,11 +24,7 @@ PROGRAM = """.PROGRAM main()
 
 @pytest.mark.parametrize("target", ["krl", "rapid", "tp", "urscript", "vplus", "rpl"])
 def test_every_pass_starts_from_the_end_of_the_one_before(target: str) -> None:
-    source = read_sources([source_from_text("main.v2", PROGRAM)], "vplus", Diagnostics())
-    found = Diagnostics()
-    translation = translate_program(source, target, "adept_viper_s650", None, found)
-    assert not [item.as_text() for item in found.of(Severity.LOSS)]
-    files = [source_from_bytes(file.path, file.data) for file in translation.files]
-    back = read_sources(files, target, Diagnostics())
-    result = run_program(back.program, "adept_viper_s650", None, translation.renamed.get("main", "main"))
+    journey = there_and_back({"main.v2": PROGRAM}, "vplus", target, "adept_viper_s650")
+    assert not journey.losses
+    result = journey.run()
     assert result.status == "finished" and len(result.outputs) == 1

@@ -2,12 +2,8 @@
 
 import pytest
 
-from rpl.diagnostics import Diagnostics
-from rpl.project import read_sources
-from rpl.proof.prove import ProofResult, prove_programs
-from rpl.proof.wiring import with_signal_names
-from rpl.source import source_from_bytes, source_from_text
-from rpl.translation import translate_program
+from rpl.proof.prove import ProofResult
+from tests.there_and_back import there_and_back
 
 ARM = "kuka_kr6r900sixx"
 SPLINES = """DEF way( )
@@ -66,16 +62,9 @@ END
 
 
 def translated(path: str, text: str, language: str, target: str, arm: str) -> tuple[ProofResult, list[str], str]:
-    read = read_sources([source_from_text(path, text)], language, Diagnostics())
-    diagnostics = Diagnostics()
-    written = translate_program(read, target, arm, None, diagnostics)
-    back = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, Diagnostics())
-    named = with_signal_names(back.program, written.program)
-    result = prove_programs(
-        read.program, named, arm, arm, None, entry="way", to_entry=written.renamed.get("way", "way")
-    )
-    told = [item.code.name for item in diagnostics if item.severity.word in ("warning", "loss", "error")]
-    return result, told, "\n".join(file.data.decode("latin-1") for file in written.files)
+    journey = there_and_back({path: text}, language, target, arm)
+    told = [item.code.name for item in journey.found if item.severity.word in ("warning", "loss", "error")]
+    return journey.prove("way"), told, journey.text
 
 
 @pytest.mark.parametrize("target", ["rapid", "tp", "urscript", "vplus", "inform"])

@@ -4,12 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rpl.diagnostics import Diagnostics, Severity
-from rpl.project import read_sources
-from rpl.proof.prove import prove_programs
-from rpl.proof.wiring import with_signal_names
-from rpl.source import source_from_bytes, source_from_text
-from rpl.translation import translate_program
+from tests.there_and_back import there_and_back
 
 ROBOT = "motoman_gp7"
 JOB = """/JOB
@@ -36,15 +31,11 @@ END
 
 def script_of(lines: str) -> tuple[str, set[str]]:
     """The script and the codes of its warnings, after checking that it does what the job does."""
-    diagnostics = Diagnostics()
-    program = read_sources([source_from_text("MAIN.JBI", JOB.format(lines=lines))], "inform", diagnostics)
-    written = translate_program(program, "urscript", ROBOT, diagnostics=diagnostics)
-    assert not [item.as_text() for item in diagnostics if item.severity >= Severity.LOSS]
-    back = read_sources([source_from_bytes(one.path, one.data) for one in written.files], "urscript", diagnostics)
-    named = with_signal_names(back.program, written.program)
-    proof = prove_programs(program.program, named, ROBOT, entry="MAIN", to_entry=written.renamed.get("MAIN", "MAIN"))
+    journey = there_and_back({"MAIN.JBI": JOB.format(lines=lines)}, "inform", "urscript", ROBOT)
+    assert not journey.losses
+    proof = journey.prove("MAIN")
     assert proof.equal, proof.as_text()
-    return written.files[0].data.decode(), {item.code.name for item in diagnostics}
+    return journey.text, {item.code.name for item in journey.found}
 
 
 SEEN = "GETS PX010 $PX001\nGETE D010 P010 (2)\nDOUT OT#(2) ON\nJUMP *E IF D010<79900\nDOUT OT#(3) ON\n*E"
@@ -83,7 +74,4 @@ def test_several_at_once_are_refused(lines: str) -> None:
 
 
 def reported(job: str) -> set[str]:
-    diagnostics = Diagnostics()
-    program = read_sources([source_from_text("MAIN.JBI", job)], "inform", diagnostics)
-    translate_program(program, "urscript", ROBOT, diagnostics=diagnostics)
-    return {item.code.name for item in diagnostics}
+    return {item.code.name for item in there_and_back({"MAIN.JBI": job}, "inform", "urscript", ROBOT).found}

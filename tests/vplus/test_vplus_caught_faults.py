@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from rpl.diagnostics import Diagnostics, Severity
-from rpl.project import read_sources
 from rpl.simulation import run_program
-from rpl.source import source_from_bytes, source_from_text
-from rpl.translation import translate_program
+from tests.there_and_back import there_and_back
 
 PROGRAM = """.PROGRAM main()
  AUTO u, z
@@ -33,12 +30,8 @@ PROGRAM = """.PROGRAM main()
 
 @pytest.mark.parametrize("target", ["krl", "tp", "urscript", "inform", "vplus", "rpl"])
 def test_divisions_and_roots_come_to_the_routine(target: str) -> None:
-    source = read_sources([source_from_text("main.v2", PROGRAM)], "vplus", Diagnostics())
-    assert run_program(source.program, "adept_viper_s650", None, "main").outputs
-    found = Diagnostics()
-    translation = translate_program(source, target, "adept_viper_s650", None, found)
-    assert not [item.as_text() for item in found.of(Severity.LOSS)]
-    files = [source_from_bytes(file.path, file.data) for file in translation.files]
-    back = read_sources(files, target, Diagnostics())
-    result = run_program(back.program, "adept_viper_s650", None, translation.renamed.get("main", "main"))
+    journey = there_and_back({"main.v2": PROGRAM}, "vplus", target, "adept_viper_s650")
+    assert run_program(journey.source.program, "adept_viper_s650", None, "main").outputs
+    assert not journey.losses
+    result = journey.run()
     assert result.status == "finished" and len(result.outputs) == 1

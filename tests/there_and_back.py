@@ -1,0 +1,73 @@
+"""There and back: a program is written in another language, read again by that language's reader, and run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from rpl import ir
+from rpl.cell import Cell
+from rpl.diagnostics import Diagnostics, Severity
+from rpl.project import ReadProgram, read_sources
+from rpl.proof.prove import ProofResult, prove_programs
+from rpl.proof.recording import record_of
+from rpl.proof.wiring import in_words_of, with_signal_names
+from rpl.runtime.trace import RunResult
+from rpl.simulation import run_program
+from rpl.source import source_from_bytes, source_from_text
+from rpl.translation import Translation, translate_program
+
+
+@dataclass(frozen=True, slots=True)
+class Journey:
+    """A program, what was written, and what the target's reader made of it. `found`: of reading and of writing."""
+
+    source: ReadProgram
+    written: Translation
+    back: ReadProgram
+    found: Diagnostics
+    robot: str | None
+
+    @property
+    def text(self) -> str:
+        """All that was written."""
+        return "\n".join(file.data.decode("latin-1") for file in self.written.files)
+
+    @property
+    def losses(self) -> list[str]:
+        """The names of what the target cannot say."""
+        return [item.code.name for item in self.found.of(Severity.LOSS)]
+
+    @property
+    def program(self) -> ir.Program:
+        """What was read back, with the signals that the source names."""
+        return with_signal_names(self.back.program, self.written.program)
+
+    def run(self, entry: str = "main", cell: Cell | None = None, limit_s: float = 60.0) -> RunResult:
+        """Run what was read back: from the routine that the source calls `entry`, in surroundings that are described in
+        the words of the source."""
+        theirs = in_words_of(cell, self.source.program, self.program) if cell is not None else None
+        return run_program(self.program, self.robot, theirs, self.written.renamed.get(entry, entry), limit_s)
+
+    def prove(self, entry: str = "main") -> ProofResult:
+        """Do the source and what was read back mean the same?"""
+        to_entry = self.written.renamed.get(entry, entry)
+        return prove_programs(self.source.program, self.program, self.robot, entry=entry, to_entry=to_entry)
+
+    def switched_on(self, result: RunResult) -> set[int]:
+        """Numbers of the digital outputs that a run of what was read back switches on."""
+        happenings = [one for task in record_of(result, self.program).tasks.values() for one in task]
+        names = {name for one in happenings if one.kind == "output" and one.value for name in one.names}
+        return {int(name.partition(":")[2]) for name in names if name.startswith("digital_out:")}
+
+
+def there_and_back(files: Mapping[str, str], language: str, target: str, robot: str | None = None) -> Journey:
+    """Read the files (texts by name), write them in the target's language, and read that. What the readers find wrong
+    is a failure here; losses are for the caller to look at."""
+    found, again = Diagnostics(), Diagnostics()
+    source = read_sources([source_from_text(name, text) for name, text in files.items()], language, found)
+    assert not found.has_errors, [item.as_text() for item in found]
+    written = translate_program(source, target, robot, None, found)
+    back = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, again)
+    assert not again.has_errors, [item.as_text() for item in again]
+    return Journey(source, written, back, found, robot)
