@@ -67,7 +67,7 @@ class Expressions:
         if kind == "integer":
             return _integer(_slot(tree.children[0]))
         if kind == "reference":
-            return self.reference(tree)
+            return _counted(self.reference(tree)) if _counts(tree) else self.reference(tree)
         if kind == "aggregate":
             return self.aggregate(tree)
         if kind == "binary":
@@ -532,6 +532,25 @@ def _measured(make: Make, unit: str) -> Make:
     return lambda pieces, origin: ir.Magnitude(make(pieces, origin), unit, origin=origin)
 
 
+def _counts(tree: SyntaxTree) -> bool:
+    return str(tree.children[0]).lower() in tables.COUNTED
+
+
+def _counted(make: Make) -> Make:
+    """A timer is read as an INT: what is between two milliseconds is not seen."""
+    return lambda pieces, origin: ir.Convert("round_half_away", make(pieces, origin), origin=origin)
+
+
+def _uncounted(value: ir.Expression, other: ir.Expression) -> ir.Expression:
+    """A timer beside a written number in a question of more or less, where its whole milliseconds change nothing."""
+    match value, other:
+        case ir.Convert(operand=ir.Magnitude(value=ir.System()) as time), (
+            ir.IntLiteral() | ir.RealLiteral() | ir.Unary(operand=ir.IntLiteral() | ir.RealLiteral())
+        ):
+            return time
+    return value
+
+
 def read_system(neutral: str, unit: str, origin: Origin) -> ir.Expression:
     """A neutral variable as the number that KRL shows."""
     variable = ir.System(neutral, origin=origin)
@@ -551,6 +570,8 @@ def related(relation: str, left: ir.Expression, right: ir.Expression, origin: Or
         return related(relation, right, left, origin)
     elif isinstance(right, _NUMBERS):
         left = as_number(left)
+    if relation not in ("=", "<>"):
+        left, right = _uncounted(left, right), _uncounted(right, left)
     return ir.Binary(relation, left, right, origin=origin)
 
 

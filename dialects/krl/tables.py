@@ -72,6 +72,9 @@ INDEXED: dict[str, tuple[str, str]] = {
     "$cycflag": ("cyclic_flag", ""),
     "$singul_pos": ("singular_rule", ""),
 }
+# Read as INT, in whole ms (manual of the system variables), so that `$TIMER[1]/1000` is a whole division.
+# M: the nearest millisecond is shown; a timer of the controller may count in its cycle of 12 ms.
+COUNTED = frozenset(("$timer", "$rob_timer"))
 # Structured modal settings: component -> neutral variable and unit, in the order of the structure.
 STRUCTURES: dict[str, dict[str, tuple[str, str]]] = {
     "$vel": {"cp": ("path_speed", "m/s"), "ori1": ("swivel_speed", ""), "ori2": ("twist_speed", "")},

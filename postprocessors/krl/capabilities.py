@@ -18,7 +18,8 @@ CAPABILITIES = Capabilities(
     ),
     functions=frozenset((*tables.FUNCTIONS, "text_equal", "text_find", "is_uninitialised", "message_text", "compose")),
     procedures=frozenset(tables.PROCEDURES),
-    system_variables=frozenset((*tables.SYSTEM, "actual_joint")),
+    # $ROB_TIMER runs since the controller started: as seconds in a REAL it is too coarse for programs of others.
+    system_variables=frozenset((*tables.SYSTEM, "actual_joint")) - {"time"},
     operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary)),
     types=frozenset(
         (

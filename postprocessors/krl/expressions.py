@@ -57,8 +57,10 @@ class Expressions:
     def whole(self, expression: ir.Expression) -> bool:
         """Does KRL take what is written for a whole number? A conversion to a real number leaves no trace in it."""
         match expression:
-            case ir.Convert(how="real", operand=operand) | ir.Unary(op="-" | "+", operand=operand):
+            case ir.Convert(how="real" | "round_half_away", operand=operand) | ir.Unary(op="-" | "+", operand=operand):
                 return self.whole(operand)
+            case ir.Magnitude(value=ir.System(name=name), unit=unit):
+                return name in tables.COUNTED and tables.SYSTEM.get(name, ("", ""))[1] == unit
             case ir.Binary(op="+" | "-" | "*", left=left, right=right):
                 return self.whole(left) and self.whole(right)
             case ir.Builtin(function="abs" | "min" | "max", arguments=arguments):

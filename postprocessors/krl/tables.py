@@ -52,6 +52,7 @@ OPERATORS = OperatorTable(
     mixed=(frozenset(_BINARY),),
 )
 
+COUNTED = frozenset(("timer", "time"))  # INT in their own unit
 # Neutral system variable -> spelling and the unit that KRL measures it in ("" for the neutral one).
 SYSTEM: dict[str, tuple[str, str]] = {
     "tool": ("$TOOL", ""),
@@ -92,6 +93,7 @@ SYSTEM: dict[str, tuple[str, str]] = {
     "timer": ("$TIMER", "ms"),
     "timer_stopped": ("$TIMER_STOP", ""),
     "timer_positive": ("$TIMER_FLAG", ""),
+    "time": ("$ROB_TIMER", "ms"),
     "flag": ("$FLAG", ""),
     "cyclic_flag": ("$CYCFLAG", ""),
     "singular_rule": ("$SINGUL_POS", ""),

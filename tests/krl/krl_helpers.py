@@ -73,6 +73,8 @@ def shown(expression: ir.Expression) -> str:
             return f"@{name}"
         case ir.Magnitude(value=value, unit=unit) | ir.Quantity(value=value, unit=unit):
             return f"<{shown(value)} {unit}>"
+        case ir.Convert(how=how, operand=operand):
+            return f"{how}({shown(operand)})"
         case ir.Signal(kind=kind, index=index):
             return f"{kind}:{shown(index) if index else ''}"
         case ir.TextLiteral(value=text):

@@ -75,7 +75,12 @@ def test_literals(text: str, value: float) -> None:
 
 VALUES = [
     ("$VEL.CP", "<@path_speed m/s>"),
-    ("$TIMER[3]", "<@timer ms>"),
+    ("$TIMER[3]", "round_half_away(<@timer ms>)"),
+    ("$TIMER[3]/1000", "(round_half_away(<@timer ms>) quo 1000)"),
+    ("$ROB_TIMER==5", "(round_half_away(<@time ms>) = 5)"),
+    ("$TIMER[3]>-5", "(<@timer ms> > (- 5))"),
+    ("2.5<=$TIMER[3]", "(2.5 <= <@timer ms>)"),
+    ("$TIMER[3]>N", "(round_half_away(<@timer ms>) > N)"),
     ("$IN[7]", "digital_in:7"),
     ("$IN[1025]", "True"),
     ("$IN[1026]", "False"),

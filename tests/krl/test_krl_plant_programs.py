@@ -172,6 +172,46 @@ $TIMER[2]=MS
 $TIMER_STOP[2]=FALSE
 END
 """
+# Timers count whole milliseconds: questions of equality, whole divisions, arguments, and a choice by them.
+COUNTED_TIMERS = """DEF CHECKS( )
+DECL INT I,N,K
+DECL REAL S,R
+BAS(#INITMOV,0)
+$TIMER[6]=0
+$TIMER_STOP[6]=FALSE
+WAIT SEC 1.2304
+$TIMER_STOP[6]=TRUE
+I=$TIMER[6]
+$OUT[1]=($TIMER[6]==I) AND NOT ($TIMER[6]<>I)
+S=$TIMER[6]/1000
+$OUT[2]=(S==1.0)
+R=$TIMER[6]/1000.0
+$OUT[3]=(ABS(R-1.23)<0.02)
+S=$TIMER[6]
+N=250
+K=$TIMER[6]/N
+$OUT[4]=(S==I) AND (K==4)
+$OUT[5]=($TIMER[6]>=I) AND ($TIMER[6]<=I)
+$TIMER[6]=-2500
+$OUT[6]=($TIMER[6]/1000==-2) AND ($TIMER[6]==-2500)
+$TIMER[6]=1999
+$OUT[7]=(SECONDS($TIMER[6])==1)
+SWITCH $TIMER[6]/1000
+CASE 1
+  $OUT[8]=TRUE
+ENDSWITCH
+$TIMER[7]=$TIMER[6]/2
+$OUT[9]=($TIMER[7]==999)
+N=$ROB_TIMER
+WAIT SEC 0.55
+K=($ROB_TIMER-N)/100
+$OUT[10]=(K==5)
+END
+DEFFCT INT SECONDS(MS:IN)
+DECL INT MS
+RETURN MS/1000
+ENDFCT
+"""
 DOOR_DATA = "DEFDAT CHECKS\nDECL REAL BEGAN=0.0\nDECL REAL STOOD=0.0\nDECL INT DOORS=0\nENDDAT\n"
 
 
@@ -190,6 +230,7 @@ PROGRAMS: dict[str, tuple[str | dict[str, str], int]] = {
     "a contact": ({"checks.src": CONTACT, "checks.dat": CONTACT_DATA}, 2),
     "a call on the way": ({"checks.src": ON_THE_WAY, "checks.dat": ON_THE_WAY_DATA}, 1),
     "stopped timers": (STOPPED_TIMERS, 5),
+    "counted timers": (COUNTED_TIMERS, 10),
     "a door": ({"checks.src": DOOR, "checks.dat": DOOR_DATA}, 1),
 }
 CELLS = {"a door": answers(38, 21, 0.9), "a contact": answers(39, 22, 0.9)}
