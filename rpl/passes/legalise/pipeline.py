@@ -45,6 +45,7 @@ from rpl.passes.legalise.elseif import nest_branches
 from rpl.passes.legalise.emptyreactions import without_empty_reactions
 from rpl.passes.legalise.enums import enums_to_constants
 from rpl.passes.legalise.errorcodes import name_errors
+from rpl.passes.legalise.errornumbers import error_numbers
 from rpl.passes.legalise.errorroutines import error_routines
 from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.explicit import explicit_to_modal
@@ -230,6 +231,7 @@ PASSES: tuple[Pass, ...] = (
     at_rest,
     without_empty_reactions,
     interrupt_places,
+    error_numbers,
     link_prelude,
     apart_from_neutral_records,
     used_elements,
