@@ -37,7 +37,7 @@ class Kind:
     origin: Origin = field(default=NOWHERE, compare=False)
 
 
-ON, OFF = "on", "off"
+ON, OFF, AS_FOUND = "on", "off", "as found"  # as found: a called job leaves the shift of its caller
 Key = tuple[str, int | None]
 SHIFTED: Key = ("SHIFT", 0)  # whether positions are shifted (SFTON), kept like what a variable holds
 TOOL: Key = ("TOOL", 0)  # the tool of the last move
@@ -90,6 +90,7 @@ class Project:
     # Variables and arguments that hold pulses or a pose, one cannot tell which: their pulses are stored as a pose.
     unified: set[tuple[str, Key]] = field(default_factory=set)
     tools_left: dict[Key, Kind] = field(default_factory=dict)  # with which tool a job ends
+    shifts_left: dict[Key, Kind] = field(default_factory=dict)  # whether positions are shifted when a job ends
     changed: bool = False
     assuming: bool = False  # nothing else is known of them: variables that are filled by elements are poses
     real_back: bool | None = None
@@ -169,6 +170,7 @@ def _settled(project: Project, locals_of: Mapping[str, frozenset[str]]) -> dict[
     project.globals.clear()
     project.arguments.clear()
     project.tools_left.clear()
+    project.shifts_left.clear()
     project.forms.clear()
     for name, job in project.jobs.items():
         for (bank, number), point in job.points.items():
@@ -326,7 +328,7 @@ class Flow:
             case "JUMP":
                 self.jump(command, state)
                 if any(isinstance(item, JobName) for item in command.items):
-                    self.call(command, state)
+                    self.ends(self.call(command, state))
                 return state if conditional else None
             case "RET" | "END" | "ABORT":
                 self.ends(state)
@@ -365,6 +367,7 @@ class Flow:
             if (tool := self.caller_tool(state)) is not None:
                 self.project.argument(name, _CALLER_TOOL, tool)
             left = self.project.tools_left.get((name.upper(), 0))
+            state = self.shift_left(command, name.upper(), state)
         if left is not None and left.tool != INHERITED:
             now = self.held(TOOL, state)
             state = {**state, TOOL: joined(now, left) if _is_conditional(command) else left}
@@ -375,6 +378,16 @@ class Flow:
         if changed is not None and ("P", None) not in changed:
             return {key: joined(kind, self.held(key, {})) if key in changed else kind for key, kind in state.items()}
         return {key: kind if key[0] != "P" else joined(kind, self.held(key, {})) for key, kind in state.items()}
+
+    def shift_left(self, command: Command, name: str, state: State) -> State:
+        """M: a shift stays when the job that began it ends (jobs that only begin one are in use), until SFTOF.
+        A job that is called by a number may be any."""
+        left = [kind for (job, _), kind in self.project.shifts_left.items() if name in ("", job)]
+        if all(kind.form == AS_FOUND for kind in left):
+            return state
+        after = left[0] if len(left) == 1 and not _is_conditional(command) else Kind(MIXED)
+        before = self.held(SHIFTED, state)
+        return {**state, SHIFTED: joined(before, after) if after.form == MIXED else after}
 
     # ---- the tool
 
@@ -394,7 +407,9 @@ class Flow:
 
     def ends(self, state: State | None) -> None:
         if state is not None:
-            self.project.update(self.project.tools_left, (self.job.name.upper(), 0), self.held(TOOL, state))
+            key = (self.job.name.upper(), 0)
+            self.project.update(self.project.tools_left, key, self.held(TOOL, state))
+            self.project.update(self.project.shifts_left, key, state.get(SHIFTED, Kind(AS_FOUND)))
 
     def driven(self, command: Command, state: State) -> State:
         """A move takes the tool of its position."""

@@ -31,7 +31,10 @@ SECOND_ROBOT = code(
 )
 UNKNOWN_TAG = code("inform-unknown-tag", Severity.WARNING, "{tag} at a move has no meaning here and is ignored")
 OVERRUN = code(
-    "inform-search-limits", Severity.INFO, "the time and distance of SRCH limit the search on the controller, not here"
+    "inform-search-limits",
+    Severity.WARNING,
+    "{limits} at {word} is left out: it ends at the taught point and keeps the place of the signal",
+    "teach the point so far that the signal comes before it",
 )
 
 
@@ -240,8 +243,9 @@ class Motion(Data):
             if word != "UNTIL":
                 self.shared.used.scalar(tables.SEARCH_PLACE, ir.TargetType("inform"), self.origin)
                 found = ir.Name(tables.SEARCH_PLACE, origin=self.origin)
-                if any(tag in ("T", "DIS") for tag, _ in tags_of(tuple(main.others[at + 2 :]))):
-                    self.report_once(OVERRUN, "overrun")
+                limits = [f"{tag}=" for tag, _ in tags_of(tuple(main.others[at + 2 :])) if tag in ("T", "DIS")]
+                if limits:
+                    self.diagnostics.report(OVERRUN, self.origin, limits=" and ".join(limits), word=word)
             stop = "none" if word == "NSRCH" else "path"
             return ir.Search(condition, found, stop, "rising", ir.Name(hit, origin=self.origin))
         return None

@@ -35,8 +35,8 @@ OTHER_VALUE = code(
 NOT_GIVEN = code(
     "inform-not-given",
     Severity.INFO,
-    "{what} are set at the controller, not in a job: they are identity here",
-    "give them in the cell file, for example TL1 = {{ x = 0.0, y = 0.0, z = 120.0, a = 0.0, b = 0.0, c = 0.0 }}",
+    "{what} set at the controller, not in a job; taken as identity here",
+    "give them in the cell file, for example {name} = {{ x = 0.0, y = 0.0, z = 120.0, a = 0.0, b = 0.0, c = 0.0 }}",
 )
 REGISTERS = "registers"
 _IDENTITY = ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ("x", "y", "z", "a", "b", "c")))
@@ -171,15 +171,27 @@ class _Lowering:
             declarations.append(variable)
         declarations.extend(self.saved_elements())
         declarations.extend(self.direct_inputs())
-        for name, what in (("TL", "tools TL#(n)"), ("UF", "user frames UF#(n)")):
-            given = [place for key, (_, place) in used.scalars.items() if key.startswith(name) and key[2:].isdigit()]
-            given.extend(place for key, (_, _, place) in used.arrays.items() if key == name)
-            if given:
-                self.diagnostics.report(NOT_GIVEN, given[0], what=what)
         modules = tuple(self.modules)
+        self.tell_what_is_not_given(modules)
         if declarations:
             modules = (ir.Module(REGISTERS, "inform", tuple(declarations)), *modules)
         return without_pulse_banks(ir.Program(modules))
+
+    def tell_what_is_not_given(self, modules: tuple[ir.Module, ...]) -> None:
+        """Tools and user frames that moves use and no SETTOOL or MFRAME of the project sets."""
+        used = self.shared.used
+        targets = [node.target for node in walk(*modules) if isinstance(node, ir.Assign)]
+        names = {target.id for target in targets if isinstance(target, ir.Name)}
+        bases = [target.base for target in targets if isinstance(target, ir.Index)]
+        names |= {base.id for base in bases if isinstance(base, ir.Name)}
+        for bank, what in (("TL", "tool"), ("UF", "user frame")):
+            given = [(key, place) for key, (_, place) in used.scalars.items() if key[:2] == bank and key[2:].isdigit()]
+            given.extend((key, place) for key, (_, _, place) in used.arrays.items() if key == bank)
+            unset = [(key, place) for key, place in given if key not in names]
+            if unset:
+                listed = ", ".join(f"{bank}#({key[2:] or 'n'})" for key, _ in sorted(unset, key=lambda one: one[0]))
+                words = f"{what} {listed} is" if len(unset) == 1 else f"{what}s {listed} are"
+                self.diagnostics.report(NOT_GIVEN, unset[0][1], what=words, name=f"{bank}{unset[0][0][2:] or 1}")
 
     def direct_inputs(self) -> list[ir.Declaration]:
         """Names RIN1 ... of the direct inputs in use, so that a cell file can name them."""

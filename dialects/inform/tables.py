@@ -72,6 +72,7 @@ SEARCH_STATUS = "B002"  # 1: the last SRCH found its signal
 WAIT_STATUS = "B014"  # 1: the last WAIT with a time ended by its condition
 # Global data that stand for these.
 SEARCH_FOUND, SEARCH_PLACE, WAIT_LATE, UNTIL_MET = "SEARCH_FOUND", "SEARCH_PLACE", "WAIT_LATE", "UNTIL_MET"
+# M: a shift lasts until SFTOF, also where the job that began it has ended (jobs that only begin one are in use).
 SHIFT, SHIFT_IN_TOOL = "SHIFT", "SHIFT_IN_TOOL"
 # While a text is read as a number to another base (VAL ... RADIX=16).
 DIGITS, DIGITS_AT, DIGIT, DIGITS_SUM = "VAL_TEXT", "VAL_AT", "VAL_DIGIT", "VAL_SUM"
