@@ -15,6 +15,7 @@ from rpl.source import Origin, Source
 from . import nodes
 from .expressions import Names, returns_joints
 from .infer import Inference
+from .instances import told_apart
 from .kinds import type_of
 from .pendant import as_script, is_saved_program
 from .scopes import File, Function, Project, Symbol, collect, count_stores
@@ -32,7 +33,7 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
         source = as_script(given, diagnostics) if is_saved_program(given) else given
         done = assemble(source, "urscript", split(source), parser(), syntax.lower, syntax.build, diagnostics)
         reports.append(done.report)
-        contents.append((source, tuple([unwrapped(item) for item in done.items])))
+        contents.append((source, told_apart(tuple([unwrapped(item) for item in done.items]))))
     project = collect(contents)
     count_stores(project)
     inference = Inference(project)

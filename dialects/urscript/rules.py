@@ -53,6 +53,7 @@ RULES = Rules(
     text_decimals=6,
     call_depth=100,
     wait_poll_s=STEP_TIME_S,
+    task_instances=True,
     system_defaults={
         "path_speed": 250.0,
         "path_acceleration": 1200.0,

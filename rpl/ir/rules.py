@@ -46,7 +46,8 @@ class Rules:
     many decimals in a text, without zeros at the end; 0: six digits in all. message_numbers, message_texts: of a
     controller whose messages show constant text only: regular expressions for what names a register of numbers, or
     any other register, in such a text. last_tool: while the program has set no tool, the place of the robot is told
-    by tool and frame of the last move that named some (else by none).
+    by tool and frame of the last move that named some (else by none). task_instances: starting a task that runs begins
+    another one of its routine (else nothing happens).
     """
 
     name: str
@@ -72,3 +73,4 @@ class Rules:
     message_numbers: str = ""
     message_texts: str = ""
     last_tool: bool = True
+    task_instances: bool = False

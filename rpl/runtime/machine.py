@@ -59,6 +59,7 @@ class Machine:
         self.signals: dict[Key, Value] = {}
         self.names: dict[Key, str] = {}
         self.tasks: list[Task] = []
+        self.latest: dict[str, str] = {}  # routine -> its task that was started last, where it has several
         self.trace: list[Event] = []
         self.outputs: list[tuple[float, str, Value]] = []
         self.messages: list[str] = []

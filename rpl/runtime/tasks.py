@@ -19,28 +19,44 @@ STARTED = "background"
 
 
 def named(machine: Machine, name: str) -> Task | None:
-    """The task of that name, whatever its state."""
-    return next((task for task in machine.tasks if task.name.lower() == name.lower()), None)
+    """The task of that name, whatever its state; of several of one routine the one that was started last."""
+    wanted = machine.latest.get(name.lower(), name.lower())
+    return next((task for task in machine.tasks if task.name.lower() == wanted), None)
 
 
 def start(machine: Machine, asking: Task, name: str, code: Code | None, fill: Callable[[Values], None]) -> None:
-    """Begin a task, unless it runs already. A routine that is no task yet becomes one; it shares the modal settings of
-    the task that started it."""
+    """Begin a task, unless it runs already; where each start begins another one, a task beside it. A routine that is no
+    task yet becomes one; it shares the modal settings of the task that started it."""
     found = named(machine, name)
-    if found is None:
+    again = found is not None and found.state != ENDED
+    if found is None or (again and code is not None and asking.frame.code.rules.task_instances):
         if code is None:
             raise ProgramError("unknown_routine", f"there is no task or routine {name}")
         machine.provide(code)
-        found = Task(machine, name, len(machine.tasks), STARTED, code)
-        found.modal = asking.modal
-        machine.tasks.append(found)
-    elif found.state == ENDED:
-        found.restart()
-    else:
+        found = _another(machine, asking, name, code)
+    elif again:
         return
+    else:
+        found.restart()
     fill(found.frame.values)
     found.state = READY
     machine.ready(found)
+
+
+def _another(machine: Machine, asking: Task, name: str, code: Code) -> Task:
+    """A task of the routine that no task beside it is: one that has ended, or a new one."""
+    mine = [task for task in machine.tasks if task.name.lower().partition(":")[0] == name.lower()]
+    ended = next((task for task in mine if task.state == ENDED and task.kind == STARTED), None)
+    if ended is not None:
+        ended.restart()
+        found = ended
+    else:
+        own = f"{name}:{len(mine) + 1}" if mine else name
+        found = Task(machine, own, len(machine.tasks), STARTED, code)
+        found.modal = asking.modal
+        machine.tasks.append(found)
+    machine.latest[name.lower()] = found.name.lower()
+    return found
 
 
 def control(machine: Machine, asking: Task, op: str, name: str) -> None:

@@ -128,6 +128,7 @@ from rpl.passes.legalise.sameunits import same_units
 from rpl.passes.legalise.scaledspeeds import scaled_override
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
+from rpl.passes.legalise.secondstarts import second_starts
 from rpl.passes.legalise.seenhalf import seen_half
 from rpl.passes.legalise.seenjoints import seen_joints
 from rpl.passes.legalise.seenplaces import posed_places, seen_places
@@ -224,6 +225,7 @@ PASSES: tuple[Pass, ...] = (
     turned_ways,
     elementwise,
     known_handles,
+    second_starts,
     called_tasks,
     searches,
     reaction_searches,
