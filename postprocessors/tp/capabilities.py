@@ -98,6 +98,7 @@ CAPABILITIES = Capabilities(
     calculated_places=False,
     functions_alone=True,
     signal_groups=False,
+    timed_arcs=True,
     move_settings=frozenset(("speed", "blend")),
     move_triggers=True,
     concurrent_moves="tasks",

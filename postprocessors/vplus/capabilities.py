@@ -84,6 +84,7 @@ CAPABILITIES = Capabilities(
     index_base=0,
     named_aggregates=True,
     whole_places=True,
+    timed_arcs=True,
     move_settings=frozenset(("frame", "speed", "blend")),
     speeds=frozenset(("joint", "path", "duration")),
     blends=tables.words("BlendDistance BlendPercent BlendSpeed BlendZone"),

@@ -143,6 +143,8 @@ class Capabilities:
     path_points: the smallest corner (mm) of a point that the writer cuts a straight move at for an action on its path;
     where the ends of the move are computed, a pass does it (0: moves are not cut).
 
+    timed_arcs: an arc may say its time, where the other moves can (else it gets the speed that takes so long).
+
     move_triggers: a move says the actions on its path itself (Move.triggers), and only so. late_triggers: an action
     on the path may come some time behind the end of a move that stops there (else a task does it).
     concurrent_moves: a program that goes on while a move is driven: `moves` say so (or a task of watching_tasks drives
@@ -278,6 +280,7 @@ class Capabilities:
     move_settings: frozenset[str] = frozenset()
     speeds: frozenset[str] = frozenset()
     blends: frozenset[str] = frozenset()
+    timed_arcs: bool = False
     move_triggers: bool = False
     late_triggers: bool = True
     concurrent_moves: str = ""

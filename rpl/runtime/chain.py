@@ -338,6 +338,10 @@ def _mismatch(model: RobotModel, notation: Notation, flags: dict[str, int | None
     return f"the path arrives with {reached}, programmed is {asked}"
 
 
+# M: a move with a time of its own is not held to the speed in force, but to what fast arms reach at most.
+_FASTEST_MM_S, _FASTEST_DEG_S = 5000.0, 1000.0
+
+
 def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) -> dict[str, Value]:
     """Speeds, accelerations, orientation."""
     import numpy as np
@@ -373,6 +377,10 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
     joint_effort = np.array([float(value("joint_acceleration", axis)) / 100.0 * effort for axis in axes])
     if speed.axis is not None:  # the leading axis runs at this speed, the others with it
         joint_share = np.minimum(speed.axis * over / plan.model.speeds, 1.0)
+    if speed.duration is not None and speed.duration > 0.0:  # the time decides, up to what the arm can do
+        path, rotation = max(path, _FASTEST_MM_S), max(rotation, _FASTEST_DEG_S)
+        joint_share = np.full(plan.model.axes, over)
+        options.pop("tcp_speed_for_joint_move", None)
     if speed.axis_acceleration is not None:
         joint_effort = speed.axis_acceleration / plan.model.accelerations
     acceleration = value("path_acceleration")

@@ -33,6 +33,9 @@ class Arm(Protocol):
     def speeds(self) -> Any: ...
 
     @property
+    def accelerations(self) -> Any: ...
+
+    @property
     def pulses_per_degree(self) -> Any: ...
 
     @property

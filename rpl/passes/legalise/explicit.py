@@ -348,11 +348,12 @@ class Modal:
         return self.constant_aggregate(initial) if fixed and isinstance(initial, ir.Name) else None
 
     def timed(self, move: ir.Move) -> ir.Speed | None:
-        """The time of a move that says one, for targets whose moves can; arcs have their speed everywhere."""
+        """The time of a move that says one, for targets whose moves can."""
         can = self.context.capabilities
-        if move.speed is None or move.speed.duration is None or move.kind == "circular":
+        if move.speed is None or move.speed.duration is None:
             return None
         kept = "speed" in can.move_settings and "duration" in can.speeds
+        kept = kept and (move.kind != "circular" or can.timed_arcs)
         return ir.Speed(duration=move.speed.duration) if kept else None
 
     def own_speed(self, move: ir.Move) -> ir.Speed | None:

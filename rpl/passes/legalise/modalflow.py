@@ -26,7 +26,9 @@ _TURNS = "circle_orientation"
 _SHARES = {"speed_percent": 100.0, "speed_limit": 5000.0}
 # Whether moves are joined at all (V+ CPON): a truth value.
 _JOINED = "blending"
-_FOLLOWED = SETTINGS | BRAKING.keys() | _SHARES.keys() | {"displacement", _TURNS, _JOINED}
+# The least time of moves, s; none where nothing is said.
+_TIMES = {"move_duration": 0.0}
+_FOLLOWED = SETTINGS | BRAKING.keys() | _SHARES.keys() | _TIMES.keys() | {"displacement", _TURNS, _JOINED}
 # Setting -> constant; None: it depends on the run. A place that is never reached has no state.
 State = dict[str, "ir.Expression | None"]
 _UNKNOWN: State = dict.fromkeys(_FOLLOWED)
@@ -116,7 +118,7 @@ def _default(name: str, defaults: dict[str, float | bool | str]) -> ir.Expressio
         return ir.System("null_frame")
     if name == _TURNS:
         return ir.EnumLiteral(str(defaults.get(name, "base")))
-    value = defaults.get(name, (BRAKING | _SHARES).get(name))
+    value = defaults.get(name, (BRAKING | _SHARES | _TIMES).get(name))
     if isinstance(value, bool):
         return ir.BoolLiteral(value)
     return ir.RealLiteral(float(value)) if isinstance(value, int | float) else None
@@ -267,7 +269,7 @@ class _Follower:
                 return dict(_UNKNOWN)
             case ir.Assign(target=ir.System(name=name), value=value) if name in _FOLLOWED:
                 new = self.stable(value) if name not in self.flow.usage.interrupting else None
-                if name not in (_TURNS, _JOINED):
+                if name not in (_TURNS, _JOINED, *_TIMES):
                     self.note_setting(statement, new is not None and state[name] == new)
                 return {**state, name: new}
         return self.calls(statement, state)
