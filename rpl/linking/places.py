@@ -194,6 +194,9 @@ def _write_signal(compiler: Compiler, signal: ir.Signal, origin: Origin) -> Writ
 
 # ---- references
 
+# What turns a truth into a number, or a number into a truth, makes a value of its own: there is no place behind it.
+_MADE_OF_TRUTHS = ("bit", "minus_bit", "truth")
+
 
 def reference(compiler: Compiler, target: ir.Expression, origin: Origin) -> MakeRef:
     """A closure that gives a reference; indices are evaluated when it is made."""
@@ -217,7 +220,7 @@ def reference(compiler: Compiler, target: ir.Expression, origin: Origin) -> Make
             return component
         case ir.Signal() | ir.System():
             return _through_calls(compiler, target, origin)
-        case ir.Convert(operand=operand):
+        case ir.Convert(how=how, operand=operand) if how not in _MADE_OF_TRUTHS:
             return reference(compiler, operand, origin)
     read = compiler.value(target)
     return lambda f: Ref([read(f)], 0)

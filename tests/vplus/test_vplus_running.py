@@ -117,6 +117,16 @@ def test_it_holds(what: str, text: str) -> None:
     assert outputs(run(text)) == [("1", True)], what
 
 
+@pytest.mark.parametrize("beside", ["", "REACT 1001, other\n", "EXECUTE 1 other()\n"])
+def test_a_comparison_as_an_argument_is_minus_one_beside_reactions_and_tasks(beside: str) -> None:
+    more = (
+        ".PROGRAM show(flag, n)\nIF flag == -1 THEN\nSIGNAL n\nEND\nflag = 5\n.END\n"
+        ".PROGRAM other()\nWAIT.EVENT , 0.1\n.END"
+    )
+    text = f"{beside}a = 7\nx = a > 5\nCALL show(a > 5, 1)\nCALL show(NOT (a > 5), 2)\nCALL show(x, 3)\nCALL show(SIG(-1001), 4)"
+    assert outputs(run(f"{text}\nIF x == 5 THEN\nSIGNAL 5\nEND", more)) == [(n, True) for n in ("1", "3", "4", "5")]
+
+
 @pytest.mark.parametrize("number", ["n", "1*n", "-1*m"])
 def test_the_sign_of_a_signal_number_counts_when_the_program_runs(number: str) -> None:
     body = f"FOR n = -6 TO 7 STEP 13\nm = -n\nk = k+k\nIF SIG({number}) THEN\nk = k+1\nEND\nEND"
