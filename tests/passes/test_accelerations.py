@@ -50,6 +50,11 @@ def test_a_percentage_for_all_moves_is_set_around_them() -> None:
     assert not [name for name in codes if "guarded" in name or name == "not-written"]
 
 
+def test_braking_goes_with_it_where_a_target_has_both() -> None:
+    found = [f"ACCEL {value}, {value}" for value in (80, 60, 100, 50, 100)]
+    assert written("vplus", "ACCEL")[0] == found
+
+
 def test_axes_and_path_have_accelerations_of_their_own() -> None:
     assert written("krl", "$ACC_AXIS[1]")[0] == [f"$ACC_AXIS[1]={value}" for value in ("80", "100.0", "50", "100.0")]
     assert written("krl", "$ACC.CP")[0] == ["$ACC.CP=3.0", "$ACC.CP=5.0"]

@@ -89,9 +89,9 @@ def test_statements_in_urscript(source: str, target: list[str]) -> None:
 @pytest.mark.parametrize(
     ("source", "target"),
     [
-        ("MOVE TO home", ["movej(home, v=2.0944)"]),
-        ("MOVE LINEAR TO spot SPEED 200 mm/s FINE", ["movel(spot, v=0.2)"]),
-        ("MOVE LINEAR TO spot SPEED 200 mm/s BLEND 15 mm", ["movel(spot, v=0.2, r=0.015)"]),
+        ("MOVE TO home", ["movej(home, a=6.9813, v=2.0944)"]),
+        ("MOVE LINEAR TO spot SPEED 200 mm/s FINE", ["movel(spot, a=2, v=0.2)"]),
+        ("MOVE LINEAR TO spot SPEED 200 mm/s BLEND 15 mm", ["movel(spot, a=2, v=0.2, r=0.015)"]),
     ],
 )
 def test_moves_in_urscript(source: str, target: list[str]) -> None:

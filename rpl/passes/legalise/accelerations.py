@@ -1,8 +1,8 @@
 """The acceleration of one move, in percent, for targets where accelerations are modal.
 
 It is set before the first of several moves that have it, and set back behind the last. A target with a percentage for
-all moves (RAPID's AccSet) gets that; one with accelerations of the axes and of the path (KRL) gets the percentage of
-its own usual acceleration for the kind of move.
+all moves (RAPID's AccSet, V+ ACCEL) gets that; one with accelerations of the axes and of the path (KRL) gets the
+percentage of its own usual acceleration for the kind of move.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _SIMPLE = (ir.Assign, ir.Nothing, ir.LookAhead, ir.Wait, ir.WaitUntil, ir.WaitFo
 def accelerations_of_moves(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose moves do not say their acceleration."""
     can = context.capabilities.system_variables
-    if context.capabilities.move_settings:
+    if context.capabilities.move_settings and "acceleration_percent" not in can:
         return program
     if not can & {"acceleration_percent", "joint_acceleration"}:
         return program
@@ -72,7 +72,9 @@ class _Runs:
         if percent is None:
             return ()
         if "acceleration_percent" in self.can:
-            return (("acceleration_percent", percent), ("acceleration_ramp", ir.RealLiteral(_FULL)))
+            ramp = ("acceleration_ramp", ir.RealLiteral(_FULL))
+            braking = ramp if ramp[0] in self.can else ("deceleration_percent", percent)
+            return (("acceleration_percent", percent), braking)
         if move.kind == "joint":
             return (("joint_acceleration", percent),)
         return (("path_acceleration", scaled(percent, self.usual / _FULL, _MOST)),)

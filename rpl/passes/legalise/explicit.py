@@ -59,6 +59,9 @@ _CHECKS = frozenset(
 )
 
 
+_BRAKES = frozenset(("deceleration_percent",))  # beside acceleration_percent, where a target has both
+
+
 def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with modal motion; moves without explicit settings stay as they are."""
     if not context.capabilities.modal_motion:
@@ -156,6 +159,7 @@ class Modal:
     ) -> None:
         self.context, self.scope, self.assigned, self.reported = context, scope, assigned, reported
         self.usual, self.quiet = usual, quiet
+        self.brakes = _BRAKES & context.capabilities.system_variables
         ours = rules_of(context.source).advance
         self.at_corners = (
             {"Trigger", "LookAhead"} <= context.capabilities.statements
@@ -204,7 +208,7 @@ class Modal:
         match statement:
             case ir.Assign(target=ir.System(name="acceleration_percent")) if self.context.capabilities.move_settings:
                 return [statement]  # it decides on corners; movesettings leaves it out then
-            case ir.Assign(target=ir.System(name=name)) if name in _CHECKS:
+            case ir.Assign(target=ir.System(name=name)) if name in _CHECKS and name not in self.brakes:
                 setting = name.replace("_", " ")
                 self.context.diagnostics.report(DROPPED, statement.origin, name=setting)
                 return [ir.Nothing(origin=statement.origin)]

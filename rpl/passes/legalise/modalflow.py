@@ -19,7 +19,12 @@ from rpl.passes.scope import ProgramScope, Scope
 SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distance", "blend_joint"))
 # What else is followed, because the size of a corner that a speed decides depends on it. The values are those of a
 # controller that says nothing (mm/s2 and percent, as the emulator takes them).
-BRAKING = {"blend_speed": 100.0, "path_acceleration": 5000.0, "acceleration_percent": 100.0}
+BRAKING = {
+    "blend_speed": 100.0,
+    "path_acceleration": 5000.0,
+    "acceleration_percent": 100.0,
+    "joint_acceleration": 100.0,
+}
 # How the tool turns on arcs is followed too; setting it again is never left out, for targets start with other rules.
 _TURNS = "circle_orientation"
 # What all speeds are a share of, and the highest (RAPID VelSet), as a controller has them that says nothing.

@@ -16,6 +16,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.modal import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, ZONE_MM_PER_PERCENT, says
 from rpl.passes.legalise.modalflow import SETTINGS, Flow, State
+from rpl.passes.legalise.saidaccelerations import SAID, Accelerations
 from rpl.passes.legalise.servedsettings import only_served
 from rpl.passes.legalise.tooldata import PLACES
 from rpl.passes.rewrite import rewrite_parts
@@ -56,10 +57,12 @@ class _Settings:
     variables: dict[str, str] = field(default_factory=dict)
     reported: set[tuple[Code, str]] = field(default_factory=set)
     several: bool = False  # does the program set different tools?
+    accelerations: Accelerations = field(init=False)
 
     def __post_init__(self) -> None:
         self.several = len({repr(value) for value in _tools(self.source)}) > 1
         self.flow = Flow.of(self.source, dict(rules_of(self.context.source).system_defaults))
+        self.accelerations = Accelerations(self.source, self.context, self.flow.start)
 
     def says(self, name: str) -> bool:
         """Do moves of the target say this setting?"""
@@ -128,7 +131,7 @@ class _Settings:
                 if name in self.context.capabilities.system_variables or name == "interpolation":
                     if not says(value, USUAL.get(name, "")):
                         return (rewrite_parts(statement, self.expression, self.body),)
-                elif not says(value, USUAL.get(name, "")):
+                elif not says(value, USUAL.get(name, "")) and not (name in SAID and self.accelerations.active):
                     self.report_once(DROPPED, statement, name, name=name.replace("_", " "))
                 return (ir.Nothing(origin=statement.origin),)
             case ir.Move():
@@ -218,7 +221,7 @@ class _Settings:
             done = replace(done, tool=self.value("tool", state, own))
         if "speed" in says and move.speed is None:
             done = replace(done, speed=self.speed(move, state, own))
-        return done
+        return self.accelerations.with_acceleration(done, state)
 
     def value(self, name: str, state: State, own: dict[str, ir.Expression]) -> ir.Expression:
         """What the setting is at a move: a constant, or the variable that holds it."""
