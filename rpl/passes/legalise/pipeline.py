@@ -67,6 +67,7 @@ from rpl.passes.legalise.interrupts import interrupts
 from rpl.passes.legalise.joinedmoves import joined_moves, stand_before_ways
 from rpl.passes.legalise.joins import joins
 from rpl.passes.legalise.jointgoals import joint_goals
+from rpl.passes.legalise.keptcorners import kept_corners
 from rpl.passes.legalise.keptsettings import kept_settings
 from rpl.passes.legalise.knownjoints import known_joints
 from rpl.passes.legalise.labelled import labels_as_remarks
@@ -344,6 +345,7 @@ PASSES: tuple[Pass, ...] = (
     mixed_speeds,
     moves_ahead,
     explicit_to_modal,
+    kept_corners,
     settings_at_moves,
     scaled_override,
     stand_first,
