@@ -82,7 +82,8 @@ class Capabilities:
     persistent data by name (`separate`). moving_tasks: a task that the program starts may move the robot.
     stopping_reactions: an interrupt can
     brake the robot and drop its move (DeclareInterrupt `stops`), and the program goes on behind that. interrupt_masks:
-    the less urgent interrupts can be made to wait (ControlInterrupt `mask`). single_disables: a single interrupt can be
+    the less urgent interrupts can be made to wait (ControlInterrupt `mask`). one_shot_reactions: an interrupt that has
+    come is off until it is armed again (DeclareInterrupt `once`); elsewhere it comes at each edge. single_disables: a single interrupt can be
     disabled. action_arguments: what an interrupt (`reaction`) or a place on the path (`path`) calls may have arguments,
     also variables of the routine around it (`own`).
 
@@ -144,6 +145,8 @@ class Capabilities:
     where the ends of the move are computed, a pass does it (0: moves are not cut).
 
     timed_arcs: an arc may say its time, where the other moves can (else it gets the speed that takes so long).
+
+    straight_distances: a place on the way of an arc is looked for by how far it is straight from the arc's end or start.
 
     move_triggers: a move says the actions on its path itself (Move.triggers), and only so. late_triggers: an action
     on the path may come some time behind the end of a move that stops there (else a task does it).
@@ -238,6 +241,7 @@ class Capabilities:
     search_results: frozenset[str] = frozenset(("found",))
     stopping_reactions: bool = False
     interrupt_masks: bool = False
+    one_shot_reactions: bool = False
     single_disables: bool = False
     action_arguments: frozenset[str] = frozenset(("reaction", "path"))
     task_operations: frozenset[str] = frozenset(("start", "stop", "pause", "resume", "join"))
@@ -281,6 +285,7 @@ class Capabilities:
     speeds: frozenset[str] = frozenset()
     blends: frozenset[str] = frozenset()
     timed_arcs: bool = False
+    straight_distances: bool = False
     move_triggers: bool = False
     late_triggers: bool = True
     concurrent_moves: str = ""

@@ -10,6 +10,7 @@ from rpl.passes.legalise.actionarguments import action_arguments
 from rpl.passes.legalise.aggregates import aggregates
 from rpl.passes.legalise.aheadreadings import ahead_readings
 from rpl.passes.legalise.aliases import without_aliases
+from rpl.passes.legalise.arcdistances import arc_distances
 from rpl.passes.legalise.arcpoints import whole_arc_points
 from rpl.passes.legalise.arithmetic import arithmetic
 from rpl.passes.legalise.arrays import array_bases, array_sizes
@@ -94,6 +95,7 @@ from rpl.passes.legalise.neutralfunctions import neutral_functions
 from rpl.passes.legalise.nextmove import settings_of_next_move
 from rpl.passes.legalise.numbered import number_data
 from rpl.passes.legalise.numbers import numbers
+from rpl.passes.legalise.onceonly import reactions_once, rearmed_reactions
 from rpl.passes.legalise.onemove import settings_of_one_move
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.overrides import full_override
@@ -270,6 +272,7 @@ PASSES: tuple[Pass, ...] = (
     begun_outputs,
     program_times,
     held_timers,
+    reactions_once,
     nested_interrupts,
     single_disables,
     action_arguments,
@@ -279,6 +282,7 @@ PASSES: tuple[Pass, ...] = (
     reactions,
     resumes,
     interrupts,
+    rearmed_reactions,
     repeated_moves,
     clocks_of_routines,
     static_variables,
@@ -349,6 +353,7 @@ PASSES: tuple[Pass, ...] = (
     settings_at_moves,
     scaled_override,
     stand_first,
+    arc_distances,
     path_points,
     seen_places,
     posed_places,
