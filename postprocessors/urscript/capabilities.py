@@ -56,6 +56,7 @@ CAPABILITIES = Capabilities(
     speeds=frozenset(("joint", "axis", "path", "duration", "path_acceleration", "axis_acceleration")),
     blends=frozenset(("BlendDistance",)),
     postures="joints",
+    straight_distances=True,
     watching_tasks=True,
     last_flag=tables.FLAGS,
     fixed_arcs=True,

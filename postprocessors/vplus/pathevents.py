@@ -148,13 +148,13 @@ class PathEvents:
         """The wait for the place, and what is kept in front of the move for it."""
         self.once(CYCLE, trigger)
         expressions = self.printer.expressions
-        if move.kind != "linear":
+        if move.kind == "joint" or (move.kind == "circular" and self.early(trigger) is not None):
             self.once(STRAIGHT, trigger, kind="curved" if move.kind == "circular" else "joint")
         if trigger.reference != "start":
             number = expressions.known(place)
-            left = (
-                self.number(ir.RealLiteral(-number)) if number is not None else expressions.text(ir.Unary("-", place))
-            )
+            negated = isinstance(place, ir.Unary) and place.op == "-"
+            opposite = place.operand if negated and isinstance(place, ir.Unary) else ir.Unary("-", place)
+            left = self.number(ir.RealLiteral(-number)) if number is not None else expressions.text(opposite)
             around.behind.append(f"WAIT DISTANCE(HERE, DEST) <= {left}")
             return
         start = expressions.notes.temporary("p")

@@ -436,6 +436,8 @@ class _ToAngles(WantedRewriter):
                 return self.library.call("pose", self.expression(one))
             case "transform", (pose, vector):
                 return self.library.call("transform", self.expression(pose), *self.numbers(vector))
+            case "distance", (ir.Name(), ir.Name()) if can:
+                return expression
             case "distance", (one, other):
                 pairs = zip(self.numbers(one), self.numbers(other), strict=True)
                 return self.library.call("length", *(minus(a, b) for a, b in pairs))

@@ -250,7 +250,7 @@ class _Events:
         if way.start is None or (way.begins_in is None and at_point):
             return []
         steps: list[ir.Statement] = []
-        goal = _along_arc(distance, way.radius)
+        goal = distance
         if way.begins_in is not None:
             near = _distance(way.start)
             steps.append(_until(ir.Binary("<=", near, _half(way.begins_in)), self.beside.moving_name()))
@@ -262,14 +262,14 @@ class _Events:
     def before_end(self, way: _Way, distance: ir.Expression, at_point: bool, delay: float) -> list[ir.Statement]:
         """Waits until the tool is that far (or that time) before the end; at a corner its middle is the end."""
         moving, left = self.beside.moving_name(), _distance(way.end)
-        size = ir.RealLiteral(0.0) if at_point else _positive(distance)
+        size = ir.RealLiteral(0.0) if at_point else _positive(distance)  # of an arc: measured straight (arcdistances)
         if delay < 0.0:
-            size = _sum(size, self.braking(way, -delay))
+            size = _sum(size, _along_arc(self.braking(way, -delay), way.radius))
         steps: list[ir.Statement] = []
         if way.move.kind == "circular" and _number(size) != 0.0:  # an arc may begin nearer to its end than that
-            steps.append(_until(ir.Binary(">=", left, _along_arc(size, way.radius)), moving))
+            steps.append(_until(ir.Binary(">=", left, size), moving))
         if way.ends_in is None or not (at_point and delay >= 0.0):
-            return [*steps, _until(ir.Binary("<=", left, _along_arc(size, way.radius)), moving)]
+            return [*steps, _until(ir.Binary("<=", left, size), moving)]
         near = ir.Name("nearest")
         away = ir.If(((ir.Binary(">", ir.Name("now"), near), (ir.ExitLoop(),)),))
         steps += [
@@ -391,7 +391,10 @@ def _number(value: ir.Expression | None) -> float | None:
 
 def _positive(distance: ir.Expression) -> ir.Expression:
     known = _number(distance)
-    return ir.RealLiteral(_short(abs(known))) if known is not None else ir.Builtin("abs", (distance,))
+    if known is not None:
+        return ir.RealLiteral(_short(abs(known)))
+    negated = isinstance(distance, ir.Unary) and distance.op == "-"
+    return distance.operand if negated and isinstance(distance, ir.Unary) else ir.Builtin("abs", (distance,))
 
 
 def _half(size: ir.Expression) -> ir.Expression:

@@ -19,6 +19,7 @@ from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.arcends import COMPUTED, computed_arc
+from rpl.passes.legalise.arctriggers import placeable, shared_out
 from rpl.passes.legalise.circles import has_arcs
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
@@ -141,6 +142,7 @@ class _Arcs:
     default: str  # how the tool turns where the flow is not known; empty: the program sets it
     last: ir.Move | None = None  # the move before, under the same tool and frame
     temporaries: dict[tuple[str, ir.Type], ir.Name] = field(default_factory=dict)
+    pending: list[ir.Statement] = field(default_factory=list)  # the actions on the path in front of the arc at hand
 
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
@@ -148,11 +150,17 @@ class _Arcs:
         for statement in body:
             match statement:
                 case ir.Move(kind="circular", swept=swept) if swept is not None and self.without_angle:
-                    done.extend(self.arc(statement, swept))
+                    self.pending = _taken(done)
+                    written = self.arc(statement, swept)
+                    done.extend(self.pending)
+                    done.extend(written)
                     self.last = None
                     continue
                 case ir.Move(kind="circular"):
-                    done.extend(self.look(statement, self.rule(statement)))
+                    self.pending = _taken(done)
+                    written = self.look(statement, self.rule(statement))
+                    done.extend(self.pending)
+                    done.extend(written)
                     self.last = statement
                     continue
                 case ir.Move():
@@ -195,7 +203,7 @@ class _Arcs:
             return (move,)
         angle = circle.angle(end.position)
         rotations = circle.rotations(angle, start.rotation, end.rotation, ours == "path")
-        splits = bool(ours) and not move.triggers and move.search is None
+        splits = bool(ours) and self.placeable(move)
         apart = 0.0
         for count in _COUNTS if splits else (1,):
             apart = _apart(circle, angle / count, start.rotation, rotations(1.0 / count))
@@ -224,7 +232,7 @@ class _Arcs:
         rule = self.rule(move)
         if not rule:
             return self.lost(move, "it goes around, and how the tool turns on the way changes in a run")
-        if move.triggers or move.search is not None:
+        if not self.placeable(move):
             return self.lost(move, "it goes around, and actions or a search belong to it")
         rotations = circle.rotations(angle, start.rotation, end.rotation, rule == "path")
         return self.parts(move, circle, angle, count, rotations)
@@ -253,7 +261,7 @@ class _Arcs:
 
     def around(self, move: ir.Move, places: tuple[tuple[ir.Expression, ir.Type], ...], angle: float) -> ir.Body:
         """An arc of a turn or more in parts that the program computes."""
-        if move.triggers or move.search is not None:
+        if move.triggers or move.search is not None or any(isinstance(one, ir.Trigger) for one in self.pending):
             return self.lost(move, "it goes around, and actions or a search belong to it")
         if self.rule(move) != "base":
             return self.lost(move, "it goes around, and the tool turns with the path")
@@ -302,7 +310,15 @@ class _Arcs:
             if number < count - 1:
                 part = replace(part, blend=ir.BlendDistance(ir.RealLiteral(CORNER_MM)))
             done.append(part)
-        return tuple(done)
+        length = abs(math.radians(angle)) * circle.arm.length
+        before, self.pending = self.pending, []
+        return shared_out(before, done, length, self.editor.scope, self.known)
+
+    def placeable(self, move: ir.Move) -> bool:
+        """Can the parts of the arc have what acts on its way?"""
+        acting = [one for one in self.pending if isinstance(one, ir.Trigger)]
+        known = all(placeable(one, self.editor.scope, self.known) for one in acting)
+        return known and not move.triggers and move.search is None
 
     def pose(self, expression: ir.Expression) -> rigid.Pose | None:
         value = constant(expression, self.editor.scope, self.known)
@@ -312,6 +328,16 @@ class _Arcs:
     def lost(self, move: ir.Move, reason: str) -> ir.Body:
         self.context.diagnostics.report(NOT_KNOWN, move.origin, reason=reason)
         return (move,)
+
+
+def _taken(done: list[ir.Statement]) -> list[ir.Statement]:
+    """The actions at the end of a body, taken off it."""
+    at = len(done)
+    while at and isinstance(done[at - 1], ir.Trigger):
+        at -= 1
+    taken = done[at:]
+    del done[at:]
+    return taken
 
 
 def _parts_of(angle: float) -> int:
