@@ -25,7 +25,7 @@ from .functions import joints_of, transformation
 from .inference import Symbol, Symbols, element_type, infer
 from .later import outputs_later
 from .quick import facts_of
-from .reactions import told_apart
+from .reactions import come_once, told_apart
 from .resets import resets_as_outputs
 from .resolve import Resolver
 from .settings import Settings
@@ -79,7 +79,8 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     }
     finish = _Finish(symbols, lowering, kinds, modes.by_value(programs, symbols))
     modules = tuple(finish.module(file, homes.get(position, [])) for position, file in enumerate(files))
-    return ReadResult(ir.Program(told_apart(resets_as_outputs(outputs_later(modules), diagnostics))), tuple(reports))
+    modules = resets_as_outputs(outputs_later(modules), diagnostics)
+    return ReadResult(ir.Program(told_apart(come_once(modules))), tuple(reports))
 
 
 def _add_rounds(lowering: Settings, file: _File, programs: dict[str, ProgramPart]) -> None:

@@ -2,6 +2,9 @@
 the one before and IGNORE takes away whichever there is. The neutral interrupts get an identity for each reaction; what
 another one is replaced by, or taken away by, is written down. Where every program takes its own away again, nothing is
 left to replace.
+
+A reaction is over when it has come (user's guide, example of program interrupts: the reaction program enables itself
+again). One whose program does that before any time has passed is an interrupt that comes again and again.
 """
 
 from __future__ import annotations
@@ -9,8 +12,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import rewrite, walk
 from rpl.passes.rewrite import rewrite_parts
+
+from .expressions import significant
 
 # Identities of the further reactions to a signal; its own number is that of the first one.
 _STEP = 10_000
@@ -25,6 +30,34 @@ class _Shared:
 
     def identity(self, number: int, at: int) -> ir.IntLiteral:
         return ir.IntLiteral(number + (_STEP * at if number > 0 else -_STEP * at))
+
+
+def come_once(modules: tuple[ir.Module, ...]) -> tuple[ir.Module, ...]:
+    """The modules with `once` at the reactions whose program does not enable them again at once."""
+    bodies = {significant(routine.name): routine.body for module in modules for routine in module.routines}
+
+    def change(node: object) -> object:
+        match node:
+            case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)):
+                return node if _enables(bodies.get(significant(name), ()), node) else replace(node, once=True)
+        return node
+
+    return tuple(
+        replace(module, routines=tuple(rewrite(routine, change) for routine in module.routines))
+        if any(isinstance(node, ir.DeclareInterrupt) for node in walk(module))
+        else module
+        for module in modules
+    )
+
+
+def _enables(body: ir.Body, reaction: ir.DeclareInterrupt) -> bool:
+    """Does the program come to the same REACT before anything that takes time or may lead elsewhere?"""
+    for statement in body:
+        if statement == reaction:
+            return True
+        if not isinstance(statement, ir.Assign | ir.Nothing | ir.Message | ir.DeclareInterrupt | ir.ControlInterrupt):
+            return False
+    return False
 
 
 def told_apart(modules: tuple[ir.Module, ...]) -> tuple[ir.Module, ...]:
@@ -122,4 +155,4 @@ class _Body:
         return changed
 
 
-__all__ = ["told_apart"]
+__all__ = ["come_once", "told_apart"]

@@ -75,6 +75,7 @@ CAPABILITIES = Capabilities(
     leading_numbers=True,
     stopping_reactions=True,
     interrupt_masks=True,
+    one_shot_reactions=True,
     action_arguments=frozenset(("path", "own")),
     places_in_base=True,
     task_operations=frozenset(("start", "stop")),

@@ -1,5 +1,6 @@
 """Interrupts as REACT, REACTI, IGNORE, LOCK. V+ arms a reaction where it names its program, so a declaration elsewhere
-leaves no step: it is looked up where the interrupt is switched on."""
+leaves no step: it is looked up where the interrupt is switched on. It is over when it has come: a program that is to
+come again arms it in its first step (rpl.passes.legalise.onceonly)."""
 
 from __future__ import annotations
 
@@ -49,6 +50,7 @@ class Reactions:
 
     def __init__(self, program: ir.Program) -> None:
         self.task_of: Callable[[ir.Signal], int] = _no_task
+        self.inside = ""  # the program that is written, folded
         self.declared: dict[str, list[ir.DeclareInterrupt]] = {}
         self.watches: dict[str, Watch] = {}
         self.flags = {number for node in walk(program) if (number := _flag(node)) is not None}
@@ -73,10 +75,12 @@ class Reactions:
         raise CannotSayError(f"a single interrupt cannot be {statement.op}d")
 
     def armed(self, declared: ir.DeclareInterrupt, expressions: Expressions) -> list[str]:
-        """REACT, behind the start of the program that watches the condition, if one does."""
+        """REACT, behind the start of the program that watches the condition, if one does. What a reaction's own program
+        arms again is watched already."""
         step = self.step(declared, expressions)
         watch = self.watches.get(repr(declared.condition))
-        return [step] if watch is None else [*watch.begun(), step]
+        again = isinstance(declared.action, ir.CallRoutine) and declared.action.name.lower() == self.inside
+        return [step] if watch is None or again else [*watch.begun(), step]
 
     def watched(self, condition: ir.Expression, expressions: Expressions) -> str:
         """A software signal that a program in a task of its own switches as the condition comes and goes."""
@@ -111,8 +115,6 @@ class Reactions:
         action = declared.action
         if not isinstance(action, ir.CallRoutine) or action.arguments or action.dynamic is not None:
             raise CannotSayError("a reaction calls a program without arguments")
-        if declared.once:
-            raise CannotSayError("a reaction that comes once only")
         word = "REACTI" if declared.stops else "REACT"
         urgency = expressions.text(_lifted(declared.priority))
         return f"{word} {self.signal(declared.condition, expressions)}, {action.name.lower()}, {urgency}"

@@ -208,6 +208,7 @@ class _File:
             self.diagnostics.report(
                 LOST_DECLARATION, routine.origin, name=routine.name, reason="there are no user functions"
             )
+        self.output.reactions.inside = routine.name.lower()
         first = routine.name.lower() in self.starting
         initial = self.own_data(routine, printer)
         values_first, printer.lines = printer.lines, []

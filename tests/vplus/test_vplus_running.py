@@ -123,7 +123,8 @@ def test_a_comparison_as_an_argument_is_minus_one_beside_reactions_and_tasks(bes
         ".PROGRAM show(flag, n)\nIF flag == -1 THEN\nSIGNAL n\nEND\nflag = 5\n.END\n"
         ".PROGRAM other()\nWAIT.EVENT , 0.1\n.END"
     )
-    text = f"{beside}a = 7\nx = a > 5\nCALL show(a > 5, 1)\nCALL show(NOT (a > 5), 2)\nCALL show(x, 3)\nCALL show(SIG(-1001), 4)"
+    text = f"{beside}a = 7\nx = a > 5\nCALL show(a > 5, 1)\nCALL show(NOT (a > 5), 2)\nCALL show(x, 3)"
+    text = f"{text}\nCALL show(SIG(-1001), 4)"
     assert outputs(run(f"{text}\nIF x == 5 THEN\nSIGNAL 5\nEND", more)) == [(n, True) for n in ("1", "3", "4", "5")]
 
 

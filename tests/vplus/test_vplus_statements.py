@@ -136,11 +136,14 @@ SIGNALS: list[tuple[str, list[str]]] = [
     ("WAIT.EVENT , 0.1", ["WAIT 0.1"]),
     (
         "REACT 1001, alarm, 10",
-        ["DECLARE INTERRUPT 118 EVERYWHERE NAMED 1001 WHEN di[1] DO alarm()", "INTERRUPT ON 1001"],
+        ["DECLARE INTERRUPT 118 EVERYWHERE ONCE NAMED 1001 WHEN di[1] DO alarm()", "INTERRUPT ON 1001"],
     ),
     (
         "REACTI -1002, alarm()",
-        ["DECLARE INTERRUPT 127 EVERYWHERE BRAKING NAMED (-1002) WHEN NOT di[2] DO alarm()", "INTERRUPT ON (-1002)"],
+        [
+            "DECLARE INTERRUPT 127 EVERYWHERE ONCE BRAKING NAMED (-1002) WHEN NOT di[2] DO alarm()",
+            "INTERRUPT ON (-1002)",
+        ],
     ),
     ("REACTE alarm", ["TRAP ERRORS WITH alarm"]),
     ("REACTE", ["TRAP ERRORS OFF"]),

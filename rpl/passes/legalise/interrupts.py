@@ -400,11 +400,12 @@ class _Priorities:
                 name = base_name(handle)
                 if name is None or name not in self.priority_of:
                     return [statement]
-                action = self.action(name, statement.once)
+                single = statement.once and self.context.capabilities.one_shot_reactions
+                action = self.action(name, statement.once and not single)
                 priority = ir.IntLiteral(self.priority_of[name])
                 later = replace(statement.origin, comments=())
                 return [
-                    ir.DeclareInterrupt(priority, condition, action, True, origin=statement.origin),
+                    ir.DeclareInterrupt(priority, condition, action, True, once=single, origin=statement.origin),
                     ir.ControlInterrupt("on", priority, origin=later),
                 ]
             case ir.OrderInterrupt(handle=handle, event="timer", time=time) if time is not None:

@@ -95,6 +95,7 @@ from rpl.passes.legalise.neutralfunctions import neutral_functions
 from rpl.passes.legalise.nextmove import settings_of_next_move
 from rpl.passes.legalise.numbered import number_data
 from rpl.passes.legalise.numbers import numbers
+from rpl.passes.legalise.onceonly import reactions_once, rearmed_reactions
 from rpl.passes.legalise.onemove import settings_of_one_move
 from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.overrides import full_override
@@ -271,6 +272,7 @@ PASSES: tuple[Pass, ...] = (
     begun_outputs,
     program_times,
     held_timers,
+    reactions_once,
     nested_interrupts,
     single_disables,
     action_arguments,
@@ -280,6 +282,7 @@ PASSES: tuple[Pass, ...] = (
     reactions,
     resumes,
     interrupts,
+    rearmed_reactions,
     repeated_moves,
     clocks_of_routines,
     static_variables,

@@ -46,7 +46,8 @@ def reactions(program: ir.Program, context: Context) -> ir.Program:
         return program
     declared = [one for one in walk(*program.modules) if isinstance(one, ir.DeclareInterrupt)]
     drops = not context.capabilities.stopping_reactions
-    if not any(one.identity is not None or one.once or (one.stops and drops) for one in declared):
+    switched = not can.one_shot_reactions
+    if not any(one.identity is not None or (one.once and switched) or (one.stops and drops) for one in declared):
         return program
     if any(number_of(one.priority) is None or key_of(one) is None for one in declared):
         return program  # the writer names what it cannot say
@@ -125,7 +126,8 @@ class _Reactions:
                 stops = statement.stops and self.context.capabilities.stopping_reactions
                 # What drops the motion leaves down to the level that declared it.
                 everywhere = statement.everywhere and (stops or not statement.stops)
-                done = replace(statement, priority=own, identity=None, once=False, stops=stops, action=action)
+                once = statement.once and self.context.capabilities.one_shot_reactions
+                done = replace(statement, priority=own, identity=None, once=once, stops=stops, action=action)
                 return (replace(done, everywhere=everywhere),)
             case ir.ControlInterrupt(op="mask"):
                 return self.mask(statement)
@@ -136,7 +138,8 @@ class _Reactions:
 
     def action(self, declared: ir.DeclareInterrupt, own: ir.Expression) -> ir.CallRoutine | ir.Assign:
         """The action, or a routine around it."""
-        first: ir.Body = (ir.ControlInterrupt("off", own),) if declared.once else ()
+        once = declared.once and not self.context.capabilities.one_shot_reactions
+        first: ir.Body = (ir.ControlInterrupt("off", own),) if once else ()
         stops = declared.stops and not self.context.capabilities.stopping_reactions
         if stops:
             first = (*first, ir.StopMotion(hard=True))

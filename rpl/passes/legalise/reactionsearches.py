@@ -107,9 +107,10 @@ class _Searches:
             self.routines.append(ir.Routine(self.context.fresh("rpl_on_hit"), body=self.noted(), scope="global"))
         number = ir.IntLiteral(_PRIORITIES[min(self.numbers.index(key), len(_PRIORITIES) - 1)])
         action = ir.CallRoutine(self.routines[0].name)
+        once = self.context.capabilities.one_shot_reactions and search.stop != "none"
         return (
             ir.Assign(self.hit, ir.BoolLiteral(False)),
-            ir.DeclareInterrupt(number, condition, action, everywhere=True, stops=search.stop != "none"),
+            ir.DeclareInterrupt(number, condition, action, everywhere=True, once=once, stops=search.stop != "none"),
             ir.ControlInterrupt("on", number),
             move,
             ir.WaitForMotion(),
