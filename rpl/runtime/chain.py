@@ -377,32 +377,38 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
     joint_effort = np.array([float(value("joint_acceleration", axis)) / 100.0 * effort for axis in axes])
     if speed.axis is not None:  # the leading axis runs at this speed, the others with it
         joint_share = np.minimum(speed.axis * over / plan.model.speeds, 1.0)
-    if speed.duration is not None and speed.duration > 0.0:  # the time decides, up to what the arm can do
-        path, rotation = max(path, _FASTEST_MM_S), max(rotation, _FASTEST_DEG_S)
-        joint_share = np.full(plan.model.axes, over)
-        options.pop("tcp_speed_for_joint_move", None)
     if speed.axis_acceleration is not None:
         joint_effort = speed.axis_acceleration / plan.model.accelerations
     acceleration = value("path_acceleration")
     if speed.path_acceleration is not None:
         acceleration, effort = speed.path_acceleration, 1.0
-    least = value("move_duration")
     mode = order.orientation or str(value("orientation_mode"))
     if value("singularity_mode") == "wrist" and order.kind != "joint":
         mode = "wrist"
     used = [place for place, number in enumerate(external) if number is not None]
-    return options | {
+    options |= {
         "path_speed_mm_s": path if path > 0.0 else 1e-3,
         "path_acc_mm_s2": float(acceleration) * effort,
         "ori_speed_deg_s": rotation if rotation > 0.0 else 1e-3,
         "ori_acc_deg_s2": float(value("swivel_acceleration")) * effort,
         "joint_speed": joint_share,
         "joint_acc": joint_effort,
-        "duration_s": speed.duration if speed.duration is not None or not least else float(least),
+        "duration_s": speed.duration if speed.duration is not None else value("move_duration") or None,
         "orientation": _ORIENTATIONS.get(mode, "interpolated"),
         "circle_orientation": order.circle_orientation or str(value("circle_orientation")),
         "reduce_speed_near_singularity": value("path_limit_rule") == "reduce",
         "external_start": tuple(plan.external[place] or 0.0 for place in used),
         "external_target": tuple(external[place] for place in used),
         "external_speeds": tuple(EXTERNAL_SPEED * float(value("external_speed", place + 1)) / 100.0 for place in used),
+    }
+    return _by_time(options, over) if speed.duration else options
+
+
+def _by_time(options: dict[str, Value], over: float) -> dict[str, Value]:
+    """A move with a time of its own: the time decides, up to what the arm can do."""
+    kept = {name: value for name, value in options.items() if name != "tcp_speed_for_joint_move"}
+    return kept | {
+        "path_speed_mm_s": max(float(options["path_speed_mm_s"]), _FASTEST_MM_S * over),
+        "ori_speed_deg_s": max(float(options["ori_speed_deg_s"]), _FASTEST_DEG_S * over),
+        "joint_speed": over,
     }

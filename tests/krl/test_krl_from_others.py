@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import pytest
+
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.passes.typing import normalise
 from rpl.project import ReadProgram, read_sources
-from rpl.source import source_from_text
+from rpl.simulation import run_program
+from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
 FAST = ((ir.System("path_speed"), ir.Quantity(ir.RealLiteral(500.0), "mm/s")),)
@@ -84,6 +87,33 @@ def test_outputs_at_a_corner_are_triggers_of_the_move_before_them() -> None:
         "$OUT[3]=NOT $OUT[3]",
     ]
     assert named.count("corner-output") == 2 and "early-logic" in named
+
+
+NAMED_OUTPUT = """MODULE m
+  CONST robtarget a:=[[500,-200,500],[0,0,1,0],[-1,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget b:=[[500,200,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    MoveJ a,v500,fine,tool0;
+    SetDO doGun,1;
+    MoveL b,v500,z50,tool0;
+    SetDO doGlue,1;
+    MoveL Offs(b,0,0,-200),v500,fine,tool0;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_an_output_with_a_name_switches_in_its_corner_too() -> None:
+    """And not when the move before it begins, which is 350 mm earlier."""
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("m.mod", NAMED_OUTPUT)], "rapid", diagnostics)
+    translation = translate_program(read, "krl", "abb_irb1200_5_90", None, diagnostics)
+    back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], "krl", diagnostics)
+    spans = []
+    for program in (read.program, back.program):
+        first, second = (event.t for event in run_program(program, "abb_irb1200_5_90").trace if event.kind == "output")
+        spans.append(second - first)
+    assert spans[1] == pytest.approx(spans[0], abs=0.1) and spans[0] > 0.5
 
 
 def test_outputs_behind_a_stop_stay_where_they_are() -> None:

@@ -182,10 +182,11 @@ class Modal:
             if isinstance(statement, ir.Move):
                 new = self.move(statement, known)
                 done.extend(new)
-                fly_by = isinstance(new[-1], ir.Move) and new[-1].blend not in (None, ir.BlendStop())
+                last = new[-1]
+                fly_by = isinstance(last, ir.Move) and last.blend not in (None, ir.BlendStop()) and not last.concurrent
                 corner = len(done) - 1 if fly_by and self.at_corners else None
                 continue
-            if corner is not None and _plain_output(statement):
+            if corner is not None and _plain_output(statement, self.scope):
                 assert isinstance(statement, ir.Assign)
                 self.context.diagnostics.report(CORNER_OUTPUT, statement.origin)
                 action = replace(statement, origin=replace(statement.origin, comments=()))
@@ -518,12 +519,17 @@ def _is_identity(value: ir.Expression) -> bool:
     return (values == [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]) if quaternion else not any(values)
 
 
-def _plain_output(statement: ir.Statement) -> bool:
-    """Does it switch one output to a value that is known beforehand?"""
-    match statement:
-        case ir.Assign(
-            target=ir.Signal(kind="digital_out", index=ir.IntLiteral(), last=None, name=None), value=ir.BoolLiteral()
-        ):
+def _plain_output(statement: ir.Statement, scope: Scope) -> bool:
+    """Does it switch one output, by its number or its declared name, to a value that is known beforehand?"""
+    if not isinstance(statement, ir.Assign) or not isinstance(statement.value, ir.BoolLiteral):
+        return False
+    signal = statement.target
+    if isinstance(signal, ir.Name):
+        symbol = scope.value(signal.id)
+        declaration = None if symbol is None else symbol.declaration
+        signal = declaration.signal if isinstance(declaration, ir.SignalDeclaration) else signal
+    match signal:
+        case ir.Signal(kind="digital_out", index=ir.IntLiteral(), last=None, name=None):
             return True
     return False
 

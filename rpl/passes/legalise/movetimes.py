@@ -107,7 +107,8 @@ class _Facts:
         """Of paths, mm/s2: what the program has set, else what the target's controller takes."""
         name = "path_acceleration"
         found, ours = _number(state[name]), self.ours.get(name, 5000.0)
-        theirs = self.theirs.get(name, 5000.0)
+        brought = name in self.context.capabilities.speeds  # such targets' moves say those of the source
+        theirs = ours if brought else self.theirs.get(name, 5000.0)
         value = float(theirs if found is None or found == ours else found)
         return value * self.effort(state)
 
