@@ -164,17 +164,33 @@ def output_value(kind: str, value: ir.Expression, expressions: Expressions) -> s
 def _search(statement: ir.Move, search: ir.Search, letter: str, expressions: Expressions) -> MoveText:
     if statement.kind == "joint" or statement.triggers:
         raise CannotSayError("a search goes on a line or circle and carries no events")
-    if not isinstance(search.condition, ir.Signal | ir.Name):
+    watched, edge = _watched(search)
+    if not isinstance(watched, ir.Signal | ir.Name):
         raise CannotSayError("a search watches one signal")
     if search.found is None:
         raise CannotSayError("a search gives the place where it found something")
-    signal = expressions.signal(search.condition)
+    signal = expressions.signal(watched)
     points = _points(statement, expressions)
     speed, tool = _speed(statement.speed, expressions), _tool(statement, expressions)
     found = expressions.text(search.found)
     before = _STOPS[search.stop]
-    edge = _EDGES[search.edge]
-    return MoveText(f"Search{letter}", before, (f"{signal}{edge}", found, *points, speed, tool))
+    return MoveText(f"Search{letter}", before, (f"{signal}{_EDGES[edge]}", found, *points, speed, tool))
+
+
+def _watched(search: ir.Search) -> tuple[ir.Expression, str]:
+    """What a search watches and for which edge: a signal that goes off is watched for the other one."""
+    watched, edge = search.condition, search.edge
+    while True:
+        match watched:
+            case ir.Unary(op="not", operand=inner):
+                other = True
+            case ir.Binary(op="==" | "<>" as op, left=ir.Signal() as inner, right=ir.BoolLiteral(value=value)):
+                other = (op == "==") != value
+            case _:
+                return watched, edge
+        watched = inner
+        if other and edge != "either":
+            edge = "falling" if edge == "rising" else "rising"
 
 
 def move_external(statement: ir.MoveExternal, expressions: Expressions) -> MoveText:

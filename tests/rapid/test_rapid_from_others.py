@@ -48,6 +48,24 @@ def test_a_search_that_says_whether_it_found() -> None:
 
 
 @pytest.mark.parametrize(
+    ("condition", "edge", "written"),
+    [
+        (ir.Unary("not", SENSOR), "rising", "di5\\NegFlank,"),
+        (ir.Unary("not", SENSOR), "falling", "di5,"),
+        (ir.Unary("not", SENSOR), "either", "di5\\Flanks,"),
+        (ir.Binary("==", SENSOR, ir.BoolLiteral(False)), "rising", "di5\\NegFlank,"),
+        (ir.Binary("<>", SENSOR, ir.BoolLiteral(False)), "rising", "di5,"),
+        (ir.Unary("not", ir.Binary("==", SENSOR, ir.BoolLiteral(False))), "rising", "di5,"),
+    ],
+)
+def test_a_search_for_a_signal_that_goes_off(condition: ir.Expression, edge: str, written: str) -> None:
+    search = ir.Search(condition, ir.Name("there"), stop="stop", edge=edge)
+    text, lost = rapid(ir.Move("linear", ir.Name("p"), speed=FIFTY, search=search, blend=ir.BlendStop()))
+    assert not lost
+    assert f"SearchL\\Stop,{written}there,p" in text
+
+
+@pytest.mark.parametrize(
     ("trigger", "stored"),
     [
         (ir.Trigger("end", ir.Assign(GUN, ir.BoolLiteral(True)), ir.RealLiteral(-10.0)), ",10\\DOp:=do1,1;"),
