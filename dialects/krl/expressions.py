@@ -18,6 +18,7 @@ from rpl.source import Origin
 
 from . import tables
 from .calls import function_call
+from .readings import ASKED, JOINTS_OF, counted, counts, joints_of, without_counting
 
 LOOSE_LOGIC = code(
     "krl-comparison-precedence",
@@ -67,7 +68,7 @@ class Expressions:
         if kind == "integer":
             return _integer(_slot(tree.children[0]))
         if kind == "reference":
-            return _counted(self.reference(tree)) if _counts(tree) else self.reference(tree)
+            return counted(self.reference(tree)) if counts(tree) else self.reference(tree)
         if kind == "aggregate":
             return self.aggregate(tree)
         if kind == "binary":
@@ -168,7 +169,9 @@ class Expressions:
                 return found is not None and found != "bool"
             case ir.Binary(op=op):
                 return op in ("+", "-", "*", "quo", ":", "band", "bor", "bxor")
-            case ir.IntLiteral() | ir.RealLiteral() | ir.TextLiteral() | ir.EnumLiteral() | ir.Magnitude():
+            case ir.IntLiteral() | ir.RealLiteral() | ir.TextLiteral() | ir.EnumLiteral():
+                return True
+            case ir.Magnitude() | ir.Convert():
                 return True
             case ir.Signal(kind=kind):
                 return kind.startswith("analog")
@@ -242,12 +245,12 @@ class Expressions:
                     _measured(lambda pieces, origin: ir.System(neutral, (index(pieces, origin),), origin=origin), unit),
                     suffixes[1:],
                 )
-        if name in _ASKED and not suffixes:
-            asked = _ASKED[name]
+        if name in ASKED and not suffixes:
+            asked = ASKED[name]
             return lambda pieces, origin: asked(origin)
-        if name in _JOINTS_OF:
-            place = _JOINTS_OF[name]
-            return self.suffixed(lambda pieces, origin: _joints_of(place, origin), suffixes)
+        if name in JOINTS_OF:
+            place = JOINTS_OF[name]
+            return self.suffixed(lambda pieces, origin: joints_of(place, origin), suffixes)
         if name in tables.STRUCTURES:
             return self.structure(name, suffixes)
         if name in tables.SCALARS:
@@ -499,56 +502,10 @@ def _joined(op: str, left: Make, right: Make) -> Make:
     return lambda pieces, origin: ir.Binary(op, left(pieces, origin), right(pieces, origin), origin=origin)
 
 
-def _at_home(origin: Origin) -> ir.Expression:
-    """`$IN_HOME`: is each axis of the robot near to `$H_POS`?"""
-    near: ir.Expression | None = None
-    for axis in ("A1", "A2", "A3", "A4", "A5", "A6"):
-        here = ir.Field(ir.System("actual_joints", origin=origin), axis, origin=origin)
-        home = ir.Field(ir.Name("$H_POS", origin=origin), axis, origin=origin)
-        away = ir.Builtin("abs", (ir.Binary("-", here, home, origin=origin),), origin=origin)
-        one = ir.Binary("<", away, ir.IntLiteral(tables.HOME_TOLERANCE_DEG), origin=origin)
-        near = one if near is None else ir.Binary("and", near, one, origin=origin)
-    assert near is not None
-    return near
-
-
-def _stands(origin: Origin) -> ir.Expression:
-    """`$ROB_STOPPED`: does the robot stand?"""
-    return ir.Unary("not", ir.System("moving", origin=origin), origin=origin)
-
-
-def _joints_of(place: str, origin: Origin) -> ir.Expression:
-    """`$AXIS_FOR`, `$AXIS_BACK`: the axes at the end and at the start of the present move."""
-    return ir.Builtin("target_to_joints", (ir.System(place, origin=origin),), origin=origin)
-
-
-_ASKED: dict[str, Callable[[Origin], ir.Expression]] = {"$in_home": _at_home, "$rob_stopped": _stands}
-_JOINTS_OF = {"$axis_for": "end_pose", "$axis_back": "start_pose"}
-
-
 def _measured(make: Make, unit: str) -> Make:
     if not unit:
         return make
     return lambda pieces, origin: ir.Magnitude(make(pieces, origin), unit, origin=origin)
-
-
-def _counts(tree: SyntaxTree) -> bool:
-    return str(tree.children[0]).lower() in tables.COUNTED
-
-
-def _counted(make: Make) -> Make:
-    """A timer is read as an INT: what is between two milliseconds is not seen."""
-    return lambda pieces, origin: ir.Convert("round_half_away", make(pieces, origin), origin=origin)
-
-
-def _uncounted(value: ir.Expression, other: ir.Expression) -> ir.Expression:
-    """A timer beside a written number in a question of more or less, where its whole milliseconds change nothing."""
-    match value, other:
-        case ir.Convert(operand=ir.Magnitude(value=ir.System()) as time), (
-            ir.IntLiteral() | ir.RealLiteral() | ir.Unary(operand=ir.IntLiteral() | ir.RealLiteral())
-        ):
-            return time
-    return value
 
 
 def read_system(neutral: str, unit: str, origin: Origin) -> ir.Expression:
@@ -571,7 +528,7 @@ def related(relation: str, left: ir.Expression, right: ir.Expression, origin: Or
     elif isinstance(right, _NUMBERS):
         left = as_number(left)
     if relation not in ("=", "<>"):
-        left, right = _uncounted(left, right), _uncounted(right, left)
+        left, right = without_counting(left, right), without_counting(right, left)
     return ir.Binary(relation, left, right, origin=origin)
 
 

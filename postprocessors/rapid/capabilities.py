@@ -32,6 +32,7 @@ CAPABILITIES = Capabilities(
     names=NameRules(32, False, RESERVED, predefined=PREDEFINED),
     modal_motion=False,
     concurrent_moves="moves",
+    shortest_interrupt_period_s=0.1,  # of ITimer, where it is not a single one
     line_ends=True,
     paths_to_joints=False,
     wrist_paths=False,

@@ -84,8 +84,9 @@ class Capabilities:
     brake the robot and drop its move (DeclareInterrupt `stops`), and the program goes on behind that. interrupt_masks:
     the less urgent interrupts can be made to wait (ControlInterrupt `mask`). one_shot_reactions: an interrupt that has
     come is off until it is armed again (DeclareInterrupt `once`); elsewhere it comes at each edge. single_disables: a
-    single interrupt can be disabled. action_arguments: what an interrupt (`reaction`) or a place on the path (`path`)
-    calls may have arguments, also variables of the routine around it (`own`).
+    single interrupt can be disabled. shortest_interrupt_period_s: of interrupts that come with time, which look at what
+    no other one can. action_arguments: what an interrupt (`reaction`) or a place on the path (`path`) calls may have
+    arguments, also variables of the routine around it (`own`).
 
     Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
@@ -243,6 +244,7 @@ class Capabilities:
     interrupt_masks: bool = False
     one_shot_reactions: bool = False
     single_disables: bool = False
+    shortest_interrupt_period_s: float = 0.0
     action_arguments: frozenset[str] = frozenset(("reaction", "path"))
     task_operations: frozenset[str] = frozenset(("start", "stop", "pause", "resume", "join"))
     background_tasks: str = ""
