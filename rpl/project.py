@@ -16,7 +16,7 @@ from pathlib import Path, PurePosixPath
 
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.errors import UsageError
+from rpl.errors import RplError, UsageError
 from rpl.passes.collector import paused_cycle_collector
 from rpl.passes.hiddentypes import hidden_types
 from rpl.passes.typing import normalise
@@ -71,6 +71,8 @@ def read_program(
     for found in _expand(paths, collector):
         name, reason = (dialect, "") if dialect else recognise(found.source)
         if name is None:
+            if not found.named and _is_cell(found.source):
+                continue  # the project's own surroundings, which a run is given by name
             at = Origin(found.source)
             collector.report(NOT_A_PROGRAM if found.named else SKIPPED, at, reason=reason)
             continue
@@ -101,7 +103,7 @@ def _read(groups: dict[str, list[Source]], diagnostics: Diagnostics) -> ReadProg
             entry=raw.entry or part.entry,
         )
         files.extend(result.files)
-    program = normalise(raw, diagnostics)
+    program = normalise(raw, diagnostics, as_read=True)
     hidden_types(program, diagnostics)
     every = tuple(source for sources in groups.values() for source in sources)
     return ReadProgram(program, raw, every, tuple(files), tuple(groups))
@@ -127,6 +129,19 @@ def recognise(source: Source) -> tuple[str | None, str]:
     if best is None or best_score < _SURE_ENOUGH:
         return None, "its content matches no language"
     return best, ""
+
+
+def _is_cell(source: Source) -> bool:
+    """Is it a cell file: surroundings of a run?"""
+    if not source.path.lower().endswith(".toml"):
+        return False
+    from rpl.cell import parse_cell
+
+    try:
+        parse_cell(source.text, source.path)
+    except RplError:
+        return False
+    return True
 
 
 def _is_binary(source: Source) -> bool:

@@ -161,10 +161,7 @@ def _euler(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
 
 
 def _place_of(target: ir.Expression) -> ir.Expression:
-    """Where a robtarget is; one that is written out has its place in front."""
-    match target:
-        case ir.Aggregate(entries=((None, place), *_)):
-            return place
+    """Where a robtarget is (typing takes the place out of one that is written out)."""
     return ir.Field(target, "trans")
 
 

@@ -70,6 +70,28 @@ SYSTEM_RECORDS: dict[tuple[str, str], str] = {
     ("C_MOTSET", "conf.lsup"): "path_configuration_check",
 }
 
+# How functions are called here, and the types of what they take (reference manual, functions); a point of DefFrame is
+# a robtarget, of which the place counts. What takes any type, or becomes operators, is not in the table.
+FUNCTIONS: dict[str, tuple[str, ...]] = {
+    line.split()[0]: tuple(line.split()[1:])
+    for line in """
+    abs Abs num|sqrt Sqrt num|sin Sin num|cos Cos num|tan Tan num|asin ASin num|acos ACos num|atan ATan num
+    exp Exp num|atan2 ATan2 num num|power Pow num num|round Round num num|trunc Trunc num num
+    offset Offs robtarget num num num|tool_offset RelTool robtarget num num num num num num
+    compose PoseMult pose pose|inverse PoseInv pose|transform PoseVect pose pos
+    euler_x EulerZYX orient|euler_y EulerZYX orient|euler_z EulerZYX orient|rotation_zyx OrientZYX num num num
+    distance Distance pos pos|magnitude VectMagn pos|dot DotProd pos pos|normalise NOrient orient
+    frame_from_points DefFrame robtarget.trans robtarget.trans robtarget.trans num
+    target_to_joints CalcJointT robtarget tooldata wobjdata|joints_to_target CalcRobT jointtarget tooldata wobjdata
+    current_target CRobT tooldata wobjdata|current_position CPos tooldata wobjdata
+    text_length StrLen string|text_part StrPart string num num|text_find_any StrFind string num string
+    text_match StrMatch string num string|text_member StrMemb string num string|text_map StrMap string string string
+    number_text NumToStr num num|clock_seconds ClkRead clock
+    """.replace("|", "\n")
+    .strip()
+    .splitlines()
+}
+
 RULES = Rules(
     "rapid",
     _ADVANCE,
@@ -79,4 +101,6 @@ RULES = Rules(
     system_defaults=_DEFAULTS,
     errors=ERRORS,
     type_names=TYPES,
+    exact_types=True,
+    functions=FUNCTIONS,
 )

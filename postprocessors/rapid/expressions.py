@@ -13,7 +13,15 @@ from rpl.writing.precedence import ExpressionPrinter, Printed
 from rpl.writing.statements import CannotSayError
 from rpl.writing.text import NumberStyle, number_text
 
-from .functions import FUNCTIONS, MOTION_TASK, OWN_FUNCTIONS, PARTS_OF_TIME, PLACES_BESIDE, TARGETS_FOR_POSITIONS
+from .functions import (
+    FUNCTIONS,
+    MOTION_TASK,
+    OWN_FUNCTIONS,
+    PARTS_OF_TIME,
+    PLACES_BESIDE,
+    POSE_OFFSETS,
+    TARGETS_FOR_POSITIONS,
+)
 from .tables import (
     COMPONENTS,
     NESTED,
@@ -225,6 +233,8 @@ class Expressions:
         if patterns is None:
             raise CannotSayError(f"there is no function {expression.function}")
         arguments = list(expression.arguments)
+        if expression.function in POSE_OFFSETS and isinstance(type_of(arguments[0], self.scope), ir.PoseType):
+            return self.moved_pose(expression.function, arguments)
         for position in range(TARGETS_FOR_POSITIONS.get(expression.function, 0)):
             arguments[position] = self.target_at(arguments[position])
         if expression.function in ("joints_to_target", "target_to_joints") and arguments[2:] == [ir.Name("wobj0")]:
@@ -242,6 +252,20 @@ class Expressions:
         if found is None:
             raise CannotSayError(f"{expression.function} is not known with {len(arguments)} arguments")
         return found.format(*(self.text(argument) for argument in arguments))
+
+    def moved_pose(self, function: str, arguments: Sequence[ir.Expression]) -> str:
+        """Offs and RelTool take robtargets only: of a pose they are products (turned about x, then new y, new z)."""
+        pose, *numbers = arguments
+        still = ir.Aggregate(tuple((None, ir.IntLiteral(number)) for number in (1, 0, 0, 0)), "rotation")
+        way = ir.Aggregate(tuple((None, number) for number in numbers[:3]), "vector")
+        turns = [turn for turn in enumerate(numbers[3:]) if turn[1] not in (ir.IntLiteral(0), ir.RealLiteral(0.0))]
+        turned: ir.Expression = still
+        for axis, angle in turns:
+            angles = [angle if 2 - axis == place else ir.IntLiteral(0) for place in range(3)]
+            turn = ir.Builtin("rotation_zyx", tuple(angles))
+            turned = turn if turned is still else ir.Binary(":", turned, turn)
+        by = ir.Aggregate(((None, way), (None, turned)), "pose")
+        return self.text(ir.Builtin("compose", (by, pose) if function == "offset" else (pose, by)))
 
     def seen_from_beside(self, function: str, arguments: Sequence[ir.Expression]) -> str:
         """Where the robot of the motion task is. Tool and work object are always named: this task has none in use."""

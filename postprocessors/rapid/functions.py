@@ -90,6 +90,7 @@ PARTS_OF_TIME: dict[tuple[ir.Expression, ir.Expression], str] = {
 }
 # Arguments that RAPID takes as whole targets although only their position matters.
 TARGETS_FOR_POSITIONS = {"frame_from_points": 3}
+POSE_OFFSETS = ("offset", "tool_offset")  # of robtargets only
 # Functions that a task beside the one that moves asks with the name of that task.
 PLACES_BESIDE = {"current_target": "CRobT", "current_joints": "CJointT"}
 MOTION_TASK = "T_ROB1"  # the name every controller with one robot gives it

@@ -24,7 +24,7 @@ from rpl.cli.output import (
     waiting,
     write_file,
 )
-from rpl.diagnostics import Severity
+from rpl.diagnostics import Diagnostics, Severity
 from rpl.errors import UsageError
 from rpl.passes.legalise.pulses import report_assumed
 
@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 @click.option("--cell", metavar="F.toml", help="Surroundings: inputs over time, answers of the operator, parts.")
 @click.option("--entry", metavar="NAME", help="Routine to start with; else main, or the only one nobody calls.")
 @click.option("--trace", type=click.Path(dir_okay=False, path_type=Path), metavar="F.jsonl", help="Write every event.")
+@click.option("--despite-errors", is_flag=True, help="Run what was read in spite of errors in it.")
 @limit_options
 @json_option
 def command(
@@ -48,6 +49,7 @@ def command(
     cell: str | None,
     entry: str | None,
     trace: Path | None,
+    despite_errors: bool,
     max_time: float | None,
     max_steps: int | None,
     max_events: int | None,
@@ -55,7 +57,8 @@ def command(
 ) -> int:
     """Run a program on an emulated robot, in simulated time.
 
-    Exit status 0 when the program came to its end or its own stop, 1 for a fault, a deadlock or a limit.
+    Exit status 0 when the program came to its end or its own stop, 1 for a fault, a deadlock or a limit. A program
+    with errors is not started.
     """
     from rpl.project import read_program
     from rpl.proof.cellnames import report_unknown_signals
@@ -69,6 +72,8 @@ def command(
     print_diagnostics(diagnostics, Severity.WARNING)
     if not read.files:
         raise UsageError("no robot program was found; name the language with --from if there is one")
+    if diagnostics.has_errors and not despite_errors:
+        return _not_started(diagnostics, as_json)
     model = robot_named(robot)
     if model is not None:
         assumptions = collector()
@@ -87,6 +92,20 @@ def command(
     else:
         show(result)
     return 0 if result.status in ("finished", "stopped") else 1
+
+
+def _not_started(diagnostics: Diagnostics, as_json: bool) -> int:
+    """What a controller does with such a program: nothing."""
+    from rpl.runtime.trace import Fault, RunResult
+
+    errors = diagnostics.of(Severity.ERROR)
+    count = f"{len(errors)} error{'s' * (len(errors) != 1)}"
+    if as_json:
+        fault = Fault("program-errors", f"not started: {count}; {errors[0].message}", origin=errors[0].origin)
+        print_json(RunResult("fault", 0.0, 0, 0, (), (), fault, ()).as_json())
+    else:
+        click.echo(f"not started: {count} in the program (--despite-errors runs what was read)", err=True)
+    return 1
 
 
 def show(result: RunResult) -> None:

@@ -47,7 +47,9 @@ class Rules:
     controller whose messages show constant text only: regular expressions for what names a register of numbers, or
     any other register, in such a text. last_tool: while the program has set no tool, the place of the robot is told
     by tool and frame of the last move that named some (else by none). task_instances: starting a task that runs begins
-    another one of its routine (else nothing happens).
+    another one of its routine (else nothing happens). exact_types: built-in types with components
+    have to be equal too where a value is stored or passed. functions: neutral function -> how the language spells it
+    and its parameters' types in the language's words (`word.part`: the reader takes that component of the argument).
     """
 
     name: str
@@ -74,3 +76,5 @@ class Rules:
     message_texts: str = ""
     last_tool: bool = True
     task_instances: bool = False
+    exact_types: bool = False
+    functions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)

@@ -285,6 +285,9 @@ class Compiler:
         of_task = functions.OF_TASK.get(name)
         if of_task is None:
             raise InternalError(f"no function {name}")
+        called = _place_in_words(expression) if name.startswith("target_to_joints") else ""
+        if called:
+            return _telling(of_task, arguments, called)
         return lambda f: of_task(f[0], *[argument(f) for argument in arguments])
 
     def by_place(self, name: str, arguments: tuple[ir.Expression, ...]) -> Read:
@@ -519,6 +522,29 @@ def _once(make: Read) -> Read:
         return value.copy() if value.__class__ in MUTABLE else value
 
     return read
+
+
+def _telling(function: Callable[..., Value], arguments: list[Read], called: str) -> Read:
+    """A function that tells by name what cannot be reached."""
+
+    def read(f: Values) -> Value:
+        try:
+            return function(f[0], *[argument(f) for argument in arguments])
+        except ProgramError as error:
+            if error.name == "unreachable":
+                raise ProgramError(error.name, f"{error.message} ({called})") from None
+            raise
+
+    return read
+
+
+def _place_in_words(call: ir.Builtin) -> str:
+    """Target, tool and frame of inverse kinematics, as far as the program has names for them."""
+    target, *reference = call.arguments
+    if call.function.endswith("_near"):
+        reference = reference[1:]
+    told = zip(("", "tool ", "frame "), (target, *reference), strict=False)
+    return ", ".join(word + one.id for word, one in told if isinstance(one, ir.Name))
 
 
 def _applied(function: Callable[..., Value], arguments: list[Read]) -> Read:

@@ -94,10 +94,20 @@ def has_components(type: ir.Type | None) -> bool:
     return isinstance(type, ir.NamedType | ir.ArrayType) or type.__class__ in ir.POSITIONAL
 
 
-def clash(wanted: ir.Type, found: ir.Type) -> bool:
-    """Certainly incompatible: a text, number or BOOL where another of these is needed."""
-    one, other = _CLASHING.get(wanted.__class__), _CLASHING.get(found.__class__)
+def clash(wanted: ir.Type, found: ir.Type, exact: bool = False) -> bool:
+    """Certainly incompatible: a text, number or BOOL where another of these is needed. `exact`: of the built-in types
+    with components each is one of its own, and so is each declared record (which the scope has resolved)."""
+    one, other = _kind(wanted, exact), _kind(found, exact)
     return one is not None and other is not None and one != other
+
+
+def _kind(type: ir.Type, exact: bool) -> str | None:
+    """One word for all types that fit each other; None where nothing is known of the type."""
+    if exact and (type.__class__ in ir.POSITIONAL or isinstance(type, ir.ClockType | ir.TriggerType)):
+        return type.__class__.__name__
+    if exact and isinstance(type, ir.NamedType):
+        return f"record {type.name.lower()}"
+    return _CLASHING.get(type.__class__)
 
 
 _CLASHING: dict[type, str] = {

@@ -6,6 +6,7 @@ One word per type, so that an aggregate can carry the type that its place gives 
 from __future__ import annotations
 
 from rpl import ir, registry
+from rpl.ir.rules import Rules
 from rpl.passes.scope import Scope
 
 _TYPE_WORDS: dict[type, str] = {
@@ -60,6 +61,16 @@ def type_word(type: ir.Type) -> str:
         case ir.SignalType(kind=kind):
             return kind
     return _TYPE_WORDS[type.__class__]
+
+
+def language_word(type: ir.Type, rules: Rules) -> str:
+    """The word by which the language itself calls the type, where it has one."""
+    if isinstance(type, ir.VendorType | ir.SignalType):
+        return type_word(type)
+    words = [word for word, known in rules.type_names.items() if known.__class__ is type.__class__]
+    if not words and isinstance(type, ir.NUMBER_TYPES):
+        words = [word for word, known in rules.type_names.items() if isinstance(known, ir.NUMBER_TYPES)]
+    return min(words, key=lambda word: (len(word), word), default=type_word(type))
 
 
 def word_type(word: str, scope: Scope) -> ir.Type | None:

@@ -7,7 +7,6 @@ place. Unknown names are reported once each; what has no known type is left as i
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from operator import is_
 
 from rpl import ir
@@ -15,6 +14,7 @@ from rpl.diagnostics import Code, Diagnostics, Severity, code
 from rpl.passes.collector import paused_cycle_collector
 from rpl.passes.rewrite import changed, each, rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope, signal_type
+from rpl.passes.signatures import Layout, Signature
 from rpl.passes.typerules import (
     BITS,
     BOOL,
@@ -33,7 +33,7 @@ from rpl.passes.typerules import (
     quotient,
     system_type,
 )
-from rpl.passes.typewords import component_names, component_type, type_word, word_type
+from rpl.passes.typewords import component_names, component_type, language_word, type_word, word_type
 from rpl.source import NOWHERE, Origin
 
 __all__ = [
@@ -51,6 +51,7 @@ UNKNOWN_NAME = code("unknown-name", Severity.WARNING, "{name} is not declared in
 UNKNOWN_ROUTINE = code("unknown-routine", Severity.WARNING, "routine {name} is not in what was read")
 MISMATCH = code("type-mismatch", Severity.ERROR, "{found} where {wanted} is needed")
 UNKNOWN_COMPONENT = code("unknown-component", Severity.ERROR, "{type} has no component {name}")
+ARGUMENT = code("argument-type", Severity.ERROR, "argument {number} of {name} is {found}; {wanted} is needed")
 TOO_MANY = code("too-many-arguments", Severity.ERROR, "{name} takes {takes}; {given} are given")
 
 # What most expressions of a point list are: their own normal form, of a type that their class tells.
@@ -64,33 +65,6 @@ _NUMBERS = frozenset((ir.IntLiteral, ir.RealLiteral))
 Typed = tuple[ir.Expression, ir.Type | None]
 
 
-@dataclass(slots=True)
-class _Layout:
-    """Components of a type as aggregates write them: types by position, and by written name with the neutral name."""
-
-    word: str
-    positional: tuple[ir.Type | None, ...]
-    complete: bool  # a component that is not found is an error (not so for a record that was not read)
-    named: dict[str, tuple[str, ir.Type | None]] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, slots=True)
-class _Signature:
-    """A routine's parameters as a call's arguments find them."""
-
-    parameters: tuple[ir.Parameter, ...]
-    by_name: dict[str, ir.Parameter]
-    positional: tuple[ir.Parameter, ...]
-    open_ended: bool  # or unknown: any number of arguments may be right
-
-    @property
-    def takes(self) -> str:
-        """How many arguments it takes, in words: some only by their names."""
-        by_name = [p.name for p in self.parameters if p not in self.positional]
-        count = len(self.positional)
-        return f"{count} argument{'s' * (count != 1)}" + (f", and by name {', '.join(by_name)}" if by_name else "")
-
-
 def type_of(expression: ir.Expression, scope: Scope) -> ir.Type | None:
     """The type of a normalised expression; None when it rests on something unknown."""
     return Typer(scope, Diagnostics()).infer(expression)[1]
@@ -102,11 +76,13 @@ def counter_type(loop: ir.For, scope: Scope) -> ir.Type:
     return INT if all(isinstance(type_of(part, scope), ir.IntType) for part in parts) else REAL
 
 
-def normalise(program: ir.Program, diagnostics: Diagnostics) -> ir.Program:
-    """The program in normal form. Reports unknown names and type errors."""
+def normalise(program: ir.Program, diagnostics: Diagnostics, as_read: bool = False) -> ir.Program:
+    """The program in normal form. Reports unknown names and type errors; `as_read`: also by what only the source
+    language refuses (passes write neutral functions more freely, and writers find the language's form)."""
     scopes = ProgramScope(program)
     with paused_cycle_collector():
-        return changed(program, modules=each(program.modules, lambda module: _module(module, scopes, diagnostics)))
+        modules = each(program.modules, lambda module: _module(module, scopes, diagnostics, as_read))
+        return changed(program, modules=modules)
 
 
 def _sign(expression: ir.Expression, type: ir.Type | None) -> ir.Type | None:
@@ -114,12 +90,12 @@ def _sign(expression: ir.Expression, type: ir.Type | None) -> ir.Type | None:
     return ir.CharType() if isinstance(expression, ir.TextLiteral) and len(expression.value) == 1 else type
 
 
-def _module(module: ir.Module, scopes: ProgramScope, diagnostics: Diagnostics) -> ir.Module:
-    typer = Typer(scopes.module(module), diagnostics)
+def _module(module: ir.Module, scopes: ProgramScope, diagnostics: Diagnostics, as_read: bool) -> ir.Module:
+    typer = Typer(scopes.module(module), diagnostics, as_read=as_read)
     declarations = each(module.declarations, typer.declaration)
     routines = each(
         module.routines,
-        lambda routine: Typer(scopes.routine(module, routine), diagnostics, typer.reported).routine(routine),
+        lambda routine: Typer(scopes.routine(module, routine), diagnostics, typer.reported, as_read).routine(routine),
     )
     return changed(module, declarations=declarations, routines=routines)
 
@@ -127,16 +103,20 @@ def _module(module: ir.Module, scopes: ProgramScope, diagnostics: Diagnostics) -
 class Typer:
     """Infers and rewrites inside one scope."""
 
-    def __init__(self, scope: Scope, diagnostics: Diagnostics, reported: set[str] | None = None) -> None:
+    def __init__(
+        self, scope: Scope, diagnostics: Diagnostics, reported: set[str] | None = None, as_read: bool = False
+    ) -> None:
         self.scope = scope
+        self.as_read = as_read
+        self.exact = as_read and scope.rules.exact_types
         self.rules = scope.rules
         self.diagnostics = diagnostics
         self.reported: set[str] = set() if reported is None else reported
         self.here = NOWHERE
         # Asked again and again within one scope, and never another answer.
         self._names: dict[str, ir.Type | None] = {}
-        self._layouts: dict[ir.Type, _Layout] = {}
-        self._signatures: dict[str, _Signature] = {}
+        self._layouts: dict[ir.Type, Layout] = {}
+        self._signatures: dict[str, Signature] = {}
         self._joints: dict[tuple[str | None, ...], bool] = {}
 
     # ---- declarations and statements
@@ -185,7 +165,7 @@ class Typer:
                 return changed(statement, arguments=self.arguments(name, statement.arguments, statement.origin))
             case ir.For(scoped=True):
                 counter = ir.Variable(statement.counter, counter_type(statement, self.scope))
-                inner = Typer(self.scope.with_value(counter), self.diagnostics, self.reported)
+                inner = Typer(self.scope.with_value(counter), self.diagnostics, self.reported, self.as_read)
                 body = inner.body(statement.body)
                 return changed(rewrite_parts(changed(statement, body=()), self.value, self.body), body=body)
             case ir.Switch(selector=selector):
@@ -247,11 +227,19 @@ class Typer:
     def value(self, expression: ir.Expression) -> ir.Expression:
         return self.infer(expression)[0]
 
-    def assigned(self, expression: ir.Expression, wanted: ir.Type | None) -> ir.Expression:
-        """The expression as it is stored in a place of type `wanted`."""
-        return self.coerced(expression, wanted, strict=True)
+    def assigned(
+        self, expression: ir.Expression, wanted: ir.Type | None, place: tuple[str, int] | None = None
+    ) -> ir.Expression:
+        """The expression as it is stored in a place of type `wanted`: a variable, or an argument (routine, number)."""
+        return self.coerced(expression, wanted, True, place)
 
-    def coerced(self, expression: ir.Expression, wanted: ir.Type | None, strict: bool = False) -> ir.Expression:
+    def coerced(
+        self,
+        expression: ir.Expression,
+        wanted: ir.Type | None,
+        strict: bool = False,
+        place: tuple[str, int] | None = None,
+    ) -> ir.Expression:
         if expression.__class__ in _NUMBERS and wanted.__class__ is ir.RealType:
             return expression
         done, found = self.infer(expression, wanted)
@@ -264,9 +252,34 @@ class Typer:
                 return self.convert("code", done)
             case ir.CharType(), ir.IntType() if self.rules.char_numbers:
                 return self.convert("char", done)
-        if strict and clash(wanted, found):
-            self.report(MISMATCH, expression.origin, found=type_word(found), wanted=type_word(wanted))
+        if strict:
+            self.fitting(expression, wanted, found, place)
         return done
+
+    def fitting(
+        self,
+        expression: ir.Expression,
+        wanted: ir.Type | None,
+        found: ir.Type | None,
+        place: tuple[str, int] | None = None,
+    ) -> bool:
+        """Report a value that certainly does not fit where it stands; may it?"""
+        if wanted is None or found is None or not self.clashes(wanted, found):
+            return True
+        words = {"found": language_word(found, self.rules), "wanted": language_word(wanted, self.rules)}
+        if place is None:
+            self.report(MISMATCH, expression.origin, **words)
+        else:
+            self.report(ARGUMENT, expression.origin, name=place[0], number=place[1], **words)
+        return False
+
+    def clashes(self, wanted: ir.Type, found: ir.Type) -> bool:
+        """Do two types certainly not fit? Of a record that was not read nothing is certain."""
+        unread = (
+            isinstance(type, ir.NamedType) and not isinstance(self.scope.type(type.name), ir.RecordDeclaration)
+            for type in (wanted, found)
+        )
+        return not any(unread) and clash(wanted, found, self.exact)
 
     def convert(self, how: str, operand: ir.Expression) -> ir.Expression:
         if isinstance(operand, ir.Convert) and operand.how == how:
@@ -358,7 +371,9 @@ class Typer:
         name = self.neutral(type, expression.name)
         found = component_type(type, name, self.scope)
         if found is None and not (isinstance(type, ir.NamedType) and self.scope.type(type.name) is None):
-            self.report(UNKNOWN_COMPONENT, expression.origin, type=type_word(type), name=expression.name)
+            self.report(
+                UNKNOWN_COMPONENT, expression.origin, type=language_word(type, self.rules), name=expression.name
+            )
             return changed(expression, base=base), None
         return changed(expression, base=base, name=name), found
 
@@ -444,30 +459,39 @@ class Typer:
         done = self.assigned(entry[1], wanted)
         return entry if done is entry[1] else (entry[0], done)
 
-    def layout(self, type: ir.Type) -> _Layout:
+    def layout(self, type: ir.Type) -> Layout:
         found = self._layouts.get(type)
         if found is None:
             places = tuple([component_type(type, name, self.scope) for name in component_names(type, self.scope)])
             unknown_record = isinstance(type, ir.NamedType) and self.scope.type(type.name) is None
-            found = self._layouts[type] = _Layout(type_word(type), places, not unknown_record)
+            found = self._layouts[type] = Layout(type_word(type), places, not unknown_record)
         return found
 
-    def component(self, type: ir.Type, layout: _Layout, written: str) -> tuple[str, ir.Type | None]:
+    def component(self, type: ir.Type, layout: Layout, written: str) -> tuple[str, ir.Type | None]:
         name = self.neutral(type, written)
         found = layout.named[written] = name, component_type(type, name, self.scope)
         return found
 
     def builtin(self, expression: ir.Builtin) -> Typed:
-        arguments, types = [], []
+        arguments: list[ir.Expression] = []
+        types: list[ir.Type | None] = []
         function = ir.FUNCTIONS.get(expression.function)
         kinds = function.parameters.replace("?", "") if function else ""
+        spelled, *words = self.rules.functions.get(expression.function, ("",))
         for position, argument in enumerate(expression.arguments):
+            word = words[position] if position < len(words) else ""
+            whole = self.whole_argument(argument, word, (spelled, position + 1))
+            if whole is not None:
+                arguments.append(whole)
+                types.append(None)
+                continue
             wanted = None
             if isinstance(argument, ir.Aggregate) and not argument.type_name and position < len(kinds):
                 wanted = self.written_kind(kinds[position], argument)
             done, type = self.infer(argument, wanted)
             arguments.append(done)
-            types.append(type)
+            named = None if isinstance(argument, ir.Aggregate) else self.rules.type_names.get(word)
+            types.append(type if self.fitting(argument, named, type, (spelled, position + 1)) else None)
         result: ir.Type | None
         kind = function.result if function else "x"
         if kind.isdigit():
@@ -477,6 +501,24 @@ class Typer:
         else:
             result = KIND_TYPES.get(kind)
         return changed(expression, arguments=tuple(arguments)), result
+
+    def whole_argument(self, argument: ir.Expression, word: str, place: tuple[str, int]) -> ir.Expression | None:
+        """The argument where the reader takes a component of what was written, and that is of another type."""
+        word, _, part = word.partition(".")
+        wanted = self.rules.type_names.get(word)
+        if not part or not isinstance(argument, ir.Field) or wanted is None:
+            return None
+        if isinstance(argument.base, ir.Aggregate):
+            whole, _ = self.infer(argument.base, wanted)
+            assert isinstance(whole, ir.Aggregate)
+            names = component_names(wanted, self.scope)
+            parts = {name or at: value for at, (name, value) in zip(names, whole.entries, strict=False)}
+            return parts.get(self.neutral(wanted, part)) or self.value(argument)
+        base, found = self.infer(argument.base)
+        if found is None or not self.clashes(wanted, found):
+            return None
+        self.fitting(argument, wanted, found, place)
+        return changed(argument, base=base)
 
     def written_kind(self, kind: str, argument: ir.Aggregate) -> ir.Type | None:
         """The type of an aggregate written as an argument of a built-in function."""
@@ -492,7 +534,7 @@ class Typer:
         signature = self._signatures.get(name) or self.signature(name, origin)
         positional = iter(signature.positional)
         done = []
-        for argument in given:
+        for number, argument in enumerate(given, 1):
             parameter: ir.Parameter | None
             if argument.name:
                 parameter = signature.by_name.get(self.scope.fold(argument.name))
@@ -505,17 +547,20 @@ class Typer:
                 self.report(TOO_MANY, origin, name=name, takes=signature.takes, given=len(given))
             wanted = None if parameter is None else self.scope.resolve(parameter.type)
             if parameter is None or parameter.mode == "reference":
-                done.append(changed(argument, value=self.infer(argument.value, wanted)[0]))
+                value, found = self.infer(argument.value, wanted)
+                if self.exact:
+                    self.fitting(argument.value, wanted, found, (name, number))
+                done.append(changed(argument, value=value))
             else:
-                done.append(changed(argument, value=self.assigned(argument.value, wanted)))
+                done.append(changed(argument, value=self.assigned(argument.value, wanted, (name, number))))
         return given if all(map(is_, done, given)) else tuple(done)
 
-    def signature(self, name: str, origin: Origin) -> _Signature:
+    def signature(self, name: str, origin: Origin) -> Signature:
         routine = self.known_routine(name, origin)
         parameters = routine.parameters if routine else ()
         required = tuple([parameter for parameter in parameters if not parameter.optional])
         by_name = {self.scope.fold(parameter.name): parameter for parameter in parameters}
-        found = _Signature(parameters, by_name, required, routine is None or routine.open_ended)
+        found = Signature(parameters, by_name, required, routine is None or routine.open_ended)
         self._signatures[name] = found
         return found
 

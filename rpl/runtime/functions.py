@@ -224,12 +224,18 @@ def _target_to_joints(task: Task, target: Value, tool: Value = None, frame: Valu
         flags = {name: None if value is None else int(value) for name, value in target.conf.flags}
         found = notation.select(robot.model, flange, flags, here)
         if found.joints is None:
-            raise ProgramError("unreachable", found.reason)
+            raise ProgramError("unreachable", f"{found.reason}: {_where(place)}")
         joints = found.joints
     if joints is None:
-        raise ProgramError("unreachable", "the target is out of reach")
+        raise ProgramError("unreachable", f"the target is out of reach: {_where(place)}")
     external = target.ext.values if isinstance(target, TargetValue) else (None,) * 6
     return joints_value([float(joint) for joint in joints], external, rules)
+
+
+def _where(place: rigid.Pose) -> str:
+    """Where the tool should be, in the robot's base."""
+    x, y, z = place.position.x, place.position.y, place.position.z
+    return f"{x:.3f}, {y:.3f}, {z:.3f} mm"
 
 
 def _joints_to_target(task: Task, joints: Value, tool: Value = None, frame: Value = None) -> Value:

@@ -486,8 +486,11 @@ def _as_program_error(error: Exception) -> ProgramError:
             return ProgramError("division_by_zero", "division by zero")
         case OverflowError():
             return ProgramError("overflow", "the number is too large")
+        case ValueError() if "index(" in str(error):
+            return ProgramError("wrong_kind", "a value has no component of the name asked for")
         case ValueError():
-            return ProgramError("negative_argument", f"a function is not defined for this argument: {error}")
+            told = "" if str(error).startswith("math ") else f": {error}"
+            return ProgramError("negative_argument", f"a function is not defined for this argument{told}")
         case KeyError():
             return ProgramError("wrong_kind", f"there is no component {error}")
         case MemoryError():
