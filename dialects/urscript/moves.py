@@ -1,8 +1,8 @@
 """Moves, stops and modal settings of the robot.
 
 Speeds and accelerations are written at each move or stand in the function's defaults; a time replaces them. There is no
-modal speed and no frame: poses are of the tool in the robot's base. servoj, servoc, speedj and speedl drive the arm
-directly; they are read as the moves they stand for, which is reported.
+modal speed and no frame: poses are of the tool in the robot's base. servoj and servoc drive the arm directly; they are
+read as the moves they stand for, which is reported. speedj and speedl begin a motion that goes on.
 """
 
 from __future__ import annotations
@@ -16,8 +16,7 @@ from .arguments import Bound
 from .calls import Calls
 from .expressions import pose_literal
 from .kinds import REAL, is_joints, is_number
-from .nodes import Expr, ListOf, Number, PoseOf, Sign
-from .rules import STEP_TIME_S
+from .nodes import Expr, Number, Sign
 
 SERVO = code(
     "urscript-servo",
@@ -25,13 +24,6 @@ SERVO = code(
     "{name} is read as a move to its target in the given time",
     "look-ahead and gain of the controller are not followed",
 )
-RATE = code(
-    "urscript-speed",
-    Severity.INFO,
-    "{name} is read as a move by speed times time that comes to rest at its end",
-    "the controller goes on until it is told to stop",
-)
-
 Made = tuple[ir.Statement, ...]
 Make = Callable[[Calls, Bound], Made | None]
 
@@ -135,69 +127,47 @@ def _servoc(calls: Calls, bound: Bound) -> Made:
 # ---- speedj, speedl
 
 
-def _rates(calls: Calls, value: Expr | None, time: Expr | None) -> tuple[list[ir.Expression], list[Expr] | None] | None:
-    """The six ways, speed times time, and the six speeds where they are written out."""
-    if value is None or time is None or literal(time) == 0 or calls.kind(value) is None:
-        return None
-    parts = [calls.element(value, place) for place in range(6)]
-    found = [part for part in parts if part is not None]
-    if len(found) < 6:
-        return None
-    span = calls.value(time, REAL)
-    listed = list(value.items) if isinstance(value, ListOf | PoseOf) else None
-    none = ir.RealLiteral(0.0)
-    return [none if _is_zero(part) else ir.Binary("*", part, span) for part in found], listed
+def _rate(joint: bool, name: str) -> Make:
+    """A motion that goes on: its six speeds are the way in a second (script manual: accelerate, and continue with
+    constant speed; the function returns after its time, else when the speed is reached)."""
+
+    def make(calls: Calls, bound: Bound) -> Made | None:
+        value = bound[name]
+        if value is None or calls.kind(value) is None:
+            return None
+        parts = [part for part in (calls.element(value, place) for place in range(6)) if part is not None]
+        if len(parts) < 6:
+            return None
+        acceleration, time = quantity(calls, bound["a"], "rad/s2" if joint else "m/s2"), bound["t"]
+        duration = quantity(calls, time, "s") if time is not None and literal(time) != 0 else None
+        if joint:
+            turns = tuple((f"j{axis}", ir.Quantity(part, "rad")) for axis, part in enumerate(parts, 1))
+            goal: ir.Expression = ir.Aggregate(turns, "joints")
+            speed = ir.Speed(axis_acceleration=acceleration, duration=duration)
+        else:
+            goal = _shift(parts)
+            speed = ir.Speed(path_acceleration=acceleration, duration=duration)
+        return (
+            ir.Move(
+                "joint" if joint else "linear",
+                goal,
+                relative="joints" if joint else "base",
+                speed=speed,
+                blend=ir.BlendStop(),
+                motion_class="velocity",
+                origin=calls.origin,
+            ),
+        )
+
+    return make
 
 
-def _is_zero(value: ir.Expression) -> bool:
-    return isinstance(value, ir.IntLiteral | ir.RealLiteral) and value.value == 0
-
-
-def _top(parts: list[ir.Expression]) -> ir.Expression:
-    total: ir.Expression | None = None
-    for part in parts:
-        square = ir.Binary("**", part, ir.IntLiteral(2))
-        total = square if total is None else ir.Binary("+", total, square)
-    assert total is not None  # there are parts
-    return ir.Builtin("sqrt", (total,))
-
-
-def _is_short(time: Expr | None) -> bool:
-    """One cycle of the controller: the caller sends the next one at once."""
-    number = literal(time)
-    return number is None or number <= 10 * STEP_TIME_S
-
-
-def _speedj(calls: Calls, bound: Bound) -> Made | None:
-    ways = _rates(calls, bound["qd"], bound["t"])
-    if ways is None:
-        return None
-    calls.diagnostics.report(RATE, calls.origin, name="speedj")
-    names = ("j1", "j2", "j3", "j4", "j5", "j6")
-    goal = ir.Aggregate(tuple((n, ir.Quantity(w, "rad")) for n, w in zip(names, ways[0], strict=True)), "joints")
-    speed = ir.Speed(duration=quantity(calls, bound["t"], "s"))
-    return (ir.Move("joint", goal, relative="joints", speed=speed, blend=ir.BlendStop(), origin=calls.origin),)
-
-
-def _speedl(calls: Calls, bound: Bound) -> Made | None:
-    ways = _rates(calls, bound["xd"], bound["t"])
-    if ways is None:
-        return None
-    calls.diagnostics.report(RATE, calls.origin, name="speedl")
-    goal = pose_literal(ways[0])
-    listed = ways[1]
-    straight = listed is not None and all(literal(item) == 0 for item in listed[3:])
-    if straight:
-        turns = tuple((name, ir.RealLiteral(0.0)) for name in "abc")
-        steps = tuple((name, ir.Quantity(way, "m")) for name, way in zip("xyz", ways[0], strict=False))
-        goal = ir.Aggregate((*steps, *turns), "pose")
-    if straight and listed is not None and not _is_short(bound["t"]) and any(literal(x) != 0 for x in listed[:3]):
-        # Speed times time is the way of the ramp up, of the even part, and of the ramp down behind it.
-        top = ir.Quantity(_top([calls.value(item, REAL) for item in listed[:3]]), "m/s")
-        speed = ir.Speed(path=top, path_acceleration=quantity(calls, bound["a"], "m/s2"))
-    else:
-        speed = ir.Speed(duration=quantity(calls, bound["t"], "s"))
-    return (ir.Move("linear", goal, relative="base", speed=speed, blend=ir.BlendStop(), origin=calls.origin),)
+def _shift(parts: list[ir.Expression]) -> ir.Expression:
+    """A way and a turn in the axes of the base; most ways turn nothing."""
+    if not all(isinstance(part, ir.IntLiteral | ir.RealLiteral) and part.value == 0 for part in parts[3:]):
+        return pose_literal(parts)
+    way = tuple((axis, ir.Quantity(part, "m")) for axis, part in zip("xyz", parts, strict=False))
+    return ir.Aggregate((*way, *((angle, ir.RealLiteral(0.0)) for angle in "abc")), "pose")
 
 
 def _stop(calls: Calls, bound: Bound) -> Made:
@@ -238,8 +208,8 @@ MOVES: dict[str, Make] = {
     "movec": _circle,
     "servoj": _servoj,
     "servoc": _servoc,
-    "speedj": _speedj,
-    "speedl": _speedl,
+    "speedj": _rate(True, "qd"),
+    "speedl": _rate(False, "xd"),
     "stopj": _stop,
     "stopl": _stop,
     "set_tcp": _set_tcp,

@@ -40,7 +40,7 @@ class Motion:
 
     def move(self, move: ir.Move, blended: bool = True) -> str:
         """The call. `blended` False: what follows wants the robot to stand."""
-        if move.relative in ("base", "joints"):
+        if move.motion_class == "velocity":
             return self.rates(move)
         self.refuse(move)
         word = _WORDS.get(move.kind)
@@ -59,20 +59,21 @@ class Motion:
         return f"{word}({', '.join((*places, *settings))})"
 
     def rates(self, move: ir.Move) -> str:
-        """`speedl` and `speedj`: a way that is written as speeds times one time."""
+        """`speedl` and `speedj`: the way in a second."""
         self.refuse(replace(move, relative=None))
         joints, speed = move.relative == "joints", move.speed or ir.Speed()
-        found = [_rate(one) for one in _ways(move.target)]
-        known = [one for one in found if one is not None]
-        spans = {span for _, span in known} - {_NO_TIME}
-        if len(known) != _WAYS or move.kind != ("joint" if joints else "linear") or len(spans) != 1:
+        found = [self.rate(one) for one in _ways(move.target)]
+        if len(found) != _WAYS or move.kind != ("joint" if joints else "linear"):
             raise CannotSayError("a move with a relative move")
-        rates = ", ".join(self.expressions.text(rate) for rate, _ in known)
         given = speed.axis_acceleration if joints else speed.path_acceleration
         usual = tables.USUAL_ACCELERATION["joint" if joints else "linear"]
-        acceleration = usual if given is None else self.number(given, "rad/s2" if joints else "m/s2")
-        (span,) = spans
-        return f"{'speedj' if joints else 'speedl'}([{rates}], a={acceleration}, t={self.expressions.text(span)})"
+        settings = [f"a={usual if given is None else self.number(given, 'rad/s2' if joints else 'm/s2')}"]
+        if speed.duration is not None:
+            settings.append(f"t={self.number(speed.duration, 's')}")
+        return f"{'speedj' if joints else 'speedl'}([{', '.join(found)}], {', '.join(settings)})"
+
+    def rate(self, part: ir.Expression) -> str:
+        return "0" if part == ir.RealLiteral(0.0) else self.expressions.text(part)
 
     def refuse(self, move: ir.Move) -> None:
         """What URScript has no argument for."""
@@ -197,11 +198,10 @@ def _literal(value: ir.Expression) -> bool:
 
 
 _WAYS = 6
-_NO_TIME = ir.RealLiteral(0.0)
 
 
 def _ways(target: ir.Expression) -> list[ir.Expression]:
-    """The six ways of a relative move as numbers in metres and radians."""
+    """The six speeds of a motion that goes on, in metres and radians."""
     match target:
         case ir.Aggregate(entries=entries):
             parts = [value for _, value in entries]
@@ -210,13 +210,3 @@ def _ways(target: ir.Expression) -> list[ir.Expression]:
         case _:
             return []
     return [one.value if isinstance(one, ir.Quantity) and one.unit in ("m", "rad") else one for one in parts]
-
-
-def _rate(way: ir.Expression) -> tuple[ir.Expression, ir.Expression] | None:
-    """A speed and the time it lasts; a way of nothing at all lasts any time."""
-    match way:
-        case ir.Binary(op="*", left=rate, right=span):
-            return rate, span
-        case ir.RealLiteral(value=0.0):
-            return ir.IntLiteral(0), _NO_TIME
-    return None

@@ -93,7 +93,10 @@ _WORDS: dict[type, dict[str, tuple[str, ...]]] = {
     Trigger: {"reference": ("start", "end", "middle")},
     Search: {"stop": ("none", "stop", "path", "soft"), "edge": ("rising", "falling", "either")},
     Spline: {"kind": ("path", "joint")},
-    Move: {"kind": ("joint", "linear", "circular", "spline"), "motion_class": ("classic", "spline", "process")},
+    Move: {
+        "kind": ("joint", "linear", "circular", "spline"),
+        "motion_class": ("classic", "spline", "process", "velocity"),
+    },
     Variable: {"storage": ("constant", "variable", "persistent"), "scope": SCOPES},
     Parameter: {"mode": ("value", "reference", "readonly")},
     Routine: {"kind": ("procedure", "function", "trap"), "scope": ("module", "task", "global")},

@@ -76,6 +76,7 @@ class MotionStatements:
             "circle_orientation": move.circle_orientation,
             "configuration": move.configuration,
             "concurrent": move.concurrent,
+            "velocity": move.motion_class == "velocity",
         }
         kind = move.kind
         rules = self.linker.compiler.scope.rules

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rpl.runtime import pieces, searching
+from rpl.runtime import pieces, searching, velocities
 from rpl.runtime.chain import (
     Planning,
     pose_of_array,
@@ -70,6 +70,11 @@ class MotionQueue(RobotState):
     def submit(self, order: Order, next: int) -> int:
         """Plan a move, queue it, and say how the program goes on."""
         task = self.task
+        if order.velocity:
+            return velocities.go(self, order, next)
+        if velocities.is_endless(self):
+            velocities.let_rest(self)
+            return task.wait_for("idle", order.at, order.at)
         if order.tool is not None:
             task.modal["tool_in_use"], task.modal["frame_in_use"] = order.tool, order.frame
         if self.model is None:
@@ -290,6 +295,9 @@ class MotionQueue(RobotState):
         now = self.machine.now
         if piece.open_end and not piece.drive.released:
             self._release()  # the program's last chance, at this moment, to say how to go on
+            return
+        if velocities.is_endless(self):
+            velocities.go_on(self, piece)
             return
         self._close_leg(piece, now)
         if piece.halting:

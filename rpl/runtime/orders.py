@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from rpl.emulator.planner import PlannedMove
     from rpl.ir.rules import Rules
     from rpl.passes import rigid
+    from rpl.runtime.velocities import Rate
 
 Modal = dict[str, Value]
 
@@ -110,11 +111,13 @@ class Order:
     once: Modal = field(default_factory=dict)
     concurrent: bool = False
     external_only: bool = False
+    velocity: bool = False
 
 
 @dataclass(slots=True, eq=False)
 class Drive:
-    """A planned move in the queue. `legs`: how it was driven so far; `goal`: the programmed target in its frame."""
+    """A planned move in the queue. `legs`: how it was driven so far; `goal`: the programmed target in its frame;
+    `rate`: of a move at a given speed, which has no end."""
 
     number: int
     order: Order
@@ -126,3 +129,4 @@ class Drive:
     blending: bool = False
     legs: list[object] = field(default_factory=list)
     started_s: float | None = None
+    rate: Rate | None = None

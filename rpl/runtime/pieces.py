@@ -152,7 +152,8 @@ def braking(piece: Piece, now: float, hard: bool) -> Piece:
     place, speed = place_of(piece, now)
     profile = piece.plan.profile
     strength = profile.acceleration * (HARD if hard else 1.0)
-    end = min(place + speed * speed / (2.0 * strength), piece.plan.span[1]) if speed > 0.0 else place
+    furthest = piece.plan.span[1] if piece.drive.rate is None else 1.0
+    end = min(place + speed * speed / (2.0 * strength), furthest) if speed > 0.0 else place
     if end - place < 1e-12:
         return replace(piece, frozen_s=max(now - piece.start_s, 0.0))
     law = replace(profile, acceleration=strength).law(place, end, speed, 0.0)

@@ -11,6 +11,7 @@ from rpl.runtime.code import ATTEND, BLOCKED, SWITCHED, Code, Frame, Handling, R
 from rpl.runtime.faults import FATAL, ProgramError, name_of, number_of
 from rpl.runtime.interrupts import Interrupt, Interrupts
 from rpl.runtime.values import Value
+from rpl.runtime.velocities import let_rest
 from rpl.runtime.waits import CYCLE_S, Wait, poll_step
 from rpl.source import NOWHERE, Origin
 
@@ -111,6 +112,8 @@ class Task:
     def leave(self, at: int, value: Value = None) -> int:
         """Return from the present frame. The entry routine ends when the robot has arrived."""
         if len(self.frames) == 1 and self.busy:
+            if self.robot is not None:
+                let_rest(self.robot)
             return self.wait_for("idle", at, at)
         frame = self.frames.pop()
         if self.interrupts.known:

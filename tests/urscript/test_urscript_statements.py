@@ -120,12 +120,10 @@ def test_direct_drives_are_read_as_moves_and_said_so() -> None:
         "speedl([0, 0, 0.1, 0, 0, 0], 0.5)\nend\n"
     )
     made = routine(program, "p").body
-    assert [type(s).__name__ for s in made] == ["Move", "Move", "Move", "Vendor"]
-    assert [m.relative for m in made[:3] if isinstance(m, ir.Move)] == [None, "base", "joints"]
-    assert codes(diagnostics, Severity.INFO) == [
-        *("urscript-servo", "urscript-speed", "urscript-speed"),
-        "urscript-kept-as-text",
-    ]
+    assert [type(s).__name__ for s in made] == ["Move", "Move", "Move", "Move"]
+    assert [m.relative for m in made if isinstance(m, ir.Move)] == [None, "base", "joints", "base"]
+    assert [m.motion_class for m in made if isinstance(m, ir.Move)] == ["classic", *["velocity"] * 3]
+    assert codes(diagnostics, Severity.INFO) == ["urscript-servo"]
 
 
 def test_speed_times_time_and_the_ramp_behind_it() -> None:

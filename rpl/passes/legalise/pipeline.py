@@ -113,6 +113,7 @@ from rpl.passes.legalise.pulsedoutputs import pulsed_outputs
 from rpl.passes.legalise.pulselevels import pulse_levels
 from rpl.passes.legalise.pulses import fold_pulses
 from rpl.passes.legalise.randomnumbers import random_numbers
+from rpl.passes.legalise.rates import rates
 from rpl.passes.legalise.reactions import reactions
 from rpl.passes.legalise.reactionsearches import reaction_searches
 from rpl.passes.legalise.readoverrides import read_overrides
@@ -195,6 +196,7 @@ from rpl.passes.typing import normalise
 PASSES: tuple[Pass, ...] = (
     source_layout,
     drop_untyped,
+    rates,
     axes_of_arm,
     copied_flags,
     read_ports,
