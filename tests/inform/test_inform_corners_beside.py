@@ -56,3 +56,35 @@ MOVL C00002 V=100.0 PL=0
     assert (source.status, there.status) == ("finished", "finished")
     for (at, value), (then, same) in zip(changes(source), changes(there), strict=True):
         assert (then, same) == (pytest.approx(at, abs=0.1), value)
+
+
+SEARCH = "MOVL C00002 V=100.0 PL=0 UNTIL IN#(2)=ON\n"
+BESIDE = "MOVL C00002 V=100.0 PL=0 NWAIT\nDOUT OT#(3) ON\nCWAIT\n"
+START, CORNER = "MOVL C00000 V=200.0 PL=0\n", "MOVL C00001 V=200.0 PL=2\n"
+
+
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize(
+    "body",
+    [
+        START + CORNER + SEARCH,
+        START + CORNER + "DOUT OT#(3) ON\n" + SEARCH,
+        START + "IFTHENEXP B001=0\n" + CORNER + "ENDIF\n" + SEARCH,
+        START
+        + f"WHILEEXP B001<2\nIFTHENEXP B001=1\n{SEARCH}ELSE\n{CORNER}ENDIF\nINC B001\nENDWHILE\n".replace("\n\n", "\n"),
+        START + CORNER + BESIDE,
+        START + CORNER + "CALL JOB:SUB\n",
+    ],
+)
+def test_a_corner_before_a_search_or_a_move_beside(body: str, target: str) -> None:
+    """A task of its own drives such a move in URScript: the robot stops at the corner, which is told."""
+    source, there, told = both(body, target, job(SEARCH, POINTS, "SUB"))
+    assert (source.status, there.status) == ("finished", "finished")
+    stops = [item.origin.line for item in told if item.code.name == "corner-stops-before-task"]
+    assert len(stops) == (1 if target == "urscript" else 0)
+
+
+def test_a_stop_before_a_search_needs_nothing() -> None:
+    _, there, told = both(START + SEARCH + CORNER + START, "urscript")
+    assert there.status == "finished"
+    assert not any(item.code.name == "corner-stops-before-task" for item in told)

@@ -162,6 +162,7 @@ from rpl.passes.legalise.taskarguments import task_arguments
 from rpl.passes.legalise.taskdata import shared_task_data
 from rpl.passes.legalise.tasknames import task_names
 from rpl.passes.legalise.taskreferences import task_references
+from rpl.passes.legalise.taskstarts import stand_before_tasks
 from rpl.passes.legalise.taskstates import task_states
 from rpl.passes.legalise.textbytes import text_bytes
 from rpl.passes.legalise.textdecimals import text_decimals
@@ -366,6 +367,7 @@ PASSES: tuple[Pass, ...] = (
     compositions,
     path_events,
     watching,
+    stand_before_tasks,
     arithmetic,
     functions_to_procedures,
     fit_arguments,
