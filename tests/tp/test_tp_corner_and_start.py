@@ -56,6 +56,37 @@ def test_actions_where_a_way_begins() -> None:
     assert "DB 30mm,DO[2]=ON" in text
 
 
+IN_A_CORNER = """DEF corner( )
+DECL FRAME THERE
+BAS(#INITMOV,0)
+PTP {A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}
+PTP {A1 10,A2 -90,A3 90,A4 0,A5 30,A6 0} C_PTP
+TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[1]=TRUE
+PTP {A1 20,A2 -90,A3 90,A4 0,A5 30,A6 0}
+THERE = $POS_ACT
+THERE.Z = THERE.Z - 40
+LIN THERE C_DIS
+THERE.Y = THERE.Y + 40
+$OUT_C[2]=TRUE
+TRIGGER WHEN DISTANCE=0 DELAY=-50 DO $OUT[3]=TRUE
+LIN THERE
+WAIT SEC 0
+END
+"""
+
+
+def test_actions_where_a_way_of_unknown_length_begins_in_a_corner_stand_at_the_move_before() -> None:
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("p.src", IN_A_CORNER)], "krl", diagnostics)
+    written = translate_program(read, "tp", ROBOTS["krl"], None, diagnostics)
+    assert not written.losses
+    text = next(file.data.decode() for file in written.files if file.path == "CORNER.LS")
+    moves = [line.partition(":")[2] for line in text.splitlines() if line.partition(":")[2][:2] in ("J ", "L ")]
+    assert [move.count("DO[1]=ON") for move in moves] == [0, 1, 0, 0, 0]
+    assert [move.count("DO[2]=ON") for move in moves] == [0, 0, 0, 1, 0]
+    assert "TB 0.05sec,DO[3]=ON" in moves[3]
+
+
 JOINTS_AS_PLACES = """CONST ready: JOINTS = {{j1: 0, j2: -90, j3: 90, j4: 0, j5: 60, j6: 0}}
 PROCEDURE main()
     VAR t: TARGET

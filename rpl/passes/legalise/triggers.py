@@ -157,9 +157,12 @@ class _AtMoves:
                     if last is not None:
                         before = done[last]
                         assert isinstance(before, ir.Move)  # noted below
-                        moved = [replace(one, reference="end") for one in own if self.behind_the_start(one)]
+                        early = [
+                            one for one in own if self.behind_the_start(one) or self.in_corner(one, before, statement)
+                        ]
+                        moved = [replace(one, reference="end") for one in early]
                         done[last] = replace(before, triggers=(*before.triggers, *moved)) if moved else before
-                        own = [one for one in own if not self.behind_the_start(one)]
+                        own = [one for one in own if one not in early]
                     own = [self.from_end(one, begins, statement) for one in own]
                     last, waiting, begins = len(done), [], statement
                     done.append(replace(statement, triggers=(*own, *statement.triggers)) if own else statement)
@@ -177,19 +180,32 @@ class _AtMoves:
         """What comes some way behind the start of a straight move, counted from its end where both are constants."""
         if trigger.reference != "start" or trigger.delay is not None or trigger.distance is None or begins is None:
             return trigger
-        behind = constant_number(trigger.distance, self.scope)
-        same = begins.frame == move.frame and begins.tool == move.tool and begins.search is None
-        if not behind or not same or move.kind != "linear" or move.relative or begins.relative:
+        behind, length = constant_number(trigger.distance, self.scope), self.length(begins, move)
+        if not behind or length is None or begins.search is not None:
             return trigger
-        ends = [constant(one.target, self.scope, self.unchanged) for one in (begins, move)]
-        places = [one.pose if isinstance(one, Target) else one for one in ends]
-        if not all(isinstance(one, rigid.Pose) for one in places):
-            return trigger
-        first, second = (one.position for one in places if isinstance(one, rigid.Pose))
-        left = behind - second.plus(first, -1.0).length
+        left = behind - length
         if left > 0:
             return trigger
         return replace(trigger, reference="end", distance=ir.RealLiteral(float(f"{left:.9g}")))
+
+    def length(self, begins: ir.Move, move: ir.Move) -> float | None:
+        """The length of a straight move between two constant places, mm."""
+        same = begins.frame == move.frame and begins.tool == move.tool
+        if not same or move.kind != "linear" or move.relative or begins.relative:
+            return None
+        ends = [constant(one.target, self.scope, self.unchanged) for one in (begins, move)]
+        places = [one.pose if isinstance(one, Target) else one for one in ends]
+        if not all(isinstance(one, rigid.Pose) for one in places):
+            return None
+        first, second = (one.position for one in places if isinstance(one, rigid.Pose))
+        return second.plus(first, -1.0).length
+
+    def in_corner(self, trigger: ir.Trigger, before: ir.Move, move: ir.Move) -> bool:
+        """Does it come at the start of a way of unknown length, which begins in the corner of the move before?"""
+        if trigger.reference != "start" or isinstance(before.blend, ir.BlendStop | None) or before.search is not None:
+            return False
+        distance = 0.0 if trigger.distance is None else constant_number(trigger.distance, self.scope)
+        return distance == 0 and move.kind != "circular" and self.length(before, move) is None
 
     def behind_the_start(self, trigger: ir.Trigger) -> bool:
         """Does it come a time behind the start itself?"""
