@@ -187,7 +187,8 @@ class _Times:
         kept, least = self.facts.time(move)
         can_say = self.wanted.said and (move.kind != "circular" or self.wanted.arcs)
         own = None if can_say else _own(move)
-        if own is None and (not self.wanted.least or move.speed is not None):
+        alone = move.speed is None or move.speed == ir.Speed(joint=move.speed.joint, path=move.speed.path)
+        if own is None and (not self.wanted.least or not alone):
             return move
         time = least if own is None else own
         if time is None or move.search is not None:
@@ -216,6 +217,8 @@ class _Times:
     def driven(self, move: ir.Move, speed: ir.Speed, least: bool) -> ir.Move:
         """The move at a speed, which is a setting of this move where it had a least time only."""
         said = ((_SPEED, speed.path), (_PERCENT, speed.joint), (ir.System(_ROTATION), speed.rotation))
+        if least and move.speed is not None and speed != ir.Speed():
+            return replace(move, speed=speed)
         if least:
             own = tuple((name, value) for name, value in said if value is not None)
             names = [name for name, _ in own]
@@ -228,6 +231,9 @@ class _Times:
 
     def most(self, move: ir.Move, kept: Settings) -> ir.Expression | None:
         """The speed (mm/s or percent) that a move with a least time has otherwise."""
+        own = None if move.speed is None else move.speed.joint if move.kind == "joint" else move.speed.path
+        if own is not None:
+            return own
         name = _PERCENT if move.kind == "joint" else _SPEED
         return next((value for one, value in kept if one == name), self.flow.at(move)[name.name])
 

@@ -132,7 +132,13 @@ class Whereabouts:
         return Stand(self.solved(move, goal, flange, stand), flange, (move.tool, move.frame, pose))
 
     def further(self, move: ir.Move, stand: Stand) -> Stand:
-        """Where a relative move ends, along the tool or along the axes of the frame."""
+        """Where a relative move ends, along the tool, along the axes of the frame or by axes of the arm."""
+        if move.relative == "joints":
+            steps = self.axes(constant(move.target, self.scope, self.unchanged))
+            known = stand.joints is not None and steps is not None
+            return (
+                Stand(tuple(a + b for a, b in zip(stand.joints or (), steps or (), strict=False))) if known else Stand()
+            )
         by, start = pose_of(constant(move.target, self.scope, self.unchanged)), self.tools(move, stand, stand)[0]
         frames = self.flow.frames.get(id(move))
         if by is None or start is None or move.relative not in ("tool", "base"):
@@ -173,6 +179,9 @@ class Whereabouts:
 
     def way(self, move: ir.Move, start: Stand, end: Stand) -> Way:
         axes = None
+        if move.relative == "joints":
+            steps = self.axes(constant(move.target, self.scope, self.unchanged))
+            return Way(None if steps is None else tuple(abs(one) for one in steps), None, None)
         if start.joints is not None and end.joints is not None:
             axes = tuple(abs(to - of) for of, to in zip(start.joints, end.joints, strict=False))
         if move.kind == "joint":
