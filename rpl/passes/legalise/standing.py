@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
+from rpl.passes.legalise.editing import exits
 from rpl.passes.legalise.lookahead import is_flag, touches
 from rpl.passes.legalise.usage import base_name, bodies, each_expression, each_statement
 from rpl.passes.rewrite import rewrite_parts
@@ -21,6 +22,7 @@ from rpl.passes.scope import Scope
 _TIMED = frozenset(("timer", "timer_stopped", "timer_positive"))
 _FLAGS = "a flag"  # in the place of a variable's name
 _MOVES = (ir.Move, ir.MoveExternal, ir.Spline)
+_LOOPS = (ir.For, ir.While, ir.Repeat, ir.Loop)
 
 
 def stand_first(program: ir.Program, context: Context) -> ir.Program:
@@ -80,6 +82,7 @@ class _Facts:
             if name is not None
         }
         read = frozenset(name for one in beside for name in _looked_at(routines[one]))
+        read |= {name for routine in routines.values() for name in _given(routine)}
         known = cls(beside, frozenset(changed), frozenset(), frozenset(), read=read)
         movers = {n for n, r in routines.items() if any(isinstance(node, _MOVES) for node in walk(*bodies(r)))}
         watchful = {n for n, r in routines.items() if any(known.early(node) for node in _statements(r))}
@@ -93,6 +96,10 @@ class _Facts:
             case ir.CallRoutine(name=name) if name.lower() in self.watchful:
                 return True
             case ir.Assign(target=target) if (_base(target) or "").lower() in self.read:
+                return True
+            case ir.For(counter=counter) if counter.lower() in self.read:
+                return True
+            case ir.Do(arguments=arguments) if any((_name(one) or "") in self.read for one in arguments):
                 return True
         found = False
 
@@ -154,9 +161,22 @@ class _Standing:
             inside = moving
             ends: list[bool] = []
 
-            def deeper(inner: ir.Body, inside: bool = inside, ends: list[bool] = ends) -> ir.Body:
+            again = isinstance(statement, _LOOPS)
+            counted = isinstance(statement, ir.For) and statement.counter.lower() in self.facts.read
+
+            def deeper(
+                inner: ir.Body,
+                inside: bool = inside,
+                ends: list[bool] = ends,
+                again: bool = again,
+                counted: bool = counted,
+            ) -> ir.Body:
                 new, end = self.body(inner, inside)
-                ends.append(end)
+                if end and counted:
+                    new, end = (*new, ir.WaitForMotion()), False
+                elif end and again and not inside:  # each further pass begins as the one before it ends
+                    new, end = self.body(inner, True)
+                ends.append(end or (again and exits(inner) and self.drives(inner)))
                 return new
 
             done.append(rewrite_parts(statement, lambda expression: expression, deeper))
@@ -164,6 +184,16 @@ class _Standing:
             if isinstance(statement, ir.CallRoutine) and statement.name.lower() in self.facts.movers:
                 moving = statement.name.lower() in self.facts.halting
         return tuple(done), moving
+
+    def drives(self, body: ir.Body) -> bool:
+        """Does a move of the body end at a stop point?"""
+        for node in walk(*body):
+            match node:
+                case ir.Move(blend=None | ir.BlendStop(), concurrent=False):
+                    return True
+                case ir.CallRoutine(name=name) if name.lower() in self.facts.halting:
+                    return True
+        return False
 
 
 def _surely_inside(statement: ir.Statement) -> bool:
@@ -216,6 +246,32 @@ def _looked_at(routine: ir.Routine) -> set[str]:
     for statement in _statements(routine):
         each_expression(statement, look)
     return names - own
+
+
+def _given(routine: ir.Routine) -> set[str]:
+    """Variables that an interrupt or a place on the path looks at when it acts."""
+    return {
+        name.id.lower()
+        for node in walk(*bodies(routine))
+        if isinstance(node, ir.DeclareInterrupt | ir.Trigger)
+        for given in _values(node.action)
+        for name in walk(given)
+        if isinstance(name, ir.Name)
+    }
+
+
+def _values(action: ir.Statement) -> tuple[ir.Expression, ...]:
+    match action:
+        case ir.Assign(value=value):
+            return (value,)
+        case ir.CallRoutine(arguments=arguments):
+            return tuple(one.value for one in arguments if one.value is not None)
+    return ()
+
+
+def _name(place: ir.Expression | None) -> str | None:
+    found = None if place is None else _base(place)
+    return None if found is None else found.lower()
 
 
 def _statements(routine: ir.Routine) -> list[ir.Statement]:

@@ -12,7 +12,7 @@ from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.storedevents import events_before_moves
-from rpl.passes.legalise.usage import called_names, exposed, usage_of
+from rpl.passes.legalise.usage import usage_of
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Target
@@ -41,29 +41,24 @@ class _Stored:
         self.scope: Scope | None = None
         self.declarations: list[ir.Declaration] = []
         self.routines: list[ir.Routine] = []
-        self.everywhere: frozenset[str] = frozenset()  # variables that every module sees, folded
+        self.everywhere: frozenset[str] = frozenset()  # variables that a trap of the module at hand sees, folded
 
     def program(self, program: ir.Program) -> ir.Program:
         scopes = ProgramScope(program)
         seen = [one for module in program.modules for one in module.declarations if isinstance(one, ir.Variable)]
-        self.everywhere = frozenset(one.name.lower() for one in seen if one.scope == "global")
-        modules = tuple(
-            replace(module, routines=tuple(self.routine(r, scopes.routine(module, r)) for r in module.routines))
-            for module in program.modules
-        )
-        program = replace(program, modules=modules)
-        if self.declarations:
-            first = modules[0]
-            home = ir.Module(
-                self.context.fresh("rpl_triggers"),
-                first.dialect,
-                tuple(self.declarations),
-                tuple(self.routines),
-                task=first.task,
-            )
-            program = exposed(program, called_names(self.routines))
-            program = replace(program, modules=(*program.modules, home))
-        return program
+        everywhere = frozenset(one.name.lower() for one in seen if one.scope == "global")
+        return replace(program, modules=tuple(self.module(module, scopes, everywhere) for module in program.modules))
+
+    def module(self, module: ir.Module, scopes: ProgramScope, everywhere: frozenset[str]) -> ir.Module:
+        """The module with the events of its moves, and the interrupts and traps that these need."""
+        own = (one.name.lower() for one in module.declarations if isinstance(one, ir.Variable))
+        self.everywhere = everywhere.union(own)
+        self.declarations, self.routines = [], []
+        routines = tuple(self.routine(one, scopes.routine(module, one)) for one in module.routines)
+        if not self.declarations:
+            return module
+        declarations = (*module.declarations, *self.declarations)
+        return replace(module, declarations=declarations, routines=(*routines, *self.routines))
 
     def routine(self, routine: ir.Routine, scope: Scope) -> ir.Routine:
         self.scope = scope
@@ -96,7 +91,7 @@ class _Stored:
 
     def stored(self, trigger: ir.Trigger, names: list[ir.Expression]) -> list[ir.Statement]:
         name = self.context.fresh("rpl_trigger")
-        self.declarations.append(ir.Variable(name, ir.TriggerType(), scope="global"))
+        self.declarations.append(ir.Variable(name, ir.TriggerType(), scope="module"))
         names.append(ir.Name(name))
         later = replace(trigger.origin, comments=())
         delay = None if trigger.delay is None or self.scope is None else constant_number(trigger.delay, self.scope)
@@ -125,7 +120,7 @@ class _Stored:
     def interrupt(self, action: ir.Statement, steps: list[ir.Statement], trigger: ir.Trigger) -> ir.Name:
         """An interrupt whose trap does the action; `steps` connect it."""
         handle, trap = self.context.fresh("rpl_trigger_interrupt"), self.context.fresh("rpl_trigger_trap")
-        self.declarations.append(ir.Variable(handle, ir.InterruptType(), scope="global"))
+        self.declarations.append(ir.Variable(handle, ir.InterruptType(), scope="module"))
         self.routines.append(ir.Routine(trap, "trap", body=(action,)))
         later = replace(trigger.origin, comments=())
         steps.append(ir.ControlInterrupt("delete", ir.Name(handle), origin=later))
