@@ -15,7 +15,7 @@ from rpl.passes.legalise.usage import Usage, doing, usage_of
 from rpl.source import Origin
 
 _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.ResumeLevel)
-_OWN = {"nearest": ir.RealType(), "now": ir.RealType()}  # variables that the tasks made here have
+_OWN = {"nearest": ir.RealType(), "was": ir.RealType(), "now": ir.RealType()}  # variables that the tasks made here have
 
 
 def tidy(origin: Origin) -> Origin:

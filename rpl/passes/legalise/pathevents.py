@@ -20,6 +20,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.movesettings import plain
+from rpl.passes.legalise.pathwatches import at_present_speed, ramp_s
 from rpl.passes.legalise.support import with_support
 from rpl.passes.legalise.usage import base_name
 from rpl.passes.typing import type_of
@@ -36,6 +37,11 @@ NOT_WATCHED = code(
     Severity.LOSS,
     "an action on the path cannot be done by a task that watches the tool: {reason}",
     stops=True,
+)
+ESTIMATED = code(
+    "path-event-estimated",
+    Severity.WARNING,
+    "a time before the end of a move of the axes is estimated from how fast the tool comes",
 )
 _EVENT = "rpl_on_path"
 
@@ -263,6 +269,9 @@ class _Events:
         """Waits until the tool is that far (or that time) before the end; at a corner its middle is the end."""
         moving, left = self.beside.moving_name(), _distance(way.end)
         size = ir.RealLiteral(0.0) if at_point else _positive(distance)  # of an arc: measured straight (arcdistances)
+        if delay < 0.0 and way.move.kind == "joint":
+            self.context.diagnostics.report(ESTIMATED, way.move.origin)
+            return self.estimated(way, size, -delay)
         if delay < 0.0:
             size = _sum(size, _along_arc(self.braking(way, -delay), way.radius))
         steps: list[ir.Statement] = []
@@ -286,6 +295,22 @@ class _Events:
             ),
         ]
         return steps
+
+    def estimated(self, way: _Way, size: ir.Expression, seconds: float) -> list[ir.Statement]:
+        """Looks in each cycle how much nearer the tool has come, until it has that time left at this speed."""
+        was, now, left = ir.Name("was"), ir.Name("now"), _distance(way.end)
+        ramp = ramp_s(way.move, self.context)
+        seconds = seconds if way.ends_in is not None else at_present_speed(seconds, ramp)
+        cycles = ir.RealLiteral(_short(seconds / self.context.capabilities.poll_s))
+        near = _sum(size, ir.Binary("*", ir.Binary("-", was, now), cycles))
+        comes = ir.Binary("cor", ir.Binary("<=", now, near), ir.Unary("not", ir.Name(self.beside.moving_name())))
+        looks = (
+            ir.Wait(_seconds(self.context.capabilities.poll_s)),
+            ir.Assign(now, left),
+            ir.If(((comes, (ir.ExitLoop(),)),)),
+            ir.Assign(was, now),
+        )
+        return [ir.Assign(was, left), ir.Loop(looks)]
 
     def braking(self, way: _Way, seconds: float) -> ir.Expression:
         """The way in mm that is left that time before the end: the move brakes evenly, or goes on through a corner."""

@@ -162,9 +162,19 @@ class _Points:
             if known < _NEAR_MM + (self.corner if from_end else 0.0):
                 return None
             return _Event(trigger, from_end, ir.RealLiteral(float(f"{known:.9g}")), known)
+        if from_end and self.is_late(trigger):
+            return None
         far = [part for part, number in zip(parts, numbers, strict=True) if number != 0]
         way = far[0] if len(far) == 1 else ir.Binary("+", *far)
         return _Event(trigger, from_end, _opposite(way) if from_end else way, None)
+
+    def is_late(self, trigger: ir.Trigger) -> bool:
+        """Does it come some time behind the end, whatever the speed is?"""
+        parts = (trigger.distance, trigger.delay)
+        numbers = [
+            0.0 if one is None else constant_number(plain(one), self.editor.scope, self.unchanged) for one in parts
+        ]
+        return None not in numbers and all(number >= 0.0 for number in numbers if number is not None)
 
     @property
     def corner(self) -> float:

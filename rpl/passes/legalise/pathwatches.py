@@ -14,8 +14,10 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.fold import Unchanged, constant_number
 from rpl.passes.legalise.beside import tidy
+from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import Editor
 from rpl.passes.legalise.movesettings import plain
+from rpl.passes.legalise.saidaccelerations import number_of
 from rpl.passes.typing import type_of
 
 WATCHED = code(
@@ -71,7 +73,8 @@ def watched(
         replace(move, triggers=(), concurrent=True),
     ]
     for one in apart:
-        seconds = max(-one.time, 0.0) * (0.5 if not size else 1.0)  # in a corner it does not brake
+        seconds = max(-one.time, 0.0)
+        seconds = seconds if size else at_present_speed(seconds, ramp_s(move, editor.context))  # a corner brakes not
         done.extend(_until(move, one.way, seconds, names, poll, size))
         done.extend([_pause(one.time)] if one.time > 0.0 else [])
         done.append(replace(one.trigger.action, origin=one.trigger.origin))
@@ -80,6 +83,29 @@ def watched(
     elif ended or not goes_on:
         done.extend(_until(move, size, 0.0, names, poll, 0.0))
     return (*done, *ended)
+
+
+def at_present_speed(seconds: float, ramp: float | None) -> float:
+    """How long the way that is left that time before the end takes at the speed of now: all of that time is braking,
+    or its last part."""
+    return seconds - ramp / 2.0 if ramp is not None and ramp < seconds else seconds / 2.0
+
+
+def ramp_s(move: ir.Move, context: Context) -> float | None:
+    """How long the move brakes from its full speed, in s; None where that is not known."""
+    arm, speed = context.to_robot or context.robot, move.speed
+    if speed is None or (move.kind == "joint" and arm is None):
+        return None
+    percent = 100.0 if move.acceleration is None else number_of(move.acceleration)
+    if move.kind == "joint" and arm is not None:
+        full, share, axis = float(min(arm.speeds)), number_of(speed.joint), number_of(speed.axis)
+        fast = axis if share is None else full * share / 100.0
+        rate = number_of(speed.axis_acceleration) or float(min(arm.accelerations))
+    else:
+        fast = number_of(speed.path)
+        usual = rules_of(context.target).system_defaults.get("path_acceleration", 5000.0)
+        rate = number_of(speed.path_acceleration) or float(usual)
+    return fast / (rate * percent / 100.0) if fast is not None and percent else None
 
 
 def _corner(move: ir.Move, editor: Editor, unchanged: Unchanged) -> float | None:
@@ -147,4 +173,4 @@ def _pause(seconds: float) -> ir.Statement:
     return ir.Wait(ir.Quantity(ir.RealLiteral(seconds), "s"))
 
 
-__all__ = ["Watched", "watched"]
+__all__ = ["Watched", "at_present_speed", "ramp_s", "watched"]
