@@ -145,6 +145,9 @@ class Capabilities:
     path_points: the smallest corner (mm) of a point that the writer cuts a straight move at for an action on its path;
     where the ends of the move are computed, a pass does it (0: moves are not cut).
 
+    row_sizes: the function `dimension` tells of a list in lists how many there are in any of its dimensions (else the
+    sizes of such a list come with it where a routine is given it).
+
     timed_arcs: an arc may say its time, where the other moves can (else it gets the speed that takes so long).
 
     straight_distances: a place on the way of an arc is looked for by how far it is straight from the arc's end or start.
@@ -286,6 +289,7 @@ class Capabilities:
     move_settings: frozenset[str] = frozenset()
     speeds: frozenset[str] = frozenset()
     blends: frozenset[str] = frozenset()
+    row_sizes: bool = True
     timed_arcs: bool = False
     straight_distances: bool = False
     move_triggers: bool = False

@@ -46,3 +46,34 @@ def test_an_array_of_a_routine_stays_its_own() -> None:
     back = read_sources([source_from_bytes(f.path, f.data) for f in done.files], "inform", Diagnostics())
     result = run_program(back.program, entry=done.renamed.get("main", "main"))
     assert [value for _, _, value in result.outputs] == [True]
+
+
+ROWS = r"""MODULE M
+VAR num a{2,3}:=[[1,2,3],[4,5,6]]; VAR num b{3,1}:=[[7],[8],[9]]; VAR num c{4}:=[1,1,1,1];
+PROC main()
+  VAR num s; VAR num t;
+  Sum a,s; Hand b,t;
+  IF s=21 AND t=24 AND Count(c)=4 SetDO do1,1;
+ENDPROC
+PROC Hand(num x{*,*},INOUT num total) Sum x,total; ENDPROC
+FUNC num Count(num x{*}) RETURN Dim(x,1); ENDFUNC
+PROC Sum(num x{*,*},INOUT num total)
+  total:=0;
+  FOR i FROM 1 TO Dim(x,1) DO
+    FOR k FROM Dim(x,2) TO 1 STEP -1 DO total:=total+x{i,k}; ENDFOR
+  ENDFOR
+ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize("target", ["krl", "urscript", "vplus"])
+def test_the_size_of_a_list_in_lists_comes_with_it(target: str) -> None:
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("m.mod", ROWS)], "rapid", diagnostics)
+    assert [value for _, _, value in run_program(read.program).outputs] == [True]
+    done = translate_program(read, target, None, None, diagnostics)
+    assert not diagnostics.of(Severity.LOSS)
+    back = read_sources([source_from_bytes(f.path, f.data) for f in done.files], target, Diagnostics())
+    result = run_program(back.program, entry=done.renamed.get("main", "main"))
+    assert [value for _, _, value in result.outputs] == [True]

@@ -97,7 +97,7 @@ def _plus(value: ir.Expression, shift: int) -> ir.Expression:
 
 def array_sizes(program: ir.Program, context: Context) -> ir.Program:
     """Sizes of arrays that a routine is given come with them."""
-    if "dimension" in context.capabilities.functions:
+    if "dimension" in context.capabilities.functions and context.capabilities.row_sizes:
         return program
     asked: dict[_Asked, str] = {}
     size = -1
@@ -153,6 +153,8 @@ class _Sized(Rewriter):
             if parameter.name.lower() != name.lower() or not isinstance(type, ir.ArrayType):
                 continue
             if number > len(type.dimensions) or type.dimensions[number - 1] is not None:
+                return None
+            if len(type.dimensions) == 1 and "dimension" in self.context.capabilities.functions:
                 return None
             key = (self.inside.name.lower(), place, number)
             if key not in self.asked:
