@@ -12,6 +12,7 @@ from .bits import BITS
 from .expressions import BUILTINS, Expressions, time_part
 from .functions import RESULTS, BindError, Builtin, bind
 from .kinds import INT, REAL, Kind, is_joints, is_number
+from .levels import level
 from .nodes import Expr
 from .rules import FIRST_REGISTER, FIRST_SIGNAL, LEGACY_ANALOG, LEGACY_DIGITAL, POSE_DIST_COUNTS_ANGLE
 from .scopes import Function
@@ -150,6 +151,10 @@ def _plain(function: str, *names: str) -> Make:
 
 def _reading(group: str, direction: str) -> Make:
     return lambda calls, bound: calls.signal(group, direction, bound["n"])
+
+
+def _output_level(calls: Calls, bound: Bound) -> ir.Expression | None:
+    return level(calls, "get_standard_analog_out", "standard_analog", bound["n"])
 
 
 def _register(name: str, kind: str) -> Make:
@@ -311,6 +316,8 @@ VALUES: dict[str, Make] = {
         for direction in ("in", "out")
         if f"get_{group}_{direction}" in BUILTINS
     },
+    "get_analog_out": lambda calls, bound: level(calls, "get_analog_out", "analog", bound["n"]),
+    "get_standard_analog_out": _output_level,
     "get_flag": lambda calls, bound: ir.Signal("flag", one_more(given(calls, bound, "n", INT))),
     **{
         f"read_{way}_{word}_register": _register(f"{way}_{word}_register", f"{kind}_{way[:-3]}")

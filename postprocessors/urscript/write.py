@@ -13,6 +13,7 @@ from rpl.writing.templates import templates
 
 from .declarations import gathered, header, variable_line
 from .helpers import HELPERS, with_needed
+from .levels import output_levels
 from .namespace import called_names, names_of, not_reached, one_namespace, programs
 from .readings import clean_readings
 from .statements import INDENT, Output, Printer
@@ -65,7 +66,7 @@ class _Script:
 
     def cleaned(self) -> tuple[ir.Program, ir.Routine | None]:
         """The program with numbers that are read out of poses rounded, and its start there."""
-        done = clean_readings(self.program)
+        done = output_levels(clean_readings(self.program))
         for module, new in zip(self.program.modules, done.modules, strict=True):
             for routine, rounded in zip(module.routines, new.routines, strict=True):
                 if routine is self.start:
