@@ -17,6 +17,7 @@ from rpl.source import NOWHERE, Origin
 
 from . import tables
 from .blocks import DataPart, ProgramPart
+from .bounds import NOTHING, Bounds
 from .expressions import root_name, significant
 
 TWO_KINDS = code(
@@ -28,7 +29,6 @@ TWO_KINDS = code(
 
 Symbol = tuple[str, str]  # program ("" for all), significant name
 POSE, REAL, BOOL = "pose", "real", "bool"
-_DEEPEST = 8
 _THREE = 3
 _KIND_TYPES: dict[str, ir.Type] = {
     "text": tables.TEXT,
@@ -49,6 +49,9 @@ class Entry:
     rank: int = 0
     last: dict[int, int] = field(default_factory=dict)  # dimension -> largest index
     unforeseen: set[int] = field(default_factory=set)  # dimensions with an index nobody can foresee
+    asked: set[int] = field(default_factory=set)  # the same, where elements are only read
+    read: dict[int, int] = field(default_factory=dict)  # dimension -> largest calculated index that is only read
+    filled: bool = False  # elements get values in the project
     origin: Origin = NOWHERE
     double: bool = False
     fixed: bool = False  # its size is declared
@@ -61,8 +64,6 @@ class Symbols:
     entries: dict[Symbol, Entry] = field(default_factory=dict)
     own: dict[str, dict[str, str]] = field(default_factory=dict)
     links: list[tuple[Symbol, Symbol]] = field(default_factory=list)
-    # what each simple variable is given, with the program where it is; None: something that cannot be seen
-    sources: dict[Symbol, list[tuple[str, ir.Expression | None]]] = field(default_factory=dict)
 
     # variables that only hold truths (see `truths`)
     truths: frozenset[Symbol] = frozenset()
@@ -98,7 +99,9 @@ class Symbols:
         if found is None or not found.rank:
             return element
         bounds = tuple(ir.IntLiteral(last_index(found, dimension)) for dimension in range(found.rank))
-        return ir.ArrayType(element, bounds, base=0)
+        open_ones = (at for at in range(found.rank) if is_open(found, at) and not found.fixed)
+        grows = tuple((at, found.last.get(at, 0)) for at in open_ones)
+        return ir.ArrayType(element, bounds, base=0, grows=grows)
 
 
 def element_type(kind: str) -> ir.Type:
@@ -108,8 +111,16 @@ def element_type(kind: str) -> ir.Type:
 
 def last_index(entry: Entry, dimension: int) -> int:
     known = entry.last.get(dimension, 0)
+    if not entry.filled:
+        known = max(known, entry.read.get(dimension, 0))
     usual = tables.LAST_INDEX if entry.rank < _THREE else tables.LAST_INDEX_OF_THREE
-    return max(known, usual) if dimension in entry.unforeseen and not entry.fixed else known
+    open_ended = is_open(entry, dimension) and not entry.fixed
+    return max(known, usual) if open_ended else known
+
+
+def is_open(entry: Entry, dimension: int) -> bool:
+    """Can nobody tell how many elements there will be? Reading one that was never filled is an error anyhow."""
+    return dimension in entry.unforeseen or (dimension in entry.asked and not entry.filled)
 
 
 def infer(programs: dict[str, ProgramPart], data: list[DataPart], diagnostics: Diagnostics) -> Symbols:
@@ -121,7 +132,11 @@ def infer(programs: dict[str, ProgramPart], data: list[DataPart], diagnostics: D
             own[significant(name)] = "parameter"
             symbols.entries[key, significant(name)] = Entry(name, rank=count)
         _declared(symbols, key, part)
-    lookers = [_Looker(symbols, key, part, programs) for key, part in programs.items()]
+    bounds = Bounds(symbols.own)
+    lookers = [_Looker(symbols, key, part, programs, bounds) for key, part in programs.items()]
+    bounds.collect(programs, {looker.key: looker.nodes for looker in lookers})
+    bounds.stored(data)
+    bounds.solve()
     for looker in lookers:
         looker.look()
     for section in data:
@@ -162,6 +177,7 @@ def _stored(symbols: Symbols, section: DataPart) -> None:
         if section.section == ".LOCATIONS" and datum.name[0] not in "$#%":
             entry.pose = entry.pose or part.origin
         entry.rank = max(entry.rank, len(datum.indices))
+        entry.filled = True
         for dimension, index in enumerate(datum.indices):
             entry.last[dimension] = max(entry.last.get(dimension, 0), index)
 
@@ -183,26 +199,33 @@ def _connect(symbols: Symbols) -> None:
 
 def _same_size(first: Entry, second: Entry) -> bool:
     """Arrays that are passed have the larger size on both sides."""
-    before = (dict(first.last), set(first.unforeseen), dict(second.last), set(second.unforeseen))
+    before = [
+        (dict(one.last), dict(one.read), set(one.unforeseen), set(one.asked), one.filled) for one in (first, second)
+    ]
     for dimension in range(max(first.rank, second.rank)):
         most = max(first.last.get(dimension, 0), second.last.get(dimension, 0))
         first.last[dimension] = second.last[dimension] = most
-    both = first.unforeseen | second.unforeseen
-    first.unforeseen, second.unforeseen = set(both), set(both)
-    return before != (first.last, first.unforeseen, second.last, second.unforeseen)
+        read = max(first.read.get(dimension, 0), second.read.get(dimension, 0))
+        first.read[dimension] = second.read[dimension] = read
+    first.unforeseen = second.unforeseen = first.unforeseen | second.unforeseen
+    first.asked = second.asked = first.asked | second.asked
+    first.filled = second.filled = first.filled or second.filled
+    return before != [(one.last, one.read, one.unforeseen, one.asked, one.filled) for one in (first, second)]
 
 
 class _Looker:
     """Looks at one program."""
 
-    def __init__(self, symbols: Symbols, key: str, part: ProgramPart, programs: dict[str, ProgramPart]) -> None:
-        self.symbols, self.key, self.part, self.programs = symbols, key, part, programs
+    def __init__(
+        self, symbols: Symbols, key: str, part: ProgramPart, programs: dict[str, ProgramPart], bounds: Bounds
+    ) -> None:
+        self.symbols, self.key, self.part, self.programs, self.bounds = symbols, key, part, programs, bounds
         self.nodes = list(walk(tuple(statement for statement in part.body if not is_settled(statement))))
-        for name, value in _given(self.nodes):
-            symbols.sources.setdefault(symbols.symbol(key, name), []).append((key, value))
+        self.filled: set[int] = set()  # elements that get values, by identity
 
     def look(self) -> None:
         here = NOWHERE
+        self.filled = {id(place) for node in self.nodes for place in self.filling(node)}
         for node in self.nodes:
             origin = getattr(node, "origin", NOWHERE)
             here = origin if origin.source is not None else here
@@ -218,8 +241,8 @@ class _Looker:
         match node:
             case ir.Name(id=name):
                 self.entry(name, here)
-            case ir.Index(base=ir.Name(id=name), indices=indices):
-                self.indexed(name, indices, here)
+            case ir.Index(base=ir.Name(id=name)):
+                self.indexed(node, name, here)
             case ir.Assign(target=target, value=value):
                 self.assigned(target, value, here)
             case ir.For(counter=counter):
@@ -270,13 +293,32 @@ class _Looker:
         elif not isinstance(value, ir.Name | ir.Index):
             self.number(target, here)
 
-    def indexed(self, name: str, indices: tuple[ir.Expression, ...], here: Origin) -> None:
+    def filling(self, node: object) -> Iterator[ir.Expression | None]:
+        """Places that a step gives a value to, or asks whether they have one."""
+        match node:
+            case ir.Assign(target=place) | ir.Dialog(answer=place):
+                yield place
+            case ir.Builtin(function="is_uninitialised", arguments=(place,)):
+                yield place
+            case ir.CallRoutine() | ir.TaskControl():
+                for symbol, given in self.bounds.handed(self.key, node, self.programs):
+                    if symbol in self.bounds.changed:
+                        names = ((root_name(one.value), one.value) for one in node.arguments)
+                        yield from (
+                            value for name, value in names if name is not None and significant(name) == given[1]
+                        )
+
+    def indexed(self, node: ir.Index, name: str, here: Origin) -> None:
         entry = self.entry(name, here)
-        entry.rank = max(entry.rank, len(indices))
-        for dimension, index in enumerate(indices):
-            most = largest(self.symbols, self.key, index, 0)
-            if most is None:
-                entry.unforeseen.add(dimension)
+        entry.rank = max(entry.rank, len(node.indices))
+        filled = id(node) in self.filled
+        entry.filled = entry.filled or filled
+        for dimension, index in enumerate(node.indices):
+            most = self.bounds.largest(self.key, index)
+            if most is None or most == NOTHING:
+                (entry.unforeseen if filled else entry.asked).add(dimension)
+            elif not filled and not isinstance(index, ir.IntLiteral):
+                entry.read[dimension] = max(entry.read.get(dimension, 0), most)
             else:
                 entry.last[dimension] = max(entry.last.get(dimension, 0), most)
 
@@ -326,42 +368,6 @@ def _are_numbers(entries: tuple[tuple[str | None, ir.Expression], ...]) -> bool:
     return True
 
 
-def largest(symbols: Symbols, program: str, index: ir.Expression, depth: int) -> int | None:
-    """The largest value an index can have; None when nobody can foresee it."""
-    if depth > _DEEPEST:
-        return None
-    match index:
-        case ir.IntLiteral(value=value) | ir.RealLiteral(value=value):
-            return int(value)
-        case ir.Unary(op="-", operand=ir.IntLiteral(value=value)):
-            return -value
-        case ir.Binary(op="+" | "*" as op, left=left, right=right):
-            one = largest(symbols, program, left, depth + 1)
-            other = largest(symbols, program, right, depth + 1)
-            if one is None or other is None:
-                return None
-            return one + other if op == "+" else one * other
-        case ir.Binary(op="-", left=left, right=ir.IntLiteral(value=value)):
-            one = largest(symbols, program, left, depth + 1)
-            return None if one is None else one - value
-        case ir.Binary(op="mod", right=ir.IntLiteral(value=value)):
-            return value - 1
-        case ir.Name(id=name) if symbols.own.get(program, {}).get(significant(name)) != "parameter":
-            return _largest_given(symbols, symbols.symbol(program, name), depth + 1)
-    return None
-
-
-def _largest_given(symbols: Symbols, symbol: Symbol, depth: int) -> int | None:
-    """The largest value a variable is ever given; None when it gets any that cannot be foreseen."""
-    most: int | None = None
-    for program, value in symbols.sources.get(symbol, (("", None),)):
-        found = largest(symbols, program, value, depth) if value is not None else None
-        if found is None:
-            return None
-        most = found if most is None else max(most, found)
-    return most
-
-
 def is_location(expression: ir.Expression) -> bool:
     """Is the value certainly a transformation?"""
     match expression:
@@ -377,23 +383,6 @@ def is_location(expression: ir.Expression) -> bool:
         case ir.VendorValue(type=type):
             return isinstance(type, ir.PoseType)
     return False
-
-
-def _given(nodes: list[object]) -> Iterator[tuple[str, ir.Expression | None]]:
-    """Everything that is given to each simple variable: values, bounds of loops, None for what cannot be seen."""
-    for node in nodes:
-        match node:
-            case ir.Assign(target=ir.Name(id=name), value=value):
-                yield name, value
-            case ir.For(counter=name, start=start, stop=stop, step=step):
-                down = isinstance(step, ir.Unary) and step.op == "-"
-                yield name, start if down else stop
-            case ir.CallRoutine(arguments=arguments) | ir.TaskControl(arguments=arguments):
-                for argument in arguments:
-                    if isinstance(argument.value, ir.Name):
-                        yield argument.value.id, None
-            case ir.Dialog(answer=ir.Name(id=name)):
-                yield name, None
 
 
 __all__ = ["Entry", "Symbols", "element_type", "infer", "is_location", "is_settled"]

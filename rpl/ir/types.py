@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -148,11 +148,13 @@ class NamedType:
 
 @dataclass(frozen=True, slots=True)
 class ArrayType:
-    """`dimensions` are upper bounds (None: taken from the argument or initial value); indices start at `base`."""
+    """`dimensions` are upper bounds (None: taken from the argument or initial value); indices start at `base`. `grows`:
+    (dimension, smallest bound) where the bound is a guess, since arrays of the source grow as they are used (V+)."""
 
     element: Type
     dimensions: tuple[Expression | None, ...]
     base: int = 1
+    grows: tuple[tuple[int, int], ...] = field(default=(), compare=False, repr=False)
 
 
 Type = (

@@ -59,6 +59,7 @@ from rpl.passes.legalise.functions import functions_to_procedures
 from rpl.passes.legalise.geometry import geometry
 from rpl.passes.legalise.givenarrays import given_arrays
 from rpl.passes.legalise.groups import name_groups
+from rpl.passes.legalise.grownarrays import grown_arrays
 from rpl.passes.legalise.handles import known_handles
 from rpl.passes.legalise.heldmotion import held_motion
 from rpl.passes.legalise.heldtimers import held_timers
@@ -197,6 +198,7 @@ from rpl.passes.typing import normalise
 PASSES: tuple[Pass, ...] = (
     source_layout,
     drop_untyped,
+    grown_arrays,
     rates,
     axes_of_arm,
     copied_flags,
