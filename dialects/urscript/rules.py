@@ -50,6 +50,7 @@ RULES = Rules(
     text_plus=True,
     undefined=True,
     array_base=0,
+    group_bits=32,  # integer registers
     text_decimals=6,
     call_depth=100,
     wait_poll_s=STEP_TIME_S,

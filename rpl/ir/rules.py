@@ -38,6 +38,7 @@ class Rules:
     whole_targets: a move to a position of which a component has no value is a fault (FANUC), else the component stays.
     implicit_pose: an undeclared name is a pose. call_depth: nested calls the controller allows.
     system_defaults: modal system variables at the start of a run, in base units. errors: names of error numbers.
+    group_bits: bits of a group of signals that has a name only, as its controller has them (URScript's registers: 32).
     blend_levels: distance in mm of each numbered blend level (INFORM PL). array_base: index of the first element of a
     list that is written out. number_marks: what stands before the digits of a number to another base, also in a text
     that is read as a number (longest first, in small letters). leading_numbers: such a text may go on behind its
@@ -66,6 +67,7 @@ class Rules:
     system_defaults: Mapping[str, float | bool | str] = field(default_factory=dict)
     errors: Mapping[str, int] = field(default_factory=dict)
     type_names: Mapping[str, Type] = field(default_factory=dict)
+    group_bits: int = 8
     blend_levels: tuple[float, ...] = ()
     array_base: int = 1
     number_marks: Mapping[str, int] = field(default_factory=dict)

@@ -53,6 +53,35 @@ def test_a_group_is_as_wide_as_its_numbers_ask_for(target: str) -> None:
     assert "group-too-narrow" not in codes
 
 
+_COMPUTED = """def main():
+  n = 300
+  write_output_integer_register(3, n * n)
+  k = read_output_integer_register(3)
+  if k - n * n == 0:
+    textmsg("met")
+  end
+end
+"""
+
+
+@pytest.mark.parametrize("target", ["krl", "vplus"])
+def test_a_register_is_wide_enough_for_what_the_program_works_out(target: str) -> None:
+    said, codes = _behind(_COMPUTED, target)
+    assert said == ["met"]
+    assert "group-too-narrow" not in codes
+
+
+@pytest.mark.parametrize("target", ["tp", "inform"])
+def test_a_register_that_may_be_too_narrow_is_named(target: str) -> None:
+    assert "group-too-narrow" in _behind(_COMPUTED, target)[1]
+
+
+@pytest.mark.parametrize(("target", "named"), [("tp", True), ("inform", True), ("krl", False), ("rapid", False)])
+def test_a_longer_cycle_is_named(target: str, named: bool) -> None:
+    script = "def main():\n  t = 0\n  while t < 0.1:\n    sync()\n    t = t + get_steptime()\n  end\nend\n"
+    assert ("step-time-longer" in _behind(script, target)[1]) == named
+
+
 @pytest.mark.parametrize("target", ["tp", "inform"])
 def test_a_group_that_cannot_be_wide_enough_is_named(target: str) -> None:
     assert "group-too-narrow" in _behind(_WIDE, target)[1]

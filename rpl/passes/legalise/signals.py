@@ -15,7 +15,7 @@ from dataclasses import replace
 from rpl import ir, registry
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.groupwidths import TOO_NARROW, WIDTH, group_widths
 from rpl.passes.legalise.signalnumbers import numbers_as_arguments, parameters_as_numbers
 from rpl.passes.rewrite import rewrite_parts
@@ -319,7 +319,8 @@ def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str
         taken = used.setdefault(kind, set())
         taken.update(range(1, max({_REACH, *taken}) + 1))
     widest = context.capabilities.widest_group
-    widths = group_widths(program, known, widest, WIDTH if alone else widest)
+    own = rules_of(context.source).group_bits
+    widths = group_widths(program, known, widest, WIDTH if alone else widest, own)
     numbers = _numbers(names, prefixes, used, alone, {key: bits for key, (bits, _) in widths.items()})
     declared, aliases = _chosen(context, names, numbers, widths, alone)
 
