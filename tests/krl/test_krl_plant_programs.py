@@ -212,6 +212,52 @@ DECL INT MS
 RETURN MS/1000
 ENDFCT
 """
+# Timers that are set from what they show, while they run and while they are stopped.
+CHANGED_TIMERS = """DEF CHECKS( )
+DECL BOOL B
+BAS(#INITMOV,0)
+; what a running timer shows goes into what it gets
+$TIMER[1]=0
+$TIMER_STOP[1]=FALSE
+WAIT SEC 0.6
+$TIMER[1]=$TIMER[1]-500
+WAIT SEC 0.3
+$OUT[1]=($TIMER[1]>350) AND ($TIMER[1]<500)
+$TIMER_STOP[1]=TRUE
+$TIMER[1]=$TIMER[1]*2
+WAIT SEC 0.5
+$OUT[2]=($TIMER[1]>700) AND ($TIMER[1]<1000)
+; set while it is stopped, and started later; set while it runs
+$TIMER_STOP[2]=TRUE
+$TIMER[2]=-200
+WAIT SEC 0.3
+$OUT[3]=($TIMER[2]==-200)
+$TIMER_STOP[2]=FALSE
+$TIMER[2]=-100
+WAIT SEC 0.4
+$OUT[4]=($TIMER[2]>250) AND ($TIMER[2]<400)
+; a routine sets it
+SET_IT(1000)
+WAIT SEC 0.2
+$OUT[5]=($TIMER[2]>1150) AND ($TIMER[2]<1350)
+B=$OUT[5]
+$TIMER_STOP[2]=B
+SET_IT(50)
+WAIT SEC 0.2
+$OUT[6]=($TIMER[2]==50)
+; one from another
+$TIMER[3]=$TIMER[1]+$TIMER[2]
+$OUT[7]=($TIMER[3]==$TIMER[1]+$TIMER[2])
+$TIMER_STOP[2]=FALSE
+$TIMER[2]=ABS($TIMER[2]-5000)
+WAIT SEC 0.1
+$OUT[8]=($TIMER[2]>5000) AND ($TIMER[2]<5200)
+END
+DEF SET_IT(MS:IN)
+DECL INT MS
+$TIMER[2]=MS
+END
+"""
 DOOR_DATA = "DEFDAT CHECKS\nDECL REAL BEGAN=0.0\nDECL REAL STOOD=0.0\nDECL INT DOORS=0\nENDDAT\n"
 
 
@@ -230,6 +276,7 @@ PROGRAMS: dict[str, tuple[str | dict[str, str], int]] = {
     "a contact": ({"checks.src": CONTACT, "checks.dat": CONTACT_DATA}, 2),
     "a call on the way": ({"checks.src": ON_THE_WAY, "checks.dat": ON_THE_WAY_DATA}, 1),
     "stopped timers": (STOPPED_TIMERS, 5),
+    "changed timers": (CHANGED_TIMERS, 8),
     "counted timers": (COUNTED_TIMERS, 10),
     "a door": ({"checks.src": DOOR, "checks.dat": DOOR_DATA}, 1),
 }
