@@ -101,6 +101,7 @@ CAPABILITIES = Capabilities(
     timed_arcs=True,
     move_settings=frozenset(("speed", "blend")),
     move_triggers=True,
+    path_assignments="signals",
     concurrent_moves="tasks",
     speeds=frozenset(("joint", "path", "rotation", "duration")),
     move_functions=frozenset((":", "compose", "element_sum", "displaced_in_tool", "joints_to_target", "pose_of")),

@@ -86,7 +86,8 @@ class Capabilities:
     come is off until it is armed again (DeclareInterrupt `once`); elsewhere it comes at each edge. single_disables: a
     single interrupt can be disabled. shortest_interrupt_period_s: of interrupts that come with time, which look at what
     no other one can. action_arguments: what an interrupt (`reaction`) or a place on the path (`path`) calls may have
-    arguments, also variables of the routine around it (`own`).
+    arguments, also variables of the routine around it (`own`). path_assignments: what a place on the path assigns:
+    `any` variable, or `signals` (else a routine assigns it).
 
     Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
@@ -150,7 +151,7 @@ class Capabilities:
 
     timed_arcs: an arc may say its time, where the other moves can (else it gets the speed that takes so long).
 
-    straight_distances: a place on the way of an arc is looked for by how far it is straight from the arc's end or start.
+    straight_distances: a place on the way of an arc is looked for by how far it is straight from an end of the arc.
 
     move_triggers: a move says the actions on its path itself (Move.triggers), and only so. late_triggers: an action
     on the path may come some time behind the end of a move that stops there (else a task does it).
@@ -292,6 +293,7 @@ class Capabilities:
     row_sizes: bool = True
     timed_arcs: bool = False
     straight_distances: bool = False
+    path_assignments: str = "any"
     move_triggers: bool = False
     late_triggers: bool = True
     concurrent_moves: str = ""

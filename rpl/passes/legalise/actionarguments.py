@@ -19,7 +19,7 @@ _NUMBERS = (ir.IntType, ir.RealType, ir.StringType)
 def action_arguments(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets where one of the two kinds of calls has no arguments."""
     can = context.capabilities
-    if {"reaction", "path", "own"} <= can.action_arguments:
+    if {"reaction", "path", "own"} <= can.action_arguments and can.path_assignments == "any":
         return program
     if not any(isinstance(node, ir.DeclareInterrupt | ir.Trigger) for node in walk(program)):
         return program
@@ -81,18 +81,21 @@ class _Actions:
         can = self.context.capabilities
         kinds = {"path": ir.Trigger, "reaction": ir.DeclareInterrupt}
         work = tuple(kind for word, kind in kinds.items() if word not in can.action_arguments)
-        if not work:
+        signals_only = can.path_assignments == "signals"
+        if not work and not signals_only:
             return routine
 
         def called(node: object) -> object:
-            if not isinstance(node, ir.Trigger | ir.DeclareInterrupt) or not isinstance(node, work):
+            own = signals_only and isinstance(node, ir.Trigger) and _of_data(node.action)
+            if not isinstance(node, ir.Trigger | ir.DeclareInterrupt) or not (own or isinstance(node, work)):
                 return node
             if isinstance(node.action, ir.CallRoutine):
                 return node
             if isinstance(node.action, ir.Assign):
-                if isinstance(node, ir.Trigger) or any(_is_local(name, scope) for name in _names(node.action)):
+                local = any(_is_local(name, scope) for name in _names(node.action))
+                if local or (isinstance(node, ir.Trigger) and not own):
                     return node
-                name = self.context.fresh("rpl_reaction")
+                name = self.context.fresh("rpl_on_path" if own else "rpl_reaction")
                 self.made.append(ir.Routine(name, body=(node.action,)))
                 return replace(node, action=ir.CallRoutine(name, origin=node.origin))
             name = self.context.fresh("rpl_on_path")
@@ -133,6 +136,11 @@ def _action(node: object) -> tuple[str, ir.CallRoutine | None]:
         case ir.Trigger(action=ir.CallRoutine() as call):
             return "path", call
     return "", None
+
+
+def _of_data(action: ir.Statement) -> bool:
+    """Does it assign a variable, and no signal?"""
+    return isinstance(action, ir.Assign) and not isinstance(action.target, ir.Signal)
 
 
 def _names(call: ir.CallRoutine | ir.Assign) -> set[str]:

@@ -36,6 +36,7 @@ SMALLER = code(
     Severity.WARNING,
     "an action on the path is {rest:.1f} mm before a corner of {corner:.1f} mm, which may be cut to half of that way",
 )
+_MOVED = {"base": "offset", "tool": "tool_offset"}  # what a relative move does to the place where it begins
 _ORDER = "; what is counted from its start is done before what is counted from its end"
 _NEAR_MM = 0.5  # an action that near to an end of the move is at the end
 _SAME_TURN = 1.0 - 1e-12  # product of two quaternions
@@ -116,9 +117,12 @@ class _Points:
         """The move in pieces, looked at on its way, or as it is. `goes_on`: the next move follows at once."""
         own = [one for one in move.triggers if isinstance(one, ir.Trigger)]
         given = [*before, *own]
-        plain_move = move.kind == "linear" and not move.relative and move.search is None and not move.concurrent
         if not given or len(own) != len(move.triggers):
             return (*before, move)
+        first = self.absolute(move)
+        if first is not None:
+            return (first[0], *self.move(first[1], before, goes_on))
+        plain_move = move.kind == "linear" and not move.relative and move.search is None and not move.concurrent
         if not plain_move:
             known = move.kind == "circular" and self.is_known(move, [])
             looked = None if known else watched(move, given, goes_on, self.editor, self.unchanged, self.temporary)
@@ -138,6 +142,23 @@ class _Points:
         self.look_at_corner(move, apart[-1])
         pieces = self.pieces(replace(move, triggers=()), apart)
         return (*starting, *pieces, *ending, replace(move, triggers=(), origin=tidy(move.origin)))
+
+    def absolute(self, move: ir.Move) -> tuple[ir.Statement, ir.Move] | None:
+        """A straight move by a distance, from where the robot stands, with the step that computes where it ends."""
+        last, way = self.last, move.target
+        stands = last is None or last.blend in (None, ir.BlendStop())
+        if move.kind != "linear" or move.relative not in _MOVED or not isinstance(way, ir.Aggregate) or not stands:
+            return None
+        given = dict(way.entries)
+        if not given.keys() <= {"x", "y", "z"}:
+            return None
+        tool = move.tool if move.tool is not None else ir.System("tool")
+        frame = move.frame if move.frame is not None else ir.System("null_frame")
+        parts = tuple(given.get(name, ir.RealLiteral(0.0)) for name in "xyz")
+        goal = self.temporary("goal", ir.PoseType())
+        here = _pose(ir.Builtin("current_target", (tool, frame)))
+        step = ir.Assign(goal, ir.Builtin(_MOVED[move.relative], (here, *parts)), origin=move.origin)
+        return step, replace(move, target=goal, relative=None, origin=tidy(move.origin))
 
     def look_at_corner(self, move: ir.Move, last: _Event) -> None:
         """A corner takes at most half of the way between two points."""
