@@ -8,6 +8,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.legalise.effects import statements_in
 from rpl.passes.scope import Scope
 from rpl.source import Origin
 from rpl.writing.statements import CannotSayError, StatementPrinter
@@ -105,6 +106,7 @@ class Printer(StatementPrinter[str]):
 
     def body(self, body: ir.Body, inner: bool = True) -> None:
         self.depth += inner
+        begun = inner and self.owed and not any(map(_needs_standing, statements_in(body)))
         at = 0
         while at < len(body):
             self.rest = body[at + 1 :]
@@ -113,7 +115,7 @@ class Printer(StatementPrinter[str]):
             if self.owed and _needs_standing(body[at]):
                 self.line("BREAK")
             at += self.joined(body[at:]) or self.one(body[at])
-        if self.owed:
+        if self.owed and not begun:  # a move that began in front of these steps goes on behind them
             self.line("BREAK")
         self.depth -= inner
 
