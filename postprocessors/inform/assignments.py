@@ -235,7 +235,8 @@ class Assignments:
         word = tables.TEXT_FUNCTIONS.get(value.function)
         if word is None:
             raise CannotSayError(f"INFORM has no function {value.function}")
-        shown = " ".join(operand(one) for one in value.arguments)
+        parts = (self.simple_number(one, "R") if isinstance(one, ir.Field) else operand(one) for one in value.arguments)
+        shown = " ".join(parts)
         self.lines.append(f"{word} {place} {shown}")
 
     def number_text(self, place: str, arguments: tuple[ir.Expression, ...]) -> None:

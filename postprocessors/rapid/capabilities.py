@@ -40,6 +40,7 @@ CAPABILITIES = Capabilities(
     reads_override=False,
     module_points="module",
     notation="rapid",
+    whole_texts=True,
     rotation="quaternion",
     for_at_least_once=True,
     for_scoped=True,

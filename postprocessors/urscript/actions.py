@@ -296,6 +296,7 @@ class Actions:
         """One or two pieces of a message; the controller shows numbers by itself."""
         match text:
             case ir.Binary(op="&", left=left, right=ir.Builtin(function="value_text", arguments=(value,))):
+                self.expressions.value_text((value,))
                 return f"{self.expressions.text(left)}, {self.expressions.text(value)}"
             case ir.Binary(op="&", left=left, right=right):
                 return f"{self.expressions.text(left)}, {self.expressions.text(right)}"

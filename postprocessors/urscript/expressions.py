@@ -299,6 +299,13 @@ class Expressions:
     def fraction(self, values: tuple[ir.Expression, ...]) -> Printed:
         return Printed(f"{self.atom(values[0])} - {self.helper('rpl_trunc', self.text(values[0]))}", tables.SUM)
 
+    def value_text(self, values: tuple[ir.Expression, ...]) -> str:
+        """The controller would write a value with components in its own way."""
+        type = self.type(values[0])
+        if isinstance(type, ir.ArrayType | ir.NamedType) or type.__class__ in ir.POSITIONAL:
+            raise CannotSayError("a text of a value with components")
+        return f"to_str({self.text(values[0])})"
+
     def dimension(self, values: tuple[ir.Expression, ...]) -> str:
         type = self.type(values[0])
         bounds = type.dimensions if isinstance(type, ir.ArrayType) else ()
@@ -356,6 +363,7 @@ def _what(expression: ir.Expression) -> str:
 _E = "2.718281828459045"
 _Special = Callable[[Expressions, tuple[ir.Expression, ...]], "str | Printed"]
 _SPECIAL: dict[str, _Special] = {
+    "value_text": lambda e, v: e.value_text(v),
     "exp": lambda e, v: f"pow({_E}, {e.text(v[0])})",
     "log": lambda e, v: f"log({_E}, {e.text(v[0])})",
     "log10": lambda e, v: f"log(10, {e.text(v[0])})",

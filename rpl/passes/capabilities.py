@@ -149,6 +149,8 @@ class Capabilities:
     row_sizes: the function `dimension` tells of a list in lists how many there are in any of its dimensions (else the
     sizes of such a list come with it where a routine is given it).
 
+    whole_texts: `value_text` makes a text of a value with components too (else of those one by one).
+
     timed_arcs: an arc may say its time, where the other moves can (else it gets the speed that takes so long).
 
     straight_distances: a place on the way of an arc is looked for by how far it is straight from an end of the arc.
@@ -291,6 +293,7 @@ class Capabilities:
     speeds: frozenset[str] = frozenset()
     blends: frozenset[str] = frozenset()
     row_sizes: bool = True
+    whole_texts: bool = False
     timed_arcs: bool = False
     straight_distances: bool = False
     path_assignments: str = "any"

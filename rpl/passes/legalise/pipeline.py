@@ -184,6 +184,7 @@ from rpl.passes.legalise.valuearrays import copy_value_arrays
 from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.legalise.watches import counted_watches
 from rpl.passes.legalise.watching import watching
+from rpl.passes.legalise.wholetexts import whole_texts
 from rpl.passes.legalise.wristpaths import wrist_paths
 from rpl.passes.legalise.writeonly import kept_outputs
 from rpl.passes.typing import normalise
@@ -225,6 +226,7 @@ PASSES: tuple[Pass, ...] = (
     changed_places,
     random_numbers,
     formats,
+    whole_texts,
     text_orders,
     text_bytes,
     leading_numbers,
