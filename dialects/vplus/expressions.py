@@ -201,8 +201,10 @@ class Expressions(ABC):
                 return ir.Builtin("pose_of", (ir.System("end_pose", origin=origin),), origin=origin)
             case "null":
                 return ir.System("null_frame", origin=origin)
-            case "tool" | "base":
+            case "tool":
                 return ir.System(lower, origin=origin)
+            case "base":  # M: the function gives back what the instruction was given
+                return ir.Builtin("inverse", (ir.System(lower, origin=origin),), origin=origin)
             case "random":
                 return ir.Builtin("random", (), origin=origin)
             case "#phere":

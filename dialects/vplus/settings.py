@@ -10,13 +10,14 @@ from collections.abc import Iterable
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes import rigid
 from rpl.reading.shapes import StatementError, SyntaxTree
 from rpl.source import Origin
 
 from . import signals, tables
 from .expressions import root_name, significant, subtree
-from .functions import transformation
-from .motion import Motion
+from .functions import constant, literal, transformation
+from .motion import Motion, negated
 from .split import code_of
 from .statements import ALWAYS_TRUE, Instruction, Lowered
 
@@ -143,12 +144,12 @@ class Settings(Motion):
         if len(values) == 1:
             tree = given.operands[0]
             if tree is not None and tree.data not in ("integer", "real", "unary"):
-                return values[0]
+                null = isinstance(values[0], ir.System) and values[0].name == "null_frame"
+                return values[0] if null or values[0] is None else inverted(values[0], given.origin)
         if not any(values):
             return None
         zero = ir.IntLiteral(0)
-        x, y, z, turn = ((values + [None] * 4)[n] or zero for n in range(4))
-        return transformation([x, y, z, turn, zero, zero], given.origin)
+        return where_world_is([(values + [None] * 4)[n] or zero for n in range(4)], given.origin)
 
     # ---- waiting, reactions, stops, tasks
 
@@ -456,6 +457,26 @@ def scaled(value: ir.Expression, factor: float, origin: Origin) -> ir.Expression
 def share(percent: ir.Expression, full: float, origin: Origin) -> ir.Expression:
     """A percentage of a full speed."""
     return scaled(percent, full / 100.0, origin)
+
+
+def inverted(place: ir.Expression, origin: Origin) -> ir.Expression:
+    return ir.Builtin("inverse", (place,), origin=origin)
+
+
+def where_world_is(moved: list[ir.Expression], origin: Origin) -> ir.Expression:
+    """The world's frame seen from the robot when that has been moved by x, y, z and turned about z (language
+    reference, BASE, Details: it compensates for a robot that was moved). M: so the arguments act on places in reverse.
+    """
+    zero = ir.IntLiteral(0)
+    known = [constant(value) for value in moved]
+    x, y, z, turn = known
+    if turn == 0:
+        back = [negated(value, origin) if at is None else literal(-at) for value, at in zip(moved, known, strict=True)]
+        return transformation([*back[:3], zero, zero, zero], origin)
+    if x is None or y is None or z is None or turn is None:
+        return inverted(transformation([*moved, zero, zero], origin), origin)
+    there = rigid.Pose(rigid.Vector(x, y, z), rigid.rotation_of_turns((3, turn))).inverse.position
+    return transformation([literal(there.x), literal(there.y), literal(there.z), literal(-turn), zero, zero], origin)
 
 
 def handle(signal: ir.Expression) -> ir.Expression:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rpl import ir
+from rpl.passes import rigid
 from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
@@ -75,10 +76,7 @@ def setting(name: str, value: ir.Expression, always: bool, expressions: Expressi
         case "tool" | "base":
             if not always:
                 raise CannotSayError(f"a {name} for one move")
-            shown = text(value)
-            if name == "base" and shown[:1].isdigit():
-                raise CannotSayError("a base that is a number")
-            return [f"{name.upper()} {shown}"]
+            return [_base(value, expressions) if name == "base" else f"TOOL {text(value)}"]
         case "override":
             return [f"SPEED {text(value)} MONITOR"]
         case "deceleration_percent":
@@ -101,3 +99,35 @@ def setting(name: str, value: ir.Expression, always: bool, expressions: Expressi
             if word is not None:
                 return [word]
     raise CannotSayError(f"there is no setting for {name.replace('_', ' ')}")
+
+
+def _base(frame: ir.Expression, expressions: Expressions) -> str:
+    """BASE says how the robot was moved, which is the inverse of the frame; M: a location says the same."""
+    match frame:
+        case ir.System(name="null_frame"):
+            return "BASE"
+        case ir.Builtin(function="inverse", arguments=(ir.Aggregate(entries=entries),)):
+            x, y, z, turn, *others = (value for _, value in entries)
+            if all(expressions.known(one) == 0 for one in others):
+                return f"BASE {', '.join(map(expressions.text, (x, y, z, turn)))}"
+        case ir.Builtin(function="inverse", arguments=(place,)):
+            return f"BASE {expressions.text(place)}"
+        case ir.Aggregate(entries=entries) if len(entries) == 6:
+            x, y, z, turn, *others = (value for _, value in entries)
+            known = [expressions.known(one) for one in (x, y, z, turn)]
+            if any(expressions.known(one) != 0 for one in others):
+                raise CannotSayError("a base that is tilted")
+            if known[3] == 0:
+                back = [value.operand if isinstance(value, ir.Unary) else ir.Unary("-", value) for value in (x, y, z)]
+                parts = (one if at is None else -at for one, at in zip(back, known, strict=False))
+                return f"BASE {', '.join(_shown(one, expressions) for one in parts)}, 0"
+            if None not in known:
+                at = rigid.Vector(*(one or 0.0 for one in known[:3]))
+                moved = rigid.Pose(at, rigid.rotation_of_turns((3, known[3] or 0.0))).inverse.position
+                numbers = (moved.x, moved.y, moved.z, -(known[3] or 0.0))
+                return f"BASE {', '.join(_shown(one, expressions) for one in numbers)}"
+    return f"BASE INVERSE({expressions.text(frame)})"
+
+
+def _shown(value: ir.Expression | float, expressions: Expressions) -> str:
+    return spelling.number(value + 0.0, 9) if isinstance(value, float | int) else expressions.text(value)

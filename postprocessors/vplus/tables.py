@@ -93,7 +93,7 @@ VALUES = {
 }
 SYSTEM = {
     "tool": "TOOL",
-    "base": "BASE",
+    "base": "INVERSE(BASE)",
     "null_frame": "NULL",
     "world": "NULL",
     "actual_pose": "HERE",

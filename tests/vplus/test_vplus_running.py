@@ -6,9 +6,13 @@ import pytest
 from vplus_helpers import outputs, program_of, read, run
 
 from rpl.cell.cellfile import Cell, parse_cell
+from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import load_robot
 from rpl.linking.program import link
+from rpl.project import read_sources
 from rpl.simulation import run_program
+from rpl.source import source_from_text
+from rpl.translation import translate_program
 
 
 def inputs(*changes: tuple[float, int, bool]) -> Cell:
@@ -107,6 +111,11 @@ HOLDS = [
         "SCALE leaves the orientation",
         "n = 3\nSET p = SCALE(TRANS(10,20,30,0,180,40) BY 0.5)\nSET q = SCALE(p BY n)\n"
         "IF (DX(p) == 5) AND (DZ(q) == 45) AND (DISTANCE(q:TRANS(0,0,1), TRANS(15,30,44)) < 0.001) THEN\nSIGNAL 1\nEND",
+    ),
+    (  # M: BASE says how the robot was moved; what it stands at is seen from the world
+        "BASE compensates for a robot that was moved",
+        "MOVE TRANS(300,0,260,0,180)\nBREAK\nBASE 10,20,40,90\nSET b = BASE\n"
+        "IF (DISTANCE(HERE, TRANS(10,320,300)) < 0.01) AND (DISTANCE(b, TRANS(10,20,40)) < 0.01) THEN\nSIGNAL 1\nEND",
     ),
     ("SHIFT moves in the world", "SET p = SHIFT(RZ(90) BY 5,0,0)\nIF DX(p) == 5 THEN\nSIGNAL 1\nEND"),
 ]
@@ -285,3 +294,10 @@ def test_the_hand_takes_its_time(parameter: str, seconds: float) -> None:
 def test_a_hand_whose_time_changes_is_not_guessed() -> None:
     result = run("PARAMETER HAND.TIME = 0.2\nCLOSEI\nPARAMETER HAND.TIME = 0.4\nOPENI\nSIGNAL 1")
     assert result.fault is not None and result.fault.code == "vendor"
+
+
+def test_base_is_written_as_it_was_read() -> None:
+    steps = ["BASE 0, 0, 40, 0", "BASE 10, 20, 30, 90", "BASE x, 5, 0, 0", "BASE", "BASE board", "SET board = BASE"]
+    source = read_sources([source_from_text("p.v2", program_of("\n".join(steps)))], "vplus", Diagnostics())
+    text = translate_program(source, "vplus", "adept_viper_s650", None, Diagnostics()).files[0].data.decode()
+    assert [line.strip() for line in text.splitlines()][1:7] == steps
