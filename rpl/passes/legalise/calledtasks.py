@@ -28,6 +28,12 @@ CALLED = code(
     Severity.WARNING,
     "task {name}, which moves the robot, is called as a routine; what the program does meanwhile {how}",
 )
+LIMITED = code(
+    "moving-task-limit",
+    Severity.WARNING,
+    "the program waits for a limited time while task {name} moves the robot; here the time counts from the end of the"
+    " motion, and its end does not stop the robot",
+)
 KEPT = code(
     "moving-task-kept",
     Severity.WARNING,
@@ -80,6 +86,7 @@ class _Called:
             raise UnfitError("the program has no such routine")
         timed = closure(self.program, _TIME)
         self.task = WatchedTask(self.context, found[0], timed, closure(self.program, _DRIVES))
+        self.task.routines = {r.name.lower(): r for m in self.program.modules for r in m.routines}
 
     def program_with_calls(self) -> ir.Program:
         asked = [node for node in self.nodes() if node.task.lower() == self.name]
@@ -99,6 +106,8 @@ class _Called:
         how = "is done by a task beside it" if self.made else "is done behind it"
         how = how if not self.routines else "to end it is an interrupt"
         self.context.diagnostics.report(CALLED, asked[0].origin, name=self.task.routine.name, how=how)
+        if self.task.limited:
+            self.context.diagnostics.report(LIMITED, asked[0].origin, name=self.task.routine.name)
         made = (*self.routines, *self.made)
         done = exposed(done, called_names(made))
         return with_support(done, self.context, self.data, made, modules[0].task)
