@@ -28,6 +28,9 @@ WATCHED = code(
 )
 
 
+_STRAIGHT_MM = 20.0  # so far an arc's end is about as far straight as it is along the arc
+
+
 @dataclass(frozen=True, slots=True)
 class Watched:
     """An action that comes where the tool is `way` mm from the end, or `time` s before it, or that long behind."""
@@ -58,6 +61,8 @@ def watched(
     if size is None or any(one is None for one in events):
         return None
     found = [one for one in events if one is not None]
+    if move.kind == "circular" and any(one.way > _STRAIGHT_MM for one in found):
+        return None
     apart = sorted((one for one in found if one.way or one.time), key=lambda one: one.order)
     both = any(one.way for one in apart) and any(one.time for one in apart)
     if not apart or (both and len(apart) > 1):
