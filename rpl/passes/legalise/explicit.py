@@ -7,6 +7,7 @@ read backwards, and reported once.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from rpl import ir
@@ -16,7 +17,7 @@ from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.datalists import moving_entries
 from rpl.passes.legalise.helpers import Helpers
 from rpl.passes.legalise.modal import DROPPED, JOINT_BLEND, MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
-from rpl.passes.legalise.usage import base_name, doing, each_statement, usage_of
+from rpl.passes.legalise.usage import assigned_below, assigned_in, base_name, doing, each_statement, usage_of
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import component_names
@@ -49,6 +50,7 @@ CORNER_OUTPUT = code(
 
 # Settings of the source's controller that only steer how it interpolates or checks; a target without them drops them.
 _TURNS = frozenset(("swivel_speed", "twist_speed"))
+_OF_NO_MOVE = frozenset(("timer", "timer_stopped", "flag"))
 _OF_EACH_AXIS = ("joint_speed", "joint_acceleration")
 _CHECKS = frozenset(
     {
@@ -73,7 +75,7 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     entries = moving_entries(program)
     looks_ahead = "advance" in context.capabilities.system_variables
     on_paths = any(isinstance(node, ir.Move) and node.kind != "joint" for node in walk(*program.modules))
-    quiet = _quiet(program)
+    quiet, below = _quiet(program), assigned_below(program)
     modules = []
     for module in program.modules:
         routines = []
@@ -81,7 +83,7 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
             if looks_ahead and routine.name.lower() in entries and routine.body:
                 routine = _looking_ahead(routine, rules_of(context.target).advance.moves)
                 routine = _slowing(routine, context) if on_paths else routine
-            worker = Modal(context, scopes.routine(module, routine), assigned, reported, usual, quiet)
+            worker = Modal(context, scopes.routine(module, routine), assigned, reported, usual, quiet, below)
             handlers = tuple(replace(handler, body=worker.body(handler.body, {})) for handler in routine.handlers)
             routines.append(replace(routine, body=worker.body(routine.body, {}), handlers=handlers))
         modules.append(replace(module, routines=tuple(routines)))
@@ -156,9 +158,10 @@ class Modal:
         reported: set[Code],
         usual: frozenset[str] = frozenset(),
         quiet: frozenset[str] = frozenset(),
+        below: Mapping[str, set[str]] | None = None,
     ) -> None:
         self.context, self.scope, self.assigned, self.reported = context, scope, assigned, reported
-        self.usual, self.quiet = usual, quiet
+        self.usual, self.quiet, self.below = usual, quiet, below or {}
         self.brakes = _BRAKES & context.capabilities.system_variables
         ours = rules_of(context.source).advance
         self.at_corners = (
@@ -244,8 +247,12 @@ class Modal:
         """What is still known behind a statement that may set something, itself or in what it calls."""
         if not self.leaves_modal_state(statement):
             known.clear()
-        elif any(isinstance(node, ir.CallRoutine | ir.Call | ir.Do) for node in walk(statement)):
-            for key in [key for key, value in known.items() if _names(value) & self.assigned]:
+        elif calls := [node for node in walk(statement) if isinstance(node, ir.CallRoutine | ir.Call | ir.Do)]:
+            changed = assigned_in((statement,))
+            for node in calls:
+                below = None if isinstance(node, ir.Do) else self.below.get(node.name.lower())
+                changed |= self.assigned if below is None else below
+            for key in [key for key, value in known.items() if _names(value) & changed]:
                 del known[key]
         else:
             each_statement((statement,), lambda inner: self.changed(_assigned(inner), known))
@@ -442,6 +449,8 @@ def _quiet(program: ir.Program) -> frozenset[str]:
 def _sets(node: object) -> bool:
     """Is it something that sets what is modal, or may do so?"""
     match node:
+        case ir.Assign(target=ir.System(name=name)) if name in _OF_NO_MOVE:
+            return False
         case ir.Move() | ir.MoveExternal() | ir.Spline() | ir.Assign(target=ir.System()) | ir.CallRoutine():
             return True
         case ir.TaskControl() | ir.Vendor() | ir.Opaque():

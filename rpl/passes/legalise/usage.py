@@ -139,6 +139,21 @@ def assigned_in(body: ir.Body) -> set[str]:
     return usage.assigned | _changed(usage, {})
 
 
+def assigned_below(program: ir.Program) -> dict[str, set[str]]:
+    """Routine (folded) -> names that it, or what it calls by name, assigns or passes where they could be changed."""
+    found: dict[str, set[str]] = {}
+    calls: dict[str, set[str]] = {}
+    for module in program.modules:
+        for routine in module.routines:
+            key = routine.name.lower()
+            for body in bodies(routine):
+                found.setdefault(key, set()).update(assigned_in(body))
+            called = (node.name.lower() for node in walk(routine) if isinstance(node, ir.CallRoutine | ir.Call))
+            calls.setdefault(key, set()).update(called)
+    _close(found, calls)
+    return found
+
+
 def _statement(statement: ir.Statement, key: str, usage: Usage, calls: dict[str, set[str]], handlers: set[str]) -> None:
     _assigned(statement, usage)
     match statement:
