@@ -28,10 +28,15 @@ STRAIGHT = code(
 AHEAD = code(
     "vplus-path-time",
     Severity.WARNING,
-    "a time before a place is written as the distance at the programmed speed",
+    "a time before a place is written as the distance at the programmed speed; with a lower MONITOR it comes earlier",
 )
 CALLED = code(
     "vplus-path-call", Severity.WARNING, "the program goes on with its moves only when {name}, called on the path, ends"
+)
+LATE = code(
+    "vplus-late-call",
+    Severity.WARNING,
+    "the program itself waits for the time behind the move, and calls {name}; only then it goes on",
 )
 HELD = code(
     "vplus-path-corner",
@@ -173,7 +178,7 @@ class PathEvents:
         """The program itself waits for the time and calls, where no other action of the move could come meanwhile."""
         if self.waiting or self.carried or not isinstance(trigger.action, ir.CallRoutine):
             raise CannotSayError("a call some time behind a place on the path")
-        self.once(CALLED, trigger, name=trigger.action.name)
+        self.once(LATE, trigger, name=trigger.action.name)
         origin = replace(trigger.origin, comments=())
         steps = self.printer.captured(ir.Wait(delay, origin=origin))
         return [*steps, *self.printer.captured(replace(trigger.action, origin=origin))]

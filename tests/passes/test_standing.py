@@ -100,3 +100,42 @@ def test_a_flag_for_another_task_waits_for_the_robot() -> None:
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], "krl", Diagnostics())
     result = run_program(back.program, "fanuc_lrmate200id", None, written.renamed.get("MAIN", "MAIN"), 60.0)
     assert [each[2] for each in result.outputs] == [True]
+
+
+LISTING = """/PROG  MAIN
+/MN
+   1:  UFRAME_NUM=0 ;
+   2:J P[1] 50% FINE ;
+   3:  R[1]=0 ;
+   4:  LBL[1] ;
+   5:  R[1]=R[1]+1 ;
+   6:L P[2] 200mm/sec FINE DB 30mm,CALL ADD(R[1]) ;
+   7:L P[1] 200mm/sec FINE TB .10sec,CALL ADD(10) ;
+   8:  IF R[1]<2,JMP LBL[1] ;
+   9:  R[1]=50 ;
+  10:  IF (R[24]=23),DO[1]=ON ;
+/POS
+P[1]{
+   GP1:
+	UF : 0, UT : 1,	CONFIG : 'N U T, 0, 0, 0',
+	X = 420.000 mm,	Y = 0.000 mm,	Z = 0.000 mm,
+	W = 180.000 deg,	P = 0.000 deg,	R = 0.000 deg
+};
+P[2]{
+   GP1:
+	UF : 0, UT : 1,	CONFIG : 'N U T, 0, 0, 0',
+	X = 420.000 mm,	Y = 100.000 mm,	Z = 0.000 mm,
+	W = 180.000 deg,	P = 0.000 deg,	R = 0.000 deg
+};
+/END
+"""
+ADD = "/PROG  ADD\n/MN\n   1:  R[24]=R[24]+AR[1] ;\n/POS\n/END\n"
+
+
+def test_a_jump_back_from_a_move_finds_it_still_going_on() -> None:
+    sources = [source_from_text("MAIN.LS", LISTING), source_from_text("ADD.LS", ADD)]
+    read = read_sources(sources, "tp", Diagnostics())
+    written = translate_program(read, "krl", "fanuc_lrmate200id", None, Diagnostics())
+    back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], "krl", Diagnostics())
+    ran = run_program(back.program, "fanuc_lrmate200id", entry="MAIN")
+    assert [each[2] for each in ran.outputs] == [True]

@@ -41,7 +41,7 @@ def stand_first(program: ir.Program, context: Context) -> ir.Program:
                 routines.append(routine)  # the program waits, or drives nothing
                 continue
             worker = _Standing(facts, scopes.routine(module, routine), target.stop_statements)
-            routines.append(replace(routine, body=worker.body(routine.body, False)[0]))
+            routines.append(replace(routine, body=worker.whole(routine.body)[0]))
         modules.append(replace(module, routines=tuple(routines)))
     return replace(program, modules=tuple(modules))
 
@@ -128,7 +128,7 @@ def _with_ends(program: ir.Program, facts: _Facts, scopes: ProgramScope, stops: 
         for module in program.modules:
             for routine in module.routines:
                 worker = _Standing(facts, scopes.routine(module, routine), stops)
-                if routine.name.lower() in facts.movers and worker.body(routine.body, False)[1]:
+                if routine.name.lower() in facts.movers and worker.whole(routine.body)[1]:
                     halting.add(routine.name.lower())
         if halting <= facts.halting:
             return facts
@@ -138,6 +138,24 @@ def _with_ends(program: ir.Program, facts: _Facts, scopes: ProgramScope, stops: 
 class _Standing:
     def __init__(self, facts: _Facts, scope: Scope, stops: frozenset[str]) -> None:
         self.facts, self.scope, self.stops = facts, scope, stops
+        self.jumps: dict[str, bool] = {}  # label -> does a jump come there while the target still moves?
+
+    def whole(self, body: ir.Body) -> tuple[ir.Body, bool]:
+        """The body of a routine; again where a jump back turns out to come from a move."""
+        while True:
+            known = dict(self.jumps)
+            done = self.body(body, False)
+            if known == self.jumps:
+                return done
+
+    def behind(self, statement: ir.Statement, moving: bool) -> bool:
+        """What holds behind a move of its own kind, a label and a jump."""
+        match statement:
+            case ir.Goto(label=label):
+                self.jumps[label.lower()] = self.jumps.get(label.lower(), False) or moving
+            case ir.Label(name=name):
+                return moving or self.jumps.get(name.lower(), False)
+        return False
 
     def body(self, body: ir.Body, moving: bool) -> tuple[ir.Body, bool]:
         """`moving`: the source stands here, the target perhaps not yet. Also whether that holds at the end."""
@@ -149,7 +167,7 @@ class _Standing:
                     done.append(statement)
                     continue
                 case ir.MoveExternal() | ir.Spline() | ir.Label() | ir.Goto():
-                    moving = False
+                    moving = self.behind(statement, moving)
                     done.append(statement)
                     continue
             if statement.__class__.__name__ in self.stops or touches(statement, self.scope):
