@@ -18,7 +18,7 @@ from rpl.source import Origin
 
 from . import tables
 from .calls import function_call
-from .readings import ASKED, JOINTS_OF, counted, counts, joints_of, without_counting
+from .readings import ASKED, JOINTS_OF, counted, counts, joints_of
 
 LOOSE_LOGIC = code(
     "krl-comparison-precedence",
@@ -527,8 +527,6 @@ def related(relation: str, left: ir.Expression, right: ir.Expression, origin: Or
         return related(relation, right, left, origin)
     elif isinstance(right, _NUMBERS):
         left = as_number(left)
-    if relation not in ("=", "<>"):
-        left, right = without_counting(left, right), without_counting(right, left)
     return ir.Binary(relation, left, right, origin=origin)
 
 

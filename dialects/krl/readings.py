@@ -48,13 +48,3 @@ def counts(tree: SyntaxTree) -> bool:
 def counted(make: Callable[[Pieces, Origin], ir.Expression]) -> Callable[[Pieces, Origin], ir.Expression]:
     """A timer is read as an INT: what is between two milliseconds is not seen."""
     return lambda pieces, origin: ir.Convert("round_half_away", make(pieces, origin), origin=origin)
-
-
-def without_counting(value: ir.Expression, other: ir.Expression) -> ir.Expression:
-    """A timer beside a written number in a question of more or less, where its whole milliseconds change nothing."""
-    match value, other:
-        case ir.Convert(operand=ir.Magnitude(value=ir.System()) as time), (
-            ir.IntLiteral() | ir.RealLiteral() | ir.Unary(operand=ir.IntLiteral() | ir.RealLiteral())
-        ):
-            return time
-    return value

@@ -185,6 +185,7 @@ from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.legalise.watches import counted_watches
 from rpl.passes.legalise.watching import watching
 from rpl.passes.legalise.wholetexts import whole_texts
+from rpl.passes.legalise.wholetimes import whole_times
 from rpl.passes.legalise.wristpaths import wrist_paths
 from rpl.passes.legalise.writeonly import kept_outputs
 from rpl.passes.typing import normalise
@@ -208,6 +209,7 @@ PASSES: tuple[Pass, ...] = (
     seen_half,
     step_times,
     load_readings,
+    whole_times,
     same_units,
     shared_task_data,
     cyclic_flags,
