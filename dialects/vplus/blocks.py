@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -23,6 +24,11 @@ LATE_DECLARATION = code(
     "move the line to the top of the program",
 )
 MISPLACED = code("vplus-misplaced", Severity.ERROR, "{what} cannot stand here")
+JOINT_SPEED = code(
+    "vplus-speed-of-joints",
+    Severity.INFO,
+    "a tool speed holds for straight lines; moves in joints get {percent} percent of their speed",
+)
 AFTER_DELAY = code(
     "vplus-after-delay",
     Severity.WARNING,
@@ -31,6 +37,7 @@ AFTER_DELAY = code(
 )
 NO_LOOP = code("vplus-no-such-loop", Severity.ERROR, "{word} {count} reaches over more loops than there are")
 
+_UNIT = re.compile(r"\b(?:MMPS|IPS)\b", re.IGNORECASE)
 _STATEMENTS = get_args(ir.Statement)
 
 
@@ -108,7 +115,19 @@ class Builder:
                 self.diagnostics.report(MISPLACED, item.origin, what="a declaration inside of a block")
                 done.append(ir.Opaque(item.origin.text, origin=item.origin))
         self.check_delays(done)
+        self.check_speeds(done)
         return tuple(done)
+
+    def check_speeds(self, body: list[ir.Statement]) -> None:
+        """A tool speed for the next move counts for straight lines: told where that is not one."""
+        for at, statement in enumerate(body):
+            match statement:
+                case ir.SetForNextMove(
+                    setting=ir.System(name="joint_speed"), value=ir.IntLiteral() | ir.RealLiteral() as percent
+                ) if _UNIT.search(statement.origin.text or ""):
+                    following = next((one for one in body[at:] if isinstance(one, ir.Move)), None)
+                    if following is None or following.kind == "joint":
+                        self.diagnostics.report(JOINT_SPEED, statement.origin, percent=f"{percent.value:g}")
 
     def check_delays(self, body: list[ir.Statement]) -> None:
         """DELAY is a motion to the controller: a step behind it does not wait for its end."""

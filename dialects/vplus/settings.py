@@ -15,6 +15,7 @@ from rpl.reading.shapes import StatementError, SyntaxTree
 from rpl.source import Origin
 
 from . import signals, tables
+from .blocks import JOINT_SPEED
 from .expressions import root_name, significant, subtree
 from .functions import constant, literal, transformation
 from .motion import Motion, negated
@@ -25,11 +26,6 @@ INPUT_WRITTEN = code(
     "vplus-input-written",
     Severity.WARNING,
     "{text} writes an input; a controller does that only when its inputs are imitated",
-)
-JOINT_SPEED = code(
-    "vplus-speed-of-joints",
-    Severity.INFO,
-    "a tool speed holds for straight lines; moves in joints get {percent} percent of their speed",
 )
 RUN_SIGNAL = code(
     "vplus-run-signal",
@@ -111,7 +107,7 @@ class Settings(Motion):
         settings = [("joint_speed", percent), ("path_speed", path)]
         if turning is not None:
             settings.append(("swivel_speed", share(turning, tables.FULL_ROTATION_SPEED_DEG_S, origin)))
-        if isinstance(percent, ir.RealLiteral | ir.IntLiteral):
+        if given.always and isinstance(percent, ir.RealLiteral | ir.IntLiteral):  # of the next move: see `blocks`
             self.diagnostics.report(JOINT_SPEED, origin, percent=f"{percent.value:g}")
         return self.set_to(settings, given.always, origin)
 

@@ -298,3 +298,16 @@ w[2] 2
         re.sub(r"\D", "", name) for _, name, value in result.outputs if value and not name.startswith(("F[", "200"))
     }
     assert result.status == "finished" and len(named & {"0", "1", "2"}) == 2, result.outputs
+
+
+@pytest.mark.parametrize(
+    ("steps", "told"),
+    [
+        ("SPEED 100 MMPS\nMOVES a", False),
+        ("SPEED 100 MMPS\nMOVE a", True),
+        ("SPEED 100 MMPS ALWAYS\nMOVES a", True),
+        ("SPEED 50\nMOVE a", False),
+    ],
+)
+def test_a_tool_speed_of_moves_in_joints_is_told(steps: str, told: bool) -> None:
+    assert ("vplus-speed-of-joints" in reported(steps)) == told
