@@ -66,3 +66,16 @@ def test_wrist_of_six_axes(target: str) -> None:
 def test_a_posture_at_a_place_that_is_known_in_a_run_only() -> None:
     text = SCARA.replace("PLACE", "here").replace("LEFTY", "HERE here\n        LEFTY")
     assert "posture-change-lost" in translated(text, "adept_cobra_s600", "krl")[1]
+
+
+@pytest.mark.parametrize("target", ["krl", "rapid", "tp", "urscript", "inform"])
+def test_a_word_for_the_wrist_where_the_rest_is_open(target: str) -> None:
+    """Behind joints that a run computes the arm stands as before, which is said."""
+    move = "        HERE #now\n        DECOMPOSE j[1] = #now\n        MOVE #PPOINT(j[1],j[2],j[3],j[4],j[5],j[6]+5)\n"
+    text = SIX_AXES.replace("        FLIP\n", f"        BREAK\n{move}        FLIP\n")
+    read = read_sources([source_from_text("k.v2", text)], "vplus", Diagnostics())
+    diagnostics = Diagnostics()
+    translate_program(read, target, "adept_viper_s650", None, diagnostics)
+    codes = [item.code.name for item in diagnostics]
+    assert "posture-left-open" in codes
+    assert not diagnostics.of(Severity.LOSS)

@@ -27,6 +27,12 @@ POSTURE = code(
     "this move asks for another {name} than other moves; the target has no such setting and keeps the posture",
     "write the posture into the target of the move",
 )
+OPEN = code(
+    "posture-left-open",
+    Severity.WARNING,
+    "this move asks for one part of the posture; how the arm stands otherwise is not known here, so the joints it goes to "
+    "are those nearest to {where}",
+)
 _STANDING = (ir.Nothing, ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.LookAhead)
 
 
@@ -40,7 +46,7 @@ def asked_postures(program: ir.Program, context: Context) -> ir.Program:
 
 
 class _Asked(Rewriter):
-    """`here`: the joints that the move before went to, where they are known."""
+    """`here`: the joints that the move before went to, where they are known. `seen`: the last known ones before."""
 
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
@@ -49,14 +55,15 @@ class _Asked(Rewriter):
         asked = [_asked(one).items() for one in walk(*program.modules) if isinstance(one, ir.Move)]
         self.varied = {name for name in _POSTURES if len({w for one in asked for n, w in one if n == name}) > 1}
         self.here: Any = None
+        self.seen: Any = None
         named = {routine.name.lower() for module in program.modules for routine in module.routines}
         self.quiet = named - doing(program, lambda node: isinstance(node, ir.Move | ir.Vendor) or _calls_any(node))
         self.flow, self.unchanged = ModalFlow(program, self.scopes), unchanged_in(program)
 
     def body(self, body: ir.Body) -> ir.Body:
-        self.here = None
+        self.here = self.seen = None
         done = super().body(body)
-        self.here = None
+        self.here = self.seen = None
         return done
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
@@ -81,7 +88,7 @@ class _Asked(Rewriter):
         asked = _asked(move)
         plain = replace(move, settings=_others(move)) if asked else move
         goal = constant(move.target, self.scope, self.unchanged)
-        joints = self.axes(goal)
+        joints, self.seen = self.axes(goal), self.seen if self.here is None else self.here
         if move.relative is not None or move.search is not None:
             self.here = None
         elif joints is not None:  # joints say it all, whatever the words
@@ -112,8 +119,18 @@ class _Asked(Rewriter):
         ways = [arm.in_posture(flange.matrix, one.joints, asked) for one in arm.inverse(flange.matrix, arm.home)]
         found = [None if way is None else arm.nearest_turn(way, arm.home) for way in ways]
         if not found or any(one is None or abs(one - found[0]).max() > 1e-6 for one in found):
-            return None
+            return self.guessed(move, flange.matrix, asked) if asked and found else None
         return found[0]
+
+    def guessed(self, move: ir.Move, flange: Any, asked: dict[str, str]) -> Any:
+        """The joints in the posture that is asked for, otherwise as the arm stood last or stands at first."""
+        arm, near = self.arm, self.seen
+        assert arm is not None
+        way = arm.in_posture(flange, arm.home if near is None else near, asked)
+        if way is not None:
+            where = "its home position" if near is None else "the last joints that are known"
+            self.context.diagnostics.report(OPEN, move.origin, where=where)
+        return way
 
     def axes(self, value: object) -> Any:
         """Constant joint values (n,)."""

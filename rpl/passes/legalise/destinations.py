@@ -1,20 +1,31 @@
 """Where the robot's motion will end (`end_pose`), for targets that do not say so.
 
-Right behind a move it is the target of that move. Where reading it stops the advance run, the robot stands there by
-then, and it is the actual place. What is neither stays, and the writer refuses it.
+Right behind a move it is the target of that move. Where reading it stops the advance run, or something before lets the
+robot stand, it is the actual place. Where a move or an assignment asks for it elsewhere, the program waits for the end
+of the motion first, which is said. What is neither stays, and the writer refuses it.
 """
 
 from __future__ import annotations
 
 from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.passes.legalise.activations import Activations, called
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.usage import assigned_in, base_name, each_expression
+from rpl.passes.legalise.effects import statements_in
+from rpl.passes.legalise.usage import assigned_in, base_name, bodies, each_expression
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
 
+WAITED = code(
+    "destination-waited-for",
+    Severity.WARNING,
+    "the target does not say where the motion will end; the robot stops here first, and stands there then",
+)
 _SETTINGS = frozenset(("tool", "base", "robot_root"))
 _WHOLE = 6  # components of a whole place
 _QUIET = (ir.Assign, ir.WaitForMotion, ir.Nothing, ir.Wait, ir.WaitUntil)
+_MAY_WAIT = (ir.Move, ir.Assign, ir.CallRoutine)
+_MOTION = (ir.Move, ir.MoveExternal, ir.Spline)
 
 
 def destinations(program: ir.Program, context: Context) -> ir.Program:
@@ -29,14 +40,39 @@ class _Destinations(Rewriter):
         super().__init__(program, context)
         self.standing = rules_of(context.source).advance.signals_stop
         self.last: ir.Move | None = None
+        self.stands = self.may_wait = False
+        facts = Activations.of(program)
+        own = {
+            key: [one for body in bodies(item) for one in statements_in(body)] for key, item in facts.routines.items()
+        }
+        moving = {key for key, found in own.items() if any(isinstance(one, _MOTION) for one in found)}
+        self.movers = {key for key in own if facts.reached({key}) & moving}
+        self.stopping = {key for key, item in facts.routines.items() if any(map(_stops, item.body))} - self.movers
+        self.beside = facts.beside.union(*facts.threads[1:])
+
+    def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        self.last, self.stands, self.in_program = None, False, id(routine) not in self.beside
+        return super().routine(module, routine)
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
         if expression == ir.System("end_pose"):
-            if self.standing:
-                return ir.System("actual_pose", origin=expression.origin)
-            if self.last is not None:
+            if self.last is not None and not self.standing:
                 return self.goal(self.last)
+            if self.standing or self.stands:
+                return ir.System("actual_pose", origin=expression.origin)
+            if self.may_wait and self.in_program:
+                self.before.append(ir.WaitForMotion())
+                return ir.System("actual_pose", origin=expression.origin)
         return rewrite_parts(expression, self.expression)
+
+    def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+        outside, self.may_wait = self.may_wait, isinstance(statement, _MAY_WAIT)
+        done, waits = super().statement(statement), bool(self.before)
+        self.may_wait = outside
+        if waits:
+            del self.before[1:]
+            self.context.diagnostics.report(WAITED, statement.origin)
+        return done
 
     def goal(self, move: ir.Move) -> ir.Expression:
         """The place a move goes to, seen in the modal frame."""
@@ -45,25 +81,39 @@ class _Destinations(Rewriter):
         return move.target
 
     def body(self, body: ir.Body) -> ir.Body:
-        outside, self.last = self.last, None
+        outside, self.last, self.stands = self.last, None, False
         done: list[ir.Statement] = []
         for statement in body:
             done.extend(super().body((statement,)) if isinstance(statement, _QUIET) else self.nested(statement))
+            self.stands = self.at_rest(statement)
             self.last = self.behind(statement)
-        self.last = outside
+        self.last, self.stands = outside, False
         return tuple(done)
 
     def nested(self, statement: ir.Statement) -> ir.Body:
         """A statement with bodies, or one behind which the motion may be another: only its own first look counts."""
         first = statement.branches[0][0] if isinstance(statement, ir.If) else None
-        kept, self.last = self.last, None
+        kept, self.last = (self.last, self.stands), None
         done = Rewriter.body(self, (statement,))
-        self.last = kept
+        self.last, self.stands = kept
         if first is None or not done or not isinstance(done[-1], ir.If):
             return done
         branches = done[-1].branches
         asked = (self.expression(first), branches[0][1])
         return (*done[:-1], ir.If((asked, *branches[1:]), done[-1].otherwise, origin=done[-1].origin))
+
+    def at_rest(self, statement: ir.Statement) -> bool:
+        """Does the robot stand behind the statement, whatever was before?"""
+        if _stops(statement):
+            return True
+        if not isinstance(statement, (*_QUIET, ir.CallRoutine)):
+            return False
+        found = called(statement, self.scope)
+        if isinstance(statement, ir.CallRoutine) and (statement.dynamic is not None or not found):
+            return False
+        if any(id(one) in self.movers for one in found):
+            return False
+        return self.stands or any(id(one) in self.stopping for one in found)
 
     def behind(self, statement: ir.Statement) -> ir.Move | None:
         """The move that the robot drives behind a statement, as far as it is known."""
@@ -80,6 +130,10 @@ class _Destinations(Rewriter):
             case ir.WaitForMotion() | ir.Nothing() | ir.Wait() | ir.WaitUntil(timed_out=None):
                 return self.last
         return None
+
+
+def _stops(statement: ir.Statement) -> bool:
+    return isinstance(statement, ir.WaitForMotion) or (isinstance(statement, ir.Wait) and statement.in_position)
 
 
 def _moved(move: ir.Move) -> bool:

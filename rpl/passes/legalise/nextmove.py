@@ -35,12 +35,12 @@ def settings_of_next_move(program: ir.Program, context: Context) -> ir.Program:
     if can.next_move_settings and not can.move_settings & {"speed", "blend"}:
         return program
     facts = Activations.of(program)
-    moving = {key for key, routine in facts.routines.items() if any(map(_moves, _every(routine)))}
+    moving = {key for key, routine in facts.routines.items() if any(map(moves, _every(routine)))}
     movers = {key for key in facts.routines if facts.reached({key}) & moving}
     outermost = set(facts.routines) - {one for callees in facts.calls.values() for one in callees}
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        if not any(_attached(one, can) for one in _every(routine)):
+        if not any(set_at_move(one, can) for one in _every(routine)):
             return routine
         follow = _Follow(editor, movers, id(routine) in outermost)
         for body in bodies(routine):
@@ -53,7 +53,7 @@ def settings_of_next_move(program: ir.Program, context: Context) -> ir.Program:
     return edit_routines(program, context, work)
 
 
-def _attached(statement: ir.Statement, can: Capabilities) -> bool:
+def set_at_move(statement: ir.Statement, can: Capabilities) -> bool:
     """Is it a setting that the target has to say at the move?"""
     if not isinstance(statement, ir.SetForNextMove):
         return False
@@ -66,7 +66,8 @@ def _every(routine: ir.Routine) -> list[ir.Statement]:
     return [statement for body in bodies(routine) for statement in statements_in(body)]
 
 
-def _moves(statement: ir.Statement) -> bool:
+def moves(statement: ir.Statement) -> bool:
+    """Does the statement move the robot, or set something for its next move?"""
     return isinstance(statement, (ir.Move, *_OTHER_MOTION, ir.SetForNextMove))
 
 
@@ -116,7 +117,7 @@ class _Follow:
 
     def statement(self, statement: ir.Statement, waiting: Waiting) -> Waiting | None:
         match statement:
-            case ir.SetForNextMove() if not _attached(statement, self.editor.capabilities):
+            case ir.SetForNextMove() if not set_at_move(statement, self.editor.capabilities):
                 return waiting
             case ir.SetForNextMove():
                 pending = self.every.setdefault(id(statement), _Pending(statement))
@@ -132,7 +133,7 @@ class _Follow:
             case ir.Switch(cases=cases, default=default):
                 return self.choice([*(case.body for case in cases), default or ()], statement, waiting)
             case ir.For(body=body) | ir.While(body=body) | ir.Repeat(body=body) | ir.Loop(body=body):
-                if any(map(_moves, statements_in(body))):
+                if any(map(moves, statements_in(body))):
                     self.lose(waiting, "it stands in a loop")
                     waiting = {}
                 self.lose(self.body(body, {}) or {}, "the loop may go on or end before it")
@@ -182,7 +183,7 @@ class _Attach:
 
     def statement(self, statement: ir.Statement) -> ir.Body:
         match statement:
-            case ir.SetForNextMove(value=value) if _attached(statement, self.editor.capabilities):
+            case ir.SetForNextMove(value=value) if set_at_move(statement, self.editor.capabilities):
                 pending = self.follow.every[id(statement)]
                 if pending.lost:
                     return (statement,)
@@ -208,6 +209,11 @@ class _Attach:
 
 def _fixed(value: ir.Expression) -> bool:
     return is_constant(value) or isinstance(value, ir.EnumLiteral)
+
+
+def fixed_setting(statement: ir.SetForNextMove) -> bool:
+    """Is the value the same wherever and whenever it is asked?"""
+    return _fixed(statement.value)
 
 
 def _pair(statement: ir.SetForNextMove, kept: ir.Name | None) -> tuple[ir.Expression, ir.Expression]:

@@ -94,6 +94,7 @@ from rpl.passes.legalise.nearjoints import near_joints
 from rpl.passes.legalise.nestedinterrupts import nested_interrupts
 from rpl.passes.legalise.neutralfunctions import neutral_functions
 from rpl.passes.legalise.nextmove import settings_of_next_move
+from rpl.passes.legalise.nextmovecalls import next_moves_behind_calls
 from rpl.passes.legalise.numbered import number_data
 from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.onceonly import reactions_once, rearmed_reactions
@@ -252,6 +253,7 @@ PASSES: tuple[Pass, ...] = (
     possible_cases,
     wrist_paths,
     labels_to_structure,
+    next_moves_behind_calls,
     settings_of_next_move,
     joined_moves,
     move_times,

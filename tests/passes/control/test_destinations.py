@@ -29,11 +29,13 @@ END
 """
 
 
-def written(text: str, name: str, dialect: str, target: str, robot: str) -> tuple[str, list[str]]:
+def written(
+    text: str, name: str, dialect: str, target: str, robot: str, severity: str = "LOSS"
+) -> tuple[str, list[str]]:
     diagnostics = Diagnostics()
     read = read_sources([source_from_text(name, text)], dialect, diagnostics)
     done = translate_program(read, target, robot, None, diagnostics)
-    losses = [item.code.name for item in diagnostics if item.severity.name == "LOSS"]
+    losses = [item.code.name for item in diagnostics if item.severity.name == severity]
     return "".join(one.data.decode("latin-1") for one in done.files), losses
 
 
@@ -47,13 +49,15 @@ def written(text: str, name: str, dialect: str, target: str, robot: str) -> tupl
         ("        WAIT DISTANCE(HERE,DEST) < 50\n        SIGNAL 2", True),
         ("        SET there = SHIFT(there BY 10)", False),
         ("        SPEED 50\n        MOVE there\n        BREAK", True),
-        ("        TOOL TRANS(0,0,50)", False),
+        ("        BREAK\n        TOOL TRANS(0,0,50)", True),
         ("        IF n > 1 THEN\n            MOVES SHIFT(there BY 10)\n        END", False),
     ],
 )
 def test_behind_a_move_it_is_its_target(between: str, known: bool) -> None:
-    _, losses = written(VPLUS.format(between=between), "main.v2", "vplus", "urscript", "adept_viper_s650")
-    assert bool(losses) != known, losses
+    program = VPLUS.format(between=between)
+    assert not written(program, "main.v2", "vplus", "urscript", "adept_viper_s650")[1]
+    warnings = written(program, "main.v2", "vplus", "urscript", "adept_viper_s650", "WARNING")[1]
+    assert ("destination-waited-for" in warnings) != known, warnings
 
 
 def test_a_language_that_waits_is_there() -> None:
@@ -67,3 +71,44 @@ def test_the_ready_position_is_that_of_the_arm(target: str) -> None:
     text = ".PROGRAM main()\n READY\n BREAK\n SIGNAL 1\n.END\n"
     _, losses = written(text, "main.v2", "vplus", target, "adept_viper_s650")
     assert not losses
+
+
+STOPPING = """.PROGRAM main()
+        MOVE TRANS(400,50,400,0,180,0)
+        DEPARTS 40
+{between}
+        ALIGN
+        BREAK
+        SIGNAL 1
+.END
+.PROGRAM note(n)
+        n = n+1
+        BREAK
+.END
+.PROGRAM count(n)
+        n = n+1
+.END
+"""
+
+
+@pytest.mark.parametrize(
+    ("between", "waited"),
+    [
+        ("        BREAK", False),
+        ("        CALL note(n)\n        n = 5", False),
+        ("        BREAK\n        CALL count(n)", False),
+        ("        CALL count(n)", True),
+        ("        n = 5", True),
+    ],
+)
+@pytest.mark.parametrize("target", ["rapid", "tp", "urscript", "inform"])
+def test_where_it_is_not_known_the_robot_stands_first(target: str, between: str, waited: bool) -> None:
+    program = STOPPING.format(between=between)
+    assert not written(program, "main.v2", "vplus", target, "adept_viper_s650")[1]
+    warnings = written(program, "main.v2", "vplus", target, "adept_viper_s650", "WARNING")[1]
+    assert ("destination-waited-for" in warnings) == waited, warnings
+
+
+def test_a_wait_that_looks_on_does_not_stop_the_robot_first() -> None:
+    program = STOPPING.format(between="        WAIT DISTANCE(HERE,DEST) < 50")
+    assert written(program, "main.v2", "vplus", "urscript", "adept_viper_s650")[1]
