@@ -1,4 +1,5 @@
-"""Calls with arguments that an interrupt or a place on the path makes, for targets that call only routines without any.
+"""Calls with arguments that an interrupt or a place on the path makes, for targets that call only routines without any,
+or that pass copies only: what the routine writes is taken over behind the call, which is a step of its own.
 
 A routine made for it makes the call. The arguments are looked at when it is made, as in the source; those that are
 variables of the routine around become data of its module.
@@ -19,7 +20,8 @@ _NUMBERS = (ir.IntType, ir.RealType, ir.StringType)
 def action_arguments(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets where one of the two kinds of calls has no arguments."""
     can = context.capabilities
-    if {"reaction", "path", "own"} <= can.action_arguments and can.path_assignments == "any":
+    all_kinds = {"reaction", "path", "own"} <= can.action_arguments
+    if all_kinds and can.path_assignments == "any" and can.reference_parameters:
         return program
     if not any(isinstance(node, ir.DeclareInterrupt | ir.Trigger) for node in walk(program)):
         return program
@@ -114,6 +116,8 @@ class _Actions:
         if "own" not in can.action_arguments and any(_is_local(name, scope) for name in _names(call)):
             return True
         routine = scope.routine(call.name)
+        if routine is not None and not can.reference_parameters:
+            return any(one.mode == "reference" for one in routine.parameters)
         if kind != "path" or can.parameters == "names" or routine is None:
             return False
         return any(one.mode != "value" or not isinstance(one.type, _NUMBERS) for one in routine.parameters)

@@ -78,9 +78,15 @@ class _Stored:
             if waiting and isinstance(statement, ir.Move):
                 names: list[ir.Expression] = []
                 for trigger in waiting:
-                    done.extend(self.stored(trigger, names))
+                    name = self.context.fresh("rpl_trigger")
+                    self.declarations.append(ir.Variable(name, ir.TriggerType(), scope="module"))
+                    names.append(ir.Name(name))
+                    done.extend(self.stored(trigger, ir.Name(name)))
                 waiting = []
                 done.append(replace(statement, triggers=(*statement.triggers, *names)))
+                continue
+            if isinstance(statement, ir.DefineTrigger) and statement.interrupt is None:
+                done.extend(self.stored(statement.trigger, statement.target))
                 continue
             if waiting and not isinstance(statement, ir.Assign | ir.Nothing | ir.LookAhead):
                 done.extend(waiting)  # no move follows here: left for the writer to report
@@ -89,16 +95,14 @@ class _Stored:
         done.extend(waiting)
         return tuple(done)
 
-    def stored(self, trigger: ir.Trigger, names: list[ir.Expression]) -> list[ir.Statement]:
-        name = self.context.fresh("rpl_trigger")
-        self.declarations.append(ir.Variable(name, ir.TriggerType(), scope="module"))
-        names.append(ir.Name(name))
+    def stored(self, trigger: ir.Trigger, variable: ir.Expression) -> list[ir.Statement]:
+        """The statements that put the event into the variable."""
         later = replace(trigger.origin, comments=())
         delay = None if trigger.delay is None or self.scope is None else constant_number(trigger.delay, self.scope)
         if delay == 0:
             trigger = replace(trigger, delay=None)
         if isinstance(trigger.action, ir.Assign) and not self.by_a_trap(trigger.action):
-            return [ir.DefineTrigger(ir.Name(name), replace(trigger, origin=later), origin=trigger.origin)]
+            return [ir.DefineTrigger(variable, replace(trigger, origin=later), origin=trigger.origin)]
         steps: list[ir.Statement] = []
         action: ir.Statement = trigger.action
         if delay is not None and delay > 0 and trigger.delay is not None:
@@ -107,7 +111,7 @@ class _Stored:
             trigger = replace(trigger, delay=None)
         handle = self.interrupt(action, steps, trigger)
         steps[0] = replace(steps[0], origin=trigger.origin)
-        return [*steps, ir.DefineTrigger(ir.Name(name), replace(trigger, origin=later), handle, origin=later)]
+        return [*steps, ir.DefineTrigger(variable, replace(trigger, origin=later), handle, origin=later)]
 
     def by_a_trap(self, action: ir.Assign) -> bool:
         """Does only a routine do this: a variable that gets a value, or a signal that gets what is worked out then?"""
