@@ -30,8 +30,8 @@ POSTURE = code(
 OPEN = code(
     "posture-left-open",
     Severity.WARNING,
-    "this move asks for one part of the posture; how the arm stands otherwise is not known here, so the joints it goes to "
-    "are those nearest to {where}",
+    "this move asks for one part of the posture; how the arm stands otherwise is not known here, so it goes to the "
+    "joints nearest to {where}",
 )
 _STANDING = (ir.Nothing, ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.LookAhead)
 
