@@ -45,6 +45,7 @@ class Place:
     points: dict[int, str] = field(default_factory=dict)
     labels: tuple[int, ...] = ()
     taught: dict[int, Position] = field(default_factory=dict)  # positions by where they stand in the listing
+    german: bool = False  # are the key words of the listing German?
 
 
 class Expressions:

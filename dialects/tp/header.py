@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from .words import attribute_name
+from .words import attribute_name, attribute_value
 
 _PROGRAM = re.compile(r"/PROG[ \t]+(\S+)[ \t]*([A-Za-z]*)")
 _ATTRIBUTE = re.compile(
@@ -34,7 +34,7 @@ def read_header(text: str) -> Header:
         attributes.append(("PROG_TYPE", program[2]))
     body, _, application = text.partition("/APPL")
     for name, value in _ATTRIBUTE.findall(body):
-        attributes.append((attribute_name(name), value))
+        attributes.append((attribute_name(name), attribute_value(value)))
     kept = " ".join(application.partition("/MN")[0].split())
     if kept:
         attributes.append(("APPL", kept))

@@ -30,6 +30,7 @@ from .motion import Motion
 from .positions import Position, parse_position
 from .registers import MODULE, Facts, conclude, declarations, survey
 from .split import MACRO, SHAPE, split, without_notes
+from .words import is_german
 
 TWICE = code("tp-program-twice", Severity.WARNING, "program {name} stands in two files; the first one is called")
 CUT_OFF = code(
@@ -149,7 +150,7 @@ def _read_listing(
 ) -> tuple[list[ir.Module], FileReport]:
     lowering = Motion(facts, diagnostics)
     kinds = {number: position.kind for number, position in file.positions.items()}
-    lowering.place = Place(file.name, kinds, file.labels, file.taught)
+    lowering.place = Place(file.name, kinds, file.labels, file.taught, is_german(file.source.text))
     lowering.modal, lowering.offsets = {}, {}
     builder = Builder(diagnostics, file.name, lowering.modal)
     done = assemble(file.source, "tp", iter(file.pieces), _parser(), lowering.lower, builder, diagnostics)

@@ -23,6 +23,7 @@ from .expressions import Choice, Expressions, Pieces, Typed
 from .header import read_header
 from .positions import parse_position, variable
 from .split import without_notes
+from .words import english
 
 Lowered = Element | tuple[Element, ...]
 Many = tuple[ir.Statement, ...]
@@ -88,12 +89,13 @@ class Statements(Expressions):
         return statements
 
     def origin_line(self) -> str:
-        """The statement's own text without its number and its end."""
+        """The statement's own text, in English, without its number and its end."""
         text = " ".join(self.origin.text.split())
         head, colon, rest = text.partition(":")
         if colon and (not head.strip() or head.strip().isdigit()):
             text = rest
-        return text.strip().removesuffix(";").strip()
+        text = text.strip().removesuffix(";").strip()
+        return english(text) if self.place.german else text
 
     def written(self, pattern: str) -> str:
         """The part of the statement's own text that fits; numbers in the tree of a shape are not the statement's."""

@@ -71,6 +71,7 @@ _ATTRIBUTES = {
     "DEFAULT_GRUP": "DEFAULT_GROUP",
     "KONTROLLCODE": "CONTROL_CODE",
 }
+_MOMENT = re.compile(r"\bTAG\s+(\S+)\s+ZEIT\s+(\S+)")
 
 
 def is_german(text: str) -> bool:
@@ -93,3 +94,8 @@ def _english(part: str) -> str:
 def attribute_name(name: str) -> str:
     """The English name of a header attribute."""
     return _ATTRIBUTES.get(name, name)
+
+
+def attribute_value(value: str) -> str:
+    """The value of a header attribute with its words in English (`TAG 24-01-31  ZEIT 10:20:30`)."""
+    return _MOMENT.sub(r"DATE \1  TIME \2", value)

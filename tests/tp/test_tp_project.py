@@ -1,6 +1,7 @@
 """Projects of listings and dumps: registers, arguments, kinds of positions, German listings, damaged files."""
 
 import pytest
+from rpl.dialects.tp.header import read_header
 from tp_reading_helpers import HOME, ROBOT, as_rpl, body, cartesian, listing, outputs, read, reports, run
 
 from rpl import ir, registry
@@ -230,7 +231,7 @@ GERMAN = [
     ("WARTE    .10(Sek)", "WAIT 0.1"),
     ("TIMER[3]=STOPP", "$timer_stopped[3] = TRUE"),
     ("AUFRUF MAIN", "MAIN()"),
-    ("TRAGLST[1]", 'VENDOR tp "TRAGLST[1]" EFFECT tuning'),
+    ("TRAGLST[1]", 'VENDOR tp "PAYLOAD[1]" EFFECT tuning'),
     ("ENDE", "RETURN"),
     ("L P[2] 10mm/sek CNT0 ACC250", "MOVE LINEAR TO P2 SPEED 10 ACCELERATION 250 BLEND PERCENT 0"),
     ("L P[2] max_Geschw. FINE", "MOVE LINEAR TO P2 SPEED 2000.0 FINE"),
@@ -254,6 +255,11 @@ def test_a_german_statement_means(line: str, meaning: str) -> None:
 def test_german_jumps() -> None:
     text = listing("WENN (!E[15]),SPRUNG LABEL[1]\nLABEL[1]\nWKZ_NUM=1\nBENUTZER_NUM=0", german=True)
     assert "GOTO LBL1" in as_rpl(read(text)[0])
+
+
+def test_the_header_of_a_german_listing_is_read_in_english() -> None:
+    header = read_header("/PROG  UP20\n/ATTR\nEIGN.\t\t= MNEDITOR;\nERSTELL\t\t= TAG 25-11-03  ZEIT 13:36:58;\n/MN\n")
+    assert header.attributes == (("OWNER", "MNEDITOR"), ("CREATE", "DATE 25-11-03  TIME 13:36:58"))
 
 
 def test_german_words_stay_in_english_listings() -> None:
