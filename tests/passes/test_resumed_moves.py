@@ -52,3 +52,50 @@ def test_the_move_away_is_made(target: str) -> None:
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
     result = run_program(back.program, ROBOT, parse_cell(CELL), written.renamed.get("demo", "demo"))
     assert [value for _, _, value in result.outputs] == [True, False, True, True]
+
+
+CLEARED = """ENTRY main
+MODULE feeding
+    VAR hand: POSE = {x: 0, y: 0, z: 200, a: 0, b: 0, c: 0}
+    VAR start: POSE = {x: 900, y: -100, z: 500, a: 0, b: 180, c: 0}
+    VAR far: POSE = {x: 900, y: 150, z: 500, a: 0, b: 180, c: 0}
+    VAR arrived: BOOL = FALSE
+    PROCEDURE main()
+        VAR stood: POSE
+        $tool = hand
+        MOVE TO {j1: 0, j2: -90, j3: 90, j4: 0, j5: 90, j6: 0} JOINT SPEED 50 %
+        MOVE LINEAR TO start SPEED 250 mm/s
+        DECLARE INTERRUPT 21 WHEN di[3] DO stop_feed()
+        INTERRUPT ON 21
+        SET do[13] TO ON
+        feed_on()
+        INTERRUPT OFF 21
+        stood = current_position()
+        MOVE LINEAR TO start SPEED 250 mm/s
+        SET do[1] TO NOT arrived
+        SET do[2] TO stood.y > -95.0 AND stood.y < 0.0
+    END PROCEDURE
+    PROCEDURE feed_on()
+        MOVE LINEAR TO far SPEED 80 mm/s
+        arrived = TRUE
+    END PROCEDURE
+    PROCEDURE stop_feed()
+        STOP MOTION
+        CLEAR MOTION
+        RESUME LEVEL
+    END PROCEDURE
+END MODULE
+"""
+
+
+@pytest.mark.parametrize("target", ["krl", "rapid", "urscript", "vplus", "tp"])
+def test_a_routine_that_drops_the_motion_and_resumes(target: str) -> None:
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("feeding.rpl", CLEARED)], "rpl", diagnostics)
+    written = translate_program(read, target, "kuka_kr16_2", None, diagnostics)
+    lost = [item.as_text() for item in diagnostics.of(Severity.LOSS) if item.code.name != "angles-normalised"]
+    assert not lost
+    back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
+    entry = back.program.entry or written.renamed.get("main", "main")
+    result = run_program(back.program, "kuka_kr16_2", parse_cell(CELL), entry)
+    assert [value for _, _, value in result.outputs][-2:] == [True, True]

@@ -2,6 +2,7 @@
 
 The interrupt routine drops the motion and raises a flag. Every routine that runs below the level of the declaration
 asks for the flag behind each statement that takes time, and returns; the declaring routine lowers it behind the call.
+Where the target resumes, its resume drops the motion: what drops it before says nothing more.
 """
 
 from __future__ import annotations
@@ -19,6 +20,8 @@ from rpl.source import Origin
 def resumes(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that cannot resume at the level of a declaration but can clear the path."""
     statements, drops = context.capabilities.statements, context.capabilities.stopping_reactions
+    if "ResumeLevel" in statements and "ClearMotion" not in statements:
+        return _resume_clears(program)
     if "ResumeLevel" in statements or not ({"ClearMotion", "StartMotion"} <= statements or drops):
         return program
     facts = _Facts()
@@ -155,6 +158,23 @@ class _Resumes:
         return tuple(done)
 
 
+def _resume_clears(program: ir.Program) -> ir.Program:
+    """Routines that brake, drop the motion and certainly resume, without the second of these."""
+
+    def without(routine: ir.Routine) -> ir.Routine:
+        body = routine.body
+        clears = _clears(body) and bool(body) and isinstance(body[-1], ir.ResumeLevel)
+        leaves = any(isinstance(node, ir.StartMotion | ir.Return | ir.Goto | ir.Raise) for node in walk(*body))
+        stops = next((at for at, one in enumerate(body) if isinstance(one, ir.StopMotion)), None)
+        if not clears or leaves or stops is None:
+            return routine
+        rest = (ir.Nothing(origin=one.origin) if isinstance(one, ir.ClearMotion) else one for one in body[stops:])
+        return replace(routine, body=(*body[:stops], *rest))
+
+    modules = (replace(module, routines=tuple(map(without, module.routines))) for module in program.modules)
+    return replace(program, modules=tuple(modules))
+
+
 def _clears(body: ir.Body) -> bool:
     return any(isinstance(statement, ir.ClearMotion) for statement in body)
 
@@ -166,6 +186,9 @@ def _dropped_at_once(body: ir.Body, drops: bool) -> ir.Body:
         return body
     done: list[ir.Statement] = []
     for at, statement in enumerate(body):
+        if drops and isinstance(statement, ir.ClearMotion) and any(isinstance(one, ir.StopMotion) for one in body[:at]):
+            done.append(ir.Nothing(origin=statement.origin))
+            continue
         done.append(statement)
         if not isinstance(statement, ir.StopMotion):
             continue
