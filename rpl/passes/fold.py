@@ -8,7 +8,7 @@ and tools are in programs whose language has no other place for them. `literal` 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 
@@ -21,7 +21,7 @@ from rpl.passes.typewords import component_names, word_type
 from rpl.passes.typing import normalise, type_of
 from rpl.passes.values import Member, Value, binary, component, composed, converted, literal, pure, real, scaled, unary
 
-__all__ = ["Unchanged", "Value", "constant", "constant_number", "literal", "real", "simplify"]
+__all__ = ["Unchanged", "Value", "constant", "constant_number", "element_key", "literal", "real", "simplify"]
 
 _DEEPEST = 64  # constants that rest on constants; a longer chain is a cycle
 
@@ -41,8 +41,14 @@ def constant(
     known: Mapping[str, Value] | None = None,
 ) -> Value | None:
     """The value of a normalised expression, None when it may change or cannot be known here. `known` are values at this
-    place of the run: of variables by folded name, of system variables with a `$` in front."""
+    place of the run: of variables by folded name, of elements by `element_key`, of system variables with a `$` in
+    front."""
     return _Folder(scope, unchanged, known=known).value(expression, None)
+
+
+def element_key(name: str, places: Sequence[int]) -> str:
+    """The name of an array's element among values that are known at a place of the run."""
+    return f"{name.lower()}[{','.join(map(str, places))}]"
 
 
 def constant_number(expression: ir.Expression, scope: Scope, unchanged: Unchanged | None = None) -> float | None:
@@ -141,6 +147,8 @@ class _Folder:
         whole = [int(place) for place in places if isinstance(place, int | float)]
         if len(whole) != len(places):
             return None
+        if isinstance(base, ir.Name) and (given := self.known.get(element_key(base.id, whole))) is not None:
+            return given
         found = self.value(base, None)
         if found is None:
             return self.listed(base, whole)

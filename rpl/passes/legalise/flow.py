@@ -14,7 +14,7 @@ from functools import partial
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes import rigid
-from rpl.passes.fold import constant
+from rpl.passes.fold import constant, element_key
 from rpl.passes.legalise.context import ProgramScope
 from rpl.passes.legalise.usage import base_name, bodies, each_expression, each_statement
 from rpl.passes.legalise.walk import unchanged_in
@@ -143,6 +143,8 @@ class ModalFlow:
     def statement(self, statement: ir.Statement, state: State, scope: Scope) -> None:
         for callee in _callees(statement, scope):
             self.call(callee, state, scope)
+        for name in _lent(statement, scope):
+            _forget_variable(state, name)
         if self.asking:
             self.questions(statement, state, scope)
         match statement:
@@ -219,9 +221,20 @@ class ModalFlow:
             case ir.Field(base=ir.System(name=name)):
                 state.pop(f"${name}", None)
             case ir.Name(id=name) if name.lower() in self.relevant:
-                _put(state, name.lower(), constant(value, scope, self.unchanged, state))
+                found = constant(value, scope, self.unchanged, state)
+                _forget_variable(state, name.lower())
+                _put(state, name.lower(), found)
+            case ir.Index(base=ir.Name(id=name), indices=indices) if name.lower() in self.relevant:
+                found = constant(value, scope, self.unchanged, state)
+                places = [constant(index, scope, self.unchanged, state) for index in indices]
+                whole = [int(place) for place in places if isinstance(place, int | float)]
+                if len(whole) < len(places):
+                    _forget_variable(state, name.lower())
+                else:
+                    state.pop(name.lower(), None)
+                    _put(state, element_key(name, whole), found)
             case _:
-                state.pop(base_name(target) or "", None)
+                _forget_variable(state, base_name(target) or "")
 
     def call(self, callee: ir.Routine, state: State, scope: Scope) -> None:
         passed = _outside(state, scope)
@@ -234,9 +247,9 @@ class ModalFlow:
         if end is not None:
             changed = self.changed[key]
             for name in [name for name in state if name in passed and end.get(name) != state[name]]:
-                if changed is None or name in changed:
+                if changed is None or _variable(name) in changed:
                     del state[name]
-            state.update({name: value for name, value in end.items() if changed is None or name in changed})
+            state.update({name: value for name, value in end.items() if changed is None or _variable(name) in changed})
 
     def of_move(self, move: ir.Move, state: State, scope: Scope) -> Frames:
         settings = {place.name: value for place, value in move.settings if isinstance(place, ir.System)}
@@ -285,6 +298,16 @@ def _changed(target: ir.Expression) -> str:
     return base_name(target) or ""
 
 
+def _variable(name: str) -> str:
+    """The variable of a name in a state, which may be that of an array's element."""
+    return name.partition("[")[0]
+
+
+def _forget_variable(state: State, name: str) -> None:
+    for one in [one for one in state if _variable(one) == name]:
+        del state[one]
+
+
 def _put(state: State, name: str, value: Value | None) -> None:
     if value is None:
         state.pop(name, None)
@@ -309,7 +332,7 @@ def _outside(state: State, scope: Scope) -> State:
     """What a called routine sees of it."""
 
     def own(name: str) -> bool:
-        symbol = scope.value(name)
+        symbol = scope.value(_variable(name))
         return symbol is None or symbol.routine is not None
 
     return {name: value for name, value in state.items() if name.startswith("$") or not own(name)}
@@ -333,6 +356,25 @@ def _callees(statement: ir.Statement, scope: Scope) -> list[ir.Routine]:
     return [routine for routine in found if routine is not None]
 
 
+def _lent(statement: ir.Statement, scope: Scope) -> set[str]:
+    """Variables that calls of the statement may change through their parameters."""
+    found: set[str] = set()
+
+    def look(call: ir.CallRoutine | ir.Call) -> None:
+        routine = scope.routine(call.name)
+        if routine is not None and any(one.mode == "reference" for one in routine.parameters):
+            found.update(filter(None, (base_name(one.value) for one in call.arguments if one.value is not None)))
+
+    def inner(expression: ir.Expression) -> None:
+        if isinstance(expression, ir.Call):
+            look(expression)
+
+    if isinstance(statement, ir.CallRoutine) and statement.dynamic is None:
+        look(statement)
+    each_expression(statement, inner)
+    return found
+
+
 def _names(expression: ir.Expression) -> set[str]:
     found: set[str] = set()
 
@@ -354,7 +396,7 @@ def _relevant(program: ir.Program) -> set[str]:
         match one:
             case ir.Assign(target=ir.System(name=name), value=value) if name in _MODAL:
                 wanted.update(_names(value))
-            case ir.Assign(target=ir.Name(id=name), value=value):
+            case ir.Assign(target=ir.Name(id=name) | ir.Index(base=ir.Name(id=name)), value=value):
                 rests.setdefault(name.lower(), set()).update(_names(value))
             case ir.If(branches=branches) if _sets_frames(one):
                 for condition, _ in branches:
