@@ -28,15 +28,17 @@ def name_errors(program: ir.Program, context: Context) -> ir.Program:
                     found = spelled_among(one.name, theirs)
                     if found is not None:
                         spelled[id(one)] = found
-    return _Named(program, context, spelled).program() if spelled else program
+    bare = {name: found for name in ours if (found := spelled_among(name, theirs)) is not None}
+    return _Named(program, context, spelled, bare).program() if spelled or bare else program
 
 
 class _Named(Rewriter):
-    """`spelled`: the target's names, by the constants of the source's prelude that they replace."""
+    """`spelled`: the target's names, by the constants of the source's prelude that they replace. `bare`: by the names
+    of the source's errors, for languages that have numbers but no such constants (V+)."""
 
-    def __init__(self, program: ir.Program, context: Context, spelled: dict[int, str]) -> None:
+    def __init__(self, program: ir.Program, context: Context, spelled: dict[int, str], bare: dict[str, str]) -> None:
         super().__init__(program, context)
-        self.spelled = spelled
+        self.spelled, self.bare = spelled, bare
 
     def declaration(self, declaration: ir.Declaration) -> list[ir.Declaration]:
         return [] if id(declaration) in self.spelled else super().declaration(declaration)
@@ -53,7 +55,7 @@ class _Named(Rewriter):
 
     def named(self, name: str) -> str:
         symbol = self.scope.value(name)
-        return name if symbol is None else self.spelled.get(id(symbol.declaration), name)
+        return self.bare.get(name, name) if symbol is None else self.spelled.get(id(symbol.declaration), name)
 
 
 __all__ = ["name_errors"]

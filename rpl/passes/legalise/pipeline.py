@@ -47,8 +47,10 @@ from rpl.passes.legalise.emptyreactions import without_empty_reactions
 from rpl.passes.legalise.enums import enums_to_constants
 from rpl.passes.legalise.errorcodes import name_errors
 from rpl.passes.legalise.errornumbers import error_numbers
+from rpl.passes.legalise.errorplaces import unreachable_moves
 from rpl.passes.legalise.errorroutines import error_routines
 from rpl.passes.legalise.errors import check_errors
+from rpl.passes.legalise.errortexts import error_texts
 from rpl.passes.legalise.explicit import explicit_to_modal
 from rpl.passes.legalise.fewaxes import axes_of_arm
 from rpl.passes.legalise.flagdata import flags_as_data, named_flags
@@ -246,7 +248,9 @@ PASSES: tuple[Pass, ...] = (
     at_rest,
     without_empty_reactions,
     interrupt_places,
+    unreachable_moves,
     error_numbers,
+    error_texts,
     link_prelude,
     apart_from_neutral_records,
     used_elements,
