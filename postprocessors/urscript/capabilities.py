@@ -46,6 +46,7 @@ CAPABILITIES = Capabilities(
     computed_decimals=False,
     notation="urscript",
     rotation="zyx",
+    keeps_angles=False,
     short_circuit=True,
     conversions=tables.words("real round_half_away trunc bit truth floor code char"),
     wait_timeout=True,

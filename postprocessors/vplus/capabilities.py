@@ -60,6 +60,7 @@ CAPABILITIES = Capabilities(
     widest_group=32,
     notation="vplus",
     rotation="zyx",
+    keeps_angles=False,
     conversions=tables.words("real round_half_away trunc bit truth minus_bit floor code char"),
     for_real=True,
     timers=tables.TIMERS,

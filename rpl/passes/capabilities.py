@@ -55,7 +55,9 @@ class Capabilities:
     types: names of type classes that can be declared. signal_prefixes: empty when signals have numbers (KRL); otherwise
     signals have names (RAPID), and a number 5 of a kind is called prefix + 5. named_aggregates: members are named (else
     listed in order); partial_aggregates: some may be left out; constant_aggregates: members must be constants.
-    whole_places: a component is set by making a new place of the old one, which must have a value. untyped_places: what
+    keeps_angles: a place keeps its angles a, b and c as they were set (else each angle that is set is put together with
+    the others, which are worked out from the place). whole_places: a component is set by making a new place of the old
+    one, which must have a value. untyped_places: what
     holds a place holds a pose or joints, as it was given last; a component is one of what is there.
     for_real: the counter of a FOR may be a real number. waits_at_rest: waits say that
     the robot stands before they begin. wait_timeout: WaitUntil takes a timeout. timers: how many
@@ -209,6 +211,7 @@ class Capabilities:
     partial_aggregates: bool = False
     constant_aggregates: bool = False
     whole_places: bool = False
+    keeps_angles: bool = True
     untyped_places: bool = False
     format_state: Type | None = None
     kinematics: tuple[str, str] | None = None

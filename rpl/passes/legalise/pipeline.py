@@ -189,6 +189,7 @@ from rpl.passes.legalise.watches import counted_watches
 from rpl.passes.legalise.watching import watching
 from rpl.passes.legalise.wholetexts import whole_texts
 from rpl.passes.legalise.wholetimes import whole_times
+from rpl.passes.legalise.wholeturns import whole_turns
 from rpl.passes.legalise.wristpaths import wrist_paths
 from rpl.passes.legalise.writeonly import kept_outputs
 from rpl.passes.typing import normalise
@@ -374,6 +375,7 @@ PASSES: tuple[Pass, ...] = (
     posed_places,
     aggregates,
     geometry,
+    whole_turns,
     flat_records,
     drop_unread_parameters,
     compositions,
