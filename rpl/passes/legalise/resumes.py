@@ -24,11 +24,8 @@ def resumes(program: ir.Program, context: Context) -> ir.Program:
         return _resume_clears(program)
     if "ResumeLevel" in statements or not ({"ClearMotion", "StartMotion"} <= statements or drops):
         return program
-    facts = _Facts()
-    for module in program.modules:
-        for routine in module.routines:
-            facts.routine(routine)
-    resuming = facts.closure({name for name, one in facts.has_resume.items() if one})
+    facts = _Facts.of(program)
+    resuming = facts.resuming()
     if not resuming:
         return program
     worker = _Resumes(context.fresh("rpl_resumed"), facts, resuming, drops)
@@ -42,6 +39,14 @@ def resumes(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=tuple(modules))
 
 
+def left_by_resumes(program: ir.Program) -> frozenset[str]:
+    """Routines that the routine of an interrupt may leave: all below the levels that declare it. Folded names."""
+    facts = _Facts.of(program)
+    resuming = facts.resuming()
+    declaring = [name for name, declared in facts.declares.items() if declared & resuming]
+    return frozenset(one for name in declaring for one in facts.below(name)) - resuming
+
+
 @dataclass(slots=True)
 class _Facts:
     """Who calls whom, who resumes, and who declares which interrupt routine."""
@@ -49,6 +54,18 @@ class _Facts:
     calls: dict[str, set[str]] = field(default_factory=dict)
     has_resume: dict[str, bool] = field(default_factory=dict)
     declares: dict[str, set[str]] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, program: ir.Program) -> _Facts:
+        facts = cls()
+        for module in program.modules:
+            for routine in module.routines:
+                facts.routine(routine)
+        return facts
+
+    def resuming(self) -> set[str]:
+        """The routines that resume, or call one that does."""
+        return self.closure({name for name, one in self.has_resume.items() if one})
 
     def routine(self, routine: ir.Routine) -> None:
         key = routine.name.lower()

@@ -3,7 +3,7 @@
 A stop point holds the program of some controllers until the robot stands (RAPID, FANUC, RPL); others run ahead over all
 moves (KRL) and stop only before certain statements. What interrupts, stop watches and other tasks do is seen while the
 robot moves, so statements that arm or disarm them, look at what they have changed, or assign what they look at, must
-not come early.
+not come early. Nor must what lasts, and the end, of a routine that an interrupt may leave.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.editing import exits
 from rpl.passes.legalise.lookahead import is_flag, touches
+from rpl.passes.legalise.resumes import left_by_resumes
 from rpl.passes.legalise.usage import base_name, bodies, each_expression, each_statement
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
@@ -40,7 +41,8 @@ def stand_first(program: ir.Program, context: Context) -> ir.Program:
             if routine.name.lower() in facts.beside:
                 routines.append(routine)  # the program waits, or drives nothing
                 continue
-            worker = _Standing(facts, scopes.routine(module, routine), target.stop_statements)
+            left = routine.name.lower() in facts.left
+            worker = _Standing(facts, scopes.routine(module, routine), target.stop_statements, left)
             routines.append(replace(routine, body=worker.whole(routine.body)[0]))
         modules.append(replace(module, routines=tuple(routines)))
     return replace(program, modules=tuple(modules))
@@ -50,7 +52,8 @@ def stand_first(program: ir.Program, context: Context) -> ir.Program:
 class _Facts:
     """Names in lower case. beside: routines that interrupts and background tasks run; changed: variables that these
     assign; movers: routines that drive; halting: those of them that end with a stop point; watchful: routines that
-    contain a statement which must not come early; read: variables that the routines beside look at."""
+    contain a statement which must not come early; read: variables that the routines beside look at; left: routines that
+    an interrupt may leave."""
 
     beside: frozenset[str]
     changed: frozenset[str]
@@ -58,6 +61,7 @@ class _Facts:
     watchful: frozenset[str]
     halting: frozenset[str] = frozenset()
     read: frozenset[str] = frozenset()
+    left: frozenset[str] = frozenset()
 
     @classmethod
     def of(cls, program: ir.Program) -> _Facts:
@@ -83,7 +87,7 @@ class _Facts:
         }
         read = frozenset(name for one in beside for name in _looked_at(routines[one]))
         read |= {name for routine in routines.values() for name in _given(routine)}
-        known = cls(beside, frozenset(changed), frozenset(), frozenset(), read=read)
+        known = cls(beside, frozenset(changed), frozenset(), frozenset(), read=read, left=left_by_resumes(program))
         movers = {n for n, r in routines.items() if any(isinstance(node, _MOVES) for node in walk(*bodies(r)))}
         watchful = {n for n, r in routines.items() if any(known.early(node) for node in _statements(r))}
         return replace(known, movers=_with_callers(movers, calls), watchful=_with_callers(watchful, calls))
@@ -127,7 +131,8 @@ def _with_ends(program: ir.Program, facts: _Facts, scopes: ProgramScope, stops: 
         halting = set()
         for module in program.modules:
             for routine in module.routines:
-                worker = _Standing(facts, scopes.routine(module, routine), stops)
+                left = routine.name.lower() in facts.left
+                worker = _Standing(facts, scopes.routine(module, routine), stops, left)
                 if routine.name.lower() in facts.movers and worker.whole(routine.body)[1]:
                     halting.add(routine.name.lower())
         if halting <= facts.halting:
@@ -136,17 +141,30 @@ def _with_ends(program: ir.Program, facts: _Facts, scopes: ProgramScope, stops: 
 
 
 class _Standing:
-    def __init__(self, facts: _Facts, scope: Scope, stops: frozenset[str]) -> None:
-        self.facts, self.scope, self.stops = facts, scope, stops
+    def __init__(self, facts: _Facts, scope: Scope, stops: frozenset[str], left: bool) -> None:
+        self.facts, self.scope, self.stops, self.left = facts, scope, stops, left
         self.jumps: dict[str, bool] = {}  # label -> does a jump come there while the target still moves?
 
     def whole(self, body: ir.Body) -> tuple[ir.Body, bool]:
         """The body of a routine; again where a jump back turns out to come from a move."""
         while True:
             known = dict(self.jumps)
-            done = self.body(body, False)
+            done, moving = self.body(body, False)
             if known == self.jumps:
-                return done
+                return ((*done, ir.WaitForMotion()), False) if moving and self.left else (done, moving)
+
+    def lasts(self, statement: ir.Statement) -> bool:
+        """Is it seen later that the statement was reached, in a routine that an interrupt may leave?"""
+        match statement:
+            case ir.Assign(target=target):
+                symbol = self.scope.value(base_name(target) or "")
+                if symbol is None or symbol.routine is None:
+                    return not isinstance(target, ir.System)
+                given = symbol.declaration
+                return isinstance(given, ir.Parameter) and given.mode != "value"
+            case ir.Return() | ir.CallRoutine() | ir.Do() | ir.Message() | ir.Raise():
+                return True
+        return False
 
     def behind(self, statement: ir.Statement, moving: bool) -> bool:
         """What holds behind a move of its own kind, a label and a jump."""
@@ -172,7 +190,7 @@ class _Standing:
                     continue
             if statement.__class__.__name__ in self.stops or touches(statement, self.scope):
                 moving = False
-            elif moving and self.facts.early(statement):
+            elif moving and (self.facts.early(statement) or (self.left and self.lasts(statement))):
                 done.append(ir.WaitForMotion(origin=statement.origin))
                 statement = replace(statement, origin=replace(statement.origin, comments=()))
                 moving = False
