@@ -6,7 +6,8 @@ import pytest
 
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import read_sources
-from rpl.source import source_from_text
+from rpl.simulation import run_program
+from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
 PLACES = " SET a = TRANS(330,-50,260,0,180,0)\n SET b = TRANS(330,50,260,0,180,0)\n MOVE a\n BREAK\n"
@@ -78,3 +79,29 @@ def test_v_plus_itself_keeps_its_order() -> None:
         "MOVES",
         "SIGNAL",
     ] and "begun-output" not in warned
+
+
+@pytest.mark.parametrize("target", ["krl", "rapid", "inform"])
+def test_a_second_move_begins_when_the_first_has_ended(target: str) -> None:
+    """The watch behind the second move is looked at when that one begins, not at once."""
+    program = f""".PROGRAM main()
+        AUTO LOC h
+{PLACES}
+        TIMER 1 = 0
+        SPEED 50 MMPS
+        MOVES b
+        HERE h
+        MOVES a
+        t = TIMER(1)
+        BREAK
+        IF (t > 1.9) AND (t < 2.4) AND (DY(h) < -45) THEN
+            SIGNAL 1
+        END
+.END
+"""
+    read = read_sources([source_from_text("p.v2", program)], "vplus", Diagnostics())
+    done = translate_program(read, target, "adept_viper_s650", None, Diagnostics())
+    back = read_sources([source_from_bytes(one.path, one.data) for one in done.files], target, Diagnostics())
+    for one in (read.program, back.program):
+        result = run_program(one, "adept_viper_s650")
+        assert result.fault is None and [state for _, _, state in result.outputs] == [True]

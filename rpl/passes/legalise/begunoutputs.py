@@ -55,13 +55,21 @@ def _routine(routine: ir.Routine, goes_on: str, put: list[ir.Statement]) -> ir.R
     def placed(body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
         rest = list(body)
+        driving = False  # a move that the program does not wait for is on its way
         while rest:
             statement = inside(rest.pop(0), placed)
             if isinstance(statement, ir.Move) and statement.search is None and not (statement.concurrent and goes_on):
                 first, rest = _at_begin(statement, rest, given)
+                if first and driving:  # the source is held here until that one ends
+                    done.append(ir.WaitForMotion(origin=replace(statement.origin, comments=())))
+                driving = False
                 done.extend(_in_front(first, statement, goes_on == "advance"))
                 put.extend(done[-1 - len(first) : -1])
                 continue
+            if isinstance(statement, ir.Move):
+                driving = statement.concurrent
+            elif any(isinstance(node, ir.Move | ir.CallRoutine | ir.WaitForMotion) for node in walk(statement)):
+                driving = False
             done.append(statement)
         return body if len(done) == len(body) and all(map(_is, done, body)) else tuple(done)
 
