@@ -20,22 +20,22 @@ PROGRAM = """.PROGRAM main()
 
 
 @pytest.mark.parametrize(
-    ("first", "refused"),
+    ("first", "moves"),
     [
-        ("CPON ALWAYS", False),
-        ("FINE 50 ALWAYS", False),
-        ("ACCEL 80, 80", False),
-        ("CPOFF ALWAYS", False),
-        ("IF SIG(1001) THEN\nCPOFF ALWAYS\nEND", True),
+        ("CPON ALWAYS", 2),
+        ("FINE 50 ALWAYS", 2),
+        ("ACCEL 80, 80", 2),
+        ("CPOFF ALWAYS", 2),
+        ("IF SIG(1001) THEN\nCPOFF ALWAYS\nEND", 4),
     ],
 )
-def test_a_switch_that_says_the_usual_is_no_loss(first: str, refused: bool) -> None:
+def test_a_switch_that_says_the_usual_is_no_loss(first: str, moves: int) -> None:
     diagnostics = Diagnostics()
     read = read_sources([source_from_text("p.v2", PROGRAM.format(first=first))], "vplus", diagnostics)
     files = translate_program(read, "rapid", "adept_viper_s650", None, diagnostics).files
-    assert bool(diagnostics.of(Severity.LOSS)) == refused
+    assert not diagnostics.of(Severity.LOSS)
     text = "".join(file.data.decode() for file in files)
-    assert refused or text.count("MoveAbsJ") == 2
+    assert text.count("MoveAbsJ") == moves
 
 
 LINES = """.PROGRAM off()
@@ -106,3 +106,40 @@ def test_a_way_from_where_the_robot_is_begins_where_it_stands(between: str, warn
     back = read_sources([source_from_bytes(file.path, file.data) for file in files], "inform", Diagnostics())
     result = run_program(back.program, "adept_viper_s650", entry="MAIN")
     assert [value for _, _, value in result.outputs] == [True]
+
+
+ZIGZAG = """.PROGRAM main()
+ MOVE TRANS(330,0,260,0,180,0)
+ CALL zigzag(t1)
+ CPOFF ALWAYS
+ CALL zigzag(t2)
+ CPON ALWAYS
+ IF t1 < t2-0.05 THEN
+ SIGNAL 1
+ END
+.END
+.PROGRAM zigzag(secs)
+ BREAK
+ SPEED 300 MMPS ALWAYS
+ TIMER 1 = 0
+ FOR i = 1 TO 4
+ MOVES TRANS(330,40*i-20,290,0,180,0)
+ MOVES TRANS(330,40*i,260,0,180,0)
+ END
+ BREAK
+ secs = TIMER(1)
+.END
+"""
+
+
+@pytest.mark.parametrize("target", ["krl", "rapid", "tp", "inform", "urscript"])
+def test_a_routine_that_is_called_either_way_asks_for_it(target: str) -> None:
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("p.v2", ZIGZAG)], "vplus", diagnostics)
+    done = translate_program(read, target, "adept_viper_s650", None, diagnostics)
+    assert not diagnostics.of(Severity.LOSS)
+    back = read_sources([source_from_bytes(file.path, file.data) for file in done.files], target, Diagnostics())
+    entry = done.renamed.get("main", "main")
+    for program, start in ((read.program, "main"), (back.program, entry)):
+        result = run_program(program, "adept_viper_s650", entry=start)
+        assert result.fault is None and [value for _, _, value in result.outputs] == [True]

@@ -3,7 +3,8 @@ where a program only ever sets it to what the source's controller starts with, o
 to something else for one move, every move that says nothing is as that value says. Where a program changes it on its
 way, each move is as the value that it finds, as far as that is the same on every way to it (`modalflow`).
 
-A program where a move finds either keeps the switch, and later passes name what the target makes of it.
+Where a move finds either, a variable of the program keeps what is set, and the move stands there in both forms. Only
+where actions at the way or a search belong to such a move the switch stays, and later passes name what becomes of it.
 """
 
 from __future__ import annotations
@@ -18,7 +19,8 @@ from rpl.passes.legalise.editing import edit_bodies, map_body
 from rpl.passes.legalise.effects import blocks
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.modalflow import Flow
-from rpl.passes.legalise.usage import called_names
+from rpl.passes.legalise.support import with_support
+from rpl.passes.legalise.usage import bodies, called_names
 
 STANDS = code(
     "relative-move-stands",
@@ -44,10 +46,18 @@ def joined_moves(program: ir.Program, context: Context) -> ir.Program:
     found = _found(program, context, start)
     if found is None:
         return program
+    open_ones = frozenset(key for key, value in found.items() if value is None)
+    if open_ones and not _alone(program, open_ones):
+        return program
+    kept_in = ir.Name(context.fresh("moves_joined")) if open_ones else None
 
     def change(statement: ir.Statement) -> ir.Body:
         if any(setting == _JOINED for setting, _ in _settings(statement)) and not isinstance(statement, ir.Move):
+            if kept_in is not None and isinstance(statement, ir.Assign):
+                return (replace(statement, target=kept_in),)
             return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
+        if kept_in is not None and id(statement) in open_ones and isinstance(statement, ir.Move):
+            return (_either(statement, kept_in),)
         return (inside(statement, lambda body: map_body(body, change)),)
 
     def moved(node: object) -> object:
@@ -65,7 +75,33 @@ def joined_moves(program: ir.Program, context: Context) -> ir.Program:
         )
         for module in program.modules
     )
-    return replace(program, modules=tuple(rewrite(module, moved) for module in modules))
+    done = replace(program, modules=tuple(rewrite(module, moved) for module in modules))
+    if kept_in is None:
+        return done
+    data = ir.Variable(kept_in.id, ir.BoolType(), usual, scope="global")
+    return with_support(done, context, (data,), (), program.modules[0].task)
+
+
+def _either(move: ir.Move, joined: ir.Name) -> ir.If:
+    """The move as the variable says."""
+    plain = replace(move, origin=replace(move.origin, comments=()))
+    through = replace(plain, blend=ir.BlendSpeed(ir.IntLiteral(100)))
+    return ir.If(((joined, (through,)),), (replace(plain, blend=ir.BlendStop()),), origin=move.origin)
+
+
+def _alone(program: ir.Program, moves: frozenset[int]) -> bool:
+    """Are these moves without a search, and without actions at their way in front of them?"""
+
+    def holds(body: ir.Body) -> bool:
+        for at, one in enumerate(body):
+            if id(one) in moves and isinstance(one, ir.Move):
+                if one.search is not None or (at and isinstance(body[at - 1], ir.Trigger | ir.SetForNextMove)):
+                    return False
+            elif not all(map(holds, blocks(one))):
+                return False
+        return True
+
+    return all(holds(body) for module in program.modules for one in module.routines for body in bodies(one))
 
 
 def stand_before_ways(program: ir.Program, context: Context) -> ir.Program:
@@ -102,9 +138,9 @@ def stand_before_ways(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=modules)
 
 
-def _found(program: ir.Program, context: Context, start: bool) -> dict[int, ir.Expression] | None:
-    """What the moves that say nothing find, by their identity: nothing where that is what the program starts with
-    throughout. None where a move finds either."""
+def _found(program: ir.Program, context: Context, start: bool) -> dict[int, ir.Expression | None] | None:
+    """What the moves that say nothing find, by their identity (None: either): nothing where that is what the program
+    starts with throughout. None for all where one is set for the next move, whichever that is."""
     nodes = (node for node in walk(*program.modules) if not isinstance(node, ir.Move))
     changes = [(node, value) for node in nodes for name, value in _settings(node) if name == _JOINED]
     if all(value == ir.BoolLiteral(start) for _, value in changes):
@@ -112,14 +148,11 @@ def _found(program: ir.Program, context: Context, start: bool) -> dict[int, ir.E
     if any(isinstance(node, ir.SetForNextMove) for node, _ in changes):
         return None
     flow = Flow.of(program, dict(rules_of(context.source).system_defaults))
-    found: dict[int, ir.Expression] = {}
+    found: dict[int, ir.Expression | None] = {}
     for move in (one for one in walk(*program.modules) if isinstance(one, ir.Move)):
         if id(move) not in flow.moves or move.blend is not None or any(name == _JOINED for name, _ in move.settings):
             continue
-        value = flow.at(move)["blending"]
-        if value is None:
-            return None
-        found[id(move)] = value
+        found[id(move)] = flow.at(move)["blending"]
     return found
 
 
