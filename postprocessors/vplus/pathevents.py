@@ -74,7 +74,8 @@ class PathEvents:
 
     def add(self, trigger: ir.Trigger) -> None:
         """A trigger of the next move. Refuses what cannot be said, where it stands."""
-        if any(self.delayed(event) and self.early(event.trigger) is None for event in self.waiting):
+        late = [event for event in self.waiting if self.delayed(event) and self.early(event.trigger) is None]
+        if not all(self.not_behind(trigger, event.trigger, equal=False) for event in late):
             raise CannotSayError("an action on the path behind a call some time behind a place")
         self.waiting.append(Event(trigger, tuple(self.steps(trigger))))
 
@@ -176,12 +177,31 @@ class PathEvents:
 
     def later_call(self, trigger: ir.Trigger, delay: ir.Expression) -> list[str]:
         """The program itself waits for the time and calls, where no other action of the move could come meanwhile."""
-        if self.waiting or self.carried or not isinstance(trigger.action, ir.CallRoutine):
+        earlier = [event for event in (*self.carried, *self.waiting) if self.before(event, trigger)]
+        if len(earlier) < len(self.carried) + len(self.waiting) or not isinstance(trigger.action, ir.CallRoutine):
             raise CannotSayError("a call some time behind a place on the path")
         self.once(LATE, trigger, name=trigger.action.name)
         origin = replace(trigger.origin, comments=())
         steps = self.printer.captured(ir.Wait(delay, origin=origin))
         return [*steps, *self.printer.captured(replace(trigger.action, origin=origin))]
+
+    def before(self, event: Event, trigger: ir.Trigger) -> bool:
+        """Is the event over when the other comes to its place? Not when the program waits at it itself."""
+        waits = self.delayed(event) and self.early(event.trigger) is None
+        return not waits and self.not_behind(event.trigger, trigger)
+
+    def not_behind(self, one: ir.Trigger, other: ir.Trigger, equal: bool = True) -> bool:
+        """Does the program look for the first no later than for the other (or earlier)? As `order` puts them."""
+        places = [self.written_place(trigger) for trigger in (one, other)]
+        if None in places:
+            return False
+        return places[0] < places[1] or (equal and places[0] == places[1])  # type: ignore[operator]
+
+    def written_place(self, trigger: ir.Trigger) -> tuple[int, float] | None:
+        """From which end it counts and how far, in mm; None when that is computed."""
+        expressions = self.printer.expressions
+        far = 0.0 if trigger.distance is None else expressions.known(expressions.in_unit(trigger.distance, "mm"))
+        return None if far is None else (0 if trigger.reference == "start" else 1, far)
 
     def delayed(self, event: Event) -> bool:
         """Does the program wait at this action?"""
