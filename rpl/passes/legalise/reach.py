@@ -1,7 +1,7 @@
 """Which statements may run while an interrupt is armed that the program has to serve itself.
 
-One bit is carried through branches, loops and calls of the whole program until nothing changes; what is not known
-counts as armed.
+One bit is carried through branches, loops and calls of the whole program until nothing changes, for each routine apart
+by what it was at the call; what is not known counts as armed.
 """
 
 from __future__ import annotations
@@ -34,14 +34,15 @@ class Armed:
 
 def armed_statements(program: ir.Program, keys: Keys) -> frozenset[int]:
     """Identities of the statements that may run then."""
-    reach = _Reach(keys)
     routines = {routine.name.lower(): routine for module in program.modules for routine in module.routines}
+    reach = _Reach(keys, {(name, armed): False for name in routines for armed in (False, True)})
     while True:
-        before = (dict(reach.entries), dict(reach.exits), len(reach.marked))
+        before = (set(reach.entries), dict(reach.exits), len(reach.marked))
         for name, routine in routines.items():
-            reach.leaving = False
-            end = reach.body(routine.body, reach.entries.get(name, False))
-            reach.exits[name] = reach.exits.get(name, False) or end or reach.leaving
+            for armed in (False, True) if name in reach.entries else (False,):
+                reach.leaving = False
+                end = reach.body(routine.body, armed)
+                reach.exits[name, armed] = reach.exits.get((name, armed), False) or end or reach.leaving
         if before == (reach.entries, reach.exits, len(reach.marked)):
             return frozenset(reach.marked)
 
@@ -73,9 +74,12 @@ def with_calls(program: ir.Program, marked: frozenset[int], declaring: frozenset
 
 @dataclass(slots=True)
 class _Reach:
+    """`exits`: routine (folded) and whether it was armed at its call -> may it be armed behind. `entries`: routines
+    that are called while it is armed."""
+
     keys: Keys
-    entries: dict[str, bool] = field(default_factory=dict)
-    exits: dict[str, bool] = field(default_factory=dict)
+    exits: dict[tuple[str, bool], bool]
+    entries: set[str] = field(default_factory=set)
     marked: set[int] = field(default_factory=set)
     leaving: bool = False
 
@@ -87,8 +91,8 @@ class _Reach:
     def called(self, name: str, armed: bool) -> bool:
         key = name.lower()
         if armed:
-            self.entries[key] = True
-        return self.exits.get(key, armed)
+            self.entries.add(key)
+        return self.exits.get((key, armed), armed)
 
     def statement(self, statement: ir.Statement, armed: bool) -> bool:
         for expression in children(statement):
@@ -100,6 +104,9 @@ class _Reach:
         match statement:
             case ir.ControlInterrupt():
                 told = self.keys.arms(statement)
+                return armed if told is None else told
+            case ir.OrderInterrupt(handle=handle):
+                told = self.keys.arms(ir.ControlInterrupt("on", handle))
                 return armed if told is None else told
             case ir.CallRoutine(name=name):
                 return self.called(name, armed)
