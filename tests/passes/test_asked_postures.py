@@ -79,3 +79,10 @@ def test_a_word_for_the_wrist_where_the_rest_is_open(target: str) -> None:
     codes = [item.code.name for item in diagnostics]
     assert "posture-left-open" in codes
     assert not diagnostics.of(Severity.LOSS)
+
+
+@pytest.mark.parametrize("target", ["krl", "rapid", "tp", "urscript", "inform"])
+def test_the_wrist_stays_as_a_word_has_turned_it(target: str) -> None:
+    text = SIX_AXES.replace("        NOFLIP\n        MOVE safe", "        MOVE beside\n        MOVE #start")
+    text = text.replace("#start 0", "beside 350 140 400 0 180 0\n#start 0")
+    assert translated(text, "adept_viper_s650", target) == (True, [])

@@ -20,6 +20,7 @@ from rpl.passes.legalise.walk import Rewriter, unchanged_in
 from rpl.passes.values import Record, Target, Value, component, pose_of, real
 
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
+_SAME_DEG = 0.01
 _POSTURES = ("posture_shoulder", "posture_elbow", "posture_wrist")
 POSTURE = code(
     "posture-change-lost",
@@ -46,7 +47,8 @@ def asked_postures(program: ir.Program, context: Context) -> ir.Program:
 
 
 class _Asked(Rewriter):
-    """`here`: the joints that the move before went to, where they are known. `seen`: the last known ones before."""
+    """`here`: the joints that the move before went to, where they are known. `seen`: the last known ones before.
+    `worded`: a move before has asked for a posture."""
 
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
@@ -56,14 +58,15 @@ class _Asked(Rewriter):
         self.varied = {name for name in _POSTURES if len({w for one in asked for n, w in one if n == name}) > 1}
         self.here: Any = None
         self.seen: Any = None
+        self.worded = False
         named = {routine.name.lower() for module in program.modules for routine in module.routines}
         self.quiet = named - doing(program, lambda node: isinstance(node, ir.Move | ir.Vendor) or _calls_any(node))
         self.flow, self.unchanged = ModalFlow(program, self.scopes), unchanged_in(program)
 
     def body(self, body: ir.Body) -> ir.Body:
-        self.here = self.seen = None
+        self.here, self.seen, self.worded = None, None, False
         done = super().body(body)
-        self.here = self.seen = None
+        self.here, self.seen, self.worded = None, None, False
         return done
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
@@ -96,7 +99,8 @@ class _Asked(Rewriter):
             return plain
         else:
             self.here = self.solved(move, goal, asked)
-        if not asked or move.kind != "joint":
+        self.worded = self.worded or bool(asked)
+        if move.kind != "joint" or not (asked or self.elsewise(move, goal)):
             return plain
         if self.here is None:
             for name in sorted(self.varied & asked.keys()):
@@ -104,6 +108,18 @@ class _Asked(Rewriter):
             return plain
         entries = tuple((name, real(round(float(one), 9))) for name, one in zip(_AXES, self.here, strict=False))
         return replace(plain, target=ir.Aggregate(entries, type_name="joints"))
+
+    def elsewise(self, move: ir.Move, goal: Value | None) -> bool:
+        """Does the arm come to this place without words, but as an earlier word has left it and not as it stands at
+        first? Targets whose places say the posture would turn it back."""
+        frames, arm, pose = self.flow.frames.get(id(move)), self.arm, pose_of(goal)
+        if not self.worded or self.here is None or self.context.capabilities.postures != "flags":
+            return False
+        flange = None if frames is None or pose is None else frames.flange(pose)
+        if flange is None or arm is None:
+            return False
+        usual = arm.in_posture(flange.matrix, arm.home, {})
+        return usual is None or abs(usual - self.here).max() > _SAME_DEG
 
     def solved(self, move: ir.Move, goal: Value | None, asked: dict[str, str]) -> Any:
         """The joints of a place, where nothing is left to chance."""
