@@ -62,3 +62,49 @@ def test_beats_go_on_behind_a_long_trap(target: str) -> None:
     run = run_program(named, ARM, cell, written.renamed.get("main", "main"))
     assert run.status == "finished", run.fault
     assert met(run) == 2, run.outputs
+
+
+# The robot is held for a second in the middle of a move of one second, and drives on to its end; then nothing comes.
+HELD = """MODULE a
+VAR intnum i;
+VAR clock ck;
+VAR pos seen;
+CONST robtarget p:=[[400,-50,300],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+PROC main()
+MoveJ p,v1000,fine,tool0;
+CONNECT i WITH hold;
+ITimer\\Single,0.5,i;
+ClkStart ck;
+MoveL Offs(p,100,0,0),v100,fine,tool0;
+ClkStop ck;
+IF Abs(ClkRead(ck)-2)<0.2 AND Abs(seen.x-450)<4 SetDO do1,1;
+ClkReset ck;
+ClkStart ck;
+MoveL p,v100,fine,tool0;
+ClkStop ck;
+IDelete i;
+IF Abs(ClkRead(ck)-1)<0.2 SetDO do2,1;
+ENDPROC
+TRAP hold
+StopMove;
+WaitTime 0.3;
+seen:=CPos(\\Tool:=tool0\\WObj:=wobj0);
+WaitTime 0.7;
+StartMove;
+ENDTRAP
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize("target", ["krl", "tp", "urscript", "vplus"])
+def test_once_and_the_robot_is_held(target: str) -> None:
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("a.mod", HELD)], "rapid", diagnostics)
+    assert met(run_program(read.program, ARM)) == 2
+    written = translate_program(read, target, ARM, None, diagnostics)
+    assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    again = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, diagnostics)
+    named = with_signal_names(again.program, written.program)
+    run = run_program(named, ARM, None, again.program.entry or written.renamed.get("main", "main"))
+    assert run.status == "finished", run.fault
+    assert met(run) == 2, run.outputs

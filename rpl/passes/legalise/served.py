@@ -29,7 +29,8 @@ _TRUE, _FALSE = ir.BoolLiteral(True), ir.BoolLiteral(False)
 @dataclass(slots=True)
 class Watch:
     """One interrupt. `armed`, `was`, `enabled`, `mask`: data that says whether it is on, whether its condition held
-    when looked at last, whether it waits (disabled), and how urgent it has to be."""
+    when looked at last, whether it waits (disabled), and how urgent it has to be. `of_source`: its condition and its
+    action as the program declares them."""
 
     key: int
     priority: int
@@ -40,6 +41,10 @@ class Watch:
     was: str = ""
     enabled: str = ""
     mask: str = ""
+    of_source: tuple[ir.Expression, ir.Assign | ir.CallRoutine] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.of_source = (self.declared.condition, self.declared.action)
 
     def may_come(self) -> ir.Expression | None:
         """Is it neither disabled nor masked? None: that never happens."""

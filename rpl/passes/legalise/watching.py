@@ -190,10 +190,12 @@ class _Watches:
             first = ir.IntLiteral(_NO_MASK)
             self.data.append(ir.Variable(self.mask, ir.IntType(), first, scope="global"))
         watch.mask = self.mask
-        if key not in self.periods:
+        if timed or key not in self.periods:
             watch.was = self.flag(f"rpl_interrupt_{key}_was")
         if not timed:
             self.task(watch)
+        elif key in self.periods:
+            self.timed(watch)
 
     def by_urgency(self) -> tuple[ir.Task, ...]:
         """The tasks, the most urgent first: of two that wait for the same moment it acts first."""
@@ -208,28 +210,30 @@ class _Watches:
             if isinstance(node, ir.Name) and node.id.lower() in own:
                 return f"{node.id} is a variable of the routine that declares it"
         known = self.watches.get(key)
-        if known is not None and (known.declared.condition, known.declared.action) != (one.condition, one.action):
+        if known is not None and known.of_source != (one.condition, one.action):
             return "the same number is declared for several conditions or actions"
         drives = closure(self.program, (ir.Move, ir.Spline, ir.MoveExternal))
         brakes = closure(self.program, (ir.StopMotion,))
         stores = closure(self.program, (ir.StoreMotion,))
         name = one.action.name.lower() if isinstance(one.action, ir.CallRoutine) else ""
-        times = self.periods.get(key, [])
-        if times and (self.takes_time(one) or any(time != times[0] for time in times)):
-            return "it comes by time, and takes time itself or comes at different ones"
+        times, can = self.periods.get(key, []), self.beside.context.capabilities
+        if times and any(time != times[0] for time in times):
+            return "it comes by time, and at different ones"
+        if times and self.takes_time(one) and not (one.once and (can.watching_tasks or can.searched_data)):
+            return "it comes by time, takes time itself, and comes again or cannot be looked for in a move"
         if any(isinstance(node, ir.Name) and node.id.lower() in own for node in walk(*times)):
             return "its time is a variable of the routine that orders it"
         if name in stores:
             return "it puts the motion aside"
         if name in drives and name not in brakes and not one.stops:
             return "it moves the robot without braking first"
-        if self.beside.context.capabilities.watching_tasks or not self.takes_time(one):
+        if can.watching_tasks or not self.takes_time(one):
             return ""
         others = [other.key for other in self.watches.values() if other.served and other.key != key]
         if any(self.overlap(key, other) for other in others):
             return "another one stops the robot already, and a move looks at one condition"
-        data = self.beside.context.capabilities.searched_data
-        return unending(one, name in brakes, data, _signals(self.program))
+        looked = replace(one, condition=ir.Name(_DUE)) if times else one
+        return unending(looked, name in brakes, can.searched_data, _signals(self.program))
 
     def takes_time(self, one: ir.DeclareInterrupt) -> bool:
         if one.stops:
@@ -271,6 +275,23 @@ class _Watches:
         self.made.append(ir.Routine(name, body=tuple(body), scope="global"))
         self.tasks.append((watch.priority, ir.Task(name, name, kind="background", cyclic=True)))
 
+    def timed(self, watch: Watch) -> None:
+        """Once after a time, and served: a task waits for the time, and says when it has come."""
+        name = self.beside.context.fresh(f"rpl_interrupt_{watch.key}")
+        due = ir.Name(self.flag(f"rpl_interrupt_{watch.key}_due"))
+        armed = ir.Name(watch.armed)
+        came: ir.Body = (ir.Assign(due, ir.BoolLiteral(True)),)
+        body: ir.Body = (
+            ir.WaitUntil(armed),
+            ir.Wait(self.periods[watch.key][0]),
+            ir.If(((armed, came),)),
+            ir.WaitUntil(ir.Unary("not", armed)),
+            ir.Assign(due, ir.BoolLiteral(False)),
+        )
+        watch.declared = replace(watch.declared, condition=due)
+        self.made.append(ir.Routine(name, body=body, scope="global"))
+        self.tasks.append((watch.priority, ir.Task(name, name, kind="background", cyclic=True)))
+
     # ---- statements
 
     def body(self, body: ir.Body) -> ir.Body:
@@ -303,7 +324,10 @@ class _Watches:
                 return self.control(statement, op, handle)
             case ir.OrderInterrupt(event="timer", handle=handle):
                 timed = self.watches.get(number_of(handle) or 0)
-                return (statement,) if timed is None else (_set(timed.armed, True, statement),)
+                if timed is None:
+                    return (statement,)
+                anew = (ir.Assign(ir.Name(timed.was), ir.BoolLiteral(False)),) if timed.was else ()
+                return expansion(statement.origin, (*anew, _set(timed.armed, True, statement)))
         return (inside(statement, self.body),)
 
     def control(self, statement: ir.ControlInterrupt, op: str, handle: ir.Expression | None) -> ir.Body:
@@ -359,6 +383,7 @@ class _Watches:
 
 
 _NO_MASK = 1000
+_DUE = "due"  # stands for the truth value that says that the time of an interrupt has come
 
 
 def tidied(action: ir.Assign | ir.CallRoutine) -> ir.Assign | ir.CallRoutine:
