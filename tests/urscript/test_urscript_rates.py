@@ -7,7 +7,7 @@ from test_urscript_tasks_elsewhere import OTHERS
 from urscript_helpers import run
 
 from rpl.cell import Cell
-from rpl.cell.cellfile import Input
+from rpl.cell.cellfile import Input, Reaction
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import read_sources
 from rpl.proof.wiring import in_words_of, with_signal_names
@@ -81,7 +81,7 @@ LOOPS = [
 CELL = Cell(inputs=(Input(3.0, "digital_in[0]", True),))
 
 
-def translated(text: str, target: str) -> tuple[list[Value], list[str], str]:
+def translated(text: str, target: str, cell: Cell = CELL) -> tuple[list[Value], list[str], str]:
     """The outputs of what was written, run in the same cell, the reports, and the text."""
     diagnostics = Diagnostics()
     read = read_sources([source_from_text("main.script", text)], "urscript", diagnostics)
@@ -89,7 +89,7 @@ def translated(text: str, target: str) -> tuple[list[Value], list[str], str]:
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
     named = with_signal_names(back.program, written.program)
     entry = written.renamed.get("main", "main") if target != "rpl" else entry_name(back.program)
-    result = run_program(named, "ur5e", in_words_of(CELL, read.program, named), entry)
+    result = run_program(named, "ur5e", in_words_of(cell, read.program, named), entry)
     said = [item.code.name for item in diagnostics if item.severity >= Severity.WARNING]
     shown = "".join(f.data.decode() for f in written.files)
     return [value for _, _, value in result.outputs], said, f"{result.status} {said}\n{shown}"
@@ -102,6 +102,53 @@ def test_a_loop_until_a_signal_is_a_search(loop: str, target: str) -> None:
     outputs, said, shown = translated(text, target)
     assert outputs == [True], shown
     assert target in ("rpl", "urscript") or "velocity-search" in said
+
+
+# Searches for contact that count their passes: the signal comes after 0.8 s, or the time is over.
+COUNTED = [
+    "while waited < limit:\n      if get_standard_digital_in(1):\n        stopl(0.5)\n        return True\n      end\n"
+    "      speedl([0, 0, -speed, 0, 0, 0], 0.5, 0.01)\n      waited = waited + 0.01\n    end",
+    "while waited < limit and not get_standard_digital_in(1):\n      speedl([0, 0, -speed, 0, 0, 0], 0.5, 0.01)\n"
+    "      waited = waited + 0.01\n    end\n    if waited < limit:\n      stopl(0.5)\n      return True\n    end",
+    "passes = 0\n    while True:\n      speedl([0, 0, -speed, 0, 0, 0], 0.5, 0.008)\n      sync()\n"
+    "      passes = passes + 1\n      if get_standard_digital_in(1):\n        break\n      end\n"
+    "      if passes > limit * 100:\n        stopl(0.5)\n        return False\n      end\n"
+    "    end\n    stopl(0.5)\n    return True",
+]
+SEARCH = (
+    "  def search(speed, limit):\n    waited = 0.0\n    {loop}\n    stopl(0.5)\n    return False\n  end\n"
+    "  set_standard_digital_out(5, True)\n  found = search(0.03, {limit})\n"
+)
+FOUND = "found and a[2] - b[2] > 0.0225 and a[2] - b[2] < 0.0255", 3.0
+MISSED = "not found and a[2] - b[2] > 0.0145 and a[2] - b[2] < 0.0155", 0.5
+
+
+@pytest.mark.parametrize("target", OTHERS)
+@pytest.mark.parametrize(("expectation", "limit"), [FOUND, MISSED])
+@pytest.mark.parametrize("loop", COUNTED)
+def test_a_loop_that_counts_and_looks_is_a_search(loop: str, expectation: str, limit: float, target: str) -> None:
+    lines = SEARCH.format(loop=loop, limit=limit) + TAIL.format(expectation=expectation)
+    cell = Cell(reactions=(Reaction("digital_out[5]", True, 0.8, "digital_in[1]", True),))
+    outputs, said, shown = translated(HEAD + lines, target, cell)
+    assert outputs == [True, True], shown
+    assert target in ("rpl", "urscript") or "velocity-search" in said
+
+
+COUNTS_MORE = [
+    # The counter tells how far it went, and something else than a signal ends the loop.
+    ("waited = waited + 0.01", "limit = waited"),
+    ("waited = waited + 0.01\n      textmsg(waited)", ""),
+]
+
+
+@pytest.mark.parametrize(("count", "behind"), COUNTS_MORE)
+def test_what_a_loop_counts_stays_exact(count: str, behind: str) -> None:
+    loop = (
+        "while waited < limit and not get_standard_digital_in(1):\n      speedl([0, 0, -speed, 0, 0, 0], 0.5, 0.01)\n"
+        f"      {count}\n    end\n    {behind}"
+    )
+    _, said, shown = translated(HEAD + SEARCH.format(loop=loop, limit=0.05) + TAIL.format(expectation="True"), "rapid")
+    assert "velocity-search" not in said, shown
 
 
 @pytest.mark.parametrize("target", OTHERS)
@@ -119,3 +166,20 @@ def test_other_work_meanwhile_is_refused_by_name(target: str) -> None:
     lines = "  speedl([0, 0, 0.02, 0, 0, 0], 0.5)\n  set_standard_digital_out(1, True)\n  sleep(1)\n  stopl(1)\nend\n"
     outputs, said, _ = translated(HEAD + lines, target)
     assert "velocity-motion-lost" in said and outputs == []
+
+
+@pytest.mark.parametrize(
+    ("corner", "before", "lost"), [("", "", False), ("", "movel(a)\n  ", False), (", r=0.02", "", True)]
+)
+def test_a_stop_in_a_function_says_nothing_where_each_call_finds_the_robot_at_rest(
+    corner: str, before: str, lost: bool
+) -> None:
+    """One corner elsewhere in the program changes nothing; one right before the call does."""
+    lines = (
+        "  def halted(x):\n    stopl(2.0)\n    return x > 1\n  end\n"
+        "  movel(pose_trans(a, p[0.05, 0, 0, 0, 0, 0]), r=0.01)\n"
+        f"  movel(pose_trans(a, p[0.05, 0.05, 0, 0, 0, 0]){corner})\n"
+        f"  {before}set_standard_digital_out(1, halted(2))\n  movel(a)\n"
+    )
+    _, said, shown = translated(HEAD + lines + TAIL.format(expectation="True"), "krl")
+    assert ("krl-guarded-stop" in said) is lost, shown

@@ -1,5 +1,6 @@
 """Questions about the motion, and stops of it, where the robot rests anyway: behind a move without a corner, in a
-program whose moves hold the task until they have ended, where no other task moves the robot.
+program whose moves hold the task until they have ended, where no other task moves the robot; a routine begins as its
+calls find it.
 
 Whether the robot moves is then known (it does not), and to stop it and forget what was to come says nothing.
 """
@@ -34,6 +35,7 @@ def at_rest(program: ir.Program, context: Context) -> ir.Program:
     worker = _AtRest(Facts(program))
     if not worker.beside([n for n in nodes if isinstance(n, _INTERRUPTS)]):
         return program
+    worker.find_moving(program)
     modules = tuple(
         changed(module, routines=tuple(worker.routine(one) for one in module.routines)) for module in program.modules
     )
@@ -45,7 +47,21 @@ class _AtRest:
         self.facts = facts
         self.moves = {name: [n for n in walk(one) if isinstance(n, _MOTION)] for name, one in facts.routines.items()}
         self.rests = False
+        self.seen = False  # whether the routine just worked on was followed
         self.interrupting: set[str] = set()  # routines that run while others move the robot
+        self.called_moving: set[str] = set()  # routines that may be called while it moves
+
+    def find_moving(self, program: ir.Program) -> None:
+        """Which routines may be called while the robot moves: those that one call finds so, as long as that makes
+        others."""
+        known = -1
+        while known != len(self.called_moving):
+            known = len(self.called_moving)
+            for module in program.modules:
+                for routine in module.routines:
+                    self.routine(routine)
+                    if not self.seen:
+                        self.called_moving |= self.facts.called(routine.name.lower())
 
     def beside(self, interrupts: Sequence[object]) -> bool:
         """Do interrupts and triggers leave the robot where it is?"""
@@ -61,6 +77,7 @@ class _AtRest:
 
     def routine(self, routine: ir.Routine) -> ir.Routine:
         """The routine, where it runs in one task only and no other one moves the robot."""
+        self.seen = False
         name = routine.name.lower()
         homes = [task for task, names in self.facts.tasks.items() if name in names]
         if len(homes) != 1 or name in self.interrupting:
@@ -69,12 +86,14 @@ class _AtRest:
         if any(self.moves[one] for one in others):
             return routine
         stops = all(_is_stop(one) for names in self.facts.tasks[homes[0]] for one in self.moves[names])
+        caught = bool(routine.handlers) and name not in self.facts.alone
         labels = any(isinstance(n, ir.Label) for n in walk(routine))
 
         def body(statements: ir.Body) -> ir.Body:
-            self.rests = stops or (name in self.facts.alone and not labels)
+            self.rests = stops or (name not in self.called_moving and not labels and not caught)
             return self.body(statements)
 
+        self.seen = True
         return edit_bodies(routine, body)
 
     def body(self, body: ir.Body) -> ir.Body:
@@ -128,9 +147,28 @@ class _AtRest:
 
     def answered(self, statement: ir.Statement) -> ir.Statement:
         """The statement whose own expressions know that the robot does not move."""
+        self.note_calls(statement)
         if not self.rests:
             return statement
         return rewrite_parts(statement, lambda expression: rewrite(expression, _answer))
+
+    def note_calls(self, statement: ir.Statement) -> None:
+        """Which routines the statement itself, not what is inside it, calls, and whether the robot rests then."""
+        found: list[str] = []
+
+        def look(expression: ir.Expression) -> ir.Expression:
+            found.extend(n.name.lower() for n in walk(expression) if isinstance(n, ir.Call))
+            return expression
+
+        rewrite_parts(statement, look, lambda body: body)
+        if isinstance(statement, ir.CallRoutine):
+            found.append(statement.name.lower())
+        moving = len(found) > 1 and not all(map(self.leaves_at_rest, found))
+        if not self.rests or moving:
+            self.called_moving.update(found)
+
+    def leaves_at_rest(self, name: str) -> bool:
+        return all(_is_stop(one) for reached in self.facts.closure({name}) for one in self.moves[reached])
 
     def stay(self, statement: object) -> bool:
         """Do the routines that the statement calls leave the robot at rest?"""

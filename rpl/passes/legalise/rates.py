@@ -1,8 +1,9 @@
 """Motion at a given speed (URScript speedl, speedj), which goes on until it is told otherwise, for targets whose moves
 have an end.
 
-A loop that repeats it until a signal comes becomes searches of the way of one second, repeated; a loop that ends
-otherwise makes the way of each pass; what lasts a known time is a move by speed times time. Anything else is refused.
+A loop that repeats it until a signal comes becomes searches of the way of one second, repeated, also where it counts
+its passes; a loop that ends otherwise makes the way of each pass; what lasts a known time is a move by speed times
+time. Anything else is refused.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.countedrates import PART_S, Around, counted, is_outside, leaving, searched
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, negation
 from rpl.passes.legalise.jumps import LOOPS, inside
 from rpl.passes.rewrite import rewrite_parts
@@ -43,7 +45,6 @@ LOST = code(
     "a motion that goes on at a given speed until it is told otherwise has no form in the target: {reason}",
     "give it a time and a stop right behind it, or let one loop repeat it until a condition holds",
 )
-_PART_S = 1.0  # s: how much of an endless way is written at once; less would stop more often, more might not be reached
 _NOT_FOUND = "ERR_WHLSEARCH"
 _PAUSE_S = 0.1  # s: a loop that waits longer than this between two such motions does something else meanwhile
 
@@ -54,7 +55,7 @@ def rates(program: ir.Program, context: Context) -> ir.Program:
         return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        return edit_bodies(routine, _Rates(editor).body)
+        return edit_bodies(routine, _Rates(editor, Around(program, routine)).body)
 
     return edit_routines(program, context, work)
 
@@ -64,16 +65,16 @@ def _is_rate(node: object) -> bool:
 
 
 class _Rates:
-    def __init__(self, editor: Editor) -> None:
-        self.editor, self.context = editor, editor.context
+    def __init__(self, editor: Editor, around: Around) -> None:
+        self.editor, self.context, self.around = editor, editor.context, around
 
     def searched(self, move: ir.Move, going: ir.Expression) -> ir.While:
         """Searches, repeated while the condition holds. Where the target makes an error of a search that finds nothing,
         it is asked whether it did."""
-        self.told(SEARCHED, move, seconds=_PART_S)
+        self.told(SEARCHED, move, seconds=PART_S)
         asked = _NOT_FOUND in rules_of(self.context.target).errors
         hit = self.editor.temporary("hit", ir.BoolType()) if asked else None
-        part = self.way(move, ir.RealLiteral(_PART_S), tidy=True)
+        part = self.way(move, ir.RealLiteral(PART_S), tidy=True)
         return ir.While(going, (replace(part, search=ir.Search(negation(going), stop="path", hit=hit)),))
 
     def body(self, body: ir.Body) -> ir.Body:
@@ -104,11 +105,16 @@ class _Rates:
         if more or any(not _is_rate(one) for one in moves):
             return (inside(loop, self.body),)
         others = [one for one in loop.body if one is not move and not _is_idle(one) and not _is_exit(one)]
-        if going is not None and not others and all(map(_is_outside, walk(going))):
+        if going is not None and not others and all(map(is_outside, walk(going))):
             return (replace(self.searched(move, going), origin=loop.origin),)
         if going is None and isinstance(loop, ir.Loop) and not others and not _leaves(loop.body):
-            self.told(SEARCHED, move, seconds=_PART_S)
-            return (replace(loop, body=(self.way(move, ir.RealLiteral(_PART_S)),)),)
+            self.told(SEARCHED, move, seconds=PART_S)
+            return (replace(loop, body=(self.way(move, ir.RealLiteral(PART_S)),)),)
+        found = counted(loop, move, self.around, _pauses(loop.body))
+        if found is not None and isinstance(loop, ir.While | ir.Loop):
+            self.told(SEARCHED, move, seconds=PART_S)
+            return searched(loop, move, found, self.editor, self.way)
+        others = [one for one in others if leaving(one) is None]
         if move.speed is None or move.speed.duration is None or any(map(_waits, walk(*others))):
             return (inside(loop, self.body),)
         self.told(STEPS, move)
@@ -141,7 +147,7 @@ class _Rates:
         if used == 0 and isinstance(after, ir.WaitUntil) and after.timeout is None and time is None:
             going = negation(after.condition)
             stops = len(behind) > 1 and isinstance(behind[1], ir.StopMotion)
-            if stops and all(map(_is_outside, walk(going))):
+            if stops and all(map(is_outside, walk(going))):
                 return expansion(move.origin, (self.searched(move, going),)), 1
         reason = "the program does other work meanwhile" if after is not None else "nothing says how long it lasts"
         self.context.diagnostics.report(LOST, move.origin, reason=reason)
@@ -160,8 +166,10 @@ class _Rates:
         speed = ir.Speed(duration=ir.Quantity(seconds, "s"))
         turns = [value for name, value in parts if name in "abc"]
         size = None if any(value != 0.0 for value in turns) else _size(parts, move.relative == "joints")
-        if size is not None and size > 0.0:
-            number = ir.RealLiteral(size)
+        number: ir.Expression | None = ir.RealLiteral(size) if size else None
+        if size is None and all(value == 0.0 for value in turns):
+            number = _only(move.target)
+        if number is not None:
             if move.relative == "joints":
                 speed = ir.Speed(axis=ir.Quantity(number, "rad/s"), axis_acceleration=given.axis_acceleration)
             else:
@@ -211,19 +219,18 @@ def _is_idle(statement: ir.Statement) -> bool:
     return time is not None and time <= _PAUSE_S
 
 
+def _pauses(body: ir.Body) -> float | None:
+    """The seconds that the waits of a pass last."""
+    times = [_number(_seconds(one.time)) for one in body if isinstance(one, ir.Wait)]
+    known = [time for time in times if time is not None and time <= _PAUSE_S]
+    return sum(known) if len(known) == len(times) else None
+
+
 _WAITING = (ir.Wait, ir.WaitUntil, ir.CallRoutine, ir.Call, ir.Move, ir.StopMotion, ir.TaskControl)
 
 
 def _waits(node: object) -> bool:
     return isinstance(node, _WAITING)
-
-
-_LOGIC = (ir.Signal, ir.Unary, ir.Binary, ir.BoolLiteral, ir.IntLiteral, ir.RealLiteral)
-
-
-def _is_outside(node: object) -> bool:
-    """Is it part of a condition that signals alone decide?"""
-    return not isinstance(node, ir.Expression) or isinstance(node, _LOGIC)
 
 
 def _seconds(time: ir.Expression) -> ir.Expression:
@@ -251,6 +258,8 @@ def _times(part: ir.Expression, seconds: ir.Expression) -> ir.Expression:
     one, other = _number(part), _number(seconds)
     if one is not None and other is not None:
         return ir.RealLiteral(round(one * other, 12) + 0.0)
+    if one == 0.0:
+        return ir.RealLiteral(0.0)
     return ir.Binary("*", part, seconds)
 
 
@@ -261,6 +270,17 @@ def _parts(target: ir.Expression) -> Iterator[tuple[str, float | None]]:
         case ir.Builtin(arguments=arguments):
             names = ("x", "y", "z", "a", "b", "c")
             yield from ((name, _number(value)) for name, value in zip(names, arguments, strict=False))
+
+
+def _only(target: ir.Expression) -> ir.Expression | None:
+    """The speed of the one direction that is not zero, where the run decides how fast it is."""
+    if not isinstance(target, ir.Aggregate):
+        return None
+    given = [value for _, value in target.entries if _number(value) != 0.0]
+    if len(given) != 1 or any(isinstance(node, ir.Call) for node in walk(*given)):
+        return None
+    (value,) = given
+    return ir.Builtin("abs", (value.value if isinstance(value, ir.Quantity) else value,))
 
 
 def _size(parts: list[tuple[str, float | None]], joints: bool) -> float | None:

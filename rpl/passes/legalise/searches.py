@@ -6,10 +6,11 @@ signal already there, nothing found.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
@@ -44,16 +45,26 @@ def _local_names(routine: ir.Routine) -> frozenset[str]:
     return frozenset(names)
 
 
+def _target(context: Context) -> ir.Type:
+    return ir.TargetType(context.source)
+
+
+def _names(part: object, local: frozenset[str]) -> Iterator[ir.Name]:
+    """The variables of the routine that are asked."""
+    return (node for node in walk(part) if isinstance(node, ir.Name) and node.id.lower() in local)
+
+
 @dataclass(slots=True)
 class _Searches:
     context: Context
     errors: set[str]
     declarations: list[ir.Declaration] = field(default_factory=list)
     routines: list[ir.Routine] = field(default_factory=list)
-    joints: Callable[[ir.Expression], bool] = field(default=lambda goal: False)
+    typed: Callable[[ir.Expression], ir.Type | None] = field(default=lambda value: None)
+    passed: dict[str, ir.Type | None] = field(default_factory=dict)  # the routine's own numbers that a move is set by
 
     def routine(self, routine: ir.Routine, scope: Scope) -> ir.Routine:
-        self.joints = lambda goal: isinstance(type_of(goal, scope), ir.JointsType)
+        self.typed = lambda value: type_of(value, scope)
         return replace(routine, body=self.body(routine.body, _local_names(routine)))
 
     def body(self, body: ir.Body, local: frozenset[str]) -> ir.Body:
@@ -66,25 +77,23 @@ class _Searches:
         return tuple(done)
 
     def possible(self, move: ir.Move, local: frozenset[str]) -> bool:
-        """The generated routine sees global data only; the goal alone is passed."""
-        found = False
-
-        def look(expression: ir.Expression) -> ir.Expression:
-            nonlocal found
-            found = found or (isinstance(expression, ir.Name) and expression.id.lower() in local)
-            return rewrite_parts(expression, look)
-
-        rewrite_parts(replace(move, target=ir.IntLiteral(0), search=None), look)
-        if move.search is not None:
-            look(move.search.condition)
-        return not found
+        """The generated routine sees global data only; the goal is passed, and numbers that the move is set by."""
+        looked = move.search is not None and any(True for _ in _names(move.search.condition, local))
+        settings = replace(move, target=ir.IntLiteral(0), search=None)
+        self.passed = {}
+        for name in _names(settings, local):
+            self.passed[name.id] = self.typed(name)
+        return not looked and all(isinstance(one, ir.IntType | ir.RealType) for one in self.passed.values())
 
     def helpers(
         self, move: ir.Move, search: ir.Search, hit: str, place: str, react: str, travel: str
     ) -> tuple[ir.Routine, ir.Routine]:
         """What runs when the condition comes, and the move that is watched meanwhile."""
         number, stops = ir.IntLiteral(_PRIORITY), search.stop != "none"
-        goal: ir.Type = ir.JointsType() if self.joints(move.target) else ir.TargetType(self.context.source)
+        kind = self.typed(move.target)
+        shift = move.relative is not None and isinstance(kind, ir.PoseType)
+        goal = kind if kind is not None and (shift or isinstance(kind, ir.JointsType)) else _target(self.context)
+        given = tuple(ir.Parameter(name, type) for name, type in self.passed.items() if type is not None)
         return (
             ir.Routine(
                 react,
@@ -98,7 +107,7 @@ class _Searches:
             ),
             ir.Routine(
                 travel,
-                parameters=(ir.Parameter("goal", goal),),
+                parameters=(ir.Parameter("goal", goal), *given),
                 body=(
                     ir.ControlInterrupt("on", number),
                     replace(move, target=ir.Name("goal"), search=None, blend=ir.BlendStop()),
@@ -138,7 +147,7 @@ class _Searches:
             after.append(ir.If(((ir.Unary("not", ir.Name(hit)), failed),), origin=later))
         way: list[ir.Statement] = [
             ir.DeclareInterrupt(number, condition, ir.CallRoutine(react), origin=later),
-            ir.CallRoutine(travel, (ir.Argument(move.target),), origin=later),
+            ir.CallRoutine(travel, tuple(map(ir.Argument, (move.target, *map(ir.Name, self.passed)))), origin=later),
             ir.ControlInterrupt("off", number, origin=later),
         ]
         if search.hit is not None and search.edge != "either":  # where the condition holds at once there is no move
