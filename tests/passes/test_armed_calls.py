@@ -1,58 +1,60 @@
-"""Where an interrupt may come: a routine that is called with it on and with it off leaves it as it was."""
+"""Only what runs while a resuming interrupt may be on is left by it."""
 
 from __future__ import annotations
 
 import pytest
 
 from rpl.diagnostics import Diagnostics
+from rpl.passes.legalise.resumes import left_by_resumes
 from rpl.project import read_sources
 from rpl.source import source_from_text
-from rpl.translation import translate_program
 
-PROGRAM = """MODULE a
-VAR intnum i;
-VAR clock ck;
-CONST robtarget p:=[[400,-50,300],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
-PROC main()
-MoveL p,v100,z10,tool0;
-{before}
-MoveL p,v100,z10,tool0;
-CONNECT i WITH hold;
-ISignalDI di1,1,i;
-{between}
-MoveL p,v100,z10,tool0;
-IDelete i;
-{behind}
-MoveL p,v100,z10,tool0;
-ENDPROC
-PROC begins()
-ClkReset ck;
-ENDPROC
-PROC arms()
-CONNECT i WITH hold;
-ISignalDI di1,1,i;
-ENDPROC
-TRAP hold
-StopMove;
-WaitTime 0.5;
-StartMove;
-ENDTRAP
-ENDMODULE
+KRL = """DEF T( )
+DECL INT I
+INTERRUPT DECL 12 WHEN $FLAG[1] DO FOUND( )
+PTP {{A1 0,A2 -90,A3 90,A4 0,A5 60,A6 0}}
+{body}
+END
+DEF QUIET( )
+LIN_REL {{X 10.0}}
+LIN_REL {{X -10.0}}
+END
+DEF LOUD( )
+$FLAG[1]=TRUE
+WAIT SEC 0.2
+$OUT[2]=TRUE
+END
+DEF FOUND( )
+INTERRUPT OFF 12
+BRAKE
+$FLAG[1]=FALSE
+$OUT[1]=TRUE
+RESUME
+END
 """
-CASES = {
-    "no call": ("", "", "", [12]),
-    "called on and off": ("begins;", "begins;", "begins;", [12]),
-    "a routine that turns it on": ("arms;", "", "", [8, 12]),
-    "on again behind": ("", "begins;", "arms;", [12, 15]),
-}
+ARM = "DEF ARM( )\nINTERRUPT ON 12\nEND\n"
+PLAIN = "QUIET( )\nINTERRUPT ON 12\nLOUD( )\nINTERRUPT OFF 12"
 
 
-@pytest.mark.parametrize("name", CASES)
-def test_moves_that_may_be_stopped(name: str) -> None:
-    before, between, behind, lines = CASES[name]
-    text = PROGRAM.format(before=before, between=between, behind=behind)
-    diagnostics = Diagnostics()
-    read = read_sources([source_from_text("a.mod", text)], "rapid", Diagnostics())
-    translate_program(read, "vplus", "abb_irb1200_5_90", None, diagnostics)
-    told = [item.origin.line for item in diagnostics if item.code.name == "interrupt-stops-corner"]
-    assert sorted(told) == lines
+@pytest.mark.parametrize(
+    ("body", "asks"),
+    [
+        (PLAIN, False),
+        (f"{PLAIN}\nQUIET( )", False),
+        ("INTERRUPT ON 12\nLOUD( )\nQUIET( )", True),
+        ("ARM( )\nLOUD( )\nINTERRUPT OFF 12\nQUIET( )", True),
+        ("FOR I=1 TO 2\nQUIET( )\nINTERRUPT ON 12\nLOUD( )\nENDFOR", True),
+        ("FOR I=1 TO 2\nQUIET( )\nINTERRUPT ON 12\nLOUD( )\nINTERRUPT OFF 12\nENDFOR", False),
+        ("INTERRUPT ON 12\nLOUD( )\nIF $IN[1] THEN\nINTERRUPT OFF 12\nENDIF\nQUIET( )", True),
+        ("INTERRUPT ON 12\nLOUD( )\nI=12\nINTERRUPT OFF I\nQUIET( )", True),
+        ("INTERRUPT ON\nLOUD( )\nINTERRUPT OFF\nQUIET( )", False),
+        ("GOTO ON1\nON1:\nINTERRUPT ON 12\nLOUD( )\nINTERRUPT OFF 12\nQUIET( )", True),
+    ],
+)
+def test_who_is_left(body: str, asks: bool) -> None:
+    read = read_sources(
+        [source_from_text("t.src", KRL.format(body=body) + (ARM if "ARM" in body else ""))], "krl", Diagnostics()
+    )
+    left = left_by_resumes(read.program)
+    assert ("quiet" in left) is asks
+    assert "loud" in left

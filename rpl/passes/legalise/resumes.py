@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.legalise.armedcalls import ArmedElsewhere, armed_calls
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.usage import each_expression, each_statement
 from rpl.passes.rewrite import rewrite_parts
@@ -40,11 +41,10 @@ def resumes(program: ir.Program, context: Context) -> ir.Program:
 
 
 def left_by_resumes(program: ir.Program) -> frozenset[str]:
-    """Routines that the routine of an interrupt may leave: all below the levels that declare it. Folded names."""
+    """Routines that the routine of an interrupt may leave: below the levels that declare it. Folded names."""
     facts = _Facts.of(program)
     resuming = facts.resuming()
-    declaring = [name for name, declared in facts.declares.items() if declared & resuming]
-    return frozenset(one for name in declaring for one in facts.below(name)) - resuming
+    return frozenset(facts.left_by(resuming))
 
 
 @dataclass(slots=True)
@@ -54,6 +54,7 @@ class _Facts:
     calls: dict[str, set[str]] = field(default_factory=dict)
     has_resume: dict[str, bool] = field(default_factory=dict)
     declares: dict[str, set[str]] = field(default_factory=dict)
+    routines: list[ir.Routine] = field(default_factory=list)
 
     @classmethod
     def of(cls, program: ir.Program) -> _Facts:
@@ -69,6 +70,7 @@ class _Facts:
 
     def routine(self, routine: ir.Routine) -> None:
         key = routine.name.lower()
+        self.routines.append(routine)
         calls, declared = self.calls.setdefault(key, set()), self.declares.setdefault(key, set())
         self.has_resume.setdefault(key, False)
         actions: set[int] = set()  # what an interrupt or trigger runs is not called from here
@@ -104,10 +106,21 @@ class _Facts:
                     grown = True
         return found
 
-    def below(self, name: str) -> set[str]:
-        """The routines that this one calls, directly or not."""
+    def left_by(self, resuming: set[str]) -> set[str]:
+        """The routines that run while one of the interrupts may come."""
+        declaring = {name for name, declared in self.declares.items() if declared & resuming}
+        elsewhere = ArmedElsewhere.of(self.routines, declaring if len(declaring) == 1 else set())
         found: set[str] = set()
-        waiting = list(self.calls.get(name, ()))
+        for routine in self.routines:
+            if routine.name.lower() in declaring:
+                armed = armed_calls(routine, resuming, elsewhere)
+                found |= self.below(self.calls[routine.name.lower()] if armed is None else armed)
+        return found - resuming
+
+    def below(self, names: set[str]) -> set[str]:
+        """These routines, and what they call, directly or not."""
+        found: set[str] = set()
+        waiting = list(names)
         while waiting:
             callee = waiting.pop()
             if callee not in found:
@@ -121,10 +134,7 @@ class _Resumes:
         self.flag, self.drops = flag, drops
         self.handlers = resuming
         self.declaring = {name for name, declared in facts.declares.items() if declared & resuming}
-        self.watched: set[str] = set()
-        for name in self.declaring:
-            self.watched |= facts.below(name)
-        self.watched -= resuming
+        self.watched = facts.left_by(resuming)
 
     def routine(self, routine: ir.Routine) -> ir.Routine:
         key = routine.name.lower()
