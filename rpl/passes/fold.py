@@ -32,6 +32,8 @@ class Unchanged:
 
     assigned: set[str]
     initialised: dict[str, list[tuple[ir.Expression, ir.Expression, ir.Module]]] = field(default_factory=dict)
+    settled: dict[tuple[str, tuple[int, ...]], Value] = field(default_factory=dict)
+    """What the beginning of a program sets to a constant before its use: by folded name and indices of an element."""
 
 
 def constant(
@@ -114,6 +116,8 @@ class _Folder:
             return None
         declaration = symbol.declaration
         own = symbol.routine is not None
+        if self.unchanged is not None and not own and (name.lower(), ()) in self.unchanged.settled:
+            return self.unchanged.settled[name.lower(), ()]
         predefined = symbol.module is None and not own
         fixed = declaration.storage == "constant"
         if not fixed and self.unchanged is not None and not own:
@@ -149,6 +153,10 @@ class _Folder:
             return None
         if isinstance(base, ir.Name) and (given := self.known.get(element_key(base.id, whole))) is not None:
             return given
+        if self.unchanged is not None and isinstance(base, ir.Name) and self.is_global(base.id):
+            settled = self.unchanged.settled.get((base.id.lower(), tuple(whole)))
+            if settled is not None:
+                return settled
         found = self.value(base, None)
         if found is None:
             return self.listed(base, whole)
@@ -159,6 +167,10 @@ class _Folder:
                 return None
             found = found[place - first]
         return found
+
+    def is_global(self, name: str) -> bool:
+        symbol = self.scope.value(name)
+        return symbol is not None and symbol.routine is None
 
     def listed(self, base: ir.Expression, places: list[int]) -> Value | None:
         """An element that a data list sets on its own line."""

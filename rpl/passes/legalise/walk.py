@@ -12,6 +12,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.fold import Unchanged
+from rpl.passes.legalise.beginning import settled_at_start
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.usage import base_name, usage_of
 from rpl.passes.rewrite import rewrite_parts
@@ -265,7 +266,7 @@ def _in_order(statements: list[ir.Statement], old: ir.Statement) -> list[ir.Stat
 
 
 def unchanged_in(program: ir.Program) -> Unchanged:
-    """Which variables nothing assigns but their declaration and their data list."""
+    """Which variables nothing assigns but their declaration and their data list, and what is settled at the start."""
     bare = tuple(
         replace(module, declarations=tuple(one for one in module.declarations if not isinstance(one, ir.Initialise)))
         for module in program.modules
@@ -277,4 +278,5 @@ def unchanged_in(program: ir.Program) -> Unchanged:
                 name = base_name(one.assign.target)
                 if name is not None:
                     known.initialised.setdefault(name, []).append((one.assign.target, one.assign.value, module))
+    known.settled = settled_at_start(program, known)
     return known
