@@ -411,6 +411,10 @@ class Motion:
             first = [one for one in triggers if _at_beginning(one[0])]
             triggers = [one for one in triggers if one not in first]
             self.at_beginning(move, first)
+        if not (self.rounded_last and not self.stands):
+            later = [one for one in triggers if _behind_beginning(one[0])]
+            triggers = [one for one in triggers if one not in later]
+            self.behind_beginning(later)
         if len(triggers) > tables.MOST_TRIGGERS:
             raise CannotSayError(f"a move has at most {tables.MOST_TRIGGERS} actions on its path")
         for trigger, pulse in triggers:
@@ -425,6 +429,18 @@ class Motion:
         for trigger, pulse in triggers:
             if isinstance(trigger, ir.Trigger):
                 self.before.append(Line(f"  {self.deed(trigger, pulse)}"))
+
+    def behind_beginning(self, triggers: list[tuple[ir.Expression | ir.Trigger, float | None]]) -> None:
+        """Actions some time behind the beginning of a way: behind the end of one of no length in front of it."""
+        if not triggers:
+            return
+        if len(triggers) > tables.MOST_TRIGGERS:
+            raise CannotSayError(f"a move has at most {tables.MOST_TRIGGERS} actions on its path")
+        shown = ""
+        for trigger, pulse in triggers:
+            if isinstance(trigger, ir.Trigger):
+                shown += f" {self.trigger(replace(trigger, reference='end', distance=None), pulse)}"
+        self.before.append(Line(f"{self.standstill().first.rstrip()}{shown}    "))
 
     def deed(self, trigger: ir.Trigger, pulse: float | None) -> str:
         """What an action on the path does."""
@@ -533,6 +549,14 @@ def _at_beginning(trigger: ir.Expression | ir.Trigger) -> bool:
         return False
     given = [measured(one, unit) for one, unit in ((trigger.distance, "mm"), (trigger.delay, "s")) if one is not None]
     return not any(one is None or one != 0 for one in given)
+
+
+def _behind_beginning(trigger: ir.Expression | ir.Trigger) -> bool:
+    """Does an action come a constant time behind the place where the way begins?"""
+    if not isinstance(trigger, ir.Trigger) or trigger.reference != "start" or trigger.delay is None:
+        return False
+    distance = measured(trigger.distance, "mm") if trigger.distance is not None else 0
+    return distance == 0 and (measured(trigger.delay, "s") or 0) > 0
 
 
 def _same_place(one: ir.Trigger, other: ir.Trigger) -> bool:

@@ -17,7 +17,16 @@ from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Target
 
-_ARM_STANDS = ir.ConnectInterrupt | ir.ControlInterrupt | ir.OrderInterrupt | ir.Wait | ir.Clock | ir.Message
+_AXES = frozenset(("tool", "base", "displacement"))
+_ARM_STANDS = (
+    ir.DeclareInterrupt
+    | ir.ConnectInterrupt
+    | ir.ControlInterrupt
+    | ir.OrderInterrupt
+    | ir.Wait
+    | ir.Clock
+    | ir.Message
+)
 
 
 def triggers(program: ir.Program, context: Context) -> ir.Program:
@@ -132,19 +141,36 @@ class _Stored:
         return ir.Name(handle)
 
 
+_Begin = tuple[ir.Move, rigid.Vector | None]  # the move before, at whose end the next one begins, and its place
+_Starts = dict[str, list[_Begin | None]]  # routine, folded -> where its calls begin
+
+
 class _AtMoves:
     """Trigger statements become part of the move behind them. What comes a time behind the start of a move comes that
-    time behind the end of the one before, where the two follow each other."""
+    time behind the end of the one before, where the two follow each other. `starts`: where routines begin; `noted`:
+    where this one's calls do."""
 
-    def __init__(self, scope: Scope, unchanged: Unchanged) -> None:
-        self.scope, self.unchanged = scope, unchanged
+    def __init__(self, scope: Scope, unchanged: Unchanged, starts: _Starts, noted: _Starts) -> None:
+        self.scope, self.unchanged, self.starts, self.noted = scope, unchanged, starts, noted
 
-    def body(self, body: ir.Body) -> ir.Body:
+    def routine(self, routine: ir.Routine) -> ir.Routine:
+        return replace(routine, body=self.body(routine.body, routine.name.lower()))
+
+    def called(self, statement: ir.Statement, begins: _Begin | None) -> None:
+        """Notes where the robot is at the calls of a statement; a call within another statement may be anywhere."""
+        for node in walk(statement):
+            if isinstance(node, ir.CallRoutine | ir.Call):
+                own = node is statement and begins is not None and isinstance(begins[0].blend, ir.BlendStop | None)
+                self.noted.setdefault(node.name.lower(), []).append(begins if own else None)
+
+    def body(self, body: ir.Body, routine: str = "") -> ir.Body:
         done: list[ir.Statement] = []
         waiting: list[ir.Trigger] = []
-        begins: ir.Move | None = None  # the move before, at whose end the next one begins
+        calls = self.starts.get(routine, [])
+        begins = calls[0] if calls and all(one == calls[0] for one in calls) else None
         last: int | None = None  # the place in `done` of the move before, while nothing stands between that takes time
         for statement in body:
+            self.called(statement, begins)
             match statement:
                 case ir.Trigger():
                     waiting.append(statement)
@@ -163,11 +189,12 @@ class _AtMoves:
                         done[last] = replace(before, triggers=(*before.triggers, *moved)) if moved else before
                         own = [one for one in own if one not in early]
                     own = [self.from_end(one, begins, statement) for one in own]
-                    last, waiting, begins = len(done), [], statement
+                    last, waiting, begins = len(done), [], (statement, self.place(statement))
                     done.append(replace(statement, triggers=(*own, *statement.triggers)) if own else statement)
                     continue
                 case ir.Assign() | ir.Nothing() | ir.LookAhead():
                     done.append(statement)
+                    begins = None if _moves_the_axes(statement) else begins
                     continue
             done.extend(waiting)  # no move follows here: left for the writer to report
             last, waiting = None, []
@@ -175,36 +202,39 @@ class _AtMoves:
             done.append(rewrite_parts(statement, lambda expression: expression, self.body))
         return (*done, *waiting)
 
-    def from_end(self, trigger: ir.Trigger, begins: ir.Move | None, move: ir.Move) -> ir.Trigger:
+    def from_end(self, trigger: ir.Trigger, begins: _Begin | None, move: ir.Move) -> ir.Trigger:
         """What comes some way behind the start of a straight move, counted from its end where both are constants."""
         if trigger.reference != "start" or trigger.delay is not None or trigger.distance is None or begins is None:
             return trigger
         behind, length = constant_number(trigger.distance, self.scope), self.length(begins, move)
-        if not behind or length is None or begins.search is not None:
+        if not behind or length is None or begins[0].search is not None:
             return trigger
         left = behind - length
         if left > 0:
             return trigger
         return replace(trigger, reference="end", distance=ir.RealLiteral(float(f"{left:.9g}")))
 
-    def length(self, begins: ir.Move, move: ir.Move) -> float | None:
+    def length(self, begins: _Begin, move: ir.Move) -> float | None:
         """The length of a straight move between two constant places, mm."""
-        same = begins.frame == move.frame and begins.tool == move.tool
-        if not same or move.kind != "linear" or move.relative or begins.relative:
+        before, first = begins
+        same = before.frame == move.frame and before.tool == move.tool
+        second = self.place(move)
+        if not same or move.kind != "linear" or first is None or second is None:
             return None
-        ends = [constant(one.target, self.scope, self.unchanged) for one in (begins, move)]
-        places = [one.pose if isinstance(one, Target) else one for one in ends]
-        if not all(isinstance(one, rigid.Pose) for one in places):
-            return None
-        first, second = (one.position for one in places if isinstance(one, rigid.Pose))
         return second.plus(first, -1.0).length
+
+    def place(self, move: ir.Move) -> rigid.Vector | None:
+        """Where a move ends, in mm, if that is a constant."""
+        found = None if move.relative else constant(move.target, self.scope, self.unchanged)
+        pose = found.pose if isinstance(found, Target) else found
+        return pose.position if isinstance(pose, rigid.Pose) else None
 
     def in_corner(self, trigger: ir.Trigger, before: ir.Move, move: ir.Move) -> bool:
         """Does it come at the start of a way of unknown length, which begins in the corner of the move before?"""
         if trigger.reference != "start" or isinstance(before.blend, ir.BlendStop | None) or before.search is not None:
             return False
         distance = 0.0 if trigger.distance is None else constant_number(trigger.distance, self.scope)
-        return distance == 0 and move.kind != "circular" and self.length(before, move) is None
+        return distance == 0 and move.kind != "circular" and self.length((before, self.place(before)), move) is None
 
     def behind_the_start(self, trigger: ir.Trigger) -> bool:
         """Does it come a time behind the start itself?"""
@@ -217,13 +247,46 @@ class _AtMoves:
 def _at_moves(program: ir.Program) -> ir.Program:
     scopes = ProgramScope(program)
     unchanged = Unchanged(usage_of(program).assigned)
+    starts = _starts(program, scopes, unchanged)
     modules = []
     for module in program.modules:
         routines = [
-            replace(r, body=_AtMoves(scopes.routine(module, r), unchanged).body(r.body)) for r in module.routines
+            _AtMoves(scopes.routine(module, one), unchanged, starts, {}).routine(one) for one in module.routines
         ]
         modules.append(replace(module, routines=tuple(routines)))
     return replace(program, modules=tuple(modules))
+
+
+def _starts(program: ir.Program, scopes: ProgramScope, unchanged: Unchanged) -> _Starts:
+    """Where the routines begin that are called in the run of the program only."""
+    found: _Starts = {}
+    for module in program.modules:
+        for routine in module.routines:
+            _AtMoves(scopes.routine(module, routine), unchanged, {}, found).routine(routine)
+    beside = [program.entry or "", *(task.entry for task in program.tasks)]
+    for node in walk(*program.modules):
+        match node:
+            case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
+                begin = _first_text(dynamic)
+                beside += [name for name in found if name.startswith(begin)]
+            case ir.ConnectInterrupt(routine=name) | ir.TaskControl(task=name):
+                beside.append(name)
+    for name in beside:
+        found.setdefault(name.lower(), []).append(None)
+    return found
+
+
+def _first_text(name: ir.Expression) -> str:
+    """What a composed name surely begins with, folded."""
+    while isinstance(name, ir.Binary) and name.op == "&":
+        name = name.left
+    return name.value.lower() if isinstance(name, ir.TextLiteral) else ""
+
+
+def _moves_the_axes(statement: ir.Statement) -> bool:
+    """Does it change what places are told in?"""
+    system = statement.target if isinstance(statement, ir.Assign) else None
+    return isinstance(system, ir.System) and system.name in _AXES
 
 
 def _at_the_move(triggers: tuple[ir.Expression | ir.Trigger, ...]) -> bool:
