@@ -41,6 +41,11 @@ _JOINS = re.compile(
 _LOCKS = re.compile(r"^[ \t]*(?:\d+[ \t]+)?(?:LOCK|REACT[IE]?)\b", re.IGNORECASE | re.MULTILINE)
 _SWITCHED = re.compile(r"^[ \t]*(?:\d+[ \t]+)?(ENABLE|DISABLE|SWITCH)[ \t]+([^;\r\n]*)", re.IGNORECASE | re.MULTILINE)
 _HAND_TIME = re.compile(r"^[ \t]*(?:\d+[ \t]+)?PARAMETER[ \t]+HAND\.TIME[ \t]*=[ \t]*([^;\r\n]*)", re.I | re.MULTILINE)
+_TERM = re.compile(
+    r"[ \t]*([+-]?)[ \t]*(?:(\d{1,8})(?:[ \t]*\*[ \t]*([A-Za-z_][\w.]*))?|([A-Za-z_][\w.]*))[ \t]*(?=[+-]|$)"
+)
+_MOST_VALUES = 64  # of a name; one with more can be anything
+_ROUNDS = 40  # a name whose values still grow then counts without end
 _PLAIN_NUMBER = re.compile(r"\d+\.?\d*|\.\d+")
 
 
@@ -102,12 +107,31 @@ def _hand_time(values: set[str]) -> float | None:
     return numbers.pop() if len(numbers) == 1 else None
 
 
+Sum = tuple[tuple[int, str | None], ...]  # factors and names (None: of one)
+
+
+def sum_of(text: str) -> Sum | None:
+    """The terms of a sum of whole numbers and names, such as 101+10*n; None where it is something else."""
+    terms: list[tuple[int, str | None]] = []
+    at = 0
+    while at < len(text):
+        found = _TERM.match(text, at)
+        if found is None or (terms and not found[1]):
+            return None
+        sign = -1 if found[1] == "-" else 1
+        name = found[3] or found[4]
+        terms.append((sign * int(found[2] or 1), significant(name) if name else None))
+        at = found.end()
+    return tuple(terms) or None
+
+
 class _Numbers:
     """Whole numbers by name, whatever program the name belongs to. None: it can be anything."""
 
     def __init__(self) -> None:
         self.known: dict[str, set[int] | None] = {}
         self.links: set[tuple[str, str]] = set()
+        self.sums: list[tuple[str, Sum]] = []
 
     def of(self, texts: list[str]) -> dict[str, frozenset[int]]:
         headers = {
@@ -135,6 +159,8 @@ class _Numbers:
             return
         if value.removeprefix("-").isdigit() and len(value) < 9:
             known.add(int(value))
+        elif (terms := sum_of(value)) is not None:
+            self.sums.append((name, terms))
         else:
             self.known[name] = None
 
@@ -151,7 +177,7 @@ class _Numbers:
                 self.gets(significant(parameter), argument)
 
     def connect(self) -> None:
-        changed = True
+        changed, rounds = True, 0
         while changed:
             changed = False
             for one, other in self.links:
@@ -160,6 +186,27 @@ class _Numbers:
                 if (first, second) != (both, both):
                     self.known[one], self.known[other] = both, None if both is None else set(both)
                     changed = True
+            rounds += 1
+            for name, terms in self.sums:
+                before = self.known.get(name)
+                if before is None:
+                    continue
+                added = self.values(terms)
+                now = None if added is None else before | added
+                if now != before:
+                    ends = now is not None and len(now) <= _MOST_VALUES and rounds < _ROUNDS
+                    self.known[name] = now if ends else None
+                    changed = True
+
+    def values(self, terms: Sum) -> set[int] | None:
+        """What a sum can be, from what is known of its names so far; None: anything."""
+        found = {0}
+        for factor, name in terms:
+            some = {1} if name is None else self.known.get(name)
+            if some is None or len(some) * len(found) > _MOST_VALUES**2:
+                return None
+            found = {whole + factor * one for whole in found for one in some}
+        return found
 
 
 def _plain(parameter: str) -> str:

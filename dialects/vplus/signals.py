@@ -42,11 +42,9 @@ def numbers_of(expression: ir.Expression, facts: Facts) -> frozenset[int]:
             return frozenset((value,))
         case ir.Name(id=name) | ir.Index(base=ir.Name(id=name)):
             return facts.numbers.get(significant(name), frozenset())
-        case ir.Binary(op="+", left=ir.IntLiteral(value=value), right=right):
-            return frozenset(number + value for number in numbers_of(right, facts))
-        case ir.Binary(op="+" | "-" as op, left=left, right=ir.IntLiteral(value=value)):
-            step = value if op == "+" else -value
-            return frozenset(number + step for number in numbers_of(left, facts))
+        case ir.Binary(op="+" | "-" | "*" as op, left=left, right=right):
+            pairs = [(a, b) for a in numbers_of(left, facts) for b in numbers_of(right, facts)]
+            return frozenset(a + b if op == "+" else a - b if op == "-" else a * b for a, b in pairs)
     return frozenset()
 
 
@@ -100,25 +98,32 @@ def _reading_of(number: ir.Expression, facts: Facts, origin: Origin) -> ir.Expre
     if found is not None:
         return found
     values = numbers_of(number, facts)
+    if values and all(value > 0 for value in values):
+        return _any_kind(number, origin, values)
     size = ir.Builtin("abs", (number,), origin=origin)
     kinds = {kind_of(value) for value in values}
     known = next(iter(kinds)) if len(kinds) == 1 else None
-    state = _any_kind(size, origin) if known is None else signal(known[0], size, known[1], origin)
+    state = _any_kind(size, origin, values) if known is None else signal(known[0], size, known[1], origin)
     if values and all(value < 0 for value in values):
         return ir.Unary("not", state, origin=origin)
     negative = ir.Binary("<", number, ir.IntLiteral(0), origin=origin)
     return ir.Binary("xor", state, negative, origin=origin)
 
 
-def _any_kind(size: ir.Expression, origin: Origin) -> ir.Expression:
-    """The signal of a number without sign of which nothing else is known: by its size."""
+def _any_kind(size: ir.Expression, origin: Origin, values: frozenset[int]) -> ir.Expression:
+    """The signal of a number without sign: by its size, which only can be that of one of the values, where there are
+    some."""
+    sizes = {abs(value) for value in values}
+    ranges = [one for one in _RANGES if not sizes or any(one[0] <= value <= one[1] for value in sizes)] or _RANGES
     done: ir.Expression | None = None
-    for first, last, kind, offset in _RANGES:
-        fits = ir.Binary("<=", size, ir.IntLiteral(last), origin=origin)
-        if first > 1:
+    for place, (first, last, kind, offset) in enumerate(ranges):
+        here: ir.Expression = signal(kind, size, offset, origin)
+        if not sizes or any(value > last for value in sizes):
+            fits: ir.Expression = ir.Binary("<=", size, ir.IntLiteral(last), origin=origin)
+            here = ir.Binary("cand", fits, here, origin=origin)
+        if first > 1 and (not sizes or place > 0):
             above = ir.Binary(">=", size, ir.IntLiteral(first), origin=origin)
-            fits = ir.Binary("cand", above, fits, origin=origin)
-        here = ir.Binary("cand", fits, signal(kind, size, offset, origin), origin=origin)
+            here = ir.Binary("cand", above, here, origin=origin)
         done = here if done is None else ir.Binary("cor", done, here, origin=origin)
     assert done is not None
     return done
