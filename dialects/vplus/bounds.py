@@ -19,6 +19,7 @@ Symbol = tuple[str, str]  # program ("" for all), significant name
 Given = tuple[str, ir.Expression | None]  # the program where the value is; None: nobody can tell it
 NOTHING = -1  # of what is given no value at all
 _ROUNDS = 40  # a bound that still grows then has no end
+_LARGEST = 1_000_000  # no index is larger; what is squared in a loop grows without measure
 
 
 @dataclass(slots=True)
@@ -120,7 +121,7 @@ class Bounds:
                 now = None if None in found else max((one for one in found if one is not None), default=NOTHING)
                 if now != before:
                     grown = True
-                    self.known[symbol] = None if turn >= _ROUNDS else now
+                    self.known[symbol] = None if turn >= _ROUNDS or (now or 0) > _LARGEST else now
             if not grown:
                 return
         self.known = dict.fromkeys(self.known)

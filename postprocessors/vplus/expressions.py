@@ -355,7 +355,7 @@ class Expressions:
 
 
 _SHORT = 30
-_NAME = 17  # a value that is no longer than this gets no variable
+_NAME = 8  # a value that is no longer than this gets no variable
 _LARGEST_POWER = 6
 _Special = Callable[[Expressions, tuple[ir.Expression, ...]], "str | Printed"]
 _SPECIAL: dict[str, _Special] = {

@@ -285,7 +285,6 @@ CELLS = {"a door": answers(38, 21, 0.9), "a contact": answers(39, 22, 0.9)}
 REFUSED: dict[tuple[str, str], tuple[set[int], set[str]]] = {
     ("a call on the way", "tp"): ({1}, {"tp-guarded-stop"}),
     ("a call on the way", "vplus"): ({1}, {"vplus-guarded-stop"}),
-    ("a pulse on the way", "inform"): ({1}, {"inform-path-event-lost"}),
 }
 
 

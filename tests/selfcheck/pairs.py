@@ -35,7 +35,7 @@ from rpl.translation import translate_program
 HERE = Path(__file__).parent
 FILE = HERE / "pairs.json"
 KUKA, ABB, FANUC = "kuka_kr6r900sixx", "abb_irb1200_5_90", "fanuc_lrmate200id"
-LIMIT_S = 120.0  # simulated; the longest project ends after 49 s
+LIMIT_S = 120.0  # simulated; the longest project ends after 72 s
 UR, VIPER, YASKAWA = "ur5e", "adept_viper_s650", "motoman_gp7"
 
 
@@ -86,6 +86,13 @@ PROJECTS = {
     "vplus_more_bench": Project(VIPER, 20, "bench"),
     "inform_more_deburring": Project("motoman_mh24", 20, "DEBURR"),
     "rpl_more_grinding": Project(KUKA, 20),
+    "krl_more_gearbox": Project(KUKA, 20, "GEARCELL"),
+    "rapid_more_bonding": Project(ABB, 18),
+    "tp_more_packing": Project(FANUC, 20, "PACKER"),
+    "urscript_more_screws": Project(UR, 16),
+    "vplus_more_sorting": Project(VIPER, 20, "sort.cell"),
+    "inform_more_lathe": Project(YASKAWA, 20, "LATHECEL"),
+    "rpl_more_foundry": Project("kuka_kr16_2", 20),
 }
 TARGETS = list(registry.target_names())
 

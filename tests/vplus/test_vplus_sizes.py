@@ -31,6 +31,7 @@ SIZES = [
     ("a[2] = 1\nm = 7\nn = a[m]", 2),  # what was never filled cannot be read
     ("n = 1\nCALL up(n)\na[n] = 1", 255),
     ("n = n+1\na[n] = 1", 255),
+    ("n = 2\nWHILE n < 9 DO\nn = n*n\nEND\na[n] = 1", 255),
     ("PROMPT n\na[n] = 1", 255),
     ("a[3] = 1\nIF DEFINED(a[9]) THEN\nEND", 9),
 ]
