@@ -39,7 +39,7 @@ def test_the_stop_message_of_inline_forms(target: str) -> None:
 def test_only_what_does_nothing(body: str, stays: bool) -> None:
     declared = "INTERRUPT DECL 4 WHEN $IN[1]==TRUE DO hit( )\nINTERRUPT ON 4\n"
     text, _, _ = written(PROGRAM % (declared + "INTERRUPT OFF\n") + OWN % body, "rapid")
-    assert ("CONNECT" in text) == stays and ("ISignalDI" in text) == stays and ("IDisable" in text) == stays
+    assert ("CONNECT" in text) == stays and ("ISignalDI" in text) == stays and ("IDelete" in text) == stays
 
 
 def test_another_one_of_the_same_number_stays() -> None:
