@@ -14,6 +14,7 @@ from rpl.writing.statements import CannotSayError
 from . import tables
 from .declarations import in_one_list
 from .expressions import Expressions
+from .standing import Standing
 
 _MESSAGES = {"notify": "", "state": "", "write": "", "error": "error=True", "quit": "blocking=True"}
 _LONGEST_KEYS = 9
@@ -25,6 +26,7 @@ class Sharing(Protocol):
     watches: dict[str, str]
     threads: list[tuple[str, ...]]
     handles: dict[str, str]
+    standing: Standing
 
     def fresh(self, stem: str) -> str: ...
 
@@ -34,7 +36,6 @@ class Printing(Protocol):
 
     expressions: Expressions
     inside: bool
-    rounding: bool
 
     @property
     def output(self) -> Sharing: ...
@@ -70,9 +71,8 @@ class Actions:
                 printer.onward("continue")
             case ir.WaitForMotion():
                 printer.comments_only(origin)  # moves without a blend radius end before the next line
-                if printer.rounding:  # the last move of a loop or branch above
+                if printer.output.standing.must_wait(statement):  # the last move of a loop, branch or call above
                     printer.more("while not is_steady():", "  sync()", "end")
-                    printer.rounding = False
             case ir.WaitUntil():
                 self.wait_until(statement)
             case ir.Pulse() | ir.SetAfter():

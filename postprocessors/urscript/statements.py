@@ -18,6 +18,7 @@ from . import spelling
 from .actions import Actions
 from .expressions import Expressions, Notes
 from .motion import Motion
+from .standing import Standing
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
@@ -52,6 +53,7 @@ class Output:
     diagnostics: Diagnostics
     robot: RobotModel | None
     taken: set[str]
+    standing: Standing
     notes: Notes = field(default_factory=Notes)
     threads: list[tuple[str, ...]] = field(default_factory=list)
     watches: dict[str, str] = field(default_factory=dict)  # stop watch -> the variable that says whether it runs
@@ -87,7 +89,6 @@ class Printer(StatementPrinter[str]):
         self.scope, self.output, self.inside, self.depth = scope, output, inside, depth
         self.stopped = False  # does the statement follow one that brakes the robot?
         self.rest: ir.Body = ()  # what follows in the same body
-        self.rounding = False  # the move above has a blend radius: the program does not wait for its end
         self.before_next: list[tuple[str, ...]] = []
         self.expressions = Expressions(scope, output.notes)
         self.motion = Motion(self.expressions, output.diagnostics, output.robot)
@@ -158,9 +159,7 @@ class Printer(StatementPrinter[str]):
             case ir.ClearMotion() | ir.StartMotion() if self.stopped:
                 self.comments_only(statement.origin)  # stopj forgets the rest of the path by itself
             case ir.Move(origin=origin):
-                line = self.motion.move(statement, not _stands(self.rest))
-                self.rounding = ", r=" in line
-                self.line(line, origin)
+                self.line(self.motion.move(statement, not self.output.standing.wanted(self.rest)), origin)
             case ir.If() | ir.Switch() | ir.For() | ir.While() | ir.Repeat() | ir.Loop():
                 self.block(statement)
             case _:
@@ -265,18 +264,6 @@ class Printer(StatementPrinter[str]):
         if self.before_next:
             self.more(*self.before_next[-1])
         self.more(last)
-
-
-def _stands(rest: ir.Body) -> bool:
-    """Does the next statement want the robot to stand?"""
-    for statement in rest:
-        match statement:
-            case ir.Nothing():
-                continue
-            case ir.WaitForMotion() | ir.Wait(in_position=True) | ir.WaitUntil(in_position=True):
-                return True
-        return False
-    return False
 
 
 def _polls(loop: ir.While | ir.Repeat | ir.Loop) -> bool:

@@ -16,6 +16,7 @@ from .helpers import HELPERS, with_needed
 from .levels import output_levels
 from .namespace import called_names, names_of, not_reached, one_namespace, programs
 from .readings import clean_readings
+from .standing import Standing
 from .statements import INDENT, Output, Printer
 
 LOST_DECLARATION = code(
@@ -56,7 +57,7 @@ class _Script:
         self.scopes = ProgramScope(self.program)
         self.diagnostics = context.diagnostics
         taken = names_of(self.program) | set(HELPERS)
-        self.output = Output(self.ledger, context.diagnostics, context.robot, taken)
+        self.output = Output(self.ledger, context.diagnostics, context.robot, taken, Standing(self.program))
         called = called_names(self.program)
         self.is_body = self.start is not None and self.start.name.lower() not in called
         self.tasks = {task.entry.lower(): task for task in self.program.tasks if task.kind == "background"}
