@@ -88,7 +88,9 @@ class Corners:
                 return self.first(behind, rest)
 
             match statement:
-                case ir.Move(blend=blend) if blend is not None and not isinstance(blend, ir.BlendStop):
+                case ir.Move(blend=blend, concurrent=False) if blend is not None and not isinstance(
+                    blend, ir.BlendStop
+                ):
                     between = deferred(behind) if has_size(blend) else None
                     if between is None:
                         moves.append(Followed(statement, _next(behind), follows))

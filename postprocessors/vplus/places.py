@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.passes.typewords import word_type
-from rpl.writing.precedence import Printed
+from rpl.writing.precedence import ATOM, Printed
 from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
@@ -162,6 +162,8 @@ class Places:
             number = self.expressions.known(indices[0])
             if number is not None and 1 <= number <= len(tables.AXES):
                 return self.locations.decomposed(ir.Builtin("current_joints", ()), int(number) - 1)
+        if name == "remaining_distance" and not indices:
+            return Printed("DISTANCE(HERE, DEST)", ATOM)
         if name == "moving" and not indices:
             return Printed(f"DISTANCE(HERE, DEST) > {tables.STANDS_MM:g}", tables.RELATION)
         raise self.refuse(f"there is no system variable for {name.replace('_', ' ')}")

@@ -42,9 +42,7 @@ def told(diagnostics: Diagnostics, name: str) -> list[int]:
 KEPT = {  # the output gets the mark that lets the corner be
     "behind a branch": STOP + IF + CORNER + ENDIF.replace("ENDIF", "ELSE\nTIMER T=0.10\nENDIF") + OUT + BACK,
     "in both branches": STOP + IF + CORNER + ELSE + CORNER + ENDIF + OUT + BACK,
-    "in a branch behind it": STOP + CORNER + "INC B002\n" + IF + OUT + ENDIF + BACK,
     "behind a label": STOP + CORNER + "JUMP *ON IF B001=1\nINC B002\n*ON\n" + OUT + BACK,
-    "a group": STOP + CORNER + IF + "INC B002\n" + ENDIF + "DOUT OG#(2) B002\n" + BACK,
 }
 
 

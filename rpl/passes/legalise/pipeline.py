@@ -33,6 +33,7 @@ from rpl.passes.legalise.copiedflags import copied_flags
 from rpl.passes.legalise.cornercalls import corner_calls
 from rpl.passes.legalise.cornerleads import corner_leads
 from rpl.passes.legalise.corners import corners
+from rpl.passes.legalise.cornersteps import corner_steps
 from rpl.passes.legalise.criticals import without_criticals
 from rpl.passes.legalise.cyclicflags import cyclic_flags
 from rpl.passes.legalise.datalists import set_data_at_start
@@ -363,6 +364,7 @@ PASSES: tuple[Pass, ...] = (
     tool_data,
     own_places,
     mixed_speeds,
+    corner_steps,
     moves_ahead,
     explicit_to_modal,
     kept_corners,
