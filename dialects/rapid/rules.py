@@ -96,6 +96,7 @@ RULES = Rules(
     "rapid",
     _ADVANCE,
     text_plus=True,
+    group_bits=16,  # M: the system parameters say a group's signals; more than 16 are rare (a num holds 23 bits)
     components=COMPONENTS,
     wait_poll_s=0.1,
     system_defaults=_DEFAULTS,

@@ -27,6 +27,7 @@ RULES = Rules(
     undefined=True,
     whole_targets=True,  # a position that was not taught is a fault when it is used
     call_depth=100,
+    group_bits=16,  # M: a group has two to sixteen signals, which the controller's configuration says
     message_numbers=r"R\d+",  # MESSAGE shows constant text only: how a message names the register of a value
     message_texts=r"(?:SR|F|PR)\d+",
     system_defaults={

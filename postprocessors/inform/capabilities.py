@@ -79,6 +79,7 @@ CAPABILITIES = Capabilities(
     longest_message=tables.LONGEST_MESSAGE,
     asks_numbers_only=True,
     group_sizes=(8, 4),
+    widest_group=16,
     move_settings=frozenset(("tool", "frame", "speed", "blend")),
     speeds=frozenset(("joint", "path", "rotation")),
     blends=frozenset(("BlendStop", "BlendDistance", "BlendLevel")),

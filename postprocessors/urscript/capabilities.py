@@ -59,6 +59,7 @@ CAPABILITIES = Capabilities(
     blends=frozenset(("BlendDistance",)),
     postures="joints",
     straight_distances=True,
+    widest_group=32,
     watching_tasks=True,
     last_flag=tables.FLAGS,
     fixed_arcs=True,

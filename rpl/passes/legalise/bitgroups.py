@@ -3,7 +3,8 @@
 Written: each bit gets its share of the number. Read: the bits are added up in front of the statement, or where they are
 read when the target takes signals as numbers. Groups with computed numbers become signals with computed numbers where
 they have a constant width. Where signals have names, a named group and the names of its bits are different signals:
-groups that overlap what else is used become bits. Where groups have sizes, those of others do.
+groups that overlap what else is used become bits. Where groups have sizes, those of others become groups of these sizes
+and bits (sixteen signals are two bytes).
 """
 
 from __future__ import annotations
@@ -20,9 +21,10 @@ _WIDEST = 32
 
 
 def groups_to_bits(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets that cannot name a group by its first and last signal."""
+    """Only for targets that cannot name a group by its first and last signal, or know some sizes of groups only (the
+    numbers of some have been given by now)."""
     if context.capabilities.signal_groups:
-        return program
+        return shared_groups_to_bits(program, context) if context.capabilities.group_sizes else program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         return edit_bodies(routine, _Bits(editor).body)
@@ -45,7 +47,7 @@ def shared_groups_to_bits(program: ir.Program, context: Context) -> ir.Program:
         return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        return edit_bodies(routine, _Shared(editor, apart, computed).body)
+        return edit_bodies(routine, _Shared(editor, apart, computed, capabilities.group_sizes).body)
 
     return edit_routines(program, context, work)
 
@@ -145,6 +147,38 @@ def _bits(signal: ir.Expression) -> list[ir.Signal]:
     return []
 
 
+def _in_sizes(bits: list[ir.Signal], sizes: tuple[int, ...]) -> list[ir.Signal]:
+    """Signals in a row as groups of the sizes, each behind a multiple of its size, and single ones between them."""
+    done: list[ir.Signal] = []
+    at = 0
+    while at < len(bits):
+        width, first = 1, bits[at].index
+        if isinstance(first, ir.IntLiteral):
+            fitting = (one for one in sizes if one <= len(bits) - at and (first.value - 1) % one == 0)
+            width = max(fitting, default=1)
+        last = bits[at + width - 1].index
+        done.append(bits[at] if width == 1 else replace(bits[at], last=last))
+        at += width
+    return done
+
+
+def _width(part: ir.Signal) -> int:
+    """How many signals there are in a part of a group."""
+    match part:
+        case ir.Signal(index=ir.IntLiteral(value=first), last=ir.IntLiteral(value=last)):
+            return last - first + 1
+    return 1
+
+
+def _placed(parts: list[ir.Signal]) -> list[tuple[int, ir.Signal]]:
+    """Each part with the place of its lowest bit in the whole number."""
+    places, at = [], 0
+    for part in parts:
+        places.append((at, part))
+        at += _width(part)
+    return places
+
+
 class _Bits(Hoister):
     def __init__(self, editor: Editor) -> None:
         super().__init__(editor, self.ruled)
@@ -189,13 +223,16 @@ class _Bits(Hoister):
         bits = self.bits(group)
         if op not in ("=", "<>") or not bits:
             return None
-        if not 0 <= number < 2 ** len(bits):
+        if not 0 <= number < 2 ** sum(map(_width, bits)):
             return ir.BoolLiteral(op == "<>", origin=expression.origin)
         differs = op == "<>"
         done: ir.Expression | None = None
-        for place, bit in enumerate(bits):
-            wanted = bool(number >> place & 1) != differs
-            part = bit if wanted else ir.Unary("not", bit, origin=expression.origin)
+        for place, bit in _placed(bits):
+            part: ir.Expression = bit
+            if (width := _width(bit)) > 1:
+                part = ir.Binary(op, bit, ir.IntLiteral(number >> place & (1 << width) - 1), origin=expression.origin)
+            elif bool(number >> place & 1) == differs:
+                part = ir.Unary("not", bit, origin=expression.origin)
             done = part if done is None else ir.Binary("or" if differs else "and", done, part, origin=expression.origin)
         return done
 
@@ -226,39 +263,53 @@ class _Bits(Hoister):
             kept = self.editor.temporary("bits", ir.IntType())
             first.append(ir.Assign(kept, given if whole else ir.Convert("round_half_away", given)))
             given = kept
-        shares = [ir.Assign(bit, self.share(given, place)) for place, bit in enumerate(bits)]
+        shares = [ir.Assign(bit, self.share(given, place, _width(bit))) for place, bit in _placed(bits)]
         done = expansion(statement.origin, (*first, *shares))
         return tuple(replace(one, origin=statement.origin) if at == 0 else one for at, one in enumerate(done))
 
-    def share(self, number: ir.Expression, place: int) -> ir.Expression:
-        """Is the bit set in the number?"""
+    def share(self, number: ir.Expression, place: int, width: int) -> ir.Expression:
+        """Is the bit set in the number? Of several bits: the number that they show."""
         if isinstance(number, ir.IntLiteral):
-            return ir.BoolLiteral(bool(number.value >> place & 1))
+            shown = number.value >> place & (1 << width) - 1
+            return ir.IntLiteral(shown) if width > 1 else ir.BoolLiteral(bool(shown))
         cut = ir.Binary("div", number, ir.IntLiteral(2**place)) if place else number
-        return ir.Binary("=", ir.Binary("mod", cut, ir.IntLiteral(2)), ir.IntLiteral(1))
+        part = ir.Binary("mod", cut, ir.IntLiteral(2**width))
+        return part if width > 1 else ir.Binary("=", part, ir.IntLiteral(1))
 
 
 class _Shared(_Bits):
     """Groups that overlap others, names that are declared for such, and groups with computed numbers."""
 
-    def __init__(self, editor: Editor, apart: frozenset[Group], computed: bool) -> None:
+    def __init__(self, editor: Editor, apart: frozenset[Group], computed: bool, sizes: tuple[int, ...]) -> None:
         super().__init__(editor)
-        self.apart, self.computed = apart, computed
+        self.apart, self.computed, self.sizes = apart, computed, sizes
 
     def bits(self, expression: ir.Expression) -> list[ir.Signal]:
         signal = self.signal(expression)
         if not isinstance(signal, ir.Signal):
             return []
         apart = _group(signal) in self.apart or (self.computed and _is_computed(signal))
-        return _bits(signal) if apart else []
+        return _in_sizes(_bits(signal), self.sizes) if apart else []
+
+    def lower(self, expression: ir.Expression, lvalue: bool = False) -> Lowered:
+        compared = self.by_parts(expression)
+        return super().lower(expression, lvalue) if compared is None else ((), compared)
+
+    def flat(self, expression: ir.Expression) -> ir.Expression:
+        compared = self.by_parts(expression)
+        return super().flat(expression) if compared is None else compared
+
+    def by_parts(self, expression: ir.Expression) -> ir.Expression | None:
+        """Parts that are groups again are compared one by one."""
+        return self.compared(expression) if self.sizes and isinstance(expression, ir.Binary) else None
 
     def ruled(self, expression: ir.Expression) -> Lowered | None:
         """The sum of the bits by their weights; of those with computed numbers added up beforehand."""
         if isinstance(expression, ir.Signal) and _is_computed(expression):
             return super().ruled(expression)
         parts: list[ir.Expression] = []
-        for place, bit in enumerate(self.bits(expression)):
-            value: ir.Expression = ir.Convert("bit", bit)
+        for place, bit in _placed(self.bits(expression)):
+            value: ir.Expression = bit if _width(bit) > 1 else ir.Convert("bit", bit)
             parts.append(ir.Binary("*", ir.IntLiteral(2**place), value) if place else value)
         if not parts:
             return None

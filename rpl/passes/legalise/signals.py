@@ -372,7 +372,8 @@ def _chosen(
             bits, fits = widths.get((kind, key), (WIDTH, True))
             signal = _signal(kind, number, alone, bits)
             declared.append(ir.SignalDeclaration(alias, signal, scope="global"))
-            context.diagnostics.report(NUMBERED, name=name, number=number)
+            last = signal.last.value if isinstance(signal.last, ir.IntLiteral) else number
+            context.diagnostics.report(NUMBERED, name=name, number=number if last == number else f"{number} to {last}")
             if not fits:
                 context.diagnostics.report(TOO_NARROW, name=name, bits=bits, most=(1 << bits) - 1)
     return declared, aliases
