@@ -61,7 +61,7 @@ def _frame(tree: SyntaxTree, at: Reading) -> Element:
     name = names(tree)[0]
     value, *base = trees(tree)
     if base:
-        at.affixed.append((name, expression(base[0], at)))
+        at.affixed.append((name, expression(base[0], at), at.origin))
     return ir.Variable(name, ir.PoseType(), expression(value, at), "variable", scope_of(tree), origin=at.origin)
 
 

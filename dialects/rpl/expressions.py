@@ -32,7 +32,7 @@ class Reading:
 
     numbers: tuple[str, ...]
     origin: Origin
-    affixed: list[tuple[str, ir.Expression]] = field(default_factory=list)
+    affixed: list[tuple[str, ir.Expression, Origin]] = field(default_factory=list)
 
     def integer(self, child: Child) -> int:
         text = self.spelling(child)

@@ -38,26 +38,26 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     places: list[Origin] = []
     entry = ""
     files: list[FileReport] = []
+    affixed: list[Affixment] = []
     for source in sources:
-        affixed: list[Affixment] = []
         builder = Builder(diagnostics)
 
-        def lowered(
-            tree: SyntaxTree, numbers: tuple[str, ...], origin: Origin, affixed: list[Affixment] = affixed
-        ) -> Element | tuple[Element, ...]:
+        def lowered(tree: SyntaxTree, numbers: tuple[str, ...], origin: Origin) -> Element | tuple[Element, ...]:
             return lower(tree, Reading(numbers, origin, affixed))
 
         assembly = assemble(source, words.NATIVE, split(source), parser, lowered, builder.build, diagnostics)
         found = _File(source)
         for item in assembly.items:
             found.take(item)
-        modules.extend(with_signal_parameters(affix(module, affixed)) for module in found.finish())
+        modules.extend(found.finish())
         tasks.extend(found.tasks)
         places.extend(found.places)
         entry = entry or found.entry
         files.append(assembly.report)
     _report_replaced(modules, tasks, entry, places, diagnostics)
-    return ReadResult(ir.Program(tuple(modules), tuple(tasks), entry), tuple(files))
+    program = affix(ir.Program(tuple(modules), tuple(tasks), entry), affixed, diagnostics)
+    modules = [with_signal_parameters(module) for module in program.modules]
+    return ReadResult(replace(program, modules=tuple(modules)), tuple(files))
 
 
 def _report_replaced(

@@ -153,7 +153,9 @@ def _preparation(linker: RoutineLinker, declaration: ir.Variable, place: int) ->
 def first_value(compiler: Compiler, declaration: ir.Variable) -> Read:
     """A closure that makes a variable's first value."""
     types, type = compiler.types, declaration.type
-    bounds: dict[int, Read] = {}
+    # The bounds are linked with the rest: they may be constants, of any module, that have to have their value first.
+    written = types.bounds(type) if declaration.initial is None else ()
+    bounds = {id(bound): compiler.value(bound) for bound in written}
 
     def number(f: Values) -> Callable[[ir.Expression], Value]:
         def evaluate(bound: ir.Expression) -> Value:

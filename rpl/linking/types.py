@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from rpl import ir, registry
 from rpl.passes.scope import Scope
@@ -60,6 +60,16 @@ class Types:
         return component_names(type, self.scope)
 
     # ---- first values
+
+    def bounds(self, type: ir.Type) -> Iterator[ir.Expression]:
+        """The bounds of the arrays in a type, those in the fields of records among them."""
+        type = self.scope.resolve(type)
+        if isinstance(type, ir.ArrayType):
+            yield from (bound for bound in type.dimensions if bound is not None)
+            yield from self.bounds(type.element)
+        elif isinstance(type, ir.NamedType) and isinstance(record := self.scope.type(type.name), ir.RecordDeclaration):
+            for _, field in record.fields:
+                yield from self.bounds(field)
 
     def initial(self, type: ir.Type, number: Dimensions) -> Value:
         """The value of a variable that nothing was assigned to: zero, or none where the language has it so. `number`
