@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import cast, get_args
 
 from rpl import ir
@@ -28,12 +27,6 @@ JOINT_SPEED = code(
     "vplus-speed-of-joints",
     Severity.INFO,
     "a tool speed holds for straight lines; moves in joints get {percent} percent of their speed",
-)
-AFTER_DELAY = code(
-    "vplus-after-delay",
-    Severity.WARNING,
-    "the controller switches this when the pause begins; here it is switched when the pause ends",
-    "put BREAK behind DELAY, or the step in front of it",
 )
 NO_LOOP = code("vplus-no-such-loop", Severity.ERROR, "{word} {count} reaches over more loops than there are")
 
@@ -114,7 +107,6 @@ class Builder:
             elif isinstance(item, ModulePart) and not _is_outer(item):
                 self.diagnostics.report(MISPLACED, item.origin, what="a declaration inside of a block")
                 done.append(ir.Opaque(item.origin.text, origin=item.origin))
-        self.check_delays(done)
         self.check_speeds(done)
         return tuple(done)
 
@@ -128,14 +120,6 @@ class Builder:
                     following = next((one for one in body[at:] if isinstance(one, ir.Move)), None)
                     if following is None or following.kind == "joint":
                         self.diagnostics.report(JOINT_SPEED, statement.origin, percent=f"{percent.value:g}")
-
-    def check_delays(self, body: list[ir.Statement]) -> None:
-        """DELAY is a motion to the controller: a step behind it does not wait for its end."""
-        acting = [statement for statement in body if not isinstance(statement, ir.Nothing)]
-        for statement, behind in pairwise(acting):
-            delay = isinstance(statement, ir.Wait) and statement.in_position
-            if delay and isinstance(behind, ir.Assign) and isinstance(behind.target, ir.Signal):
-                self.diagnostics.report(AFTER_DELAY, behind.origin)
 
     def program(self, block: Block) -> Item | tuple[Item, ...]:
         header, origin = block.open.data, block.open.origin

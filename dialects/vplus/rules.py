@@ -11,7 +11,12 @@ _XYZABC = {name: name for name in ("x", "y", "z", "a", "b", "c")}
 # A move starts and the program goes on at once; at the next move it waits until the present one has ended or goes over
 # into it. So a step behind a move acts just after that move has begun (user's guide, forward processing). Signals and
 # waits do not hold the program. A halt lets the motion end first.
-ADVANCE = AdvanceRules(moves=1, runs_ahead_of="begun", stop_statements=frozenset(("Halt",)))
+ADVANCE = AdvanceRules(
+    moves=1,
+    runs_ahead_of="begun",
+    stop_statements=frozenset(("Halt",)),
+    waits_queue=True,  # M: DELAY is a move without a way: it begins when the move before has ended, the program goes on
+)
 
 RULES = Rules(
     name="vplus",

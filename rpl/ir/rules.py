@@ -18,6 +18,7 @@ class AdvanceRules:
     lead_s: with `fly_by`, logic behind a fly-by move runs this long before the corner path begins.
     stop_statements: names of IR statement classes before which the controller waits for the motion to end.
     signals_stop: reading or writing a signal or an actual position waits for the motion to end.
+    waits_queue: a time waited at rest is a move without a way: the robot keeps still, the program goes on.
     """
 
     moves: int
@@ -25,6 +26,7 @@ class AdvanceRules:
     lead_s: float = 0.0
     stop_statements: frozenset[str] = frozenset()
     signals_stop: bool = False
+    waits_queue: bool = False
 
 
 @dataclass(frozen=True, slots=True)

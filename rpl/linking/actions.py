@@ -8,7 +8,7 @@ from rpl import ir
 from rpl.ir.walk import children
 from rpl.linking import interrupts
 from rpl.linking.places import writer
-from rpl.runtime import answers, functions, system, tasks
+from rpl.runtime import answers, functions, resting, system, tasks
 from rpl.runtime.code import SWITCHED, Instruction, Read, Values, Write
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.texts import value_text
@@ -112,12 +112,16 @@ def _standing(in_position: bool, f: Values, here: int) -> int | None:
 
 def _wait(statement: ir.Wait, linker: RoutineLinker) -> Make:
     seconds, in_position = linker.compiler.value(statement.time), statement.in_position
+    queues = in_position and linker.compiler.scope.rules.advance.waits_queue
 
     def make(here: int, next: int) -> Instruction:
         def wait(f: Values) -> int:
             first = _standing(in_position, f, here)
             if first is not None:
                 return first
+            if queues and f[0].robot is not None:
+                resting.rest(f[0].robot, seconds(f))
+                return next
             done: int = f[0].sleep(seconds(f), here, next)
             return done
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rpl.runtime import pieces, searching, velocities
+from rpl.runtime import pieces, resting, searching, velocities
 from rpl.runtime.chain import (
     Planning,
     pose_of_array,
@@ -74,6 +74,8 @@ class MotionQueue(RobotState):
             return velocities.go(self, order, next)
         if velocities.is_endless(self):
             velocities.let_rest(self)
+            return task.wait_for("idle", order.at, order.at)
+        if self.resting:
             return task.wait_for("idle", order.at, order.at)
         if order.tool is not None:
             task.modal["tool_in_use"], task.modal["frame_in_use"] = order.tool, order.frame
@@ -191,6 +193,8 @@ class MotionQueue(RobotState):
                 self._arrived()
             case "release":
                 self._release()
+            case "rested":
+                resting.ended(self)
             case "middle":
                 self._passed()
             case "fire":
@@ -256,7 +260,7 @@ class MotionQueue(RobotState):
             self._close_leg(self.piece, now)
         self.piece = piece
         self.generation += 1
-        self._schedule(piece.end_s, "arrive")
+        self.schedule(piece.end_s, "arrive")
         drive = piece.drive
         self._begun(drive if piece.corner is None else piece.corner.following)
         lead = drive.order.rules.advance.lead_s
@@ -264,16 +268,16 @@ class MotionQueue(RobotState):
             if not drive.released and drive.order.rules.advance.runs_ahead_of == "fly_by":
                 # Past the place where its corner would begin already: the next move is asked for at once.
                 leaves_s = piece.end_s if piece.open_end or piece.ahead is not None else now
-                self._schedule(max(now, leaves_s - lead), "release")
+                self.schedule(max(now, leaves_s - lead), "release")
         elif not drive.released and not drive.order.blend.stops:
-            self._schedule(max(now, piece.end_s - lead), "release")
+            self.schedule(max(now, piece.end_s - lead), "release")
         if piece.corner is not None:
-            self._schedule(piece.start_s + piece.corner.t_middle_s, "middle")
+            self.schedule(piece.start_s + piece.corner.t_middle_s, "middle")
         for place, trigger in enumerate(drive.order.triggers):
             if not trigger.fired:
                 trigger.due = pieces.time_of_trigger(piece, trigger)
                 if trigger.due is not None:
-                    self._schedule(max(now, trigger.due), "fire", drive.number, place)
+                    self.schedule(max(now, trigger.due), "fire", drive.number, place)
 
     def _begun(self, drive: Drive) -> None:
         """A move is driven, or the corner into it: its program may go on where the language waits for that."""
@@ -281,7 +285,7 @@ class MotionQueue(RobotState):
             drive.released = True
             self._look()
 
-    def _schedule(self, time: float, what: str, *data: int) -> None:
+    def schedule(self, time: float, what: str, *data: int) -> None:
         self.machine.schedule(time, ARRIVALS, "motion", self.task_index, what, self.generation, *data)
 
     def _close_leg(self, piece: Piece, now: float) -> None:
@@ -445,6 +449,7 @@ class MotionQueue(RobotState):
     def halt(self, hard: bool, ends_move: bool = False) -> None:
         """Brake on the path; `ends_move`: what is left of the move is dropped when the robot stands."""
         self.stopped = not ends_move
+        resting.ended(self)
         piece = self.piece
         if piece is None:
             return
@@ -519,6 +524,7 @@ class MotionQueue(RobotState):
         if self.piece is not None:
             self._close_leg(self.piece, self.machine.now)
             self.joints = self.joints_array()
+        resting.ended(self)
         begun = self.piece or self.halted
         self.piece = self.halted = None
         self.generation += 1

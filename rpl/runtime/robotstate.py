@@ -29,6 +29,7 @@ class RobotState:
         self.joints: FloatArray | None = _start(machine, model)
         self.external: tuple[float | None, ...] = (None,) * 6
         self.piece: Piece | None = None
+        self.resting = False  # it keeps still for a time that the program has ordered (see resting)
         self.imagined = Imagined()
         self.interrupted: tuple[FloatArray, float] | None = None
 

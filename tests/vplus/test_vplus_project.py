@@ -145,7 +145,6 @@ WARNED = [
     ("FOR n = 1 TO 2\nEXIT 2\nEND", "vplus-no-such-loop"),
     ("n = NOSUCH(1)", "vplus-unknown-function"),
     ("ABORT 4", "vplus-unknown-task"),
-    ("DELAY 1\nSIGNAL 1", "vplus-after-delay"),
     ("n = 1\n.END\nn = 2\n.PROGRAM z", "vplus-outside-program"),
     ("IF x THEN\nEND l5", "vplus-text-behind-end"),
     ("GOTO 10", "unknown-label"),

@@ -117,6 +117,7 @@ from rpl.passes.legalise.programtimes import program_times
 from rpl.passes.legalise.pulsedoutputs import pulsed_outputs
 from rpl.passes.legalise.pulselevels import pulse_levels
 from rpl.passes.legalise.pulses import fold_pulses
+from rpl.passes.legalise.queuedwaits import queued_waits
 from rpl.passes.legalise.randomnumbers import random_numbers
 from rpl.passes.legalise.rates import rates
 from rpl.passes.legalise.reactions import reactions
@@ -259,6 +260,7 @@ PASSES: tuple[Pass, ...] = (
     possible_cases,
     wrist_paths,
     labels_to_structure,
+    queued_waits,
     next_moves_behind_calls,
     settings_of_next_move,
     joined_moves,
