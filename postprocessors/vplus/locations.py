@@ -105,13 +105,21 @@ class Locations:
         return f"{name}[{at}]"
 
     def euler(self, base: ir.Expression, name: str) -> str:
-        """An angle about z (a), new y (b) or new x (c): from where unit vectors along the axes point."""
+        """An angle about z (a), new y (b) or new x (c), by a program that comes along; inside of a condition from where
+        unit vectors along the axes point, which says nothing of a and c where b is 90 or -90."""
         known = self.expressions.known(ir.Field(base, name))
         if known is not None:
             return spelling.number(rigid.clean(known), spelling.PLACES)
         place = self.expressions.printer.text(base, tables.COMPOUND)
-        if len(place) > _SHORT:
+        notes = self.expressions.notes
+        if len(place) > _SHORT or (notes.steps and not isinstance(base, ir.Name)):
             place = self.expressions.kept(place, "p", "SET ")
+        if notes.steps:
+            angle = notes.temporary(f"angle.{name}")
+            notes.autos.append(angle)
+            notes.step(f"CALL rpl.angle({place}, {'abc'.index(name) + 1}, {angle})")
+            notes.helpers.add("rpl.angle")
+            return angle
 
         def row(axis: str, along: str) -> str:
             unit = {"x": "1", "y": "0, 1", "z": "0, 0, 1"}[along]
@@ -120,13 +128,10 @@ class Locations:
         if name == "a":
             text = f"ATAN2({row('Y', 'x')}, {row('X', 'x')})"
         elif name == "b":
-            across = [row("Z", "y"), row("Z", "z")]
-            if self.expressions.notes.steps:
-                across = [self.expressions.kept(one, "r") for one in across]
-            text = f"ATAN2(-({row('Z', 'x')}), SQRT(SQR({across[0]})+SQR({across[1]})))"
+            text = f"ATAN2(-({row('Z', 'x')}), SQRT(SQR({row('Z', 'y')})+SQR({row('Z', 'z')})))"
         else:
             text = f"ATAN2({row('Z', 'y')}, {row('Z', 'z')})"
-        return self.expressions.kept(text, f"angle.{name}") if self.expressions.notes.steps else text
+        return text
 
     def with_component(self, base: ir.Expression, name: str, value: ir.Expression) -> str:
         """A location or joints with one number changed."""
