@@ -75,9 +75,10 @@ class EndedMoves(Served):
         condition holds from the start the interrupt has come before and the move is one as any other."""
         (move,) = moves
         first: ir.Body = ()
-        if self.again:
+        again = id(move) in self.again
+        if again:
             first, move = with_kept_target(editor, move)
-        if self.again and path_differs(move):
+        if again and path_differs(move):
             return not_again(move, path_differs(move), self.context)
         if not isinstance(move.blend, ir.BlendStop | None):
             self.context.diagnostics.report(CORNER, move.origin)
@@ -91,8 +92,8 @@ class EndedMoves(Served):
         held = watch.may_come()
         if held is not None:
             comes = ir.Binary("cand", comes, held)
-        again: ir.Body = () if watch.declared.stops else (self.onward(hit, bare),)
-        tried: ir.Body = (ended, ir.If(((hit, (look, *again)),)))
+        rest: ir.Body = () if watch.declared.stops else (self.onward(hit, bare),)
+        tried: ir.Body = (ended, ir.If(((hit, (look, *rest)),)))
         told = self.leaving(move, (look,), True)
         return (*first, *told, *self.leaving(bare, (ir.If(((comes, tried),), (bare,)),), True))
 

@@ -108,13 +108,20 @@ def with_kept_target(editor: Editor, move: ir.Move) -> tuple[ir.Body, ir.Move]:
             return (), move
         steps = dict(place.entries)
         offsets = tuple(steps.get(name, ir.RealLiteral(0.0)) for name in _POSITION)
-        place = ir.Builtin(_OFFSETS[move.relative], (ir.System("actual_pose"), *offsets))
+        place = ir.Builtin(_OFFSETS[move.relative], (_here(move), *offsets))
         type = ir.TargetType(editor.scope.rules.name)
     if type is None:
         return (), move
     kept = editor.temporary("rpl_goal", type)
     first = (ir.WaitForMotion(origin=move.origin), ir.Assign(kept, place, origin=_bare(move).origin))
     return first, replace(_bare(move), target=kept, relative=None)
+
+
+def _here(move: ir.Move) -> ir.Expression:
+    """Where the robot is, with the tool and in the frame that the move says itself."""
+    if move.tool is None and move.frame is None:
+        return ir.System("actual_pose")
+    return ir.Builtin("current_target", (move.tool or ir.System("tool"), move.frame or ir.System("null_frame")))
 
 
 def not_again(move: ir.Move, reason: str, context: Context) -> ir.Body:

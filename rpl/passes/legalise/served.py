@@ -18,6 +18,7 @@ from rpl.passes.legalise.heldmotion import not_again, path_differs, with_kept_ta
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.movers import Movers
 from rpl.passes.legalise.movesettings import plain
+from rpl.passes.legalise.reach import Armed, armed_statements
 from rpl.passes.legalise.searchtasks import SearchTasks
 from rpl.passes.legalise.support import default_value
 from rpl.passes.legalise.usage import called_below
@@ -72,7 +73,7 @@ class Served:
     declaring: frozenset[str] = frozenset()
     leaves: bool = False
     brakes: bool = False
-    again: bool = False  # what it stops is begun again
+    again: frozenset[int] = frozenset()  # statements that may be stopped, and begin again then
     here: ir.Routine | None = None
     searching: SearchTasks | None = None
 
@@ -83,7 +84,9 @@ class Served:
         resuming = closure(self.program, (ir.ResumeLevel,))
         self.leaves = bool(roots & resuming)
         stopping = closure(self.program, (ir.StopMotion,))
-        self.again = bool(roots & stopping) and not self.leaves
+        goes_on = {key for key, one in self.watches.items() if _may_go_on(self.program, one.declared.action, stopping)}
+        for key in goes_on:
+            self.again |= armed_statements(self.program, Armed(key))
         self.brakes = bool(roots & stopping) or any(one.declared.stops for one in self.watches.values())
         found = set()
         for module in self.program.modules:
@@ -147,10 +150,11 @@ class Served:
     def drive(self, editor: Editor, moves: list[ir.Move]) -> ir.Body:
         assert self.here is not None  # set with the routine
         first: ir.Body = ()
-        if self.again:
+        again = any(id(move) in self.again for move in moves)
+        if again:
             first, moves[0] = with_kept_target(editor, moves[0])
         other = next(filter(None, map(path_differs, moves)), "")
-        if self.again and other:
+        if again and other:
             return (*not_again(moves[0], other, self.context), *moves[1:])
         begun = self.movers.begin(editor, self.here, moves)
         comments = tuple(comment for move in moves for comment in move.origin.comments)
@@ -318,6 +322,19 @@ class Served:
         words = ("rpl_acting", "rpl_braked", "rpl_left")
         named = [self.names[word] for word in words if word in self.names]
         return tuple(ir.Variable(name, ir.BoolType(), _FALSE, scope="global") for name in named)
+
+
+def _may_go_on(program: ir.Program, action: ir.Assign | ir.CallRoutine, stopping: frozenset[str]) -> bool:
+    """Does the interrupt stop the robot, and not surely leave its level behind that?"""
+    if not isinstance(action, ir.CallRoutine) or action.name.lower() not in stopping:
+        return False
+    for module in program.modules:
+        for routine in module.routines:
+            if routine.name.lower() == action.name.lower():
+                ways_out = any(isinstance(node, ir.Return | ir.Goto) for node in walk(*routine.body))
+                said = [one for one in routine.body if not isinstance(one, ir.Nothing)]
+                return ways_out or not said or not isinstance(said[-1], ir.ResumeLevel)
+    return True
 
 
 def _routine(name: str, body: ir.Body) -> ir.Routine:
