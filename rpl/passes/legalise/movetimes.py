@@ -107,10 +107,18 @@ class _Facts:
         """Of paths, mm/s2: what the program has set, else what the target's controller takes."""
         name = "path_acceleration"
         found, ours = _number(state[name]), self.ours.get(name, 5000.0)
-        brought = name in self.context.capabilities.speeds  # such targets' moves say those of the source
+        can = self.context.capabilities  # such targets' moves say those of the source, or are set to them
+        brought = name in can.speeds or (name in can.system_variables and can.modal_motion)
         theirs = ours if brought else self.theirs.get(name, 5000.0)
         value = float(theirs if found is None or found == ours else found)
         return value * self.effort(state)
+
+    def quick(self) -> ir.Expression | None:
+        """The acceleration of a move whose time is kept by its speed alone, where the target is set to a lower one."""
+        name, can = "path_acceleration", self.context.capabilities
+        ours, theirs = self.ours.get(name), float(self.theirs.get(name, 5000.0))
+        slower = isinstance(ours, int | float) and ours < theirs
+        return ir.RealLiteral(theirs) if slower and name in can.system_variables and can.modal_motion else None
 
     def effort(self, state: State) -> float:
         found = _number(state["acceleration_percent"])
@@ -293,7 +301,9 @@ class _Times:
         if move.kind == "joint":
             value = ir.Builtin("min", (ir.RealLiteral(100.0), value))
         before.append(ir.Assign(result, value, origin=origin))
-        return ir.Speed(joint=result) if move.kind == "joint" else ir.Speed(path=result)
+        if move.kind == "joint":
+            return ir.Speed(joint=result)
+        return ir.Speed(path=result, path_acceleration=self.facts.quick())
 
     def way(self, move: ir.Move, time: ir.Expression) -> list[ir.Assign]:
         """Steps whose first target ends as the length of the way (mm), or as 100 times the seconds at full speed: no

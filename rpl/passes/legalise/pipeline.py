@@ -185,6 +185,7 @@ from rpl.passes.legalise.undefinedparts import asked_elements
 from rpl.passes.legalise.unreadparameters import drop_unread_parameters
 from rpl.passes.legalise.unused import drop_idle_data, drop_untyped, drop_unused
 from rpl.passes.legalise.usedelements import used_elements
+from rpl.passes.legalise.usualaccelerations import usual_accelerations
 from rpl.passes.legalise.valuearrays import copy_value_arrays
 from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.legalise.watches import counted_watches
@@ -355,6 +356,7 @@ PASSES: tuple[Pass, ...] = (
     references_as_copies,
     fit_loops,
     enums_to_constants,
+    usual_accelerations,
     fit_speeds,
     corners,
     stand_before_ways,

@@ -26,6 +26,7 @@ from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Record, Target, Value, component, pose_of
 
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
+_COMPONENTS = ("x", "y", "z", "a", "b", "c")
 _PLACES = ("tool", "base", "robot_root")
 Joints = tuple[float, ...]
 Seen = tuple[ir.Expression | None, ir.Expression | None, rigid.Pose]
@@ -53,10 +54,13 @@ NOWHERE_KNOWN = Stand()
 
 
 class Whereabouts:
-    """`ways`: the way of each move by identity, where something of it is known."""
+    """`ways`: the way of each move by identity, where something of it is known. `starts`, `ends`: where the robot
+    stands before each move and behind it."""
 
     def __init__(self, program: ir.Program, context: Context) -> None:
         self.ways: dict[int, Way] = {}
+        self.starts: dict[int, Stand] = {}
+        self.ends: dict[int, Stand] = {}
         self.program = program  # keeps the identities alive
         arm, other = context.robot, context.to_robot
         self.arm: Arm | None = arm if other is None or other is arm else None
@@ -112,6 +116,7 @@ class Whereabouts:
     def moved(self, move: ir.Move, stand: Stand) -> Stand:
         end = self.end(move, stand)
         self.ways[id(move)] = self.way(move, stand, end)
+        self.starts[id(move)], self.ends[id(move)] = stand, end
         return end
 
     def end(self, move: ir.Move, stand: Stand) -> Stand:
@@ -134,12 +139,12 @@ class Whereabouts:
     def further(self, move: ir.Move, stand: Stand) -> Stand:
         """Where a relative move ends, along the tool, along the axes of the frame or by axes of the arm."""
         if move.relative == "joints":
-            steps = self.axes(constant(move.target, self.scope, self.unchanged))
+            steps = self.axes(constant(_whole(move), self.scope, self.unchanged))
             known = stand.joints is not None and steps is not None
             return (
                 Stand(tuple(a + b for a, b in zip(stand.joints or (), steps or (), strict=False))) if known else Stand()
             )
-        by, start = pose_of(constant(move.target, self.scope, self.unchanged)), self.tools(move, stand, stand)[0]
+        by, start = pose_of(constant(_whole(move), self.scope, self.unchanged)), self.tools(move, stand, stand)[0]
         frames = self.flow.frames.get(id(move))
         if by is None or start is None or move.relative not in ("tool", "base"):
             return NOWHERE_KNOWN
@@ -162,7 +167,8 @@ class Whereabouts:
         return tuple(float(one) for one in found if isinstance(one, int | float)) if None not in found else None
 
     def solved(self, move: ir.Move, goal: Value | None, flange: rigid.Pose | None, stand: Stand) -> Joints | None:
-        """The joints at a place: those that its flags choose, for paths and poses the ones nearest to the last."""
+        """The joints at a place: those that its flags and the controller's rule choose, for paths the ones nearest to
+        the last."""
         if self.arm is None or flange is None:
             return None
         matrix = _array(flange.matrix)
@@ -170,8 +176,8 @@ class Whereabouts:
         flags = dict(goal.flags) if isinstance(goal, Target) and self.notation is not None else {}
         flags = {name: value for name, value in flags.items() if name in self.notation.fields} if flags else {}
         found: Any = None
-        if move.kind == "joint" and flags:
-            if near is not None or len(flags) == len(self.notation.fields):
+        if move.kind == "joint" and self.notation is not None:
+            if near is not None or 0 < len(flags) == len(self.notation.fields):
                 found = self.notation.select(self.arm, matrix, flags, near).joints
         elif near is not None and move.kind != "circular":  # an arc may turn an axis all around
             found = self.arm.nearest(matrix, near)
@@ -180,13 +186,13 @@ class Whereabouts:
     def way(self, move: ir.Move, start: Stand, end: Stand) -> Way:
         axes = None
         if move.relative == "joints":
-            steps = self.axes(constant(move.target, self.scope, self.unchanged))
+            steps = self.axes(constant(_whole(move), self.scope, self.unchanged))
             return Way(None if steps is None else tuple(abs(one) for one in steps), None, None)
         if start.joints is not None and end.joints is not None:
             axes = tuple(abs(to - of) for of, to in zip(start.joints, end.joints, strict=False))
         if move.kind == "joint":
             return Way(axes, None, None)
-        by = pose_of(constant(move.target, self.scope, self.unchanged)) if move.relative in ("tool", "base") else None
+        by = pose_of(constant(_whole(move), self.scope, self.unchanged)) if move.relative in ("tool", "base") else None
         if by is not None:
             return Way(axes, by.position.length, _angle(by.rotation, rigid.NO_TURN))
         here, there = self.tools(move, start, end)
@@ -209,6 +215,19 @@ class Whereabouts:
             return None, None
         back = frames.base.inverse
         return back.then(start.flange).then(frames.tool), back.then(end.flange).then(frames.tool)
+
+
+def _whole(move: ir.Move) -> ir.Expression:
+    """The way of a relative move with every component: those that it does not name are 0."""
+    target = move.target
+    if not isinstance(target, ir.Aggregate) or any(name is None for name, _ in target.entries):
+        return target
+    names = _AXES if move.relative == "joints" else _COMPONENTS
+    given = {name.lower() for name, _ in target.entries if name is not None}
+    if not given <= set(names):
+        return target
+    missing = tuple((name, ir.RealLiteral(0.0)) for name in names if name not in given)
+    return replace(target, entries=(*target.entries, *missing))
 
 
 def _moves(node: object) -> bool:
