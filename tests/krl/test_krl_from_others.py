@@ -71,22 +71,32 @@ def test_a_process_move_is_a_path_move() -> None:
     assert "LIN p" in lines and "process-move" in named and not lost
 
 
+CORNER = ir.Move(
+    "linear",
+    ir.Name("p"),
+    speed=ir.Speed(path=ir.RealLiteral(50.0)),
+    blend=ir.BlendDistance(ir.RealLiteral(10.0)),
+)
+
+
 def test_outputs_at_a_corner_are_triggers_of_the_move_before_them() -> None:
-    corner = ir.BlendDistance(ir.RealLiteral(10.0))
-    first, second, third = (ir.Signal("digital_out", ir.IntLiteral(number)) for number in (1, 2, 3))
-    on, off = ir.BoolLiteral(True), ir.BoolLiteral(False)
-    move = ir.Move("linear", ir.Name("p"), speed=ir.Speed(path=ir.RealLiteral(50.0)), blend=corner)
-    body = (move, ir.Assign(first, on), ir.Assign(second, off), ir.Assign(third, ir.Unary("not", third)), move)
+    first, second = (ir.Signal("digital_out", ir.IntLiteral(number)) for number in (1, 2))
+    body = (CORNER, ir.Assign(first, ir.BoolLiteral(True)), ir.Assign(second, ir.BoolLiteral(False)), CORNER)
     lines, named, lost = krl(*body, source="tp")
     assert not lost
     at = lines.index("TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[1]=TRUE")
-    assert lines[at + 1 : at + 5] == [
-        "TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[2]=FALSE",
-        "LIN p C_DIS",
-        "CONTINUE",
-        "$OUT[3]=NOT $OUT[3]",
-    ]
-    assert named.count("corner-output") == 2 and "early-logic" in named
+    assert lines[at + 1 : at + 3] == ["TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[2]=FALSE", "LIN p C_DIS"]
+    assert named.count("corner-output") == 2 and "early-logic" not in named
+
+
+def test_an_output_that_asks_at_a_corner_waits_for_it() -> None:
+    output = ir.Signal("digital_out", ir.IntLiteral(3))
+    lines, named, lost = krl(CORNER, ir.Assign(output, ir.Unary("not", output)), CORNER, source="tp")
+    assert not lost
+    at = lines.index("LIN p C_DIS")
+    wait = ["CONTINUE", "WAIT FOR rpl_at_corner", "CONTINUE", "$OUT[3]=NOT $OUT[3]"]
+    assert lines[at + 1 : at + 5] == wait
+    assert "corner-steps-early" in named and "early-logic" not in named
 
 
 NAMED_OUTPUT = """MODULE m
