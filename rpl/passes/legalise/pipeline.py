@@ -142,6 +142,7 @@ from rpl.passes.legalise.secondstarts import second_starts
 from rpl.passes.legalise.seenhalf import seen_half
 from rpl.passes.legalise.seenjoints import seen_joints
 from rpl.passes.legalise.seenplaces import posed_places, seen_places
+from rpl.passes.legalise.seldomlooks import seldom_looks
 from rpl.passes.legalise.settingparts import whole_settings
 from rpl.passes.legalise.sharing import share_temporaries
 from rpl.passes.legalise.shown import values_beside_messages
@@ -340,6 +341,7 @@ PASSES: tuple[Pass, ...] = (
     array_sizes,
     check_errors,
     labels_to_structure,
+    seldom_looks,
     resting_waits,
     fit_waits,
     pulsed_outputs,
