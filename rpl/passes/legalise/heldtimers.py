@@ -27,12 +27,15 @@ def held_timers(program: ir.Program, context: Context, only: frozenset[int] | No
     if not can.timers or "timer_stopped" in can.system_variables:
         return program
     stopped = {number for node in walk(program) if (number := _stopping(node)) is not None}
+    never = _never_started(program)
+    stopped |= never | _set_ahead(program)
     if only is not None:
         stopped &= only
     if not stopped:
         return program
     worker = _Held(context, stopped, doing(program, lambda node: _sets(node) is not None))
     worker.apart = _apart(program)
+    worker.never = never
     modules = [
         replace(
             module,
@@ -78,6 +81,42 @@ def _stopping(node: object) -> int | None:
         case ir.Assign(target=ir.System(name="timer_stopped"), value=value) if value != ir.BoolLiteral(False):
             return _sets(node)
     return None
+
+
+def _never_started(program: ir.Program) -> set[int]:
+    """Timers that nothing starts: they show what they are set to. Timers of computed numbers may be any."""
+    used: set[int] = set()
+    started: set[int] = set()
+    for node in walk(program):
+        match node:
+            case ir.Assign(target=ir.System(name="timer_stopped", indices=indices), value=value):
+                if not indices or not isinstance(indices[0], ir.IntLiteral):
+                    return set()
+                started |= {indices[0].value} if value != ir.BoolLiteral(True) else set()
+            case ir.System(name="timer" | "timer_positive", indices=(ir.IntLiteral(value=number),)):
+                used.add(number)
+    return used - started
+
+
+def _set_ahead(program: ir.Program) -> set[int]:
+    """Timers that are set some steps before they are started: they stand in between."""
+    found: set[int] = set()
+
+    def look(body: ir.Body) -> ir.Body:
+        for at, statement in enumerate(body):
+            rewrite_parts(statement, lambda value: value, look)
+            number = _sets(statement)
+            if number is not None and isinstance(statement, ir.Assign) and _start(number) != statement:
+                behind = body[at + 1 :]
+                if _start(number) in behind[1:] and behind[0] != _start(number):
+                    found.add(number)
+        return body
+
+    for module in program.modules:
+        for routine in module.routines:
+            for body in (routine.body, *(one.body for one in routine.handlers)):
+                look(body)
+    return found
 
 
 def _without_needless_stops(body: ir.Body) -> ir.Body:
@@ -134,6 +173,7 @@ class _Held:
     stopped: set[int]
     setting: frozenset[str]
     apart: set[int] = field(default_factory=set)
+    never: set[int] = field(default_factory=set)  # timers that nothing starts
     kept: dict[int, tuple[ir.Name, ir.Name]] = field(default_factory=dict)
     asked: set[str] = field(default_factory=set)  # what says that a timer runs, where something looks at it
 
@@ -142,6 +182,10 @@ class _Held:
             stems = (f"rpl_timer_{number}_held", f"rpl_timer_{number}_runs")
             self.kept[number] = (ir.Name(self.context.fresh(stems[0])), ir.Name(self.context.fresh(stems[1])))
         return self.kept[number]
+
+    def state(self, number: int, known: Known) -> bool | None:
+        """Whether the timer runs, where that is known."""
+        return False if number in self.never else known.get(number)
 
     def body(self, body: ir.Body, known: Known) -> ir.Body:
         """The body; `known` becomes what is known behind it."""
@@ -189,8 +233,8 @@ class _Held:
             if known.get(number) is True:
                 return [replace(statement, value=value)]
             kept = ir.Assign(held, value, origin=statement.origin)
-            return [kept] if known.get(number) is False else [kept, ir.Assign(timer, held, origin=later)]
-        state = known.get(number)
+            return [kept] if self.state(number, known) is False else [kept, ir.Assign(timer, held, origin=later)]
+        state = self.state(number, known)
         runs_now = runs if state is not None and isinstance(value, ir.BoolLiteral) else self.running(number)
         stop: ir.Body = (ir.Assign(held, timer, origin=later), ir.Assign(runs, real(0.0), origin=later))
         start: ir.Body = (ir.Assign(timer, held, origin=later), ir.Assign(runs, real(1.0), origin=later))
@@ -221,7 +265,7 @@ class _Held:
                 number in self.stopped
             ):
                 held, runs = self.names(number)
-                state = known.get(number)
+                state = self.state(number, known)
                 if name == "timer_stopped":
                     return ir.Unary("not", self.running(number)) if state is None else ir.BoolLiteral(not state)
                 if state is not None:
