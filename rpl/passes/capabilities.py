@@ -65,7 +65,8 @@ class Capabilities:
     steps of so many seconds (0: none can, or there are some).
     dynamic_calls: a procedure may be called by a name computed at run time.
     switch_types: type classes a Switch may select by (NamedType: enumerations); empty: any type.
-    switch_constant_cases: case values must be literals. text_results: functions may return texts.
+    switch_constant_cases: case values must be literals. switch_variables: it looks at a variable, at no signal or other
+    value. text_results: functions may return texts.
     kinematics: functions of the controller for the joints of a target (near joints) and for the target of joints, that
     write 0 or an error into a further argument, when that is how it says so.
     format_state: type of the state that format_into writes; None when it has none. carries_rules: the target's text
@@ -206,6 +207,7 @@ class Capabilities:
     dynamic_calls: bool = False
     switch_types: frozenset[str] = frozenset()
     switch_constant_cases: bool = False
+    switch_variables: bool = False
     text_results: bool = True
     named_aggregates: bool = False
     partial_aggregates: bool = False

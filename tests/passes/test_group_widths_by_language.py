@@ -6,16 +6,9 @@ from __future__ import annotations
 
 import pytest
 
-from rpl import registry
 from rpl.cell import Cell, Input
-from rpl.diagnostics import Diagnostics
-from rpl.project import read_sources
-from rpl.proof.wiring import in_words_of, with_signal_names
-from rpl.simulation import run_program
-from rpl.source import source_from_bytes, source_from_text
-from rpl.translation import translate_program
+from tests.there_and_back import Journey, there_and_back
 
-_ROBOT = "fanuc_lrmate200id"
 _LISTING = """/PROG  GROUPS
 /ATTR
 DEFAULT_GROUP = 1,*,*,*,*;
@@ -34,41 +27,88 @@ DEFAULT_GROUP = 1,*,*,*,*;
 /POS
 /END
 """
+_MODULE = """MODULE Main
+    PROC main()
+        VAR num height;
+        height := giHeight;
+        IF height = 455 SetDO do101, 1;
+        TEST giCode
+        CASE 7:
+            SetDO do102, 1;
+        DEFAULT:
+            SetDO do102, 0;
+        ENDTEST
+        FOR i FROM 1 TO 3 DO
+            SetGO goStep, i * 200;
+            height := height + goStep;
+        ENDFOR
+        IF height = 1655 SetDO do103, 1;
+    ENDPROC
+ENDMODULE
+"""
+_CELL = Cell(inputs=(Input(1.0, "GI[1]", 5), Input(0.0, "GI[3]", 455), Input(2.0, "GI[2]", 455)))
 _TARGETS = ["krl", "rapid", "tp", "urscript", "vplus", "inform"]
 
 
-def _written(target: str) -> tuple[str, list[str], list[str]]:
-    """The text, the codes of what is reported, and the outputs that a run of it switches on."""
-    diagnostics = Diagnostics()
-    read = read_sources([source_from_text("GROUPS.LS", _LISTING)], "tp", diagnostics)
-    written = translate_program(read, target, _ROBOT, None, diagnostics)
-    back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
-    program = with_signal_names(back.program, written.program)
-    cell = Cell(inputs=(Input(1.0, "GI[1]", 5), Input(0.0, "GI[3]", 455), Input(2.0, "GI[2]", 455)))
-    entry = program.entry or written.renamed.get("GROUPS", "GROUPS")
-    result = run_program(program, _ROBOT, in_words_of(cell, read.program, program), entry, 20.0)
+def _written(target: str) -> Journey:
+    return there_and_back({"GROUPS.LS": _LISTING}, "tp", target, "fanuc_lrmate200id")
+
+
+def _holds(journey: Journey, entry: str, cell: Cell) -> None:
+    result = journey.run(entry, cell)
     assert result.fault is None
-    on = [name for _, name, value in result.outputs if value is True]
-    text = "\n".join(file.data.decode() for file in written.files)
-    return text, [item.code.name for item in diagnostics], on
+    assert {101, 102, 103} <= journey.switched_on(result)
+    assert not journey.losses
+    assert "group-too-narrow" not in [item.code.name for item in journey.found]
 
 
 @pytest.mark.parametrize("target", _TARGETS)
 def test_numbers_beyond_eight_bits_come_through(target: str) -> None:
-    _, codes, on = _written(target)
-    spell = registry.dialect(target).signal_name
-    named = [{f"do{number}", spell("digital_out", number)} for number in (101, 102, 103)]
-    assert all(names & set(on) for names in named)
-    assert not {"group-too-narrow", f"{target}-guarded-stop"} & set(codes)
+    _holds(_written(target), "GROUPS", _CELL)
+
+
+@pytest.mark.parametrize("target", _TARGETS)
+def test_groups_of_names_only(target: str) -> None:
+    cell = Cell(inputs=(Input(0.0, "giHeight", 455), Input(0.0, "giCode", 7)))
+    _holds(there_and_back({"Main.mod": _MODULE}, "rapid", target, "abb_irb1200_5_90"), "main", cell)
 
 
 def test_a_group_of_codes_keeps_eight_bits() -> None:
-    text, _, _ = _written("krl")
-    assert "SIGNAL gi1 $IN[33] TO $IN[40]" in text or "SIGNAL gi1 $IN[1] TO $IN[8]" in text
-    assert "SIGNAL go1 $OUT[17] TO $OUT[24]" in text or "SIGNAL go1 $OUT[1] TO $OUT[8]" in text
+    text = _written("krl").text
+    assert "SIGNAL gi1 $IN[1] TO $IN[8]" in text
+    assert "SIGNAL go1 $OUT[17] TO $OUT[24]" in text
 
 
 def test_sixteen_signals_are_two_bytes() -> None:
-    text, _, _ = _written("inform")
+    text = _written("inform").text
     assert "DIN B099 IG#(" in text
-    assert "IN#(" not in text.replace("DIN B099", "")
+    assert " IN#(" not in text
+
+
+_LIMITED = """/PROG  LIMITED
+/ATTR
+DEFAULT_GROUP = 1,*,*,*,*;
+/MN
+   1:  $WAITTMOUT=150 ;
+   2:  WAIT GI[1]>400 TIMEOUT,LBL[1] ;
+   3:  DO[1]=ON ;
+   4:  LBL[1] ;
+   5:  TIMER[1]=RESET ;
+   6:  TIMER[1]=START ;
+   7:  WAIT GI[1]>600 TIMEOUT,LBL[2] ;
+   8:  DO[2]=ON ;
+   9:  LBL[2] ;
+  10:  TIMER[1]=STOP ;
+  11:  R[1]=TIMER[1] ;
+  12:  DO[3]=(R[1]>1.4 AND R[1]<1.6) ;
+/POS
+/END
+"""
+
+
+@pytest.mark.parametrize("target", _TARGETS)
+def test_a_limit_on_a_wait_for_a_computed_condition(target: str) -> None:
+    journey = there_and_back({"LIMITED.LS": _LIMITED}, "tp", target, "fanuc_lrmate200id")
+    result = journey.run("LIMITED", Cell(inputs=(Input(0.5, "GI[1]", 455),)))
+    assert journey.switched_on(result) == {1, 3}
+    assert not journey.losses

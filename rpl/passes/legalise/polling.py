@@ -54,7 +54,7 @@ def polled(statement: ir.WaitUntil, editor: Editor, facts: Raising | None = None
     waiting = negation(statement.condition)
     if statement.timeout is None:
         return expansion(statement.origin, (*before, ir.While(waiting, (pause,))))
-    limit = _seconds(statement.timeout)
+    limit = seconds_of(statement.timeout)
     if not is_constant(limit):
         kept = editor.temporary("limit", ir.RealType())
         before.append(ir.Assign(kept, limit))
@@ -73,7 +73,7 @@ def polled(statement: ir.WaitUntil, editor: Editor, facts: Raising | None = None
     return expansion(statement.origin, (*before, ir.While(waiting, (check, pause, more))))
 
 
-def _seconds(timeout: ir.Expression) -> ir.Expression:
+def seconds_of(timeout: ir.Expression) -> ir.Expression:
     """The limit as a plain number of seconds."""
     match timeout:
         case ir.Quantity(value=value, unit="s"):

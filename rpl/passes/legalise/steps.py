@@ -16,6 +16,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion, negation
 from rpl.passes.legalise.effects import children, everything, is_constant
 from rpl.passes.legalise.operands import changing, is_operand, opposite, stands_still
+from rpl.passes.legalise.polling import seconds_of
 from rpl.passes.legalise.spread import is_computed, reads, spread
 from rpl.passes.legalise.usage import assigned_in
 from rpl.passes.legalise.walk import POLL_S, POLLED
@@ -368,9 +369,17 @@ class _Steps(Hoister):
     def _switch(self, statement: ir.Switch) -> ir.Body:
         simple = self.by_steps or not self.can.calculated_places
         before, selector = self.operand(statement.selector) if simple else self.lower(statement.selector)
+        if self.can.switch_variables and self.is_signal(selector):
+            kept = self.temporary(ir.IntType())
+            before, selector = (*before, ir.Assign(kept, selector)), kept
         cases = tuple(replace(case, body=self.body(case.body)) for case in statement.cases)
         default = None if statement.default is None else self.body(statement.default)
         return self._finished(statement, before, replace(statement, selector=selector, cases=cases, default=default))
+
+    def is_signal(self, value: ir.Expression) -> bool:
+        symbol = self.editor.scope.value(value.id) if isinstance(value, ir.Name) else None
+        declared = symbol is not None and isinstance(symbol.declaration, ir.SignalDeclaration)
+        return declared or isinstance(value, ir.Signal)
 
     def assigned(self, statement: ir.Assign, target: ir.Expression, value: ir.Expression) -> ir.Body:
         first, place = self.lower(target, True)
@@ -405,14 +414,33 @@ class _Steps(Hoister):
             further, values = self.operand(limit[0]) if limit else ((), None)
             new = replace(statement, condition=condition, timeout=values)
             return self._finished(statement, (*before, *further), new)
-        if statement.timeout is not None:
-            self.editor.context.diagnostics.report(TIMED, statement.origin)
-        self.editor.context.diagnostics.report(POLLED, statement.origin, seconds=POLL_S)
+        shortest = self.can.shortest_wait_s or POLL_S
+        period = ir.RealLiteral(round(round(POLL_S / shortest) * shortest, 6))
+        self.editor.context.diagnostics.report(POLLED, statement.origin, seconds=period.value)
+        first, late, counted = self.limited(statement, period)
         leave = ir.If(((condition, (ir.ExitLoop(),)),))
-        pause = ir.Wait(ir.RealLiteral(POLL_S))
-        loop = ir.Loop((*before, leave, pause))
-        first = (ir.WaitForMotion(),) if statement.in_position else ()
-        return expansion(statement.origin, (*first, loop))
+        pause = ir.Wait(period)
+        loop = ir.Loop((*before, leave, *late, pause, *counted))
+        stands: ir.Body = (ir.WaitForMotion(),) if statement.in_position else ()
+        return expansion(statement.origin, (*stands, *first, loop))
+
+    def limited(self, statement: ir.WaitUntil, period: ir.RealLiteral) -> tuple[ir.Body, ir.Body, ir.Body]:
+        """The limit of a wait that is a loop: what stands in front of it, what ends it, and what counts its passes."""
+        if statement.timeout is None:
+            return (), (), ()
+        if statement.timed_out is None:
+            self.editor.context.diagnostics.report(TIMED, statement.origin)
+            return (), (), ()
+        before, limit = self.operand(seconds_of(statement.timeout))
+        if not is_constant(limit):  # the flag or what the condition takes may be what it is made of
+            kept = self.editor.temporary("limit", ir.RealType())
+            before, limit = (*before, ir.Assign(kept, limit)), kept
+        waited = self.editor.temporary("waited", ir.RealType())
+        begun = self.body((ir.Assign(statement.timed_out, ir.BoolLiteral(False)),))
+        ended = self.body((ir.Assign(statement.timed_out, ir.BoolLiteral(True)),))
+        late = ir.If(((ir.Binary(">=", waited, limit), (*ended, ir.ExitLoop())),))
+        count = ir.Assign(waited, ir.Binary("+", waited, period))
+        return (*before, *begun, ir.Assign(waited, ir.RealLiteral(0.0))), (late,), (count,)
 
     def stands_still(self, value: ir.Expression) -> bool:
         own = isinstance(value, ir.Name) and value.id.lower() in self.editor.own
