@@ -58,6 +58,7 @@ from rpl.passes.legalise.flagdata import flags_as_data, named_flags
 from rpl.passes.legalise.flagreadings import flag_readings
 from rpl.passes.legalise.flatrecords import flat_records
 from rpl.passes.legalise.formats import formats
+from rpl.passes.legalise.freepostures import free_postures
 from rpl.passes.legalise.functions import functions_to_procedures
 from rpl.passes.legalise.geometry import geometry
 from rpl.passes.legalise.givenarrays import given_arrays
@@ -286,6 +287,7 @@ PASSES: tuple[Pass, ...] = (
     circle_rules,
     destinations,
     flag_readings,
+    free_postures,
     configurations,
     without_aliases,
     stop_blends,

@@ -1,0 +1,109 @@
+"""Joint moves to places that say nothing about the arm's posture, where the two controllers choose it by other rules:
+the solution nearest to where the arm is, or the posture in which it is.
+
+Where place, tool, frame and the joints before are constant and the rules choose otherwise, the move goes to the joints
+that the source's controller takes. Where they are not known, a warning names the difference.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from rpl import ir, registry
+from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
+from rpl.passes.fold import constant
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.walk import Rewriter
+from rpl.passes.legalise.whereabouts import Whereabouts
+from rpl.passes.values import Target, real
+
+FREE = code(
+    "posture-left-free",
+    Severity.WARNING,
+    "this place says nothing about the arm's posture: the source's controller and the target's choose it by other "
+    "rules, and where the arm stands before is not known here",
+    "write the posture into the place, or move to joints before",
+)
+_AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
+_SAME_DEG = 0.01
+_TRIED = 60  # pairs of places, spread evenly by chance over the ranges of the axes
+_OFTEN = 0.05  # of them; what differs less often is a matter of the limits of the axes
+
+
+def free_postures(program: ir.Program, context: Context) -> ir.Program:
+    """Only on the arm that the program was written for, and between notations whose rules differ on it."""
+    arm, other, can = context.robot, context.to_robot, context.capabilities
+    if arm is None or can.carries_rules or not context.foreign or (other is not None and other is not arm):
+        return program
+    ours, theirs = registry.dialect(context.source).notation, registry.dialect(can.notation).notation
+    if ours is None or theirs is None or not any(_may_be_free(one) for one in walk(*program.modules)):
+        return program
+    work = _Free(program, context, ours(), theirs())
+    return work.program() if work.apart() else program
+
+
+def _may_be_free(node: object) -> bool:
+    return isinstance(node, ir.Move) and node.kind == "joint" and node.relative is None
+
+
+class _Free(Rewriter):
+    def __init__(self, program: ir.Program, context: Context, ours: Any, theirs: Any) -> None:
+        super().__init__(program, context)
+        self.arm: Any = context.robot
+        self.ours, self.theirs = ours, theirs
+        self.stands = Whereabouts(program, context)
+
+    def apart(self) -> bool:
+        """Do the controllers often choose otherwise, with nothing said?"""
+        import numpy as np  # most translations ask nothing of the arm
+
+        arm = self.arm
+        low, high = arm.limits[:, 0], arm.limits[:, 1]
+        spread = np.random.default_rng(1).uniform(-0.9, 0.9, size=(_TRIED, 2, len(low)))
+        pairs = np.clip((low + high) / 2 + spread * (high - low) / 2, -170.0, 170.0)
+        differ = sum(
+            self.chosen(self.ours, arm.forward(to), at) is not None and self.differs(arm.forward(to), at)
+            for at, to in pairs
+        )
+        return differ > _OFTEN * _TRIED
+
+    def chosen(self, notation: Any, flange: Any, before: Any) -> Any:
+        return notation.select(self.arm, flange, {}, before).joints
+
+    def differs(self, flange: Any, before: Any) -> bool:
+        """Do both controllers come there, but otherwise?"""
+        first, second = (self.chosen(one, flange, before) for one in (self.ours, self.theirs))
+        return first is not None and second is not None and abs(first - second).max() > _SAME_DEG
+
+    def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+        if isinstance(statement, ir.Move) and _may_be_free(statement) and self.is_free(statement):
+            return [self.move(statement)]
+        return super().statement(statement)
+
+    def is_free(self, move: ir.Move) -> bool:
+        """A pose, or a target that is known to have no flags; one whose posture is asked for is not."""
+        if any(isinstance(one, ir.System) and one.name.startswith("posture_") for one, _ in move.settings):
+            return False
+        if isinstance(self.type_of(move.target), ir.PoseType):
+            return True
+        goal = constant(move.target, self.scope, self.stands.unchanged)
+        return isinstance(goal, Target) and all(value is None for _, value in goal.flags)
+
+    def move(self, move: ir.Move) -> ir.Move:
+        import numpy as np
+
+        before, end = self.stands.starts.get(id(move)), self.stands.ends.get(id(move))
+        if before is None or before.joints is None or end is None or end.flange is None or move.search is not None:
+            self.context.diagnostics.report(FREE, move.origin)
+            return move
+        at, flange = np.array(before.joints), np.array(end.flange.matrix)
+        if not self.differs(flange, at):
+            return move
+        joints = self.chosen(self.ours, flange, at)
+        entries = tuple((name, real(round(float(one), 9))) for name, one in zip(_AXES, joints, strict=False))
+        return replace(move, target=ir.Aggregate(entries, type_name="joints"))
+
+
+__all__ = ["free_postures"]
