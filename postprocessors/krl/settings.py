@@ -12,6 +12,7 @@ from .expressions import Expressions
 
 Pair = tuple[ir.Expression, ir.Expression]
 _AXES = 6
+FULL = 100.0  # percent
 
 
 def whole_structure(pairs: Sequence[Pair]) -> tuple[str, ir.Expression] | None:
@@ -44,6 +45,18 @@ def all_axes(pairs: Sequence[Pair]) -> bool:
         return False
     wanted = [(ir.System(target.name, (ir.IntLiteral(n),)), value) for n in range(1, _AXES + 1)]
     return list(pairs[:_AXES]) == wanted
+
+
+def speed_of_axes(pairs: Sequence[Pair]) -> bool:
+    """Are these the speeds of all axes, as the basis package sets them? It multiplies by its default (DEF_VEL_PTP),
+    which is 100 as shipped; that of the accelerations (DEF_ACC_PTP) is not, so these stay as they are."""
+    if not all_axes(pairs):
+        return False
+    target, value = pairs[0]
+    named = isinstance(target, ir.System) and target.name == "joint_speed"
+    if isinstance(value, ir.IntLiteral | ir.RealLiteral):
+        return named and 0.0 < value.value <= FULL and value.value * FULL / FULL == value.value
+    return named
 
 
 def grouped(pairs: Sequence[Pair]) -> list[tuple[str, ir.Expression] | Pair]:

@@ -15,7 +15,7 @@ from . import tables
 from .declarations import constant, elements
 from .expressions import Expressions
 from .motion import Motion
-from .settings import assignment, whole_structure
+from .settings import assignment, speed_of_axes, whole_structure
 
 GUARDED = code(
     "krl-guarded-stop",
@@ -33,7 +33,7 @@ LONG_LINE = code("krl-long-line", Severity.WARNING, "a line of {length} characte
 
 _STEP = "  "
 _BRAKES = {"BRAKE_SOFT": "BRAKE", "BRAKE_HARD": "BRAKE F"}  # routines of the reader's prelude
-_LARGEST_STRUCTURE = 4
+_LARGEST_STRUCTURE = 6
 
 
 class Printer(StatementPrinter[str]):
@@ -83,23 +83,26 @@ class Printer(StatementPrinter[str]):
         return 1
 
     def structure(self, body: ir.Body) -> int:
-        """`$VEL=f()` stands for an assignment to each component: written as the one it was. Counts the statements."""
+        """`$VEL=f()` stands for an assignment to each component, `BAS(#VEL_PTP,n)` for one to each axis: written as the
+        one it was. Counts the statements."""
         first = body[0]
         if not (isinstance(first, ir.Assign) and isinstance(first.target, ir.System)):
             return 0
         pairs = [(s.target, s.value) for s in body[:_LARGEST_STRUCTURE] if isinstance(s, ir.Assign)]
         whole = whole_structure(pairs)
-        if whole is None:
-            return 0
-        name, value = whole
         try:
-            shown = self.expressions.text(value)
+            if whole is not None:
+                name, value = whole
+                shown, count = f"{name}={self.expressions.text(value)}", len(tables.STRUCTURES[name])
+            elif speed_of_axes(pairs):
+                shown, count = f"BAS(#VEL_PTP,{self.expressions.text(pairs[0][1])})", len(pairs)
+            else:
+                return 0
         except CannotSayError:
             return 0  # each assignment is then guarded on its own
-        count = len(tables.STRUCTURES[name])
         origins = [statement.origin for statement in body[:count]]
         comments = tuple(comment for origin in origins for comment in origin.comments)
-        self.line(f"{name}={shown}", replace(first.origin, comments=comments))
+        self.line(shown, replace(first.origin, comments=comments))
         for statement in body[:count]:
             self.ledger.written(statement)
         return count
