@@ -85,6 +85,7 @@ CAPABILITIES = Capabilities(
     blends=frozenset(("BlendStop", "BlendDistance", "BlendLevel")),
     static_locals=True,
     path_points=tables.TAGS["CR"][0],
+    straight_distances=True,
     watched_interrupts=True,
     action_arguments=frozenset(("reaction",)),
     pulse_levels=False,

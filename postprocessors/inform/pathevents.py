@@ -156,7 +156,8 @@ def _along(trigger: ir.Trigger, move: ir.Move, length: float) -> float:
         if speed is None:
             raise CannotSayError("a time before or behind a place, and the speed is computed", LOST)
         distance += delay * speed
-    return distance if trigger.reference == "start" else length + distance
+    along = distance if trigger.reference == "start" else length + distance
+    return max(along, 0.0) if delay < 0 else along  # a longer time than the move takes: at its start
 
 
 @dataclass(frozen=True, slots=True)

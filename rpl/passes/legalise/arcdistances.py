@@ -8,6 +8,7 @@ its tool and frame, and before those that take positions and functions apart.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
@@ -17,6 +18,7 @@ from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.beside import closure, moves_or_waits, tidy
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.earlyways import by_way, is_early, number_with_sign
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.library import function, minus, number, plus, times
@@ -33,8 +35,15 @@ STRAIGHT = code(
     "the target measures straight from the end of an arc (or its start) to a place on its way; the program computes how"
     " far that is",
 )
+BY_WAY = code(
+    "path-event-by-way",
+    Severity.WARNING,
+    "a time before the end of an arc is told by the way that is left then at the programmed speed; at a lower speed it"
+    " comes earlier",
+)
 _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.ResumeLevel)
 _REAL = ir.RealType()
+_WITHIN = 0.999  # of the arc: a place farther than that from one end is at the other
 
 
 def arc_distances(program: ir.Program, context: Context) -> ir.Program:
@@ -101,6 +110,33 @@ class _Arcs:
         return body if same else tuple(done)
 
     def move(self, move: ir.Move, before: list[ir.Trigger]) -> ir.Body:
+        given = [one for one in (*before, *move.triggers) if isinstance(one, ir.Trigger)]
+        cut = self.context.capabilities.path_points and written(move, given, self.editor, self.shared.unchanged)
+        if cut and ends_known(self.last, move, self.editor, self.shared.unchanged):
+            return (*before, move)  # the writer cuts the arc itself
+        move, before, speed = self.early(move, before)
+        return (*speed, *self.straight(move, before))
+
+    def early(self, move: ir.Move, before: list[ir.Trigger]) -> tuple[ir.Move, list[ir.Trigger], ir.Body]:
+        """Times before the end of an arc as distances, and what they need in front of it."""
+        triggers = (*before, *move.triggers)
+        if not any(isinstance(one, ir.Trigger) and is_early(one, move) for one in triggers):
+            return move, before, ()
+        assert move.speed is not None and move.speed.path is not None  # is_early has looked
+        fast, steps = plain(move.speed.path), list[ir.Statement]()
+        if number_with_sign(fast) is None and not isinstance(fast, ir.Name):
+            kept = self.temporary("fast", _REAL)
+            steps.append(ir.Assign(kept, fast, origin=tidy(move.origin)))
+            fast = kept
+        self.context.diagnostics.report(BY_WAY, move.origin)
+        ways = [
+            by_way(one, move, fast, self.context) if isinstance(one, ir.Trigger) and is_early(one, move) else one
+            for one in triggers
+        ]
+        earlier = [one for one in ways[: len(before)] if isinstance(one, ir.Trigger)]
+        return replace(move, triggers=tuple(ways[len(before) :])), earlier, tuple(steps)
+
+    def straight(self, move: ir.Move, before: list[ir.Trigger]) -> ir.Body:
         own = [one for one in move.triggers if isinstance(one, ir.Trigger)]
         far = [one for one in (*before, *own) if self.is_far(one)]
         if move.kind != "circular" or move.via is None or move.relative or move.swept is not None or not far:
@@ -205,6 +241,29 @@ class _Arcs:
         return _pose(ir.Builtin("current_target", (tool, frame))), *here
 
 
+def ends_known(last: ir.Move | None, move: ir.Move, editor: Editor, unchanged: Unchanged) -> bool:
+    """Are both ends of a move constants that a writer sees as such?"""
+    if last is None or any(isinstance(one.target, ir.Builtin) for one in (last, move)):
+        return False  # not known, or computed from a constant by the program itself
+    type = type_of(last.target, editor.scope)
+    start = last.target if type is None else in_base(last, last.target, type)
+    ends = (start, in_base(move, move.target, type_of(move.target, editor.scope)))
+    return all(constant(one, editor.scope, unchanged) is not None for one in ends)
+
+
+def written(move: ir.Move, triggers: Sequence[ir.Trigger], editor: Editor, unchanged: Unchanged) -> bool:
+    """Are the places of these actions along the move constants?"""
+    parts = [one for trigger in triggers for one in (trigger.distance, trigger.delay) if one is not None]
+    delays = [plain(one.delay) for one in triggers if one.delay is not None]
+    if (
+        move.speed is not None
+        and move.speed.path is not None
+        and any(constant_number(one, editor.scope) != 0 for one in delays)
+    ):
+        parts.append(move.speed.path)
+    return all(constant_number(plain(one), editor.scope, unchanged) is not None for one in parts)
+
+
 def _arc(points: list[rigid.Vector]) -> tuple[float, float] | None:
     """Radius and length of an arc through three points, mm; None where they are on a line."""
     start, via, end = ((one.x, one.y, one.z) for one in points)
@@ -230,7 +289,7 @@ def _constant(trigger: ir.Trigger, distance: float, radius: float, length: float
     half = math.pi * radius
     if half < way < length and length - way < half:
         way, at_start = length - way, not at_start
-    straight = 2.0 * radius * math.sin(min(way / (2.0 * radius), math.pi / 2.0))
+    straight = 2.0 * radius * math.sin(min(way, _WITHIN * length, half) / (2.0 * radius))
     value = ir.RealLiteral(float(f"{straight if at_start else -straight:.9g}"))
     return replace(trigger, reference="start" if at_start else "end", distance=value)
 
@@ -238,7 +297,8 @@ def _constant(trigger: ir.Trigger, distance: float, radius: float, length: float
 def _function(name: str) -> ir.Routine:
     """How far two points of an arc are from each other straight that lie `way` mm apart along it. `a`, `b`, `c`: the
     distances between the arc's point on the way and its end, its start and its end, its start and that point."""
-    way, a, b, c, square, half = map(ir.Name, ("way", "a", "b", "c", "square", "half"))
+    way, a, b, c, square, half, far = map(ir.Name, ("way", "a", "b", "c", "square", "half", "far"))
+    shorter = function("min", far, times(number(_WITHIN), b))  # of at most half a circle: no farther than its ends
     whole = plus(a, b, c)
     product = times(whole, minus(plus(b, c), a), minus(plus(a, c), b), minus(plus(a, b), c))
     twice = function("sqrt", square)  # a b c / its root is the radius
@@ -247,14 +307,16 @@ def _function(name: str) -> ir.Routine:
         ir.Assign(square, product),
         ir.If(((ir.Binary("<=", square, number(1e-9)), (ir.Return(way),)),)),
         ir.Assign(half, function("min", times(turned, number(round(math.degrees(1.0), 9))), number(90.0))),
-        ir.Return(ir.Binary("/", times(number(2.0), a, b, c, function("sin", half)), twice)),
+        ir.Assign(far, ir.Binary("/", times(number(2.0), a, b, c, function("sin", half)), twice)),
+        ir.If(((ir.Binary(">=", times(b, b), plus(times(a, a), times(c, c))), (ir.Return(shorter),)),)),
+        ir.Return(far),
     )
     return ir.Routine(
         name,
         "function",
         tuple(ir.Parameter(one, _REAL) for one in ("way", "a", "b", "c")),
         _REAL,
-        tuple(ir.Variable(one, _REAL, scope="routine") for one in ("square", "half")),
+        tuple(ir.Variable(one, _REAL, scope="routine") for one in ("square", "half", "far")),
         body,
         scope="global",
     )
@@ -272,4 +334,4 @@ def _pose(target: ir.Expression) -> ir.Expression:
     return ir.Builtin("pose_of", (target,))
 
 
-__all__ = ["arc_distances"]
+__all__ = ["arc_distances", "ends_known", "written"]

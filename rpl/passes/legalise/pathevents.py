@@ -222,7 +222,7 @@ class _Events:
             if way.ends_in is None and at_point and delay > 0.0:
                 behind.extend(self.later(trigger, action, delay))
                 return
-            steps = self.before_end(way, distance, at_point, delay)
+            steps = self.before_end(way, distance, at_point, delay, before)
             steps += [_pause(delay)] if delay > 0.0 else []
         if way.begins_in is None and delay > 0.0 and len(steps) == 1:
             before.extend(self.later(trigger, action, delay))
@@ -265,7 +265,9 @@ class _Events:
                 goal = way.begins_in
         return [*steps, _until(ir.Binary(">=", _distance(way.start), goal), self.beside.moving_name())]
 
-    def before_end(self, way: _Way, distance: ir.Expression, at_point: bool, delay: float) -> list[ir.Statement]:
+    def before_end(
+        self, way: _Way, distance: ir.Expression, at_point: bool, delay: float, before: list[ir.Statement]
+    ) -> list[ir.Statement]:
         """Waits until the tool is that far (or that time) before the end; at a corner its middle is the end."""
         moving, left = self.beside.moving_name(), _distance(way.end)
         size = ir.RealLiteral(0.0) if at_point else _positive(distance)  # of an arc: measured straight (arcdistances)
@@ -273,7 +275,7 @@ class _Events:
             self.context.diagnostics.report(ESTIMATED, way.move.origin)
             return self.estimated(way, size, -delay)
         if delay < 0.0:
-            size = _sum(size, _along_arc(self.braking(way, -delay), way.radius))
+            size = _sum(size, _along_arc(self.braking(way, -delay, before), way.radius))
         steps: list[ir.Statement] = []
         if way.move.kind == "circular" and _number(size) != 0.0:  # an arc may begin nearer to its end than that
             steps.append(_until(ir.Binary(">=", left, size), moving))
@@ -312,15 +314,20 @@ class _Events:
         )
         return [ir.Assign(was, left), ir.Loop(looks)]
 
-    def braking(self, way: _Way, seconds: float) -> ir.Expression:
+    def braking(self, way: _Way, seconds: float, before: list[ir.Statement]) -> ir.Expression:
         """The way in mm that is left that time before the end: the move brakes evenly, or goes on through a corner."""
         speed = way.speed if way.speed is not None else ir.RealLiteral(0.0)
         whole: ir.Expression = ir.Binary("*", speed, ir.RealLiteral(seconds))
         known = _number(speed)
         if way.ends_in is not None or way.acceleration <= 0.0:
             return ir.RealLiteral(_short(known * seconds)) if known is not None else whole
-        if known is None:
-            return whole
+        if known is None:  # it brakes from what it reaches in that time
+            reaches = ir.Builtin("min", (speed, ir.RealLiteral(_short(way.acceleration * seconds))))
+            left = ir.Binary("/", reaches, ir.RealLiteral(2.0 * way.acceleration))
+            kept = self.beside.kept(self.editor, self.routine, "rpl_left", ir.RealType())
+            given = ir.Binary("*", reaches, ir.Binary("-", ir.RealLiteral(seconds), left))
+            before.append(ir.Assign(kept, given, origin=_later(way.move.origin)))
+            return kept
         ramp = known / way.acceleration
         if seconds <= ramp:
             return ir.RealLiteral(_short(0.5 * way.acceleration * seconds**2))

@@ -14,6 +14,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
+from rpl.passes.legalise.arcdistances import ends_known, written
 from rpl.passes.legalise.beside import closure, moves_or_waits, tidy
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
@@ -124,7 +125,8 @@ class _Points:
             return (first[0], *self.move(first[1], before, goes_on))
         plain_move = move.kind == "linear" and not move.relative and move.search is None and not move.concurrent
         if not plain_move:
-            known = move.kind == "circular" and self.is_known(move, [])
+            told = move.kind == "circular" and written(move, given, self.editor, self.unchanged)
+            known = told and self.is_known(move, [])
             looked = None if known else watched(move, given, goes_on, self.editor, self.unchanged, self.temporary)
             return (*before, move) if looked is None else looked
         events = [self.event(one, move) for one in given]
@@ -203,14 +205,8 @@ class _Points:
 
     def is_known(self, move: ir.Move, events: list[_Event]) -> bool:
         """Are both ends and the places constants that the writer sees as such?"""
-        if self.last is None or any(one.known is None for one in events):
-            return False
-        if any(isinstance(one.target, ir.Builtin) for one in (self.last, move)):
-            return False  # computed from a constant by the program itself
-        type = type_of(self.last.target, self.editor.scope)
-        start = self.last.target if type is None else in_base(self.last, self.last.target, type)
-        ends = (start, in_base(move, move.target, type_of(move.target, self.editor.scope)))
-        return all(constant(one, self.editor.scope, self.unchanged) is not None for one in ends)
+        measured = all(one.known is not None for one in events)
+        return measured and ends_known(self.last, move, self.editor, self.unchanged)
 
     # ---- the pieces
 

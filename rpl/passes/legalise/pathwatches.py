@@ -28,20 +28,24 @@ WATCHED = code(
 )
 
 
-_STRAIGHT_MM = 20.0  # so far an arc's end is about as far straight as it is along the arc
-
-
 @dataclass(frozen=True, slots=True)
 class Watched:
-    """An action that comes where the tool is `way` mm from the end, or `time` s before it, or that long behind."""
+    """An action that comes where the tool is `way` mm from the end (of an arc: straight; `computed` where the program
+    works that out), or `time` s before it, or that long behind."""
 
     trigger: ir.Trigger
     way: float
     time: float
+    computed: ir.Expression | None = None
 
     @property
     def order(self) -> tuple[float, float]:
         return self.time, -self.way
+
+    @property
+    def apart(self) -> bool:
+        """Does it come elsewhere than at the end?"""
+        return bool(self.way or self.time or self.computed)
 
 
 def watched(
@@ -61,12 +65,12 @@ def watched(
     if size is None or any(one is None for one in events):
         return None
     found = [one for one in events if one is not None]
-    if move.kind == "circular" and any(one.way > _STRAIGHT_MM for one in found):
-        return None
-    apart = sorted((one for one in found if one.way or one.time), key=lambda one: one.order)
+    apart = sorted((one for one in found if one.apart), key=lambda one: one.order)
     both = any(one.way for one in apart) and any(one.time for one in apart)
-    if not apart or (both and len(apart) > 1):
+    if not apart or (len(apart) > 1 and (both or any(one.computed is not None for one in apart))):
         return None
+    if move.kind == "circular" and any(one.time < 0.0 for one in apart):
+        return None  # not as fast as the tool comes straight nearer
     poll = editor.capabilities.poll_s
     editor.context.diagnostics.report(WATCHED, given[0].origin, seconds=poll)
     names = temporary("to", ir.PoseType()), temporary("was", ir.RealType()), temporary("left", ir.RealType())
@@ -80,7 +84,7 @@ def watched(
     for one in apart:
         seconds = max(-one.time, 0.0)
         seconds = seconds if size else at_present_speed(seconds, ramp_s(move, editor.context))  # a corner brakes not
-        done.extend(_until(move, one.way, seconds, names, poll, size))
+        done.extend(_until(move, one.way if one.computed is None else one.computed, seconds, names, poll, size))
         done.extend([_pause(one.time)] if one.time > 0.0 else [])
         done.append(replace(one.trigger.action, origin=one.trigger.origin))
     if not size:
@@ -127,6 +131,11 @@ def _event(trigger: ir.Trigger, editor: Editor, unchanged: Unchanged) -> Watched
     """None where its place is not known before, or counted from the start."""
     given = [plain(one) for one in (trigger.distance, trigger.delay) if one is not None]
     numbers = [constant_number(one, editor.scope, unchanged) for one in given]
+    at_once = all(number == 0.0 for number in numbers[1:])
+    if trigger.distance is not None and numbers[0] is None and at_once and trigger.reference != "start":
+        negated = isinstance(given[0], ir.Unary) and given[0].op == "-"
+        left = given[0].operand if negated and isinstance(given[0], ir.Unary) else ir.Unary("-", given[0])
+        return Watched(trigger, 0.0, 0.0, left)
     if None in numbers:
         return None
     distance = 0.0 if trigger.distance is None else numbers[0] or 0.0
@@ -152,26 +161,38 @@ def _end(move: ir.Move, editor: Editor) -> ir.Expression:
 
 
 def _until(
-    move: ir.Move, way: float, time: float, names: tuple[ir.Name, ir.Name, ir.Name], poll: float, size: float
+    move: ir.Move,
+    way: float | ir.Expression,
+    time: float,
+    names: tuple[ir.Name, ir.Name, ir.Name],
+    poll: float,
+    size: float,
 ) -> list[ir.Statement]:
     """Looks until the tool is so far from the end, or would come there in that time by its speed, at the latest where
     the corner begins."""
     end, was, left = names
     here = ir.Builtin("current_target", (_tool(move), ir.System("null_frame")))
     distance = ir.Builtin("distance", (ir.Field(here, "trans"), ir.Field(end, "trans")))
-    near: ir.Expression = ir.RealLiteral(max(way, size))
+    near = ir.RealLiteral(max(way, size)) if isinstance(way, float) else way
+    arc = move.kind == "circular" and (not isinstance(way, float) or way > 0.0)
     if time:
         near = ir.Binary("*", ir.Binary("-", was, left), ir.RealLiteral(float(f"{time / poll:.9g}")))
-        near = ir.Binary("+", near, ir.RealLiteral(way)) if way else near
+        near = ir.Binary("+", near, ir.RealLiteral(way)) if isinstance(way, float) and way else near
     comes: ir.Expression = ir.Binary("<=", left, near)
-    if time and size:
+    if size and (time or not isinstance(way, float)):
         comes = ir.Binary("cor", comes, ir.Binary("<=", left, ir.RealLiteral(size)))
     leave = ir.If(((comes, (ir.ExitLoop(),)),))
     again: tuple[ir.Statement, ...] = (ir.Assign(was, left),) if time else ()
     first: tuple[ir.Statement, ...] = (ir.Assign(was, distance),) if time else ()
     looking: tuple[ir.Statement, ...] = (_pause(poll), ir.Assign(left, distance), leave, *again)
     origin = tidy(move.origin)
-    return [replace(one, origin=origin) for one in (*first, ir.Loop(looking))]
+    loops = (ir.Loop(_away(left, distance, near, poll)), ir.Loop(looking)) if arc else (ir.Loop(looking),)
+    return [replace(one, origin=origin) for one in (*first, *loops)]
+
+
+def _away(left: ir.Name, distance: ir.Expression, near: ir.Expression, poll: float) -> ir.Body:
+    """An arc of more than half a circle may begin nearer to its end than the place on its way is."""
+    return (ir.Assign(left, distance), ir.If(((ir.Binary(">=", left, near), (ir.ExitLoop(),)),)), _pause(poll))
 
 
 def _pause(seconds: float) -> ir.Statement:
