@@ -64,7 +64,6 @@ CAPABILITIES = Capabilities(
     untyped_places=True,
     shortest_wait_s=0.01,
     poll_s=0.01,
-    poll_s=0.01,
     logic_names=tables.LOGIC_NAMES,
     relative_moves=True,
     turned_ways=frozenset(("tool", "joint")),

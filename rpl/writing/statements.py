@@ -2,12 +2,13 @@
 
 A printer says how its target writes a statement (`written`). Here stands what is the same for all: a statement that the
 target cannot say takes back the lines it has begun and becomes a guarded stop - the original as remarks, then the
-controller's own stop, a report, and a mark in the ledger.
+controller's own stop, a report, and a mark in the ledger. A move that has actions stands behind it without them.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from dataclasses import replace
 from typing import ClassVar, Generic, TypeVar
 
 from rpl import ir
@@ -70,8 +71,23 @@ class StatementPrinter(ABC, Generic[LineT]):
             self.depth = depth
             self.taken_back()
             self.guard(statement, str(error), error.code)
+            self.without_actions(statement)
         else:
             self.ledger.written(statement)
+
+    def without_actions(self, statement: ir.Statement) -> None:
+        """Behind the stop, a move that only its actions on the way keep from being said: who goes on there finds the
+        robot where the next statement expects it."""
+        if not isinstance(statement, ir.Move) or not statement.triggers:
+            return
+        kept, depth = len(self.lines), self.depth
+        try:
+            self.written(replace(statement, triggers=(), origin=replace(statement.origin, comments=())))
+        except CannotSayError:
+            del self.lines[kept:]
+            self.depth = depth
+            self.taken_back()
+            self.guarded_behind(statement)
 
     def taken_back(self) -> None:
         """What a printer has noted down for a statement does not hold."""

@@ -219,6 +219,8 @@ def test_what_cannot_be_said_stops_the_program_there(given: str) -> None:
     text, codes = listing("VAR R1: REAL\n" + given if given.startswith("FOR") else given)
     assert "tp-guarded-stop" in codes
     found = numbered(text)
+    if "TRIGGER" in given:  # the move itself goes on behind the stop
+        assert found.pop() == "L P[1] 100mm/sec FINE"
     assert found[-1] == "PAUSE"
     assert found[-2].startswith("!")
 
