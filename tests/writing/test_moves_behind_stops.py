@@ -1,4 +1,4 @@
-"""A move whose action on the way cannot be said stands behind the stop without it, so that what follows finds its place."""
+"""A move whose action on the way cannot be said stands behind the stop without it: what follows finds its place."""
 
 import pytest
 
