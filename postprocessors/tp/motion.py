@@ -240,18 +240,18 @@ class Motion:
             if not known.startswith(("P[", "PR[")):
                 raise CannotSayError(f"{known} is no position")
             if move.relative is None:
-                self.noted(known)
+                self.noted(known, move)
             return known, ""
         number_of = self.points.add(self.position(move, target))
         shown = self.points.place(number_of)
         if move.relative is None:
-            self.noted(shown)
+            self.noted(shown, move)
         return shown, ""
 
-    def noted(self, shown: str) -> None:
+    def noted(self, shown: str, move: ir.Move) -> None:
         inner = shown[2:-1].partition(":")[0]
         if shown.startswith("P[") and inner.isdigit():
-            self.points.used(int(inner), self.frame, self.tool)
+            self.points.used(int(inner), self.frame, self.tool, move.kind == "joint")
 
     def register(self, pose: ir.Expression) -> str:
         if isinstance(pose, ir.Builtin) and pose.function == "pose_of":

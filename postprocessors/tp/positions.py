@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 from rpl import ir
 from rpl.passes.fold import constant
@@ -66,6 +67,16 @@ def _recorded(text: str) -> Recorded | None:
     return Recorded(found[1].upper(), found[2].upper(), len(_EXTENDED.findall(arm)), groups)
 
 
+class Reached(NamedTuple):
+    """A move to the point of that number, with frame and tool by number ('': not known). `joint`: by its axes, so that
+    it takes the turns that the point tells; a path leaves each axis in the turn it is in."""
+
+    number: int
+    frame: str
+    tool: str
+    joint: bool
+
+
 @dataclass(slots=True)
 class Points:
     """The positions of one program by number."""
@@ -75,7 +86,7 @@ class Points:
     frames: dict[int, set[tuple[str, str]]] = field(default_factory=dict)
     anonymous: dict[Position, int] = field(default_factory=dict)
     recorded: dict[int, Recorded] = field(default_factory=dict)
-    order: list[tuple[int, str, str]] = field(default_factory=list)
+    order: list[Reached] = field(default_factory=list)
 
     def declare(self, variable: ir.Variable, scope: Scope, step: bool = False) -> int:
         """A variable that is a point: by the number in its name. `step`: it is the way of relative moves, where what is
@@ -109,10 +120,10 @@ class Points:
         self.anonymous[position] = number
         return number
 
-    def used(self, number: int, frame: str, tool: str) -> None:
-        """A move goes to the point with this frame and tool in force ('': not known)."""
+    def used(self, number: int, frame: str, tool: str, joint: bool = True) -> None:
+        """A move goes to the point with this frame and tool in force ('': not known); `joint`: by its axes."""
         self.frames.setdefault(number, set()).add((frame or "F", tool or "F"))
-        self.order.append((number, frame, tool))
+        self.order.append(Reached(number, frame, tool, joint))
 
     def place(self, number: int) -> str:
         label = self.labels.get(number, "")

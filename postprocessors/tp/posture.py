@@ -22,12 +22,13 @@ if TYPE_CHECKING:
 
 
 def choose_postures(points: Points, frames: Frames, robot: RobotModel) -> list[int]:
-    """Fill in the flags of points without any, in the order of the moves; the numbers of those filled in."""
+    """Fill in the flags of points without any, in the order of the moves; the numbers of those filled in. A path comes
+    to its point in the turns that the axes are in, whatever the point tells."""
     make = registry.dialect("tp").notation
     if make is None:
         return []
     notation, near, filled = make(), robot.home, []
-    for number, frame, tool in points.order:
+    for number, frame, tool, joint in points.order:
         position = points.found.get(number)
         if position is None:
             continue  # reported where it is declared
@@ -38,11 +39,11 @@ def choose_postures(points: Points, frames: Frames, robot: RobotModel) -> list[i
         flange = _flange(position, frame, tool, frames) if position.kind == "pose" else None
         if flange is None:
             continue
-        if position.flags:
+        if position.flags and joint:
             joints = notation.select(robot, flange, dict(position.flags), near).joints
         else:
             joints = robot.nearest(flange, near)
-            if joints is not None:
+            if joints is not None and not position.flags:
                 points.found[number] = position.with_flags(notation.encode(robot, joints))
                 filled.append(number)
         near = near if joints is None else joints
@@ -93,7 +94,7 @@ def assumed_postures(
         return []
     notation, filled = make(), []
     near = _array(first) if len(first) == robot.axes else robot.home
-    in_moves = {number for number, _, _ in points.order}
+    in_moves = {one.number for one in points.order}
     for number, position in points.found.items():
         if position.kind != "pose" or position.flags or number in in_moves or number in points.recorded:
             continue

@@ -229,7 +229,7 @@ class _Writer:
         first = [
             one.points.found[number]
             for one in sorted(listings, key=lambda one: not one.entry)
-            for number, _, _ in one.points.order
+            for number in (reached.number for reached in one.points.order)
             if number in one.points.found and one.points.found[number].kind == "joints"
         ]
         moved = moved_to(line for one in listings for line in one.lines)
