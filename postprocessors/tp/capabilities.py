@@ -117,6 +117,7 @@ CAPABILITIES = Capabilities(
     pulse_times=False,
     static_locals=True,
     local_clocks=False,
+    reset_stops=False,
 )
 
 

@@ -99,7 +99,7 @@ class Capabilities:
     list_arguments: a list that is written out can be an argument (else it is stored in a variable first).
     list_results: functions may return arrays (else they write a parameter).
     locals: a routine has variables of its own; static_locals: also some that keep their values from call to call;
-    local_clocks: also stop watches.
+    local_clocks: also stop watches. reset_stops: a stop watch that is set to zero stands (else it counts on).
     recursion: a routine may be active twice, each time with variables of its own (else they are kept on a stack
     around calls that lead back). call_depth: how deep calls nest (0: not said).
 
@@ -244,6 +244,7 @@ class Capabilities:
     locals: bool = True
     static_locals: bool = False
     local_clocks: bool = True
+    reset_stops: bool = True
     arrays_by_value: bool = True
     list_arguments: bool = True
     list_results: bool = False

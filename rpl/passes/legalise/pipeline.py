@@ -129,6 +129,7 @@ from rpl.passes.legalise.recordsinuse import records_in_use
 from rpl.passes.legalise.references import references_as_copies
 from rpl.passes.legalise.refusals import refuse
 from rpl.passes.legalise.repeatedmoves import repeated_moves
+from rpl.passes.legalise.resetclocks import stopped_resets
 from rpl.passes.legalise.restingwaits import resting_waits
 from rpl.passes.legalise.results import list_results
 from rpl.passes.legalise.resumes import resumes
@@ -308,6 +309,7 @@ PASSES: tuple[Pass, ...] = (
     rearmed_reactions,
     repeated_moves,
     clocks_of_routines,
+    stopped_resets,
     static_variables,
     task_references,
     without_criticals,
