@@ -34,6 +34,7 @@ ACKNOWLEDGE = code(
 _SET = (ir.PoseType, ir.TargetType, ir.JointsType, ir.VectorType, ir.RotationType, ir.AxesType)
 _LARGEST_COPY = 24
 _LONGEST_NAME = tables.LONGEST_NAME + 2
+_KEPT = 3  # characters of a variable that keeps a subscript
 _COMPONENTS = ("x", "y", "z", "a", "b", "c")
 _TOLD = frozenset(("notify", "state", "write", "error", "quit"))
 
@@ -266,9 +267,28 @@ class Actions:
             if longest is None or len(shown[longest]) <= _LONGEST_NAME:
                 break
             shown[longest] = self.expressions.moved_in_front(values.pop(longest))
+            given = (*given[:longest], ir.Argument(ir.Name(shown[longest])), *given[longest + 1 :])
+        shown = self.with_kept_subscripts(name, given, shown)
         while shown and not shown[-1]:
             shown.pop()
-        return f"({', '.join(shown)})" if shown else "()"
+        whole = f"({', '.join(shown)})"
+        return whole if len(name) + len(whole) + 5 <= tables.LONGEST_LINE else f"({','.join(shown)})"
+
+    def with_kept_subscripts(self, name: str, given: tuple[ir.Argument, ...], shown: list[str]) -> list[str]:
+        """Elements stay references: where the call is too long, computed subscripts are kept in variables in front."""
+        elements = {at: one.value for at, one in enumerate(given) if isinstance(one.value, ir.Index)}
+        while elements and len(name) + sum(len(one) + 2 for one in shown) + 5 > tables.LONGEST_LINE:
+            found = [(self.expressions.text(one), one) for element in elements.values() for one in element.indices]
+            longest = max(found, key=lambda one: len(one[0]) * sum(other == one for other in found), default=None)
+            if longest is None or len(longest[0]) <= _KEPT:
+                break
+            kept = ir.Name(self.expressions.moved_in_front(longest[1]))
+            for at, element in elements.items():
+                places = tuple(kept if one == longest[1] else one for one in element.indices)
+                if places != element.indices:
+                    elements[at] = replace(element, indices=places)
+                    shown[at] = shown[at].replace(self.expressions.text(element), self.expressions.text(elements[at]))
+        return shown
 
     def is_a_value(self, value: ir.Expression, parameter: ir.Parameter | None) -> bool:
         """Does the callee get only the value, so that a variable beside it serves as well?"""

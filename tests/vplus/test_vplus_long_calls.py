@@ -41,3 +41,47 @@ def test_values_in_front_of_a_long_call() -> None:
     back = read_sources(sources, "vplus", diagnostics)
     result = prove_programs(read.program, back.program, "abb_irb1200_5_90", entry="main", to_entry="main")
     assert result.equal, result.as_text()
+
+
+CHANGED = """MODULE demo
+  RECORD contourtype
+    string name;
+    string shape;
+    pos centre;
+    num width;
+    num height;
+    bool good;
+  ENDRECORD
+  VAR contourtype sheet{3}:=[["A","X",[1,2,3],4,5,FALSE],["B","Y",[6,7,8],9,10,FALSE],["C","Z",[1,1,1],1,1,FALSE]];
+  VAR num order{3}:=[3,1,2];
+  VAR string log:="";
+  PROC main()
+    FOR i FROM 1 TO 2 DO
+      CutOne sheet{order{i}},log;
+    ENDFOR
+    IF log="CA" SetDO do1,1;
+    IF sheet{1}.good AND sheet{3}.good AND NOT sheet{2}.good SetDO do2,1;
+    IF sheet{1}.width=5 AND sheet{3}.width=2 AND sheet{2}.width=9 SetDO do3,1;
+    IF order{1}=2 SetDO do4,1;
+  ENDPROC
+  PROC CutOne(INOUT contourtype c,INOUT string text)
+    order{1}:=2;
+    c.good:=c.centre.x=1 AND c.shape<>"";
+    c.width:=c.width+1;
+    text:=text+c.name;
+    IF c.height>100 c.name:=c.shape;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_elements_by_reference_in_a_long_call() -> None:
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("demo.mod", CHANGED)], "rapid", diagnostics)
+    written = translate_program(read, "vplus", "abb_irb1200_5_90", None, diagnostics)
+    assert not [item.as_text() for item in diagnostics.of(Severity.LOSS)]
+    sources = [source_from_bytes(file.path, file.data) for file in written.files]
+    assert max(len(line) for source in sources for line in source.text.splitlines()) <= 120
+    back = read_sources(sources, "vplus", diagnostics)
+    result = prove_programs(read.program, back.program, "abb_irb1200_5_90", entry="main", to_entry="main")
+    assert result.equal, result.as_text()
