@@ -92,6 +92,7 @@ CAPABILITIES = Capabilities(
     speeds=frozenset(("joint", "path", "duration")),
     blends=tables.words("BlendDistance BlendPercent BlendSpeed BlendZone"),
     postures="joints",
+    place_turns=False,
     static_locals=True,
     arrays_by_value=False,
     list_arguments=False,

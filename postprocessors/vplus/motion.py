@@ -39,14 +39,6 @@ LOOSE = code(
     "the robot stops at this corner where no move follows at once: V+ would execute the next step when the move begins",
 )
 LEFT_OUT = code("vplus-left-out", Severity.WARNING, "V+ has no place for {what} at a move; it is left out")
-TURN = code(
-    "vplus-turn",
-    Severity.WARNING,
-    "an axis goes beyond 180 degrees here, which a location does not tell: the controller takes the turn that is "
-    "nearest to where the arm comes from",
-    "write this place as a precision point where the turn matters (cables, joints that are read)",
-)
-_HALF_TURN_DEG = 180.0
 ARC = code("vplus-arc", Severity.WARNING, "only eV+ controllers have MOVEC")
 NO_ARM = code(
     "vplus-joint-speed",
@@ -138,8 +130,6 @@ class Motion:
         if move.kind != "joint" or not joints or None in joints or len(target.arguments) > 2:
             raise CannotSayError("a move to the solution nearest to joints")
         angles = [float(value or 0.0) for value in joints]
-        if any(abs(angle) > _HALF_TURN_DEG for angle in angles):
-            self.facts.diagnostics.report(TURN, move.origin)
         return place, self.words(angles, move.origin)
 
     def words(self, joints: list[float], origin: Origin) -> tuple[str, ...]:

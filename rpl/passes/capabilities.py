@@ -45,6 +45,8 @@ class Capabilities:
     operators: operators printed as they are. modal_motion: tool, frame, speed and blend are modal (KRL); otherwise each
     move names them (RAPID). for_at_least_once / for_scoped / for_automatic: the target's FOR has exactly that rule.
     postures: `flags` of the notation in a target, or `joints` that a joint move solves near to (targets have none).
+    place_turns: a joint move to a place comes there in the turns that are told with it (by flags, or by the joints that
+    it is solved near to; else the controller takes each axis the shortest way).
     flags: whether the controller has flags with numbers, or the passes give them names (else they are data).
     most_arguments: how many arguments a call has at most (0: any).
     asked_frames: whether a program can ask for the frame in force (else a variable keeps it where one does).
@@ -319,6 +321,7 @@ class Capabilities:
     numbered_groups: bool = False
     write_only: frozenset[str] = frozenset()
     postures: str = "flags"
+    place_turns: bool = True
     move_functions: frozenset[str] = frozenset()
     places_in_base: bool = False
     no_tool: str = ""

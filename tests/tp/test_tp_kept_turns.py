@@ -25,7 +25,7 @@ BY_WAY = {
 
 
 @pytest.mark.parametrize("way", BY_WAY.values(), ids=BY_WAY)
-@pytest.mark.parametrize("target", ["tp", "urscript", "inform", "rapid", "krl"])
+@pytest.mark.parametrize("target", ["tp", "vplus", "urscript", "inform", "rapid", "krl"])
 def test_the_arm_stays_in_the_turn_of_its_axes(way: str, target: str) -> None:
     trip = there_and_back({"main.src": PROGRAM % way}, "krl", target, "kuka_kr6r900sixx")
     result = trip.run()

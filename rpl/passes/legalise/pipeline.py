@@ -183,6 +183,7 @@ from rpl.passes.legalise.triggers import triggers
 from rpl.passes.legalise.truths import truths_to_numbers
 from rpl.passes.legalise.turnedways import turned_ways
 from rpl.passes.legalise.turningtimes import turning_times
+from rpl.passes.legalise.turns import told_turns
 from rpl.passes.legalise.undefined import asked_values
 from rpl.passes.legalise.undefinedparts import asked_elements
 from rpl.passes.legalise.unreadparameters import drop_unread_parameters
@@ -290,6 +291,7 @@ PASSES: tuple[Pass, ...] = (
     flag_readings,
     free_postures,
     configurations,
+    told_turns,
     without_aliases,
     stop_blends,
     begun_moves,

@@ -27,6 +27,7 @@ from rpl.passes.values import Record, Target, Value, component, pose_of
 
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 _COMPONENTS = ("x", "y", "z", "a", "b", "c")
+_NEAR = "target_to_joints_near"
 _PLACES = ("tool", "base", "robot_root")
 Joints = tuple[float, ...]
 Seen = tuple[ir.Expression | None, ir.Expression | None, rigid.Pose]
@@ -55,9 +56,10 @@ NOWHERE_KNOWN = Stand()
 
 class Whereabouts:
     """`ways`: the way of each move by identity, where something of it is known. `starts`, `ends`: where the robot
-    stands before each move and behind it."""
+    stands before each move and behind it. `converted`: the flags of places are the target's already."""
 
-    def __init__(self, program: ir.Program, context: Context) -> None:
+    def __init__(self, program: ir.Program, context: Context, converted: bool = False) -> None:
+        self.converted = converted
         self.ways: dict[int, Way] = {}
         self.starts: dict[int, Stand] = {}
         self.ends: dict[int, Stand] = {}
@@ -124,8 +126,14 @@ class Whereabouts:
             return NOWHERE_KNOWN
         if move.relative:
             return self.further(move, stand)
-        goal = constant(move.target, self.scope, self.unchanged)
-        axes = self.axes(goal)
+        target, near = move.target, None
+        match target:
+            case ir.Builtin(function=name, arguments=(place, asked)) if name == _NEAR:
+                target, near = place, self.axes(constant(asked, self.scope, self.unchanged))
+                if near is None or move.kind != "joint":
+                    return NOWHERE_KNOWN
+        goal = constant(target, self.scope, self.unchanged)
+        axes = None if near is not None else self.axes(goal)
         if axes is not None:
             flange = None if self.arm is None else rigid.pose_of_matrix(_rows(self.arm.forward(_array(axes))))
             return Stand(axes, flange)
@@ -134,7 +142,14 @@ class Whereabouts:
         if pose is None:
             return NOWHERE_KNOWN
         flange = None if frames is None else frames.flange(pose)
-        return Stand(self.solved(move, goal, flange, stand), flange, (move.tool, move.frame, pose))
+        joints = self.solved(move, goal, flange, stand) if near is None else self.nearest(flange, near)
+        return Stand(joints, flange, (move.tool, move.frame, pose))
+
+    def nearest(self, flange: rigid.Pose | None, near: Joints) -> Joints | None:
+        if self.arm is None or flange is None:
+            return None
+        found = self.arm.nearest(_array(flange.matrix), _array(near))
+        return None if found is None else tuple(float(one) for one in found)
 
     def further(self, move: ir.Move, stand: Stand) -> Stand:
         """Where a relative move ends, along the tool, along the axes of the frame or by axes of the arm."""
@@ -171,6 +186,8 @@ class Whereabouts:
         the last."""
         if self.arm is None or flange is None:
             return None
+        if self.converted and move.kind == "joint" and isinstance(goal, Target):
+            return None  # what the source said about the posture is gone
         matrix = _array(flange.matrix)
         near = None if stand.joints is None else _array(stand.joints)
         flags = dict(goal.flags) if isinstance(goal, Target) and self.notation is not None else {}
