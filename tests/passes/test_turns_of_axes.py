@@ -73,3 +73,10 @@ def test_a_place_that_the_program_works_out_is_told(turned: bool, told: bool) ->
     register = ("  PR[1]=P[1]", "  PR[1,3]=PR[1,3]+R[8]", "J PR[1] 100% FINE")
     trip = journey((HOME, *moves, *register), "vplus")
     assert ("turn-not-told" in codes(trip.found)) is told
+
+
+@pytest.mark.parametrize("target", ["vplus", "urscript"])
+def test_a_place_in_two_frames_whose_joints_are_not_written_is_told(target: str) -> None:
+    frame = [f"  PR[1,{number}]={30 if number == 2 else 0}" for number in range(1, 7)]
+    moves = ("J P[2] 100% FINE", *frame, "  UFRAME[1]=PR[1]", "  UFRAME_NUM=1", "J P[2] 100% FINE")
+    assert "configuration-not-converted" in codes(journey((HOME, *moves), target).found)

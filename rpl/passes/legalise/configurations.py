@@ -380,7 +380,7 @@ class _Configurations(Rewriter):
                 refused = found
             elif flags is None:
                 flags = found
-            elif use.joint and found != flags and self.flat:
+            elif use.joint and found != flags and self.flat and not self.near:
                 # What differs is left out: the controller then takes the shortest way.
                 flags = {name: number for name, number in flags.items() if found.get(name) == number}
             elif use.joint and found != flags and use.moved is None:
