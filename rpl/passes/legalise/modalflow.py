@@ -304,10 +304,16 @@ class _Follower:
         key = name.lower()
         if key not in self.routines:
             return state
-        self.entries[key] = joined(self.entries[key], state)
-        if key not in self.setting and self.exits[key] is not None:
-            return state
-        return self.exits[key]
+        there = self.scopes.routine(*self.routines[key])
+        entered = {setting: _carried(value, self.scope, there) for setting, value in state.items()}
+        self.entries[key] = joined(self.entries[key], entered)
+        left = self.exits[key]
+        if left is None or key not in self.setting:
+            return state if left is not None else None
+        return {
+            setting: _carried(value, there, self.scope) if key in self.setters[setting] else state[setting]
+            for setting, value in left.items()
+        }
 
     # ---- constants
 
@@ -337,6 +343,23 @@ class _Follower:
                 fixed = symbol.declaration.storage == "constant" or name.lower() not in self.flow.usage.assigned
                 return value if fixed else None
         return None
+
+
+def _carried(value: ir.Expression | None, home: Scope, there: Scope) -> ir.Expression | None:
+    """A constant of one routine as another one says it: what has no name there, or a name for something else, is said
+    by its value, as far as that is written at its declaration."""
+    if value is None or all(
+        (here := home.value(one.id)) is not None
+        and (seen := there.value(one.id)) is not None
+        and seen.declaration is here.declaration
+        for one in walk(value)
+        if isinstance(one, ir.Name)
+    ):
+        return value
+    symbol = home.value(value.id) if isinstance(value, ir.Name) else None
+    written = symbol.declaration.initial if symbol and isinstance(symbol.declaration, ir.Variable) else None
+    named = any(isinstance(one, ir.Name | ir.Index | ir.Field) for one in walk(written)) if written else True
+    return None if named else written
 
 
 def _beside(program: ir.Program) -> set[str]:
