@@ -32,9 +32,17 @@ def test_the_wrist_turns_over_where_the_source_turns_it(body: str, target: str) 
     assert trip.switched_on(result) == {1}
 
 
+@pytest.mark.parametrize("target", ["krl", "vplus", "urscript", "rpl"])
+def test_the_same_from_everywhere_is_taken_and_told(target: str) -> None:
+    body = f"{START}MOVE LINEAR BY {{x: 0, y: 0, z: $time, a: 0, b: 0, c: 0}}\nMOVE TO {PLACE}\n{BEHIND}"
+    trip = there_and_back({"main.rpl": program(body)}, "rpl", target, ROBOT)
+    assert ("posture-as-from-known" in [one.code.name for one in trip.found]) is (target in ("krl", "vplus"))
+    assert trip.switched_on(trip.run()) == {1}
+
+
 @pytest.mark.parametrize(("target", "told"), [("krl", True), ("vplus", True), ("urscript", False), ("rpl", False)])
 def test_what_is_not_known_is_told(target: str, told: bool) -> None:
-    body = f"{START}MOVE LINEAR BY {{x: 0, y: 0, z: $time, a: 0, b: 0, c: 0}}\nMOVE TO {PLACE}\n{BEHIND}"
+    body = f"MOVE LINEAR BY {{x: 0, y: 0, z: $time, a: 0, b: 0, c: 0}}\nMOVE TO {PLACE}\n{BEHIND}"
     trip = there_and_back({"main.rpl": program(body)}, "rpl", target, ROBOT)
     assert ("posture-left-free" in [one.code.name for one in trip.found]) is told
 

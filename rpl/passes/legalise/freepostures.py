@@ -2,7 +2,9 @@
 the solution nearest to where the arm is, or the posture in which it is.
 
 Where place, tool, frame and the joints before are constant and the rules choose otherwise, the move goes to the joints
-that the source's controller takes. Where they are not known, a warning names the difference.
+that the source's controller takes. Where only the joints before are not known, it goes to those that the source's
+controller takes from everywhere the program is known to lead to, if these are the same, with a warning. Else a warning
+names the difference.
 """
 
 from __future__ import annotations
@@ -24,6 +26,13 @@ FREE = code(
     Severity.WARNING,
     "this place says nothing about the arm's posture: the source's controller and the target's choose it by other "
     "rules, and where the arm stands before is not known here",
+    "write the posture into the place, or move to joints before",
+)
+ASSUMED = code(
+    "posture-as-from-known",
+    Severity.WARNING,
+    "this place says nothing about the arm's posture, and where the arm stands before is not known here: it goes to "
+    "the joints that the source's controller takes from every place that is known in this program",
     "write the posture into the place, or move to joints before",
 )
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
@@ -95,13 +104,30 @@ class _Free(Rewriter):
         import numpy as np
 
         before, end = self.stands.starts.get(id(move)), self.stands.ends.get(id(move))
-        if before is None or before.joints is None or end is None or end.flange is None or move.search is not None:
+        if before is None or end is None or end.flange is None or move.search is not None:
             self.context.diagnostics.report(FREE, move.origin)
             return move
-        at, flange = np.array(before.joints), np.array(end.flange.matrix)
-        if not self.differs(flange, at):
-            return move
-        joints = self.chosen(self.ours, flange, at)
+        flange = np.array(end.flange.matrix)
+        if before.joints is None:
+            joints = self.from_everywhere(flange)
+            self.context.diagnostics.report(FREE if joints is None else ASSUMED, move.origin)
+            return move if joints is None else self.to_joints(move, joints)
+        at = np.array(before.joints)
+        return self.to_joints(move, self.chosen(self.ours, flange, at)) if self.differs(flange, at) else move
+
+    def from_everywhere(self, flange: Any) -> Any:
+        """The joints that the source's controller takes from all places where the arm is known to be; None where these
+        are not the same."""
+        import numpy as np
+
+        known = {one.joints for one in self.stands.ends.values() if one.joints is not None}
+        found = [self.chosen(self.ours, flange, np.array(one)) for one in sorted(known)]
+        if not found or any(one is None or abs(one - found[0]).max() > _SAME_DEG for one in found):
+            return None
+        return found[0]
+
+    @staticmethod
+    def to_joints(move: ir.Move, joints: Any) -> ir.Move:
         entries = tuple((name, real(round(float(one), 9))) for name, one in zip(_AXES, joints, strict=False))
         return replace(move, target=ir.Aggregate(entries, type_name="joints"))
 
