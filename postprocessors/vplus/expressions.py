@@ -91,7 +91,7 @@ class Expressions:
 
     def measured(self, value: ir.Expression, unit: str) -> str:
         """A quantity in base units or `unit` as a plain number."""
-        return self.text(self.in_unit(value, unit))
+        return self.shortened(self.in_unit(value, unit), tables.LONGEST_LINE - 16)
 
     def in_unit(self, value: ir.Expression, unit: str) -> ir.Expression:
         match value:

@@ -308,7 +308,7 @@ class Printer(StatementPrinter[str]):
     def switch(self, statement: ir.Switch) -> None:
         if not statement.cases:
             raise CannotSayError("a choice without a case")
-        self.line(f"CASE {self.expressions.text(statement.selector)} OF", statement.origin)
+        self.line(f"CASE {self.expressions.shortened(statement.selector, _ROOM)} OF", statement.origin)
         self.depth += 1
         for case in statement.cases:
             self.line(f"VALUE {', '.join(self.expressions.text(value) for value in case.values)}:", case.origin)
