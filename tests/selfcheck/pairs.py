@@ -35,7 +35,7 @@ from rpl.translation import translate_program
 HERE = Path(__file__).parent
 FILE = HERE / "pairs.json"
 KUKA, ABB, FANUC = "kuka_kr6r900sixx", "abb_irb1200_5_90", "fanuc_lrmate200id"
-LIMIT_S = 120.0  # simulated; the longest project ends after 72 s
+LIMIT_S = 250.0  # simulated; the longest project ends after 168 s
 UR, VIPER, YASKAWA = "ur5e", "adept_viper_s650", "motoman_gp7"
 
 
@@ -93,6 +93,13 @@ PROJECTS = {
     "vplus_more_sorting": Project(VIPER, 20, "sort.cell"),
     "inform_more_lathe": Project(YASKAWA, 20, "LATHECEL"),
     "rpl_more_foundry": Project("kuka_kr16_2", 20),
+    "krl_more_glazing": Project(KUKA, 16, "GLAZING"),
+    "rapid_more_castings": Project(ABB, 16),
+    "tp_more_bending": Project(FANUC, 16, "BRAKECEL"),
+    "urscript_more_pallets": Project(UR, 16),
+    "vplus_more_boards": Project(VIPER, 16, "boards"),
+    "inform_more_bags": Project(YASKAWA, 16, "BAGMAIN"),
+    "rpl_more_measuring": Project(KUKA, 16),
 }
 TARGETS = list(registry.target_names())
 
