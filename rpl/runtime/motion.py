@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rpl.runtime import pieces, resting, searching, velocities
+from rpl.runtime import pieces, resting, searching, stopping, velocities
 from rpl.runtime.chain import (
     Planning,
     pose_of_array,
@@ -262,22 +262,32 @@ class MotionQueue(RobotState):
         self.generation += 1
         self.schedule(piece.end_s, "arrive")
         drive = piece.drive
+        if self.regained is not None:
+            return  # on the way back to the path nothing of the move happens
         self._begun(drive if piece.corner is None else piece.corner.following)
-        lead = drive.order.rules.advance.lead_s
-        if drive.blending or piece.ahead is not None:
-            if not drive.released and drive.order.rules.advance.runs_ahead_of == "fly_by":
-                # Past the place where its corner would begin already: the next move is asked for at once.
-                leaves_s = piece.end_s if piece.open_end or piece.ahead is not None else now
-                self.schedule(max(now, leaves_s - lead), "release")
-        elif not drive.released and not drive.order.blend.stops:
-            self.schedule(max(now, piece.end_s - lead), "release")
+        if piece.halting is None and not drive.released:
+            self._schedule_release(piece)
         if piece.corner is not None:
-            self.schedule(piece.start_s + piece.corner.t_middle_s, "middle")
+            middle = pieces.time_in_corner(piece, 0.5)
+            if middle is not None:
+                self.schedule(middle, "middle")
         for place, trigger in enumerate(drive.order.triggers):
             if not trigger.fired:
                 trigger.due = pieces.time_of_trigger(piece, trigger)
                 if trigger.due is not None:
                     self.schedule(max(now, trigger.due), "fire", drive.number, place)
+
+    def _schedule_release(self, piece: Piece) -> None:
+        """When the program may go on behind a move that blends."""
+        now, drive = self.machine.now, piece.drive
+        advance = drive.order.rules.advance
+        if drive.blending or piece.ahead is not None:
+            if advance.runs_ahead_of == "fly_by":
+                # Past the place where its corner would begin already: the next move is asked for at once.
+                leaves_s = piece.end_s if piece.open_end or piece.ahead is not None else now
+                self.schedule(max(now, leaves_s - advance.lead_s), "release")
+        elif not drive.order.blend.stops:
+            self.schedule(max(now, piece.end_s - advance.lead_s), "release")
 
     def _begun(self, drive: Drive) -> None:
         """A move is driven, or the corner into it: its program may go on where the language waits for that."""
@@ -304,13 +314,13 @@ class MotionQueue(RobotState):
             velocities.go_on(self, piece)
             return
         self._close_leg(piece, now)
-        if piece.halting:
-            self._halted(piece)
+        if piece.halting is not None:
+            stopping.arrived(self, piece)
             return
         if self.regained is not None:
             taken, self.regained = self.regained, None
             self.joints, self.piece = piece.plan.end_joints, None
-            self._take_up(taken)
+            stopping.take_up(self, taken)
             return
         if piece.ahead is not None:
             self.piece = None
@@ -318,9 +328,7 @@ class MotionQueue(RobotState):
             return
         if piece.corner is not None:
             following, rest = piece.corner.following, piece.corner.rest
-            self._done(piece.drive, False)
-            following.started_s = now
-            self.piece = None
+            self.left_corner(piece)
             searching.watch(self, following)
             self._drive(Piece(following, rest, now))
             searching.end_if_found(self, following)
@@ -336,6 +344,13 @@ class MotionQueue(RobotState):
         self._done(piece.drive, True)
         if self.queue and not self.stopped:
             self._ask()
+
+    def left_corner(self, piece: Piece) -> None:
+        """The end of a corner: the move before it has been made, the next one is driven."""
+        assert piece.corner is not None
+        self._done(piece.drive, False)
+        piece.corner.following.started_s = self.machine.now
+        self.piece = None
 
     def _after_corner(self, drive: Drive) -> None:
         """The rest of a move after a corner: it may blend again."""
@@ -448,65 +463,11 @@ class MotionQueue(RobotState):
 
     def halt(self, hard: bool, ends_move: bool = False) -> None:
         """Brake on the path; `ends_move`: what is left of the move is dropped when the robot stands."""
-        self.stopped = not ends_move
-        resting.ended(self)
-        piece = self.piece
-        if piece is None:
-            return
-        self._drive(pieces.braking(piece, self.machine.now, hard))
-        if self.piece is not None:
-            self.piece.halting, self.piece.ends_move = True, ends_move
-
-    def _halted(self, piece: Piece) -> None:
-        self.joints = piece.plan.joints_at(piece.end_s - piece.start_s)
-        self.piece = None
-        if piece.ends_move:
-            self._dropped(piece)
-        else:
-            self.halted = piece
-        self._look()
-
-    def _dropped(self, piece: Piece) -> None:
-        """What is left of a move is forgotten, in a corner that of both moves. Moves commanded behind it begin anew
-        from here, when the interrupt that stopped the robot has ended."""
-        self._show(piece.drive, True, True)
-        gone = [piece.drive] if piece.corner is None else [piece.drive, piece.corner.following]
-        self.behind += [drive for drive in self.queue if drive not in gone]
-        self.queue.clear()
-        self.planned_joints, self.planned_external = self.joints, self.external
-        self.task.busy = False
-        if not self.task.aside:
-            self._again()
-
-    def _again(self) -> None:
-        """Plan the moves anew that were commanded behind a dropped one."""
-        behind, self.behind = self.behind, []
-        for old in behind:
-            drive = self._planned(old.order, old.number)
-            if not isinstance(drive, Drive):
-                self._fault(drive, old.order)
-                return
-            self.queue.append(drive)
-            self.task.busy = True
-            self._ask()
+        stopping.halt(self, hard, ends_move)
 
     def start(self) -> None:
         """Go on with a stopped motion."""
-        self.stopped = False
-        piece, self.halted = self.halted, None
-        if piece is not None and self.model is not None:
-            assert self.joints is not None
-            back = pieces.way_back(self.model, self.joints, piece, self.machine.now)
-            if back is not None:
-                self.regained = piece
-                self._drive(back)
-                return
-            self._take_up(piece)
-        self._ask()
-
-    def _take_up(self, piece: Piece) -> None:
-        self._drive(pieces.taken_up(piece, self.machine.now))
-        self._after_corner(piece.drive)
+        stopping.start(self)
 
     def interrupt_ended(self, goes_on: bool) -> None:
         """`goes_on`: a motion braked in an interrupt goes on when that ends without leaving its level. What was
@@ -516,8 +477,8 @@ class MotionQueue(RobotState):
             self.restore()
         if goes_on and self.stopped:
             self.start()
-        if self.piece is None or not self.piece.halting:
-            self._again()
+        if self.piece is None or self.piece.halting is None:
+            stopping.again(self)
 
     def clear(self) -> None:
         """Forget everything commanded; the robot stays where it is."""

@@ -24,24 +24,33 @@ JOINT_BLEND_DEG = 90.0
 MOST = 0.5
 # A move is driven up to this share of it before its corner, so that rounding never puts it behind the corner's start.
 ROUNDING = 1e-9
-# Braking with the emergency ramp is this much stronger than the programmed acceleration.
-HARD = 2.0
 
 
 @dataclass(slots=True, eq=False)
 class Corner:
-    """A corner and what follows it: the rest of the next move."""
+    """A corner and what follows it: the rest of the next move. `rates`: fractions of the move before and of the next
+    one per fraction of the corner, where they meet it."""
 
     plan: PlannedMove
     rest: PlannedMove
     following: Drive
-    t_middle_s: float
+    rates: tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Halting:
+    """The robot brakes. `hard`: with the emergency ramp; `ends_move`: what is left of the move is dropped when it
+    stands; `onward`: speed (1/s of the move or corner) at the piece's end, where it does not come to rest in it."""
+
+    hard: bool
+    ends_move: bool
+    onward: float = 0.0
 
 
 @dataclass(slots=True, eq=False)
 class Piece:
-    """What is driven from `start_s` on. `ahead`: a corner follows this piece; `corner`: this piece is that corner.
-    `open_end`: it ends where a corner should begin, the next move not being known yet."""
+    """What is driven from `start_s` on. `ahead`: a corner follows this piece; `corner`: this piece is that corner, or a
+    part of it. `open_end`: it ends where a corner should begin, the next move not being known yet."""
 
     drive: Drive
     plan: PlannedMove
@@ -49,13 +58,11 @@ class Piece:
     ahead: Corner | None = None
     corner: Corner | None = None
     open_end: bool = False
-    halting: bool = False
-    ends_move: bool = False
-    frozen_s: float | None = None
+    halting: Halting | None = None
 
     @property
     def end_s(self) -> float:
-        return self.start_s + (self.plan.duration_s if self.frozen_s is None else self.frozen_s)
+        return self.start_s + self.plan.duration_s
 
     def joints_at(self, now: float) -> FloatArray:
         return self.plan.joints_at(min(max(now - self.start_s, 0.0), self.plan.duration_s))
@@ -145,32 +152,6 @@ def open_ended(piece: Piece, now: float) -> Piece:
     return Piece(piece.drive, opened, now, open_end=True)
 
 
-def braking(piece: Piece, now: float, hard: bool) -> Piece:
-    """Come to rest on the path as soon as the acceleration allows; in a corner at once."""
-    if piece.corner is not None:
-        return replace(piece, frozen_s=max(now - piece.start_s, 0.0))
-    place, speed = place_of(piece, now)
-    profile = piece.plan.profile
-    strength = profile.acceleration * (HARD if hard else 1.0)
-    furthest = piece.plan.span[1] if piece.drive.rate is None else 1.0
-    end = min(place + speed * speed / (2.0 * strength), furthest) if speed > 0.0 else place
-    if end - place < 1e-12:
-        return replace(piece, frozen_s=max(now - piece.start_s, 0.0))
-    law = replace(profile, acceleration=strength).law(place, end, speed, 0.0)
-    return Piece(piece.drive, part(piece.plan, (place, end), law), now)
-
-
-def taken_up(piece: Piece, now: float) -> Piece:
-    """Go on from where the robot was stopped."""
-    stood = piece.end_s
-    if piece.corner is not None:
-        done = stood - piece.start_s
-        return replace(piece, start_s=now - done, frozen_s=None, halting=False)
-    place, _ = place_of(piece, stood)
-    law = piece.plan.profile.law(place, 1.0, 0.0, 0.0)
-    return Piece(piece.drive, part(piece.plan, (place, 1.0), law), now)
-
-
 # Moving back onto a path that was left, as a share of the axes' speed.
 REGAIN_SHARE = 0.1
 
@@ -193,6 +174,7 @@ def joined(model: RobotModel, piece: Piece, following: Drive, now: float) -> Pie
     """The piece up to the corner with the next move, from where the robot is; None when there can be no corner."""
     from rpl.emulator.blending import Corner as Blended
     from rpl.emulator.blending import blend
+    from rpl.emulator.cornerlaws import ratios
 
     first, second = piece.drive.plan, following.plan
     assert first is not None and second is not None
@@ -202,7 +184,7 @@ def joined(model: RobotModel, piece: Piece, following: Drive, now: float) -> Pie
     made = blend(model, rest_of(piece, now), second, distance_mm=distance, fraction=fraction)
     if not isinstance(made, Blended):
         return None
-    corner = Corner(made.corner, made.second, following, made.t_middle_s)
+    corner = Corner(made.corner, made.second, following, ratios(made.first, made.corner, made.second))
     return Piece(piece.drive, made.first, now, ahead=corner)
 
 
@@ -285,14 +267,14 @@ def time_of_trigger(piece: Piece, trigger: TriggerOrder) -> float | None:
         place = geometry.fraction_at(whole + distance) if distance < 0.0 and whole > 0.0 else 1.0
     if place > end + 1e-12:
         if trigger.delay < 0.0 and piece.ahead is not None:
-            middle = piece.end_s + piece.ahead.t_middle_s * min((place - end) / max(1.0 - end, 1e-12), 1.0)
-            return middle + trigger.delay
+            share = min((place - end) / max(1.0 - end, 1e-12), 1.0)
+            return piece.end_s + float(piece.ahead.plan.law.time_of(0.5 * share)) + trigger.delay
         if trigger.delay < 0.0 and piece.open_end and end > begin:  # the corner to come is taken as fast as the move
             speed = float(piece.plan.law.speed_at(piece.plan.duration_s)) * (end - begin)
             return piece.end_s + (place - end) / speed + trigger.delay if speed > 0.0 else None
         return None
-    if place < begin:
-        return piece.start_s + trigger.delay
+    if place < begin:  # passed already: what counts since then goes on
+        return trigger.due if trigger.due is not None else piece.start_s + trigger.delay
     share = (place - begin) / (end - begin) if end > begin else 1.0
     return piece.start_s + float(piece.plan.law.time_of(share)) + trigger.delay
 
@@ -309,6 +291,17 @@ def _in_corner(piece: Piece, trigger: TriggerOrder) -> float | None:
     distance = trigger.distance or 0.0
     travelled = distance if trigger.reference == "start" else whole + distance
     left = max(whole - travelled, 0.0)
-    size = 0.5 * piece.plan.length_mm
+    size = 0.5 * piece.corner.plan.length_mm
     share = 1.0 - min(left / size, 1.0) if size > 0.0 else 1.0
-    return piece.start_s + piece.corner.t_middle_s * share + trigger.delay
+    when = time_in_corner(piece, 0.5 * share)
+    if when is None:
+        return trigger.due if 0.5 * share < piece.plan.span[0] else None
+    return when + trigger.delay
+
+
+def time_in_corner(piece: Piece, fraction: float) -> float | None:
+    """When the corner, or the part of it that this piece is, comes to that fraction; None: before or after it."""
+    begin, end = piece.plan.span
+    if not begin <= fraction <= end:
+        return None
+    return piece.start_s + float(piece.plan.law.time_of((fraction - begin) / max(end - begin, 1e-300)))

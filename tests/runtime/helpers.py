@@ -2,11 +2,13 @@
 
 from typing import Any
 
+import numpy as np
+
 from rpl import ir
 from rpl.cell import Cell, parse_cell
 from rpl.diagnostics import Diagnostics
 from rpl.project import read_sources
-from rpl.runtime.trace import RunResult
+from rpl.runtime.trace import Event, RunResult
 from rpl.simulation import run_program
 from rpl.source import source_from_text
 
@@ -39,6 +41,24 @@ def krl(body: str, data: str = "", more: str = "", **options: Any) -> RunResult:
 def rapid(body: str, data: str = "", more: str = "", **options: Any) -> RunResult:
     """Run RAPID statements as `main`."""
     return run("rapid", f"MODULE prog\n{data}\nPROC main()\n{body}\nENDPROC\n{more}\nENDMODULE\n", **options)
+
+
+def moves(result: RunResult) -> list[Event]:
+    """The moves in the order in which they ended."""
+    return [event for event in result.trace if event.kind == "move"]
+
+
+def tool_at(result: RunResult, when: float) -> np.ndarray:
+    """Where the tool centre point is at a time (3,), mm."""
+    legs = [leg for event in moves(result) for leg in event.legs]
+    leg = min(legs, key=lambda leg: max(leg.start_s - when, when - leg.start_s - leg.duration_s, 0.0))
+    inside = min(max(when - leg.start_s, 0.0), leg.duration_s)
+    return np.asarray(leg.plan.tcp_at(inside)[:3, 3])
+
+
+def time_of(result: RunResult, name: str) -> float:
+    """When an output is switched on."""
+    return next(t for t, signal, value in result.outputs if signal == name and value)
 
 
 def on(result: RunResult) -> dict[str, Any]:
