@@ -40,7 +40,7 @@ class MoveRequest:
     `external_start` to `external_target` at most at `external_speeds` (deg/s or mm/s).
     """
 
-    kind: Literal["joint", "linear", "circular"]
+    kind: Literal["joint", "linear", "circular", "spline"]
     target_joints: FloatArray | None = None
     target_pose: FloatArray | None = None
     via_pose: FloatArray | None = None
@@ -182,7 +182,7 @@ class PlannedMove:
     `span` is the part of the geometry that is driven: all of it, or less where a corner takes over.
     """
 
-    kind: Literal["joint", "linear", "circular", "corner"]
+    kind: Literal["joint", "linear", "circular", "spline", "corner"]
     start_joints: FloatArray
     end_joints: FloatArray
     start_pose: FloatArray
@@ -241,13 +241,14 @@ class PlannedMove:
 def plan(model: RobotModel, start_joints: ArrayLike, request: MoveRequest) -> PlannedMove | MotionFault:
     """Plan one move from joints (n,) in pendant units, at rest at both ends; a `MotionFault` when it cannot be made."""
     start = np.asarray(start_joints, dtype=np.float64)
-    fault = _bad_request(request)
+    fault = bad_request(request)
     if fault is not None:
         return fault
     return _plan_joint(model, start, request) if request.kind == "joint" else _plan_path(model, start, request)
 
 
-def _bad_request(request: MoveRequest) -> MotionFault | None:
+def bad_request(request: MoveRequest) -> MotionFault | None:
+    """What is wrong with a request by itself."""
     speeds = {
         "path speed": request.path_speed_mm_s,
         "path acceleration": request.path_acc_mm_s2,
@@ -267,7 +268,7 @@ def _bad_request(request: MoveRequest) -> MotionFault | None:
 
 
 def _plan_joint(model: RobotModel, start: FloatArray, request: MoveRequest) -> PlannedMove | MotionFault:
-    end = _joint_target(model, start, request)
+    end = joint_target(model, start, request)
     if isinstance(end, MotionFault):
         return end
     geometry = joint_geometry(model, start, end, request.tool)
@@ -278,7 +279,7 @@ def _plan_joint(model: RobotModel, start: FloatArray, request: MoveRequest) -> P
     length = float(geometry.travelled[-1])
     if request.tcp_speed_for_joint_move is not None and length > 1e-6:
         speed = min(speed, request.tcp_speed_for_joint_move / length)
-    return _finish(request, geometry, _profile(request, speed, acceleration))
+    return finished(request, geometry, _profile(request, speed, acceleration))
 
 
 def joint_geometry(model: RobotModel, start: FloatArray, end: FloatArray, tool: FloatArray) -> JointGeometry:
@@ -290,7 +291,8 @@ def joint_geometry(model: RobotModel, start: FloatArray, end: FloatArray, tool: 
     return JointGeometry(model, start, end, tool, knots, travelled)
 
 
-def _joint_target(model: RobotModel, start: FloatArray, request: MoveRequest) -> FloatArray | MotionFault:
+def joint_target(model: RobotModel, start: FloatArray, request: MoveRequest) -> FloatArray | MotionFault:
+    """The joints (n,) in which a joint move ends, within their limits."""
     if request.target_joints is not None:
         joints = np.asarray(request.target_joints, dtype=np.float64)
     else:
@@ -336,7 +338,7 @@ def _plan_path(model: RobotModel, start: FloatArray, request: MoveRequest) -> Pl
     path = _path(model, first, request)
     if isinstance(path, MotionFault):
         return path
-    track = _track(model, start, path, request)
+    track = path_track(model, start, path, request)
     if isinstance(track, MotionFault):
         return track
     if request.check_end is not None:
@@ -355,8 +357,8 @@ def _plan_path(model: RobotModel, start: FloatArray, request: MoveRequest) -> Pl
     if request.orientation == "wrist_joints":
         wrist = float(np.min(model.speeds[3:] / np.maximum(np.abs(track.joints[-1] - track.joints[0])[3:], 1e-12)))
         speed, acceleration = min(speed, wrist), min(acceleration, wrist / 0.1)
-    profile = _within_axis_speeds(model, track, _profile(request, speed, acceleration), request)
-    return profile if isinstance(profile, MotionFault) else _finish(request, geometry, profile)
+    profile = within_axis_speeds(model, track, _profile(request, speed, acceleration), request)
+    return profile if isinstance(profile, MotionFault) else finished(request, geometry, profile)
 
 
 def _over(rate: float, way: float) -> float:
@@ -384,7 +386,8 @@ def _path(model: RobotModel, first: FloatArray, request: MoveRequest) -> Path | 
     return arc
 
 
-def _track(model: RobotModel, start: FloatArray, path: Path, request: MoveRequest) -> Track | MotionFault:
+def path_track(model: RobotModel, start: FloatArray, path: Path, request: MoveRequest) -> Track | MotionFault:
+    """The joints along a path, from `start` (n,) on."""
     length, turn = path.length_mm, np.rad2deg(path.turn_rad)
     if length < 1e-9 and turn < 1e-9:
         return Track(np.array([0.0, 1.0]), np.stack([start, start]))
@@ -400,7 +403,7 @@ def _track(model: RobotModel, start: FloatArray, path: Path, request: MoveReques
     return track_flanges(model, lambda s: path.poses(s) @ inverse_tool, start, samples)
 
 
-def _within_axis_speeds(
+def within_axis_speeds(
     model: RobotModel, track: Track, profile: Profile, request: MoveRequest
 ) -> Profile | MotionFault:
     """The profile itself, a slower one, or the fault that an axis would have to turn too fast."""
@@ -443,7 +446,8 @@ def _profile(request: MoveRequest, speed: float, acceleration: float) -> Profile
     return Profile(speed, acceleration)
 
 
-def _finish(request: MoveRequest, geometry: Geometry, profile: Profile) -> PlannedMove:
+def finished(request: MoveRequest, geometry: Geometry, profile: Profile) -> PlannedMove:
+    """The whole geometry as a move from rest to rest."""
     law = profile.law()
     ends = np.array([0.0, 1.0])
     joints, poses = geometry.joints(ends), geometry.tcp(ends)
