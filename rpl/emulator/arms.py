@@ -9,6 +9,7 @@ ROS-I `opw_kinematics` package; Universal Robots by their published standard DH 
 elementary.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -21,8 +22,10 @@ BoolArray = NDArray[np.bool_]
 
 # A cosine may exceed 1 by this much through rounding and still count as the stretched arm.
 COSINE_SLACK = 1e-9
-# Below this sine (or relative radius) a joint axis has no direction of its own and the reference decides.
-SINGULAR = 1e-9
+# A joint is free, and the reference decides, where turning it moves the flange by less than this. So small, because the
+# pose is missed by as much; rounding stays a hundred times below.
+STILL_MM = 5e-10
+STILL_RAD = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +90,39 @@ class Arm(Protocol):
         """The branch that one joint vector (n,) lies on, by strict signs."""
 
 
+def _rows(flange: FloatArray) -> FloatArray:
+    """The upper rows of poses (k, 4, 4) as (3, 4, k): with the poses side by side each step is one pass over memory."""
+    return np.ascontiguousarray(flange[:, :3].transpose(1, 2, 0))
+
+
+def _circle(angles: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Cosines and sines of angles (..., m), angle by angle: both (m, ...)."""
+    first = np.moveaxis(angles, -1, 0)
+    return np.cos(first), np.sin(first)
+
+
+def _flanges(like: FloatArray) -> FloatArray:
+    """Poses (..., 4, 4) whose upper rows are still to be filled."""
+    pose = np.zeros((*np.shape(like), 4, 4))
+    pose[..., 3, 3] = 1.0
+    return pose
+
+
+def _signed(root: FloatArray) -> FloatArray:
+    """Both signs of a root (k,): (2, k)."""
+    both = np.empty((2, len(root)))
+    both[0], both[1] = root, -root
+    return both
+
+
+def _solutions(theta: FloatArray, valid: BoolArray, singular: BoolArray) -> Branches:
+    """Results from joints (n, ..., k) of b branches in all, valid and singular (b, k): as views, nothing is copied."""
+    joints = theta.reshape(len(theta), len(valid), -1)
+    if not valid.all():
+        np.copyto(joints, np.nan, where=~valid)
+    return Branches(joints.T, valid.T, singular.T)
+
+
 @dataclass(frozen=True, slots=True)
 class OpwArm:
     """Six joints, axes 2 and 3 parallel, spherical wrist.
@@ -110,13 +146,30 @@ class OpwArm:
     @property
     def elbow_angle(self) -> float:
         """psi = atan2(a2, c3), radians: the arm is stretched where theta3 = -psi."""
-        return float(np.arctan2(self.a2, self.c3))
+        return math.atan2(self.a2, self.c3)
 
     def forward(self, theta: FloatArray) -> FloatArray:
-        t1, t23 = theta[..., 0], theta[..., 1] + theta[..., 2]
-        turn = rotation_z(t1) @ rotation_y(t23) @ rotation_z(theta[..., 3]) @ rotation_y(theta[..., 4])
-        turn = turn @ rotation_z(theta[..., 5])
-        return pose_matrix(self._wrist(theta) + self.c4 * turn[..., :, 2], turn)
+        reach, height = self.in_plane(theta)
+        (c1, c4, c5, c6), (s1, s4, s5, s6) = _circle(theta[..., (0, 3, 4, 5)])
+        t23 = theta[..., 1] + theta[..., 2]
+        c23, s23 = np.cos(t23), np.sin(t23)
+        pose = _flanges(c1)
+        # Columns of Rz(t4)·Ry(t5)·Rz(t6), each then turned by Ry(t23) and Rz(t1).
+        c45, s45 = c4 * c5, s4 * c5
+        wrist = (
+            (c45 * c6 - s4 * s6, s45 * c6 + c4 * s6, -s5 * c6),
+            (-c45 * s6 - s4 * c6, c4 * c6 - s45 * s6, s5 * s6),
+            (c4 * s5, s4 * s5, c5),
+        )
+        for column, (x, y, z) in enumerate(wrist):
+            ahead = c23 * x + s23 * z
+            pose[..., 0, column] = c1 * ahead - s1 * y
+            pose[..., 1, column] = s1 * ahead + c1 * y
+            pose[..., 2, column] = c23 * z - s23 * x
+        pose[..., 0, 3] = reach * c1 - self.b * s1 + self.c4 * pose[..., 0, 2]
+        pose[..., 1, 3] = reach * s1 + self.b * c1 + self.c4 * pose[..., 1, 2]
+        pose[..., 2, 3] = height + self.c4 * pose[..., 2, 2]
+        return pose
 
     def in_plane(self, theta: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The wrist centre in the plane of axis 1: distance from it (negative: behind) and height, mm."""
@@ -147,92 +200,81 @@ class OpwArm:
         return points, directions
 
     def inverse(self, flange: FloatArray, reference: FloatArray) -> Branches:
-        turn = flange[:, :3, :3]
-        centre = flange[:, :3, 3] - self.c4 * turn[:, :, 2]
-        t1, x1, reachable, free1 = self._shoulder(centre, reference)
-        t2, t3, ok, free2 = self._elbow(x1, centre[:, 2] - self.c1, reference)
-        t1 = np.broadcast_to(t1[:, :, None], t2.shape)
-        t4, t5, t6, free4 = self._spherical(turn, t1, t2 + t3, reference)
-        valid, free = reachable[:, :, None] & ok, free1[:, :, None] | free2
-        theta = np.empty((len(flange), 2, 2, 2, 6))
-        for axis, value in enumerate((t1, t2, t3)):
-            theta[..., axis] = value[..., None]
-        for axis, wrist in enumerate((t4, t5, t6), start=3):
-            theta[..., axis] = wrist
-        theta[~valid] = np.nan
-        shape = (len(flange), 8)
-        return Branches(
-            theta.reshape(*shape, 6),
-            np.repeat(valid.reshape(-1, 4), 2, axis=1),
-            np.repeat(free.reshape(-1, 4), 2, axis=1) | np.repeat(free4.reshape(-1, 4), 2, axis=1),
-        )
+        rows, near = _rows(flange), reference.T
+        centre = rows[:, 3] - self.c4 * rows[:, 2]
+        theta = np.empty((6, 2, 2, 2, len(flange)))
+        t1, reach, reachable, over_axis = self._shoulder(centre, near)
+        t2, t3, ok, bent = self._elbow(reach, centre[2] - self.c1, near)
+        theta[0], theta[1], theta[2] = t1[:, None, None], t2[:, :, None], t3[:, :, None]
+        straight = self._spherical(rows, t1, t2 + t3, near, theta)
+        singular = straight | (over_axis | bent)[:, None]
+        return _solutions(theta, np.repeat(reachable & ok, 4, axis=0), np.repeat(singular.reshape(4, -1), 2, axis=0))
 
-    def _shoulder(
-        self, centre: FloatArray, reference: FloatArray
-    ) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray]:
-        """Joint 1 (k, 2), the wrist's distance from axis 2 along the arm (k, 2), reachable, and singular."""
-        radius_squared = centre[:, 0] ** 2 + centre[:, 1] ** 2
+    def _shoulder(self, centre: FloatArray, near: FloatArray) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray]:
+        """Joint 1 and the wrist's distance from axis 2 along the arm, both (2, k); reachable and singular (k,)."""
+        radius_squared = centre[0] * centre[0] + centre[1] * centre[1]
         square = radius_squared - self.b**2
-        scale = max(self.c2 + self.c3, 1.0) ** 2
-        reachable = square >= -COSINE_SLACK * scale
+        reachable = square >= -COSINE_SLACK * max(self.c2 + self.c3, 1.0) ** 2
         root = np.sqrt(np.maximum(square, 0.0))
-        over_axis = radius_squared <= (SINGULAR**2) * scale
-        heading = np.arctan2(centre[:, 1], centre[:, 0])
-        front = np.where(over_axis, reference[:, 0], heading - np.arctan2(self.b, root))
-        back = np.where(over_axis, reference[:, 0] + np.pi, heading - np.arctan2(self.b, -root))
-        both = np.stack([reachable, reachable], axis=1)
-        singular = np.stack([over_axis, over_axis], axis=1)
-        return np.stack([front, back], axis=1), np.stack([root - self.a1, -root - self.a1], axis=1), both, singular
+        over_axis = radius_squared <= STILL_MM**2
+        t1 = np.empty((2, len(root)))
+        t1[:] = np.arctan2(centre[1], centre[0])
+        # atan2(b, -root) is half a turn less atan2(b, root).
+        skew = np.arctan2(self.b, root) if self.b else np.zeros(1)
+        t1[0] -= skew
+        t1[1] += skew - np.pi
+        if over_axis.any():
+            t1[0, over_axis] = near[0, over_axis]
+            t1[1, over_axis] = near[0, over_axis] + np.pi
+        return t1, _signed(root) - self.a1, reachable, over_axis
 
     def _elbow(
-        self, x1: FloatArray, z1: FloatArray, reference: FloatArray
+        self, reach: FloatArray, height: FloatArray, near: FloatArray
     ) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray]:
-        """Joints 2 and 3, each (k, 2, 2), with reachable and singular (stretched, folded) of the same shape."""
-        forearm = float(np.hypot(self.a2, self.c3))
-        height = np.broadcast_to(z1[:, None], x1.shape)
-        square = x1**2 + height**2
-        cosine = (square - self.c2**2 - forearm**2) / (2.0 * self.c2 * forearm)
+        """Joints 2 and 3 (shoulder, elbow, k); reachable and singular (stretched, folded) (shoulder, k)."""
+        forearm = math.hypot(self.a2, self.c3)
+        square = reach * reach + height * height
+        cosine = (square - (self.c2**2 + forearm**2)) / (2.0 * self.c2 * forearm)
         ok = np.abs(cosine) <= 1.0 + COSINE_SLACK
-        cosine = np.clip(cosine, -1.0, 1.0)
+        cosine = np.minimum(np.maximum(cosine, -1.0), 1.0)
         sine = np.sqrt((1.0 - cosine) * (1.0 + cosine))
-        sines = np.stack([sine, -sine], axis=-1)
-        bend = np.arctan2(sines, cosine[..., None])
-        folded = square <= (SINGULAR * (self.c2 + forearm)) ** 2
-        lean = np.arctan2(x1, height)[..., None] - np.arctan2(forearm * sines, (self.c2 + forearm * cosine)[..., None])
-        t2 = np.where(folded[..., None], reference[:, 1][:, None, None], lean)
-        singular = folded | (np.abs(cosine) >= 1.0 - COSINE_SLACK)
-        pair = (*x1.shape, 2)
-        return (
-            t2,
-            bend - self.elbow_angle,
-            np.broadcast_to(ok[..., None], pair),
-            np.broadcast_to(singular[..., None], pair),
-        )
+        lean = np.arctan2(reach, height)
+        ahead = np.arctan2(forearm * sine, self.c2 + forearm * cosine)
+        bend = np.arctan2(sine, cosine)
+        folded = square <= STILL_MM**2
+        t2, t3 = np.empty((2, 2, len(height))), np.empty((2, 2, len(height)))
+        t2[:, 0], t2[:, 1] = lean - ahead, lean + ahead
+        t3[:, 0], t3[:, 1] = bend - self.elbow_angle, -bend - self.elbow_angle
+        if folded.any():
+            t2 = np.where(folded[:, None], near[1], t2)
+        return t2, t3, ok, folded | (np.abs(cosine) >= 1.0 - COSINE_SLACK)
 
-    @staticmethod
     def _spherical(
-        turn: FloatArray, t1: FloatArray, t23: FloatArray, reference: FloatArray
-    ) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray]:
-        """Joints 4, 5, 6, each (k, 2, 2, 2), and where joint 4 is free (k, 2, 2)."""
+        self, rows: FloatArray, t1: FloatArray, t23: FloatArray, near: FloatArray, theta: FloatArray
+    ) -> BoolArray:
+        """Fill joints 4, 5, 6 of `theta` (6, 2, 2, 2, k); where joint 4 is free (shoulder, elbow, k)."""
         c1, s1, c23, s23 = np.cos(t1), np.sin(t1), np.cos(t23), np.sin(t23)
-        # M = (Rz(t1) Ry(t23))^T R, row by row, each (k, 2, 2, 3).
-        row = turn[:, None, None, :, :]
-        along = c1[..., None] * row[..., 0, :] + s1[..., None] * row[..., 1, :]
-        m0 = c23[..., None] * along - s23[..., None] * row[..., 2, :]
-        m1 = c1[..., None] * row[..., 1, :] - s1[..., None] * row[..., 0, :]
-        m22 = s23 * along[..., 2] + c23 * row[..., 2, 2]
-        free = np.hypot(m0[..., 2], m1[..., 2]) <= SINGULAR
-        plus = np.where(free, reference[:, 3][:, None, None], np.arctan2(m1[..., 2], m0[..., 2]))
-        c4, s4 = np.cos(plus), np.sin(plus)
+        x, y, z = rows[0, :3, None], rows[1, :3, None], rows[2, :3, None, None]
+        # M = (Rz(t1) Ry(t23))^T R, row by row: (column, shoulder, elbow, k), the second the same for both elbows.
+        along = (c1 * x + s1 * y)[:, :, None]
+        m0 = c23 * along - s23 * z
+        m1 = (c1 * y - s1 * x)[:, :, None]
+        m22 = s23 * along[2] + c23 * z[2]
+        sine = np.sqrt(m0[2] * m0[2] + m1[2] * m1[2])
+        straight = sine <= min(STILL_RAD, STILL_MM / max(self.c4, 1e-9))
+        t4 = np.arctan2(m1[2], m0[2])
+        with np.errstate(invalid="ignore"):
+            c4, s4 = m0[2] / sine, m1[2] / sine
+        if straight.any():
+            t4 = np.where(straight, near[3], t4)
+            c4, s4 = np.where(straight, np.cos(near[3]), c4), np.where(straight, np.sin(near[3]), s4)
+            sine = np.where(straight, 0.0, sine)
         # With joint 4 known, the rest follows from the rows that do not vanish at joint 5 = 0.
-        t5 = np.where(free & (m22 > 0), 0.0, np.arctan2(np.where(free, 0.0, c4 * m0[..., 2] + s4 * m1[..., 2]), m22))
-        t6 = np.arctan2(c4 * m1[..., 0] - s4 * m0[..., 0], c4 * m1[..., 1] - s4 * m0[..., 1])
-        return (
-            np.stack([plus, plus + np.pi], axis=-1),
-            np.stack([t5, -t5], axis=-1),
-            np.stack([t6, t6 + np.pi], axis=-1),
-            free,
-        )
+        t5 = np.arctan2(sine, m22)
+        t6 = np.arctan2(c4 * m1[0] - s4 * m0[0], c4 * m1[1] - s4 * m0[1])
+        theta[3, :, :, 0], theta[4, :, :, 0], theta[5, :, :, 0] = t4, t5, t6
+        theta[3, :, :, 1], theta[4, :, :, 1], theta[5, :, :, 1] = t4 + np.pi, -t5, t6 + np.pi
+        return np.asarray(straight)
 
     def branch(self, theta: FloatArray) -> Branch:
         reach, _ = self.in_plane(theta)
@@ -277,7 +319,27 @@ class UrArm:
         return frames
 
     def forward(self, theta: FloatArray) -> FloatArray:
-        return self._frames(theta)[-1]
+        (c1, c5, c6), (s1, s5, s6) = _circle(theta[..., (0, 4, 5)])
+        reach, rise, total = self._in_plane(theta)
+        c234, s234 = np.cos(total), np.sin(total)
+        # The third axis of joint 4's frame is level; the other two lie in the plane of joints 2, 3 and 4.
+        x4, y4, z4 = (c1 * c234, s1 * c234, s234), (s1, -c1, 0.0), (c1 * s234, s1 * s234, -c234)
+        ahead = (c1 * reach, s1 * reach, self.d1 + rise)
+        pose = _flanges(c1)
+        for row, (x, y, z) in enumerate(zip(x4, y4, z4, strict=True)):
+            bent = c5 * x + s5 * y
+            last = c5 * y - s5 * x
+            pose[..., row, 0] = c6 * bent - s6 * z
+            pose[..., row, 1] = -s6 * bent - c6 * z
+            pose[..., row, 2] = last
+            pose[..., row, 3] = ahead[row] + self.d4 * y + self.d5 * z + self.d6 * last
+        return pose
+
+    def _in_plane(self, theta: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Where joint 4's axis lies in the plane of the links: ahead and up, mm; and t2 + t3 + t4."""
+        t2, t23 = theta[..., 1], theta[..., 1] + theta[..., 2]
+        reach = self.a2 * np.cos(t2) + self.a3 * np.cos(t23)
+        return np.asarray(reach), self.a2 * np.sin(t2) + self.a3 * np.sin(t23), np.asarray(t23 + theta[..., 3])
 
     def axes(self, theta: FloatArray) -> tuple[FloatArray, FloatArray]:
         before = self._frames(theta)[:-1]
@@ -287,60 +349,66 @@ class UrArm:
         )
 
     def inverse(self, flange: FloatArray, reference: FloatArray) -> Branches:
-        centre = flange[:, :3, 3] - self.d6 * flange[:, :3, 2]
-        square = centre[:, 0] ** 2 + centre[:, 1] ** 2 - self.d4**2
+        rows = _rows(flange)
+        centre = rows[:, 3] - self.d6 * rows[:, 2]
+        square = centre[0] * centre[0] + centre[1] * centre[1] - self.d4**2
         reachable = square >= -COSINE_SLACK * self.d4**2
-        sides = np.array([1.0, -1.0])
-        root = np.sqrt(np.maximum(square, 0.0))[:, None] * sides
-        t1 = np.arctan2(centre[:, 1], centre[:, 0])[:, None] + np.arctan2(self.d4, root)
-        t5, t6, free = self._wrist(flange, t1, reference)
-        x, y, total = self._linkage(flange, t1, t5, t6)
-        cosine = (x * x + y * y - self.a2**2 - self.a3**2) / (2.0 * self.a2 * self.a3)
-        ok = (np.abs(cosine) <= 1.0 + COSINE_SLACK) & reachable[:, None, None]
-        cosine = np.clip(cosine, -1.0, 1.0)
-        stretched = np.abs(cosine) >= 1.0 - COSINE_SLACK
-        # Axes of the result: pose, shoulder, elbow, wrist.
-        t3 = np.arccos(cosine)[:, :, None, :] * sides[:, None]
-        t2 = np.arctan2(y, x)[:, :, None, :] - np.arctan2(self.a3 * np.sin(t3), self.a2 + self.a3 * np.cos(t3))
-        theta = np.empty((*t3.shape, 6))
-        theta[..., 0] = t1[:, :, None, None]
-        theta[..., 1], theta[..., 2] = t2, t3
-        theta[..., 3] = total[:, :, None, :] - t2 - t3
-        theta[..., 4], theta[..., 5] = t5[:, :, None, :], t6[:, :, None, :]
-        valid = np.broadcast_to(ok[:, :, None, :], t3.shape).reshape(-1, 8).copy()
-        singular = np.broadcast_to((free[:, :, None] | stretched)[:, :, None, :], t3.shape).reshape(-1, 8).copy()
-        theta = theta.reshape(-1, 8, 6)
-        theta[~valid] = np.nan
-        return Branches(theta, valid, singular)
+        t1 = np.arctan2(centre[1], centre[0]) + np.arctan2(self.d4, _signed(np.sqrt(np.maximum(square, 0.0))))
+        c1, s1 = np.cos(t1), np.sin(t1)
+        theta = np.empty((6, 2, 2, 2, len(flange)))
+        theta[0] = t1[:, None, None]
+        x4, z4, sides, free = self._wrist(rows, c1, s1, reference[:, 5], theta)
+        # Where the planar links of joints 2 and 3 must end, and t2 + t3 + t4, each (shoulder, wrist, k).
+        x = (c1 * centre[0] + s1 * centre[1])[:, None] - sides * (self.d5 * (c1 * z4[0] + s1 * z4[1]))[:, None]
+        y = centre[2] - self.d1 - sides * (self.d5 * z4[2])[:, None]
+        total = np.arctan2(sides * x4[2][:, None], sides * (c1 * x4[0] + s1 * x4[1])[:, None])
+        cosine = (x * x + y * y - (self.a2**2 + self.a3**2)) / (2.0 * self.a2 * self.a3)
+        ok = (np.abs(cosine) <= 1.0 + COSINE_SLACK) & reachable
+        cosine = np.minimum(np.maximum(cosine, -1.0), 1.0)
+        sine = np.sqrt((1.0 - cosine) * (1.0 + cosine))
+        lean, bend = np.arctan2(y, x), np.arctan2(sine, cosine)
+        ahead = np.arctan2(self.a3 * sine, self.a2 + self.a3 * cosine)
+        for elbow, side in enumerate((1.0, -1.0)):
+            turned = lean - side * ahead
+            theta[1, :, elbow], theta[2, :, elbow] = turned, side * bend
+            theta[3, :, elbow] = total - turned - side * bend
+        singular = free[:, None] | (np.abs(cosine) >= 1.0 - COSINE_SLACK)
+        flags = (2, 2, 2, len(flange))
+        valid = np.broadcast_to(ok[:, None], flags).reshape(8, -1)
+        return _solutions(theta, valid, np.broadcast_to(singular[:, None], flags).reshape(8, -1))
 
-    @staticmethod
-    def _wrist(flange: FloatArray, t1: FloatArray, reference: FloatArray) -> tuple[FloatArray, FloatArray, BoolArray]:
-        """Joints 5 and 6 (k, shoulder, wrist) from the flange axes seen along axes 2, 3, 4; where 6 is free (k, 2)."""
-        row = np.sin(t1)[..., None] * flange[:, None, 0, :3] - np.cos(t1)[..., None] * flange[:, None, 1, :3]
-        x, y, z = row[..., 0, None], row[..., 1, None], row[..., 2, None]
-        free = np.hypot(x, y) <= SINGULAR
-        sides = np.array([1.0, -1.0])
-        t6 = np.where(free, reference[:, 5][:, None, None], np.arctan2(-sides * y, sides * x))
-        sine = np.where(free, 0.0, np.cos(t6) * x - np.sin(t6) * y)
-        return np.arctan2(sine, z), t6, free[..., 0]
+    def _wrist(
+        self, rows: FloatArray, c1: FloatArray, s1: FloatArray, near: FloatArray, theta: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray]:
+        """Fill joints 5 and 6 of `theta` (6, 2, 2, 2, k) from the flange's axes seen along axes 2, 3, 4.
 
-    def _linkage(
-        self, flange: FloatArray, t1: FloatArray, t5: FloatArray, t6: FloatArray
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Where the planar links of joints 2 and 3 must end (x, y) and t2 + t3 + t4, each (k, shoulder, wrist)."""
-        turn = flange[:, None, None, :3, :3]
-        c5, s5, c6, s6 = np.cos(t5), np.sin(t5), np.cos(t6), np.sin(t6)
-        # Frame 4 seen from the base: R·(Rz(t5)·Rx(-90)·Rz(t6))^T, its x and z axes.
-        x4 = turn[..., 0] * (c5 * c6)[..., None] - turn[..., 1] * (c5 * s6)[..., None] - turn[..., 2] * s5[..., None]
-        z4 = -turn[..., 0] * s6[..., None] - turn[..., 1] * c6[..., None]
-        origin = (flange[:, :3, 3] - self.d6 * flange[:, :3, 2])[:, None, None] - self.d5 * z4
-        c1, s1 = np.cos(t1)[..., None], np.sin(t1)[..., None]
-        x, y = c1 * origin[..., 0] + s1 * origin[..., 1], origin[..., 2] - self.d1
-        return x, y, np.arctan2(x4[..., 2], c1 * x4[..., 0] + s1 * x4[..., 1])
+        Returns the x and z axes of frame 4 in the base for wrist 0, (3, shoulder, k), their sign for both wrists
+        (shoulder or 1, wrist, k or 1), and where joint 6 is free (shoulder, k).
+        """
+        turn = rows[:, :3, None]
+        x, y, z = s1 * turn[0] - c1 * turn[1]
+        sine = np.sqrt(x * x + y * y)
+        free = sine <= min(STILL_RAD, STILL_MM / (abs(self.d5) + abs(self.d6)))
+        t6 = np.arctan2(-y, x)
+        with np.errstate(invalid="ignore"):
+            c6, s6 = x / sine, -y / sine
+        sides = np.array([[[1.0], [-1.0]]])
+        if free.any():
+            t6 = np.where(free, near, t6)
+            c6, s6 = np.where(free, np.cos(near), c6), np.where(free, np.sin(near), s6)
+            sine = np.where(free, 0.0, sine)
+            sides = np.where(free[:, None], 1.0, sides)
+        t5, length = np.arctan2(sine, z), np.sqrt(sine * sine + z * z)
+        c5, s5 = z / length, sine / length
+        theta[4, :, :, 0], theta[5, :, :, 0] = t5[:, None], t6[:, None]
+        theta[4, :, :, 1], theta[5, :, :, 1] = -t5[:, None], np.where(free, t6, t6 + np.pi)[:, None]
+        # Frame 4 seen from the base: R·(Rz(t5)·Rx(-90)·Rz(t6))^T.
+        x4 = c5 * (c6 * turn[:, 0] - s6 * turn[:, 1]) - s5 * turn[:, 2]
+        return x4, -s6 * turn[:, 0] - c6 * turn[:, 1], sides, np.asarray(free)
 
     def branch(self, theta: FloatArray) -> Branch:
-        heading = self._frames(theta)[5][:3, 3]
-        along = np.cos(theta[0]) * heading[0] + np.sin(theta[0]) * heading[1]
+        reach, _, total = self._in_plane(theta)
+        along = reach + self.d5 * np.sin(total)
         return Branch(int(along < 0.0), int(_wrap(theta[2]) < 0.0), int(_wrap(theta[4]) < 0.0))
 
 
@@ -386,7 +454,7 @@ class ScaraArm:
         cosine = np.clip(cosine, -1.0, 1.0)
         q2 = np.arccos(cosine)[:, None] * np.array([1.0, -1.0])
         q1 = np.arctan2(y, x)[:, None] - np.arctan2(self.l2 * np.sin(q2), self.l1 + self.l2 * np.cos(q2))
-        on_axis = square <= (SINGULAR * (self.l1 + self.l2)) ** 2
+        on_axis = square <= STILL_MM**2
         q1 = np.where(on_axis[:, None], reference[:, :1], q1)
         yaw = np.arctan2(flange[:, 1, 0], flange[:, 0, 0])[:, None]
         stroke = np.broadcast_to((self.height - flange[:, 2, 3])[:, None], q1.shape)

@@ -2,25 +2,22 @@
 
 `load_robot` gives a `RobotModel`; forward, inverse, turns, limits and the Jacobian are its methods. All joint vectors
 that cross this module are the robot's own (degrees, mm for a sliding joint; coupled joints as the pendant shows them),
-so no caller ever converts signs. The closed-form families need NumPy only. This is the one module that imports
-Pinocchio, and only inside the functions that read a URDF and solve an arm that no closed form fits.
+so no caller ever converts signs. The closed-form families need NumPy only; arms of a URDF come from
+`rpl.emulator.chains`.
 """
 
 import itertools
-import xml.etree.ElementTree as ET
 from collections.abc import Mapping
-from dataclasses import dataclass
-from functools import lru_cache
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rpl.emulator.arms import Arm, BoolArray, Branch, Branches, OpwArm, ScaraArm, UrArm
+from rpl.emulator.arms import Arm, BoolArray, Branch, OpwArm, ScaraArm, UrArm
+from rpl.emulator.chains import ChainArm, described, exact_opw, read_urdf
 from rpl.emulator.closedforms import ClosedForm, closed_form
 from rpl.emulator.postures import Fact, in_posture, posture_facts
-from rpl.emulator.recognise import OpwFit, fit_opw
 from rpl.emulator.robotfile import (
     Kind,
     RobotError,
@@ -31,9 +28,6 @@ from rpl.emulator.robotfile import (
     robot_summaries,
 )
 from rpl.emulator.rotations import FloatArray
-
-if TYPE_CHECKING:
-    import pinocchio as pin  # ships no type information
 
 __all__ = [
     "BatchSolutions",
@@ -49,9 +43,11 @@ __all__ = [
 ]
 
 # A joint this close to a multiple of 90 degrees is that multiple: keeps rounding noise out of signs and quadrants.
-SNAP_DEG = 1e-10
+SNAP_DEG = 1e-11
 # A printed limit and a printed joint may disagree in their last place.
 LIMIT_SLACK = 1e-6
+# Ways whose travel differs by this share are equally long.
+EQUAL_TRAVEL = 1e-9
 # Time to full axis speed where no acceleration is published; a model, not a fact (see docs/robots.md).
 RAMP_S = 0.3
 # Pulses per degree (or mm) of arms whose own controller counts none, for programs of controllers that do. Neutral: one
@@ -118,6 +114,16 @@ class RobotModel:
     unit: FloatArray
     pulses_per_degree: FloatArray | None = None  # motor pulses, of arms whose controller counts positions in them
     counts_pulses: bool = True  # whether the maker's own controller does, or nobody has said that it does not
+    revolute: BoolArray = field(init=False)  # which joints turn, (n,)
+    couplings: tuple[tuple[int, int], ...] = field(init=False)  # of arm_to_pendant: entries beside the diagonal
+
+    def __post_init__(self) -> None:
+        """Derive once what every question needs."""
+        revolute = np.array([kind == "revolute" for kind in self.joint_kinds])
+        revolute.setflags(write=False)
+        beside = self.arm_to_pendant - np.diag(np.diagonal(self.arm_to_pendant))
+        object.__setattr__(self, "revolute", revolute)
+        object.__setattr__(self, "couplings", tuple((int(i), int(j)) for i, j in np.argwhere(beside)))
 
     @property
     def axes(self) -> int:
@@ -132,11 +138,6 @@ class RobotModel:
             return self.pulses_per_degree
         return _fixed([NEUTRAL_PULSES] * self.axes)
 
-    @property
-    def revolute(self) -> BoolArray:
-        """Which joints turn, (n,)."""
-        return np.array([kind == "revolute" for kind in self.joint_kinds])
-
     def theta(self, joints: ArrayLike) -> FloatArray:
         """The arm's own joint variables (radians, mm) of pendant joints (..., n); `ValueError` for a bad shape."""
         q = np.asarray(joints, dtype=np.float64)
@@ -146,14 +147,39 @@ class RobotModel:
 
     def pendant(self, theta: FloatArray) -> FloatArray:
         """Pendant joints of arm variables, each revolute one in (-180, 180]."""
-        return self.canonical((theta / self.unit + self.offsets) @ self.arm_to_pendant.T)
+        return self._pendant(theta.copy(order="K"))
 
     def canonical(self, joints: ArrayLike) -> FloatArray:
         """Joints (..., n) with whole turns taken off: revolute ones in (-180, 180], rounding noise at 90s removed."""
-        q = np.asarray(joints, dtype=np.float64)
-        quarter = np.round(q / 90.0) * 90.0
-        q = np.where(self.revolute & (np.abs(q - quarter) < SNAP_DEG), quarter, q)
-        return np.where(self.revolute, 180.0 - (180.0 - q) % 360.0, q) + 0.0
+        return self._reduced(np.array(joints, dtype=np.float64))
+
+    def _pendant(self, theta: FloatArray) -> FloatArray:
+        """`pendant`, done in place: in a large batch, fresh memory costs as much as the arithmetic."""
+        theta /= self.unit
+        theta += self.offsets
+        coupled = [self.arm_to_pendant[row, column] * theta[..., column] for row, column in self.couplings]
+        theta *= np.diagonal(self.arm_to_pendant)
+        for (row, _), share in zip(self.couplings, coupled, strict=True):
+            theta[..., row] += share
+        return self._reduced(theta)
+
+    def _reduced(self, joints: FloatArray) -> FloatArray:
+        """`canonical`, done in place."""
+        straight = None if self.revolute.all() else joints[..., ~self.revolute]
+        work = np.rint(joints * (1.0 / 90.0))
+        work *= 90.0
+        off = joints - work
+        np.copyto(joints, work, where=np.abs(off, out=off) < SNAP_DEG)
+        # Not a remainder: taking whole turns off leaves every bit of an angle that is already inside.
+        np.subtract(joints, 180.0, out=work)
+        work *= 1.0 / 360.0
+        np.ceil(work, out=work)
+        work *= 360.0
+        joints -= work
+        joints += 0.0
+        if straight is not None:
+            joints[..., ~self.revolute] = straight
+        return joints
 
     def forward(self, joints: ArrayLike) -> FloatArray:
         """Flange poses in the robot's base frame, mm: (n,) gives (4, 4), (k, n) gives (k, 4, 4)."""
@@ -170,7 +196,7 @@ class RobotModel:
             raise ValueError(f"flange poses have the shape (k, 4, 4), not {poses.shape}")
         near = self.theta(self.home if reference is None else reference)
         found = self.arm.inverse(poses, np.broadcast_to(near, (len(poses), self.axes)))
-        return BatchSolutions(self.pendant(found.theta), found.valid, found.singular)
+        return BatchSolutions(self._pendant(found.theta), found.valid, found.singular)
 
     def inverse(self, flange: ArrayLike, reference: ArrayLike | None = None) -> tuple[Solution, ...]:
         """Every solution for one flange pose (4, 4), revolute joints in (-180, 180]; empty when out of reach."""
@@ -218,13 +244,15 @@ class RobotModel:
         Travel is the root of the summed squares of the axes' travel times at full speed.
         """
         near = np.asarray(reference, dtype=np.float64)
-        best, least = None, np.inf
-        for solution in self.inverse(flange, near):
-            joints = self.nearest_turn(solution.joints, near)
-            travel = float(np.linalg.norm((joints - near) / self.speeds))
-            if travel < least and not self.within_limits(joints):
-                best, least = joints, travel
-        return best
+        found = self.inverse_batch(np.asarray(flange, dtype=np.float64)[None], near)
+        joints = self.nearest_turn(found.joints[0], near)
+        inside = (joints >= self.limits[:, 0] - LIMIT_SLACK) & (joints <= self.limits[:, 1] + LIMIT_SLACK)
+        travel = np.where(inside.all(axis=1), np.sqrt((((joints - near) / self.speeds) ** 2).sum(axis=1)), np.inf)
+        least = travel.min()
+        if not np.isfinite(least):
+            return None
+        # Of equals (an arm bent to either side of its way) the first: rounding must not choose.
+        return np.ascontiguousarray(joints[np.argmax(travel <= least * (1.0 + EQUAL_TRAVEL))])
 
     def within_limits(self, joints: ArrayLike) -> list[int]:
         """Indices of the axes outside their limits (empty: all inside)."""
@@ -334,245 +362,19 @@ def _from_urdf(path: Path, file: RobotFile | None = None) -> RobotModel:
 
     A robot file that points to the URDF supplies names, limits, speeds, home and pendant signs instead of the URDF.
     """
-    chain = _read_urdf(path, file.tip if file is not None else None)
-    described = file if file is not None else _described(path, chain)
+    chain = read_urdf(path, file.tip if file is not None else None)
+    facts = file if file is not None else described(path, chain)
     count = len(chain.joints)
-    if len(described.home) != count:
+    if len(facts.home) != count:
         found = f"{count} moving joints lead to '{chain.tip}'"
-        raise RobotError(f"{path.name}: {found}, but the robot file describes {len(described.home)}")
+        raise RobotError(f"{path.name}: {found}, but the robot file describes {len(facts.home)}")
     try:
         arm = ChainArm(chain)
-        fit = _exact_opw(arm)
+        fit = exact_opw(arm)
     except ImportError as error:
         raise RobotError(f"reading {path.name} needs Pinocchio (pip install 'robot-rpl[kinematics]')") from error
-    signs, offsets = np.array(described.signs), np.array(described.offsets)
+    signs, offsets = np.array(facts.signs), np.array(facts.offsets)
     if fit is None:
-        return _assembled(described, "chain", chain.kinds, arm, np.diag(signs), offsets)
+        return _assembled(facts, "chain", chain.kinds, arm, np.diag(signs), offsets)
     offsets = fit.signs * offsets + np.rad2deg(fit.offsets)
-    return _assembled(described, "opw", chain.kinds, fit.arm, np.diag(fit.signs * signs), offsets)
-
-
-@dataclass(frozen=True, slots=True)
-class UrdfChain:
-    """The moving joints between a URDF's root and one of its links, limits and speeds in degrees or mm (per second)."""
-
-    text: str
-    tip: str
-    joints: tuple[str, ...]
-    kinds: tuple[str, ...]
-    limits: tuple[tuple[float, float], ...]
-    speeds: tuple[float, ...]
-
-
-def _read_urdf(path: Path, tip: str | None) -> UrdfChain:
-    try:
-        tree = ET.fromstring(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise RobotError(f"robot file {path} cannot be read: {error.strerror}") from error
-    except ET.ParseError as error:
-        raise RobotError(f"{path.name} is no URDF: {error}") from error
-    leading: dict[str, ET.Element] = {}
-    for joint in tree.findall("joint"):
-        child = joint.find("child")
-        leading["" if child is None else child.get("link", "")] = joint
-    chains = {link: _moving_joints(link, leading) for link in leading}
-    if tip is None:
-        named = [link for link in ("tool0", "flange", "tool_flange", "ee_link") if link in chains]
-        tip = named[0] if named else max(chains, key=lambda link: len(chains[link]), default="")
-    joints = chains.get(tip, [])
-    if not joints:
-        raise RobotError(f"{path.name}: no moving joint leads to the link '{tip}'")
-    mimics = [joint.get("name", "") for joint in joints if joint.find("mimic") is not None]
-    if mimics:
-        raise RobotError(f"{path.name}: joint '{mimics[0]}' follows another one, which is not supported inside the arm")
-    for joint in joints:
-        _bound(joint)
-    facts = [_limits(joint) for joint in joints]
-    return UrdfChain(
-        text=ET.tostring(tree, encoding="unicode"),
-        tip=tip,
-        joints=tuple(joint.get("name", "") for joint in joints),
-        kinds=tuple(joint.get("type", "") for joint in joints),
-        limits=tuple((low, high) for low, high, _ in facts),
-        speeds=tuple(speed for _, _, speed in facts),
-    )
-
-
-def _moving_joints(link: str, leading: dict[str, ET.Element]) -> list[ET.Element]:
-    """Joints from the root to a link, fixed ones left out."""
-    joints: list[ET.Element] = []
-    while link in leading and len(joints) <= len(leading):
-        joint = leading[link]
-        if joint.get("type") in ("revolute", "continuous", "prismatic"):
-            joints.append(joint)
-        parent = joint.find("parent")
-        link = "" if parent is None else parent.get("link", "")
-    return joints[::-1]
-
-
-def _bound(joint: ET.Element) -> None:
-    """Make an endless joint a revolute one of two turns: Pinocchio would give it two configuration values."""
-    limit = joint.find("limit")
-    if limit is None:
-        limit = ET.SubElement(joint, "limit", {"effort": "0", "velocity": "0", "lower": "0", "upper": "0"})
-    if joint.get("type") == "continuous":
-        joint.set("type", "revolute")
-        limit.set("lower", str(-2.0 * np.pi))
-        limit.set("upper", str(2.0 * np.pi))
-
-
-def _limits(joint: ET.Element) -> tuple[float, float, float]:
-    """Lower, upper and speed of a joint in degrees or mm; a missing speed is a full turn in 2 s, or 1 m/s."""
-    limit = joint.find("limit")
-    sliding = joint.get("type") == "prismatic"
-    scale = 1000.0 if sliding else 180.0 / np.pi
-    values = {} if limit is None else limit.attrib
-    low, high, speed = (float(values.get(key, "0")) * scale for key in ("lower", "upper", "velocity"))
-    return low, high, speed if speed > 0.0 else (1000.0 if sliding else 180.0)
-
-
-def _described(path: Path, chain: UrdfChain) -> RobotFile:
-    """The robot file that a bare URDF stands for: zero is home where the limits allow it."""
-    count = len(chain.joints)
-    return RobotFile(
-        name=path.stem,
-        maker="",
-        title=path.stem,
-        kind="chain",
-        source=path.name,
-        assumed=(),
-        notes=(f"Read from {path.name}; joints are the URDF's own, in degrees or mm.",),
-        lengths={},
-        offsets=(0.0,) * count,
-        signs=(1.0,) * count,
-        joint_3_follows_joint_2=False,
-        origin_at_axis_2=False,
-        limits=chain.limits,
-        speeds=chain.speeds,
-        accelerations=None,
-        home=tuple(float(np.clip(0.0, low, high)) for low, high in chain.limits),
-        urdf=path,
-        tip=chain.tip,
-    )
-
-
-def _exact_opw(arm: "ChainArm") -> OpwFit | None:
-    """The closed form of this chain when one reproduces it exactly (1e-5 mm, 1e-8 in the rotation)."""
-    if arm.chain.kinds != ("revolute",) * 6:
-        return None
-    zero = np.zeros(6)
-    fit = fit_opw(*arm.axes(zero), arm.forward(zero))
-    if fit is None:
-        return None
-    q = np.random.default_rng(0).uniform(-np.pi, np.pi, (20, 6))
-    difference = np.abs(fit.arm.forward(q * fit.signs - fit.offsets) - arm.forward(q))
-    return fit if difference[:, :3, 3].max() < 1e-5 and difference[:, :3, :3].max() < 1e-8 else None
-
-
-@lru_cache(maxsize=16)
-def _pinocchio(chain: UrdfChain) -> "tuple[pin.Model, pin.Data, int]":
-    """Pinocchio's model of the chain with every other joint held, its work space, and the frame of the tip."""
-    import pinocchio as pin
-
-    whole = pin.buildModelFromXML(chain.text)
-    others = [i for i in range(1, whole.njoints) if whole.names[i] not in chain.joints]
-    model = pin.buildReducedModel(whole, others, pin.neutral(whole))
-    return model, model.createData(), model.getFrameId(chain.tip)
-
-
-# Restarts of the iterative solver and steps of each; the seeds are always the same, so runs are repeatable.
-RESTARTS = 30
-STEPS = 80
-
-
-@dataclass(frozen=True, slots=True)
-class ChainArm:
-    """Any serial arm of a URDF, solved by damped least squares: one solution, the one reached from the reference.
-
-    Only when the way from the reference does not converge inside the joint limits are the fixed seeds tried. theta in
-    radians and mm.
-    """
-
-    chain: UrdfChain
-
-    @property
-    def branches(self) -> tuple[Branch, ...]:
-        return (Branch(0, 0, 0),)
-
-    def _metres(self) -> FloatArray:
-        return np.array([1.0 if kind == "revolute" else 1e-3 for kind in self.chain.kinds])
-
-    def forward(self, theta: FloatArray) -> FloatArray:
-        import pinocchio as pin
-
-        model, data, frame = _pinocchio(self.chain)
-        rows = np.atleast_2d(theta * self._metres())
-        poses = np.empty((len(rows), 4, 4))
-        for row, pose in zip(rows.reshape(-1, model.nq), poses, strict=True):
-            pin.framesForwardKinematics(model, data, row)
-            pose[:] = data.oMf[frame].homogeneous
-        poses[:, :3, 3] *= 1000.0
-        return poses.reshape(*theta.shape[:-1], 4, 4)
-
-    def axes(self, theta: FloatArray) -> tuple[FloatArray, FloatArray]:
-        import pinocchio as pin
-
-        model, data, _ = _pinocchio(self.chain)
-        rows = np.atleast_2d(theta * self._metres())
-        turning = np.array([kind == "revolute" for kind in self.chain.kinds])[:, None]
-        points, directions = np.empty((len(rows), model.nq, 3)), np.empty((len(rows), model.nq, 3))
-        for i, row in enumerate(rows):
-            twists = pin.computeJointJacobians(model, data, row).T
-            linear, angular = twists[:, :3], twists[:, 3:]
-            # The point of a screw nearest to the origin is w x v.
-            points[i] = np.where(turning, 1000.0 * np.cross(angular, linear), 0.0)
-            directions[i] = np.where(turning, angular, linear)
-        shape = (*theta.shape, 3)
-        return points.reshape(shape), directions.reshape(shape)
-
-    def inverse(self, flange: FloatArray, reference: FloatArray) -> Branches:
-        theta = np.full((len(flange), 1, len(self.chain.joints)), np.nan)
-        for i, (pose, near) in enumerate(zip(flange, reference, strict=True)):
-            found = self._solve(pose, near * self._metres())
-            if found is not None:
-                theta[i, 0] = found / self._metres()
-        valid = ~np.isnan(theta[:, :, 0])
-        return Branches(theta, valid, np.zeros_like(valid))
-
-    def _solve(self, pose: FloatArray, near: FloatArray) -> FloatArray | None:
-        import pinocchio as pin
-
-        model, _, _ = _pinocchio(self.chain)
-        target = pin.SE3(pose[:3, :3], pose[:3, 3] / 1000.0)
-        low, high = model.lowerPositionLimit, model.upperPositionLimit
-        found = self._descend(target, np.clip(near, low, high))
-        seeds = np.random.default_rng(0).uniform(low, high, (RESTARTS, model.nq))
-        for seed in seeds:
-            if found is not None:
-                break
-            found = self._descend(target, seed)
-        return found
-
-    def _descend(self, target: "pin.SE3", q: FloatArray) -> FloatArray | None:
-        """Damped least squares inside the limits, the damping growing with the error (after Sugihara 2011)."""
-        import pinocchio as pin
-
-        model, data, frame = _pinocchio(self.chain)
-        low, high = model.lowerPositionLimit, model.upperPositionLimit
-        for _ in range(STEPS):
-            pin.framesForwardKinematics(model, data, q)
-            error = pin.log6(data.oMf[frame].actInv(target)).vector
-            size = float(np.linalg.norm(error))
-            if size < 1e-11:
-                return q
-            jacobian = pin.computeFrameJacobian(model, data, q, frame)
-            # Near the goal the damping vanishes with the error, so the last steps converge quadratically.
-            damping = min(0.01, size * size) + 1e-14
-            step = jacobian.T @ np.linalg.solve(jacobian @ jacobian.T + damping * np.eye(6), error)
-            longest = float(np.abs(step).max())
-            q = np.clip(q + step * min(1.0, 0.5 / max(longest, 1e-12)), low, high)
-        return q if size < 1e-9 else None
-
-    def branch(self, theta: FloatArray) -> Branch:
-        del theta
-        return self.branches[0]
+    return _assembled(facts, "opw", chain.kinds, fit.arm, np.diag(fit.signs * signs), offsets)
