@@ -24,6 +24,7 @@ from rpl.cli.output import (
     waiting,
     write_file,
 )
+from rpl.cli.reports import drawing_library_for, plot_option, write_plot
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.errors import UsageError
 from rpl.passes.legalise.pulses import report_assumed
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
 @click.option("--cell", metavar="F.toml", help="Surroundings: inputs over time, answers of the operator, parts.")
 @click.option("--entry", metavar="NAME", help="Routine to start with; else main, or the only one nobody calls.")
 @click.option("--trace", type=click.Path(dir_okay=False, path_type=Path), metavar="F.jsonl", help="Write every event.")
+@plot_option
 @click.option("--despite-errors", is_flag=True, help="Run what was read in spite of errors in it.")
 @limit_options
 @json_option
@@ -49,6 +51,7 @@ def command(
     cell: str | None,
     entry: str | None,
     trace: Path | None,
+    plot: Path | None,
     despite_errors: bool,
     max_time: float | None,
     max_steps: int | None,
@@ -65,7 +68,7 @@ def command(
     from rpl.proof.prove import load_cell
     from rpl.simulation import run_program
 
-    limits = limits_of(max_time, max_steps, max_events)
+    limits, library = limits_of(max_time, max_steps, max_events), drawing_library_for(plot)
     diagnostics = collector()
     with waiting("reading"):
         read = read_program(paths, dialect_exists(dialect), diagnostics)
@@ -84,14 +87,20 @@ def command(
     print_diagnostics(assumptions, Severity.WARNING)
     with waiting("running"):
         result = run_program(read.program, model, surroundings, entry, limits=limits)
-    if trace is not None:
-        lines = [json.dumps(plain(event), ensure_ascii=False) for event in result.trace_lines()]
-        write_file(trace, "".join(line + "\n" for line in lines).encode("utf-8"))
+    write_trace(trace, result)
+    write_plot(plot, library, result, read, model)
     if as_json:
         print_json(result.as_json())
     else:
         show(result)
     return 0 if result.status in ("finished", "stopped") else 1
+
+
+def write_trace(trace: Path | None, result: RunResult) -> None:
+    """Every event as a line of JSON, if asked for."""
+    if trace is not None:
+        lines = [json.dumps(plain(event), ensure_ascii=False) for event in result.trace_lines()]
+        write_file(trace, "".join(line + "\n" for line in lines).encode("utf-8"))
 
 
 def _not_started(diagnostics: Diagnostics, as_json: bool) -> int:

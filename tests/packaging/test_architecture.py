@@ -15,7 +15,7 @@ LEVELS = [
     ["cli"],
     ["api"],
     ["proof"],
-    ["project", "translation", "simulation"],
+    ["project", "translation", "simulation", "report"],
     ["cell", "emulator", "runtime", "linking", "writing", "reading"],
     ["passes"],
     ["registry"],
