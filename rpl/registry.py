@@ -143,6 +143,13 @@ def dialect(name: str) -> Dialect:
     return found
 
 
+def controller_text(name: str) -> str:
+    """The text of `controller.toml` in a dialect's folder: how its controller moves. Empty when there is none."""
+    dialect(name)  # an unknown name is refused there
+    file = resources.files(_names("dialects")[name]).joinpath("controller.toml")
+    return file.read_text(encoding="utf-8") if file.is_file() else ""
+
+
 @cache
 def target(name: str) -> Target:
     """The target of that name. Raises UsageError when there is none."""

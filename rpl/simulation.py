@@ -21,6 +21,7 @@ from rpl.runtime.values import Member, Value
 
 if TYPE_CHECKING:
     from rpl.cell import Cell
+    from rpl.emulator.controller import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.linking.program import LinkedProgram
 
@@ -36,14 +37,16 @@ def run_program(
     max_statements: int | None = None,
     on_event: Callable[[Event], None] | None = None,
     limits: Limits = DEFAULTS,
+    controller: str | MotionModel | None = None,
 ) -> RunResult:
     """Run a normalised program. Without a robot its moves take no time. A given `max_time_s` or `max_statements` stands
-    in place of that of `limits`.
+    in place of that of `limits`. `controller` (a language's name, `plain`, or a file) drives the robot in place of each
+    language's own.
 
     Raises UsageError for an unknown robot or when the entry cannot be found (the candidates are listed), RunError when
     the cell file does not fit the program. A fault inside the program is part of the result.
     """
-    simulation = Simulation(program, robot, cell, entry, max_time_s, max_statements, on_event, limits)
+    simulation = Simulation(program, robot, cell, entry, max_time_s, max_statements, on_event, limits, controller)
     simulation.run()
     return simulation.result()
 
@@ -61,8 +64,10 @@ class Simulation(Machine):
         max_statements: int | None = None,
         on_event: Callable[[Event], None] | None = None,
         limits: Limits = DEFAULTS,
+        controller: str | MotionModel | None = None,
     ) -> None:
         from rpl.cell import Cell as NoCell
+        from rpl.emulator.controller import controller_named
         from rpl.linking import link
 
         if max_time_s is not None:
@@ -70,7 +75,9 @@ class Simulation(Machine):
         if max_statements is not None:
             limits = replace(limits, statements=max_statements)
         linked = self.program = link(program)
-        super().__init__(linked, _model(robot), cell if cell is not None else NoCell(), limits, on_event)
+        driven = controller_named(controller) if isinstance(controller, str) else controller
+        surroundings = cell if cell is not None else NoCell()
+        super().__init__(linked, _model(robot), surroundings, limits, on_event, driven)
         self.breakpoints: set[tuple[str, int]] = set()
         self.passed: tuple[int, int] | None = None
         for declared, routine in _tasks(program, linked, entry):

@@ -1,11 +1,14 @@
 """Corners: two consecutive moves joined without a stop.
 
 The first move is left at the blend distance before its end, the second is met at the same distance after its start, and
-a smooth curve runs between. Between two path moves the tool centre point follows a parabola tangent to both (its corner
-point is missed by 0.354 of the distance at a right angle; measured ABB corners tend to 0.306); where a path is an arc
-the curve is the cubic with the same tangents. Orientation turns along the analogous curve. Where a joint move takes
-part, the corner is the parabola in joint space. The corner's speed is what path acceleration, axis speeds, axis
+a smooth curve runs between. Between two path moves the tool centre point follows a cubic tangent to both, which misses
+a right-angled corner by the share of the distance that the controller is known for (a parabola: 0.354); where a path is
+an arc the curve is the cubic with the same tangents. Orientation turns along the analogous curve. Where a joint move
+takes part, the corner is the parabola in joint space. The corner's speed is what path acceleration, axis speeds, axis
 accelerations and the two moves allow; speed is continuous along the whole chain.
+
+Controllers that let two moves overlap in time (the next one speeds up while the last one slows down) draw the same
+curves: the sum of two even ramps is a parabola whose size grows with the speed.
 """
 
 from dataclasses import dataclass, replace
@@ -57,50 +60,79 @@ def blend(
     *,
     distance_mm: float | None = None,
     fraction: float | None = None,
+    overlap: float | None = None,
+    alone: tuple[bool, bool] = (False, False),
 ) -> Corner | NoBlend:
     """Join two moves, of which the second starts where the first ends, by a corner of the given size.
 
     `distance_mm` is measured along the tool's way and is reduced to half of the shorter move; `fraction` (0..0.5) is a
-    share of each move, as for joint moves. `first` may itself be the rest of a move that began with a corner.
+    share of each move, as for joint moves; `overlap` (0..1) is the share of the shorter of the two ramps in which both
+    moves go on at once. `alone`: the robot stands at the other end of the first, of the second move.
+    `first` may itself be the rest of a move that began with a corner.
     """
     gap = np.abs(first.end_joints - second.start_joints)
     if gap.max() > 1e-4:
         return NoBlend("the second move does not start where the first ends")
-    ends = _ends(first, second, distance_mm, fraction)
+    seconds = overlapping_s(first, second, overlap) if overlap is not None else None
+    ends = _ends(first, second, distance_mm, fraction, seconds, alone)
     if isinstance(ends, NoBlend):
         return ends
     leave, meet = ends
     if leave < first.span[0]:
         return NoBlend("the corner before takes up the first move")
-    geometry = _corner_geometry(model, first, second, leave, meet)
+    geometry = _corner_geometry(model, first, second, leave, meet, seconds is None)
     if isinstance(geometry, NoBlend):
         return geometry
-    return _driven(model, first, second, geometry, leave, meet)
+    return _driven(model, first, second, geometry, leave, meet, seconds)
+
+
+def overlapping_s(first: PlannedMove, second: PlannedMove, share: float) -> float:
+    """How long two moves go on at once: a share of the shorter ramp, and not beyond the middle of a move."""
+    profiles = first.profile, second.profile
+    if not all(np.isfinite(profile.speed) for profile in profiles):
+        return 0.0
+    ramps = [profile.peak / profile.acceleration for profile in profiles]
+    rooms = [float(np.sqrt(2.0 * MOST / profile.acceleration)) for profile in profiles]
+    return min(share * min(ramps), *rooms)
 
 
 def _ends(
-    first: PlannedMove, second: PlannedMove, distance_mm: float | None, fraction: float | None
+    first: PlannedMove,
+    second: PlannedMove,
+    distance_mm: float | None,
+    fraction: float | None,
+    seconds: float | None,
+    alone: tuple[bool, bool],
 ) -> tuple[float, float] | NoBlend:
     """Where to leave the first move and to meet the second, as fractions of their whole geometry."""
+    if seconds is not None:
+        shares = [0.5 * move.profile.acceleration * seconds * seconds for move in (first, second)]
+        if min(shares) <= 1e-9 or not np.isfinite(shares).all():
+            return NoBlend("the moves do not overlap")
+        return 1.0 - min(shares[0], MOST), min(shares[1], MOST)
     if fraction is not None:
         share = min(fraction, MOST)
         return (1.0 - share, share) if share > 0.0 else NoBlend("the blend distance is zero")
     whole = [float(move.geometry.distance(np.array([1.0]))[0]) for move in (first, second)]
-    distance = min(distance_mm or 0.0, MOST * whole[0], MOST * whole[1])
+    wanted, free = distance_mm or 0.0, first.controller.corner_whole
+    rooms = [
+        each if free and each > wanted and at_rest else MOST * each for each, at_rest in zip(whole, alone, strict=True)
+    ]
+    distance = min(wanted, *rooms)
     if distance < 1e-6:
         return NoBlend("the blend distance is zero" if not distance_mm else "a move without way has no corner")
     return first.geometry.fraction_at(whole[0] - distance), second.geometry.fraction_at(distance)
 
 
 def _corner_geometry(
-    model: RobotModel, first: PlannedMove, second: PlannedMove, leave: float, meet: float
+    model: RobotModel, first: PlannedMove, second: PlannedMove, leave: float, meet: float, sized: bool
 ) -> Geometry | NoBlend:
     before = first.geometry.joints(np.array([leave]))[0]
     after = second.geometry.joints(np.array([meet]))[0]
     a, b = first.geometry, second.geometry
     if not (isinstance(a, PathGeometry) and isinstance(b, PathGeometry)):
         return _joint_corner(model, before, first.end_joints, after, b.tool)
-    curve = _path_corner(a.path, b.path, leave, meet)
+    curve = _path_corner(a.path, b.path, leave, meet, _tangent_share(first, second, leave) if sized else 2.0 / 3.0)
     if curve.length_mm < 1e-9:
         return NoBlend("the path turns back on itself")
     back = invert_pose(b.tool)
@@ -114,10 +146,14 @@ def _corner_geometry(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BezierPath:
-    """Poses on a cubic through four control positions (4, 3), orientation on the curve of three rotations (3, 3, 3)."""
+    """Poses on a cubic through four control positions (4, 3), orientation on the curve of three rotations (3, 3, 3).
+
+    `share`: of the way to the corner point, where the inner control positions lie.
+    """
 
     positions: FloatArray
     rotations: FloatArray
+    share: float = 2.0 / 3.0
 
     @property
     def length_mm(self) -> float:
@@ -152,14 +188,23 @@ class BezierPath:
         return np.asarray(3 * (w * w * (p[1] - p[0]) + 2 * w * s * (p[2] - p[1]) + s * s * (p[3] - p[2])))
 
 
-def _path_corner(first: Path, second: Path, leave: float, meet: float) -> BezierPath:
-    """The cubic that leaves and meets two paths along their tangents; between straight lines it is the parabola."""
+def _tangent_share(first: PlannedMove, second: PlannedMove, leave: float) -> float:
+    """Where the inner control points lie: by the controller's cut and the speed of the corner."""
+    wholes = [float(move.geometry.distance(np.array([1.0]))[0]) for move in (first, second)]
+    tops = [move.profile.speed * whole for move, whole in zip((first, second), wholes, strict=True)]
+    speed = min(top for top in (*tops, np.inf) if top > 0.0)
+    return first.controller.tangent_share((1.0 - leave) * wholes[0], speed if np.isfinite(speed) else 0.0)
+
+
+def _path_corner(first: Path, second: Path, leave: float, meet: float, share: float) -> BezierPath:
+    """The cubic that leaves and meets two paths along their tangents; between straight lines a `share` of two thirds is
+    the parabola."""
     start, goal = first.poses(np.array([leave, 1.0]))
     end = second.poses(np.array([meet]))[0]
-    out = first.tangent(leave) * (1.0 - leave) * 2.0 / 3.0
-    into = second.tangent(meet) * meet * 2.0 / 3.0
+    out = first.tangent(leave) * (1.0 - leave) * share
+    into = second.tangent(meet) * meet * share
     positions = np.stack([start[:3, 3], start[:3, 3] + out, end[:3, 3] - into, end[:3, 3]])
-    return BezierPath(positions, np.stack([start[:3, :3], goal[:3, :3], end[:3, :3]]))
+    return BezierPath(positions, np.stack([start[:3, :3], goal[:3, :3], end[:3, :3]]), share)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -201,14 +246,25 @@ def _joint_corner(
 
 
 def _driven(
-    model: RobotModel, first: PlannedMove, second: PlannedMove, geometry: Geometry, leave: float, meet: float
+    model: RobotModel,
+    first: PlannedMove,
+    second: PlannedMove,
+    geometry: Geometry,
+    leave: float,
+    meet: float,
+    seconds: float | None,
 ) -> Corner | NoBlend:
     """Time the three parts: one speed through the corner where the moves have room to reach it, else accelerating.
 
-    Speeds are of fractions: the corner at rate w leaves the first move at 2 (1 - leave) w and meets the second at
-    2 meet w, since the corner's tangents are the rest and the beginning of the two moves.
+    Speeds are of fractions: a parabola at rate w leaves the first move at 2 (1 - leave) w and meets the second at
+    2 meet w, since the corner's tangents are the rest and the beginning of the two moves; a cubic in proportion.
     """
-    tail, head = 2.0 * (1.0 - leave), 2.0 * meet
+    steepness = (
+        3.0 * geometry.path.share
+        if isinstance(geometry, PathGeometry) and isinstance(geometry.path, BezierPath)
+        else 2.0
+    )
+    tail, head = steepness * (1.0 - leave), steepness * meet
     begin, arriving = first.span[0], float(first.law.speeds[0]) * (first.span[1] - first.span[0])
     room = 2.0 * first.profile.acceleration * (leave - begin)
     stopping = float(np.sqrt(2.0 * second.profile.acceleration * (1.0 - meet)))
@@ -217,7 +273,7 @@ def _driven(
         float(np.sqrt(arriving * arriving + room)) / tail,
         _ceiling(second.profile, meet) / head,
         stopping / head,
-        _corner_rate(model, first, second, geometry),
+        _corner_rate(model, first, second, geometry, seconds),
     )
     if rate < SLOWEST:
         return NoBlend("the corner allows no speed")
@@ -254,13 +310,18 @@ def _ceiling(profile: Profile, fraction: float) -> float:
     return min(profile.speed, float(profile.ceilings[holder]))
 
 
-def _corner_rate(model: RobotModel, first: PlannedMove, second: PlannedMove, geometry: Geometry) -> float:
-    """The fastest even rate (1/s) through the corner that keeps path acceleration and the axes within their limits."""
+def _corner_rate(
+    model: RobotModel, first: PlannedMove, second: PlannedMove, geometry: Geometry, seconds: float | None
+) -> float:
+    """The fastest even rate (1/s) through the corner that keeps path acceleration and the axes within their limits;
+    where two moves overlap, their ramps decide in place of the path acceleration."""
     knots = np.linspace(0.0, 1.0, SAMPLES)
     step = knots[1]
     joints = geometry.joints(knots)
     fastest = np.abs(np.diff(joints, axis=0)).max(axis=0) / step
     rate = float(np.min(model.speeds / np.maximum(fastest, 1e-9)))
+    if seconds is not None:
+        return min(rate, 1.0 / seconds)
     moves = (first, second)
     if isinstance(geometry, JointCorner):
         strongest = np.abs(np.diff(joints, n=2, axis=0)).max(axis=0) / step**2
@@ -270,6 +331,7 @@ def _corner_rate(model: RobotModel, first: PlannedMove, second: PlannedMove, geo
     bend = float(np.linalg.norm(np.diff(points, n=2, axis=0), axis=1).max()) / step**2
     wholes = [float(move.geometry.distance(np.array([1.0]))[0]) for move in moves]
     limit = min(move.profile.acceleration * whole for move, whole in zip(moves, wholes, strict=True))
+    limit = min(limit, first.controller.corner_acceleration_mm_s2 or limit)
     return min(rate, float(np.sqrt(limit / max(bend, 1e-9))))
 
 

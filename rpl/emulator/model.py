@@ -114,6 +114,9 @@ class RobotModel:
     unit: FloatArray
     pulses_per_degree: FloatArray | None = None  # motor pulses, of arms whose controller counts positions in them
     counts_pulses: bool = True  # whether the maker's own controller does, or nobody has said that it does not
+    motion: Mapping[str, float] = field(default_factory=dict)  # time laws measured on this arm under `motion_of`
+    motion_of: str = ""
+    uncertain_axes: bool = True  # speeds or accelerations of the axes are not verified
     revolute: BoolArray = field(init=False)  # which joints turn, (n,)
     couplings: tuple[tuple[int, int], ...] = field(init=False)  # of arm_to_pendant: entries beside the diagonal
 
@@ -338,6 +341,9 @@ def _assembled(
         unit=_fixed([np.pi / 180.0 if joint == "revolute" else 1.0 for joint in kinds]),
         pulses_per_degree=None if file.pulses_per_degree is None else _fixed(file.pulses_per_degree),
         counts_pulses=file.counts_pulses,
+        motion=file.motion,
+        motion_of=file.motion_of,
+        uncertain_axes=bool({"speeds", "accelerations"} & set(file.assumed)) or file.accelerations is None,
     )
 
 

@@ -7,17 +7,18 @@ them in a corner is the business of `rpl.emulator.blending`.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from rpl.emulator.configuration import Selection
+from rpl.emulator.controller import PLAIN, MotionModel
 from rpl.emulator.model import RobotModel
 from rpl.emulator.paths import Arc, Line, Path, arc_through
 from rpl.emulator.rotations import FloatArray, invert_pose, pose_matrix
-from rpl.emulator.timelaw import Profile, TimeLaw, slowed_to
+from rpl.emulator.timelaw import Profile, TimeLaw, of_constant_time, slowed_to
 from rpl.emulator.tracking import MotionFault, Track, solve_arm_joints, track_flanges, track_wrist_joints
 
 __all__ = ["MotionFault", "MoveRequest", "MoveSamples", "PlannedMove", "plan"]
@@ -37,7 +38,8 @@ class MoveRequest:
     Give `target_joints` (n,) in pendant units or `target_pose` (4, 4). Axis speeds are fractions of their maximum (one
     number or (n,)). `select` chooses the configuration of a joint move to a pose (default: the nearest solution);
     `check_end` may refuse the configuration in which a path move arrives. External axes move evenly from
-    `external_start` to `external_target` at most at `external_speeds` (deg/s or mm/s).
+    `external_start` to `external_target` at most at `external_speeds` (deg/s or mm/s). `effort` is the acceleration in
+    force as a share, which the accelerations contain already; ramps of a constant time get longer by it.
     """
 
     kind: Literal["joint", "linear", "circular", "spline"]
@@ -62,6 +64,8 @@ class MoveRequest:
     external_start: tuple[float, ...] = ()
     external_target: tuple[float, ...] = ()
     external_speeds: tuple[float, ...] = ()
+    controller: MotionModel = PLAIN
+    effort: float = 1.0
 
 
 class Geometry(Protocol):
@@ -196,6 +200,7 @@ class PlannedMove:
     span: tuple[float, float]
     external_start: FloatArray
     external_end: FloatArray
+    controller: MotionModel = PLAIN
 
     def _fraction(self, time_s: ArrayLike) -> FloatArray:
         begin, end = self.span
@@ -279,7 +284,8 @@ def _plan_joint(model: RobotModel, start: FloatArray, request: MoveRequest) -> P
     length = float(geometry.travelled[-1])
     if request.tcp_speed_for_joint_move is not None and length > 1e-6:
         speed = min(speed, request.tcp_speed_for_joint_move / length)
-    return finished(request, geometry, _profile(request, speed, acceleration))
+    ramp, smoothing = request.controller.joint_ramp_s, request.controller.joint_smoothing_s
+    return finished(request, geometry, _profile(request, speed, acceleration, ramp, smoothing))
 
 
 def joint_geometry(model: RobotModel, start: FloatArray, end: FloatArray, tool: FloatArray) -> JointGeometry:
@@ -357,7 +363,8 @@ def _plan_path(model: RobotModel, start: FloatArray, request: MoveRequest) -> Pl
     if request.orientation == "wrist_joints":
         wrist = float(np.min(model.speeds[3:] / np.maximum(np.abs(track.joints[-1] - track.joints[0])[3:], 1e-12)))
         speed, acceleration = min(speed, wrist), min(acceleration, wrist / 0.1)
-    profile = within_axis_speeds(model, track, _profile(request, speed, acceleration), request)
+    ramp, smoothing = request.controller.path_ramp_s, request.controller.path_smoothing_s
+    profile = within_axis_speeds(model, track, _profile(request, speed, acceleration, ramp, smoothing), request)
     return profile if isinstance(profile, MotionFault) else finished(request, geometry, profile)
 
 
@@ -408,7 +415,7 @@ def within_axis_speeds(
 ) -> Profile | MotionFault:
     """The profile itself, a slower one, or the fault that an axis would have to turn too fast."""
     steps = np.abs(np.diff(track.joints, axis=0))
-    spans = np.maximum(np.diff(profile.law().time_of(track.fractions)), 1e-12)
+    spans = np.maximum(np.diff(profile.unsmoothed(0.0, 1.0).time_of(track.fractions)), 1e-12)
     excess = steps / spans[:, None] / model.speeds
     if not steps.any() or excess.max() <= 1.0 + SPEED_SLACK:
         return profile
@@ -416,7 +423,7 @@ def within_axis_speeds(
         gaps = np.diff(track.fractions)
         with np.errstate(divide="ignore"):
             ceilings = np.min(model.speeds * gaps[:, None] / np.maximum(steps, 1e-12), axis=1)
-        return Profile(profile.speed, profile.acceleration, track.fractions, ceilings)
+        return replace(profile, knots=track.fractions, ceilings=ceilings)
     place, axis = (int(i) for i in np.unravel_index(np.argmax(excess), excess.shape))
     kind: Literal["singularity", "axis_speed"] = "singularity" if _ill(model, track.joints[place]) else "axis_speed"
     return MotionFault(
@@ -436,14 +443,21 @@ def _ill(model: RobotModel, joints: FloatArray) -> bool:
     return bool(values[0] > SINGULAR_CONDITION * smallest)
 
 
-def _profile(request: MoveRequest, speed: float, acceleration: float) -> Profile:
+def _profile(request: MoveRequest, speed: float, acceleration: float, ramp_s: float, smoothing_s: float) -> Profile:
     """Top speed and acceleration of the whole move, external axes and a programmed duration included."""
     for begin, goal, top in zip(request.external_start, request.external_target, request.external_speeds, strict=False):
         speed = min(speed, _over(top, abs(goal - begin)))
         acceleration = min(acceleration, _over(top / 0.3, abs(goal - begin)))
+    ramp_s /= request.effort
     if request.duration_s is not None and request.duration_s > 0.0 and np.isfinite(speed):
-        speed = slowed_to(speed, acceleration, request.duration_s)
-    return Profile(speed, acceleration)
+        moving_s = max(request.duration_s - smoothing_s, 0.5 * request.duration_s)
+        if ramp_s > 0.0 and moving_s > ramp_s:
+            speed = min(speed, 1.0 / (moving_s - ramp_s))
+        elif ramp_s <= 0.0:
+            speed = slowed_to(speed, acceleration, moving_s)
+    if ramp_s > 0.0 and np.isfinite(speed):
+        acceleration = min(acceleration, of_constant_time(speed, ramp_s))
+    return Profile(speed, acceleration, smoothing_s=smoothing_s)
 
 
 def finished(request: MoveRequest, geometry: Geometry, profile: Profile) -> PlannedMove:
@@ -468,4 +482,5 @@ def finished(request: MoveRequest, geometry: Geometry, profile: Profile) -> Plan
         span=(0.0, 1.0),
         external_start=begin,
         external_end=goal,
+        controller=request.controller,
     )

@@ -7,11 +7,13 @@ has verified are listed under `assumed`. This module only reads and checks; `rpl
 
 import difflib
 import tomllib
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from importlib import resources
 from pathlib import Path
 from typing import Literal
 
+from rpl.emulator.controller import NUMBERS
 from rpl.errors import UsageError
 
 Kind = Literal["opw", "ur", "scara", "chain"]
@@ -43,7 +45,10 @@ class RobotSummary:
 
 @dataclass(frozen=True, slots=True)
 class RobotFile:
-    """One description, checked: lengths in mm, angles in degrees (mm for a sliding joint), speeds per second."""
+    """One description, checked: lengths in mm, angles in degrees (mm for a sliding joint), speeds per second.
+
+    `motion`: parameters of rpl.emulator.controller.MotionModel measured on this arm under the controller `motion_of`.
+    """
 
     name: str
     maker: str
@@ -65,6 +70,8 @@ class RobotFile:
     tip: str | None
     pulses_per_degree: Vector | None = None
     counts_pulses: bool = True
+    motion: Mapping[str, float] = field(default_factory=dict)
+    motion_of: str = ""
 
 
 def robot_names() -> list[str]:
@@ -143,7 +150,20 @@ def _parse(text: str, place: str, folder: Path | None) -> RobotFile:
         tip=geometry.text("tip", "") or None,
         pulses_per_degree=_pulses(axes, count),
         counts_pulses=axes.flag("counts_pulses", True),
+        motion=_motion(reader),
+        motion_of=reader.table("motion").text("controller") if "motion" in data else "",
     )
+
+
+def _motion(reader: "_Reader") -> dict[str, float]:
+    """What was measured of the time laws on this arm."""
+    if "motion" not in reader.data:
+        return {}
+    table = reader.table("motion")
+    wrong = next((key for key in table.data if key not in (*NUMBERS, "controller")), None)
+    if wrong is not None:
+        raise table.fail(wrong, f"left out: [motion] has {', '.join(NUMBERS)}")
+    return {key: table.number(key) for key in NUMBERS if key in table.data}
 
 
 def _pulses(axes: "_Reader", count: int) -> Vector | None:

@@ -1,8 +1,10 @@
 """How far along its path a move is at each moment: the law s(t), s from 0 to 1.
 
 A law is a row of pieces of constant acceleration, which covers the plain trapezoid and a speed profile that slows down
-near a singularity alike, and evaluates exactly in both directions. Every move gets its law from its `Profile`, so a
-controller with another way of accelerating has one place to go to.
+near a singularity alike, and evaluates exactly in both directions. Controllers smooth that with a moving average over
+the speed (an S-curve: the acceleration rises and falls evenly): the law keeps its knots and the width of that average,
+and evaluates the average exactly. Every move gets its law from its `Profile`, so a controller with another way of
+accelerating has one place to go to.
 """
 
 from bisect import bisect_right
@@ -14,13 +16,25 @@ from numpy.typing import ArrayLike
 from rpl.emulator.rotations import FloatArray
 
 
+# Halvings of the width of an average: 0.2 s ends below a picosecond.
+BISECTIONS = 38
+# Most of the way that is left over by the ramps which may be driven evenly for the sake of the average.
+EVEN_SHARE = 0.98
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class TimeLaw:
-    """Knots (m,) of time s, path fraction and its speed 1/s; the acceleration is constant between two knots."""
+    """Knots (m,) of time s, path fraction and its speed 1/s; the acceleration is constant between two knots.
+
+    `smoothing_s`: the width of the moving average that is driven instead of the knots themselves. Outside of the knots
+    the first and last speed go on for ever, so a law that stands or goes evenly for half that width at its ends (as
+    `Profile.law` makes them) begins and ends exactly where its knots do.
+    """
 
     times: FloatArray
     fractions: FloatArray
     speeds: FloatArray
+    smoothing_s: float = 0.0
 
     @property
     def duration(self) -> float:
@@ -30,18 +44,45 @@ class TimeLaw:
     def _piece(self, knots: FloatArray, value: FloatArray) -> np.ndarray[tuple[int, ...], np.dtype[np.intp]]:
         return np.clip(np.searchsorted(knots, value, side="right") - 1, 0, len(knots) - 2)
 
+    def _accelerations(self) -> FloatArray:
+        return np.diff(self.speeds) / np.maximum(np.diff(self.times), 1e-300)
+
+    def _knot_fraction(self, t: FloatArray) -> FloatArray:
+        """Path fractions by the knots alone, going on evenly outside of them."""
+        i = self._piece(self.times, t)
+        inside = np.clip(t, 0.0, self.duration)
+        local = inside - self.times[i]
+        fraction = self.fractions[i] + self.speeds[i] * local + 0.5 * self._accelerations()[i] * local * local
+        outside = t - inside
+        return np.asarray(fraction + np.where(outside < 0.0, self.speeds[0], self.speeds[-1]) * outside)
+
+    def _integral(self, t: FloatArray) -> FloatArray:
+        """The integral of `_knot_fraction` from 0 to times t."""
+        steps, accelerations = np.diff(self.times), self._accelerations()
+        pieces = steps * (self.fractions[:-1] + steps * (self.speeds[:-1] / 2.0 + steps * accelerations / 6.0))
+        sums = np.insert(np.cumsum(pieces), 0, 0.0)
+        i = self._piece(self.times, t)
+        inside = np.clip(t, 0.0, self.duration)
+        local = inside - self.times[i]
+        whole = sums[i] + local * (self.fractions[i] + local * (self.speeds[i] / 2.0 + local * accelerations[i] / 6.0))
+        out = t - inside
+        edge = np.where(out < 0.0, self.fractions[0], self.fractions[-1])
+        return np.asarray(whole + out * (edge + out * np.where(out < 0.0, self.speeds[0], self.speeds[-1]) / 2.0))
+
     def at(self, time_s: ArrayLike) -> FloatArray:
         """Path fractions at times (...), 0 before the start and 1 after the end."""
         t = np.clip(np.asarray(time_s, dtype=np.float64), 0.0, self.duration)
-        i = self._piece(self.times, t)
-        span = np.maximum(self.times[i + 1] - self.times[i], 1e-300)
-        acceleration = (self.speeds[i + 1] - self.speeds[i]) / span
-        local = t - self.times[i]
-        inside = self.fractions[i] + self.speeds[i] * local + 0.5 * acceleration * local * local
+        half = 0.5 * self.smoothing_s
+        if half > 0.0:
+            inside = (self._integral(t + half) - self._integral(t - half)) / self.smoothing_s
+        else:
+            inside = self._knot_fraction(t)
         return np.asarray(np.where(t >= self.duration, 1.0, np.clip(inside, 0.0, 1.0)))
 
     def fraction_at(self, time_s: float) -> float:
         """What `at` gives for one time, many times faster."""
+        if self.smoothing_s > 0.0:
+            return float(self.at(time_s))
         times, fractions, speeds = self.times.tolist(), self.fractions.tolist(), self.speeds.tolist()
         t = min(max(time_s, 0.0), times[-1])
         if t >= times[-1]:
@@ -54,7 +95,12 @@ class TimeLaw:
 
     def speed_at(self, time_s: ArrayLike) -> FloatArray:
         """Speeds of the path fraction, 1/s, at times (...)."""
-        return np.interp(np.asarray(time_s, dtype=np.float64), self.times, self.speeds)
+        t = np.asarray(time_s, dtype=np.float64)
+        half = 0.5 * self.smoothing_s
+        if half <= 0.0:
+            return np.interp(t, self.times, self.speeds)
+        t = np.clip(t, 0.0, self.duration)
+        return np.asarray((self._knot_fraction(t + half) - self._knot_fraction(t - half)) / self.smoothing_s)
 
     def time_of(self, fraction: ArrayLike) -> FloatArray:
         """The times (...) at which the move is at these path fractions: the inverse of `at`."""
@@ -65,7 +111,20 @@ class TimeLaw:
         ahead = s - self.fractions[i]
         root = np.sqrt(np.maximum(self.speeds[i] ** 2 + 2.0 * acceleration * ahead, 0.0))
         local = 2.0 * ahead / np.maximum(self.speeds[i] + root, 1e-300)
-        return np.asarray(np.where(s >= 1.0, self.duration, self.times[i] + np.minimum(local, span)))
+        base = self.times[i] + np.minimum(local, span)
+        if self.smoothing_s > 0.0:
+            base = self._smoothed_time_of(s, base)
+        return np.asarray(np.where(s >= 1.0, self.duration, base))
+
+    def _smoothed_time_of(self, s: FloatArray, near: FloatArray) -> FloatArray:
+        """By bisection: the average is never further from the knots than half its width."""
+        low, high = near - 0.5 * self.smoothing_s, near + 0.5 * self.smoothing_s
+        low, high = np.clip(low, 0.0, self.duration), np.clip(high, 0.0, self.duration)
+        for _ in range(BISECTIONS):
+            middle = 0.5 * (low + high)
+            before = self.at(middle) < s
+            low, high = np.where(before, middle, low), np.where(before, high, middle)
+        return np.asarray(0.5 * (low + high))
 
 
 def at_rest() -> TimeLaw:
@@ -104,20 +163,66 @@ def slowed_to(speed: float, acceleration: float, duration_s: float) -> float:
     return 2.0 * acceleration / (wide + float(np.sqrt(max(wide * wide - 4.0 * acceleration, 0.0))))
 
 
+def of_constant_time(speed: float, ramp_s: float) -> float:
+    """The acceleration (1/s²) of a controller that speeds up in one time at any speed: a move at top `speed` (1/s)
+    lasts 1/speed + ramp_s, also where it is too short to reach that speed (measured: fidelity, joint moves)."""
+    if ramp_s * speed <= 1.0:
+        return speed / ramp_s
+    return 4.0 / (1.0 / speed + ramp_s) ** 2
+
+
+def delayed(law: TimeLaw, seconds: float) -> TimeLaw:
+    """The law after a rest."""
+    return TimeLaw(
+        np.insert(law.times + seconds, 0, 0.0),
+        np.insert(law.fractions, 0, law.fractions[0]),
+        np.insert(law.speeds, 0, 0.0),
+        law.smoothing_s,
+    )
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Profile:
     """How fast a move may go along its whole path: top speed 1/s, acceleration 1/s², in fractions of the path.
 
     `ceilings` (m-1,) in 1/s lower the speed in the intervals between `knots` (m,), where an axis would be too slow.
+    `smoothing_s` is the width of the moving average over the speed.
     """
 
     speed: float
     acceleration: float
     knots: FloatArray | None = None
     ceilings: FloatArray | None = None
+    smoothing_s: float = 0.0
+
+    @property
+    def peak(self) -> float:
+        """The highest speed (1/s) that a move from rest to rest comes to."""
+        return min(self.speed, float(np.sqrt(self.acceleration)))
 
     def law(self, begin: float = 0.0, end: float = 1.0, start_speed: float = 0.0, end_speed: float = 0.0) -> TimeLaw:
-        """The law over `begin`..`end` of the path, as fractions of that part; boundary speeds in 1/s of the path."""
+        """The law over `begin`..`end` of the path, as fractions of that part; boundary speeds in 1/s of the path.
+
+        Where the part is too short for the whole average between two speeds, that is narrowed as far as it takes.
+        """
+        part = end - begin
+        if part <= 1e-12:
+            return at_rest()
+        width = self._smoothing_of(part, start_speed, end_speed)
+        lead, tail = 0.5 * width * start_speed, 0.5 * width * end_speed
+        return _smoothed(self.unsmoothed(begin + lead, end - tail, start_speed, end_speed), lead, tail, part, width)
+
+    def _smoothing_of(self, part: float, start_speed: float, end_speed: float) -> float:
+        sum_of_speeds = start_speed + end_speed
+        if sum_of_speeds <= 0.0 or self.smoothing_s <= 0.0:
+            return self.smoothing_s if np.isfinite(self.speed) else 0.0
+        if part < 1e-6:
+            return 0.0
+        needed = abs(end_speed * end_speed - start_speed * start_speed) / (2.0 * self.acceleration)
+        return min(self.smoothing_s, max(2.0 * (part - needed) / sum_of_speeds * EVEN_SHARE, 0.0))
+
+    def unsmoothed(self, begin: float, end: float, start_speed: float = 0.0, end_speed: float = 0.0) -> TimeLaw:
+        """The law of constant accelerations over a part of the path: what `law` averages."""
         part = end - begin
         if part <= 1e-12:
             return at_rest()
@@ -129,6 +234,19 @@ class Profile:
         holder = np.clip(np.searchsorted(self.knots, knots[:-1], side="right") - 1, 0, len(self.ceilings) - 1)
         ceilings = np.minimum(self.ceilings[holder], self.speed) / part
         return limited((knots - begin) / part, ceilings, self.acceleration / part, *speeds)
+
+
+def _smoothed(law: TimeLaw, lead: float, tail: float, part: float, width: float) -> TimeLaw:
+    """The law with half an average's width of even motion (or rest) at both ends, as fractions of `part`."""
+    if width <= 0.0 or law.duration <= 0.0:
+        return law
+    share = (part - lead - tail) / part
+    fractions = (lead + law.fractions * (part - lead - tail)) / part
+    speeds = law.speeds * share
+    times = np.concatenate([[0.0], law.times + 0.5 * width, [law.duration + width]])
+    return TimeLaw(
+        times, np.concatenate([[0.0], fractions, [1.0]]), np.concatenate([speeds[:1], speeds, speeds[-1:]]), width
+    )
 
 
 def limited(

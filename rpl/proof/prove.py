@@ -1,5 +1,8 @@
 """Decides whether two programs mean the same: runs both in the same surroundings and compares what they showed.
 
+Both are driven alike, by the controller of the first one's language unless another is named: what differs then is what
+the programs say, not how fast two makers' arms speed up.
+
 The limit of this proof: it covers the way the programs took with these inputs, on models of the arms; and where our
 reader and our writer of one language share a misunderstanding, both runs share it too.
 """
@@ -20,6 +23,7 @@ from rpl.runtime.limits import DEFAULTS, Limits
 
 if TYPE_CHECKING:
     from rpl.cell import Cell
+    from rpl.emulator.controller import MotionModel
     from rpl.emulator.model import RobotModel
 
 
@@ -66,8 +70,10 @@ def prove_programs(
     to_entry: str | None = None,
     path_mm: float | None = None,
     limits: Limits = DEFAULTS,
+    controller: str | MotionModel | None = None,
 ) -> ProofResult:
-    """Run two normalised programs and compare them. `robot_b` None: the same arm as A's.
+    """Run two normalised programs and compare them. `robot_b` None: the same arm as A's. `controller` None: that of A's
+    language.
 
     `path_mm` overrides how far apart the tool paths may be (see compare.Tolerance). Raises UsageError for an unknown
     robot or an entry that cannot be found.
@@ -75,10 +81,18 @@ def prove_programs(
     first, second = _model(robot_a), _model(robot_b)
     if second is None:
         second = first
-    record_a = recorded_run(program_a, first, cell, entry, limits)
+    record_a = recorded_run(program_a, first, cell, entry, limits, controller)
     to_entry = to_entry if to_entry is not None else entry
     return prove_against(
-        record_a, program_a, program_b, second, cell, to_entry=to_entry, path_mm=path_mm, limits=limits
+        record_a,
+        program_a,
+        program_b,
+        second,
+        cell,
+        to_entry=to_entry,
+        path_mm=path_mm,
+        limits=limits,
+        controller=controller,
     )
 
 
@@ -92,10 +106,11 @@ def prove_against(
     to_entry: str | None = None,
     path_mm: float | None = None,
     limits: Limits = DEFAULTS,
+    controller: str | MotionModel | None = None,
 ) -> ProofResult:
     """Run B and compare it with a run of A that was recorded before, for who compares A with several programs."""
     theirs = in_words_of(cell, program_a, program_b) if cell is not None else None
-    record_b = recorded_run(program_b, robot_b, theirs, to_entry, limits)
+    record_b = recorded_run(program_b, robot_b, theirs, to_entry, limits, controller or record_a.language or None)
     record_a, record_b = (
         with_wired_groups(record_a, wired_bits(program_b)),
         with_wired_groups(record_b, wired_bits(program_a)),
@@ -137,11 +152,12 @@ def recorded_run(
     cell: Cell | None = None,
     entry: str | None = None,
     limits: Limits = DEFAULTS,
+    controller: str | MotionModel | None = None,
 ) -> Record:
     """What a run of the program shows, as proofs compare it."""
     from rpl.simulation import run_program
 
-    result = run_program(program, robot, cell, entry, limits=limits)
+    result = run_program(program, robot, cell, entry, limits=limits, controller=controller)
     return record_of(result, program, robot)
 
 

@@ -6,7 +6,7 @@ stationary tool) the roles change:  robot_root · FK(joints) · part · displace
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -31,6 +31,7 @@ from rpl.runtime.values import (
 
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation, Selection
+    from rpl.emulator.controller import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.emulator.planner import MoveRequest
     from rpl.emulator.rotations import FloatArray
@@ -249,6 +250,7 @@ class Planning:
     external: tuple[float | None, ...]
     modal: Modal
     notation: Notation | None
+    controller: MotionModel
 
 
 def request_of(order: Order, plan: Planning) -> tuple[MoveRequest, rigid.Pose, rigid.Pose, tuple[float | None, ...]]:
@@ -354,7 +356,7 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
     over = max(float(value("override")) / 100.0, 1e-3)
     profile_share = over * float(value("speed_percent")) / 100.0
     effort = float(order.acceleration if order.acceleration is not None else value("acceleration_percent"))
-    effort = max(effort / 100.0, 0.01)
+    effort = effort_share = max(effort / 100.0, 0.01)
     axes = range(1, plan.model.axes + 1)
     options: dict[str, Value] = {}
     if speed.profile is not None:
@@ -379,13 +381,12 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
         joint_share = np.minimum(speed.axis * over / plan.model.speeds, 1.0)
     if speed.axis_acceleration is not None:
         joint_effort = speed.axis_acceleration / plan.model.accelerations
-    acceleration = value("path_acceleration")
+    acceleration = _path_acceleration(order, plan)
     if speed.path_acceleration is not None:
         acceleration, effort = speed.path_acceleration, 1.0
     mode = order.orientation or str(value("orientation_mode"))
     if value("singularity_mode") == "wrist" and order.kind != "joint":
         mode = "wrist"
-    used = [place for place, number in enumerate(external) if number is not None]
     options |= {
         "path_speed_mm_s": path if path > 0.0 else 1e-3,
         "path_acc_mm_s2": float(acceleration) * effort,
@@ -397,11 +398,28 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
         "orientation": _ORIENTATIONS.get(mode, "interpolated"),
         "circle_orientation": order.circle_orientation or str(value("circle_orientation")),
         "reduce_speed_near_singularity": value("path_limit_rule") == "reduce",
+        "controller": plan.controller,
+        "effort": effort_share,
+    }
+    options |= _external(plan, external, value)
+    return _by_time(options, over) if speed.duration else options
+
+
+def _external(plan: Planning, external: tuple[float | None, ...], value: Callable[..., Value]) -> dict[str, Value]:
+    """Where the external axes go from and to, and how fast they may."""
+    used = [place for place, number in enumerate(external) if number is not None]
+    return {
         "external_start": tuple(plan.external[place] or 0.0 for place in used),
         "external_target": tuple(external[place] for place in used),
         "external_speeds": tuple(EXTERNAL_SPEED * float(value("external_speed", place + 1)) / 100.0 for place in used),
     }
-    return _by_time(options, over) if speed.duration else options
+
+
+def _path_acceleration(order: Order, plan: Planning) -> float:
+    """At 100 percent, mm/s²: as the program says, else the controller's."""
+    said = order.modal.get("path_acceleration", plan.modal.get("path_acceleration"))
+    own = plan.controller.path_acceleration_mm_s2
+    return float(said if said is not None else own if own is not None else DEFAULTS["path_acceleration"])
 
 
 def _by_time(options: dict[str, Value], over: float) -> dict[str, Value]:

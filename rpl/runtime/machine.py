@@ -27,6 +27,7 @@ from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.cell import Cell
+    from rpl.emulator.controller import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.runtime.linked import Linked
 
@@ -46,9 +47,11 @@ class Machine:
         cell: Cell,
         limits: Limits,
         on_event: Callable[[Event], None] | None = None,
+        controller: MotionModel | None = None,
     ) -> None:
         self.linked = linked
         self.model = model
+        self.controller = controller
         self.cell = cell
         self.limits = limits
         self.on_event = on_event
@@ -84,7 +87,7 @@ class Machine:
             self.schedule(given.time_s, INPUTS, "input", 0, given.signal, given.value)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Machine:
-        for shared in (self.linked, self.model, self.cell, self.on_event):
+        for shared in (self.linked, self.model, self.controller, self.cell, self.on_event):
             memo[id(shared)] = shared
         twin = self.__class__.__new__(self.__class__)
         memo[id(self)] = twin

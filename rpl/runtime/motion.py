@@ -64,6 +64,7 @@ class MotionQueue(RobotState):
         self.numbers = 0
         self.asked = False
         self.late: dict[int, TriggerOrder] = {}
+        self.stood_s = -1.0  # when a move ended at rest last
 
     # ---- what the program asks
 
@@ -99,7 +100,14 @@ class MotionQueue(RobotState):
         """The move as it is driven from where everything commanded before it ends."""
         assert self.model is not None and self.planned_joints is not None  # with a model there are joints
         notation = self.machine.linked.notation(order.rules.name)
-        plan = Planning(self.model, self.planned_joints, self.planned_external, self.task.modal, notation)
+        plan = Planning(
+            self.model,
+            self.planned_joints,
+            self.planned_external,
+            self.task.modal,
+            notation,
+            self.controller_of(order.rules),
+        )
         request, moving, goal, external = request_of(order, plan)
         planned = pieces.plan(self.model, self.planned_joints, request)
         if pieces.is_fault(planned):
@@ -205,7 +213,7 @@ class MotionQueue(RobotState):
         if self.stopped:
             return
         if self.piece is None:
-            if self.queue:
+            if self.queue and not self._rests(self.queue[0]):
                 self._begin(self.queue[0])
             return
         piece = self.piece
@@ -216,6 +224,15 @@ class MotionQueue(RobotState):
             self._join(piece, following)
         elif piece.open_end and piece.drive.released:
             self._settle(piece)
+
+    def _rests(self, drive: Drive) -> bool:
+        """Does the controller let some time pass yet after a move that stopped exactly?"""
+        begins = self.stood_s + (drive.plan.controller.restart_s if drive.plan is not None else 0.0)
+        if begins <= self.machine.now:
+            return False
+        self.asked = True
+        self.machine.schedule(begins, MOTION, "motion", self.task_index, "consider", 0)
+        return True
 
     def _after(self, drive: Drive) -> Drive | None:
         place = self.queue.index(drive) + 1
@@ -340,7 +357,7 @@ class MotionQueue(RobotState):
             self._drive(pieces.to_the_end(piece, now))
             return
         self.joints, self.external = piece.plan.end_joints, piece.drive.external
-        self.piece = None
+        self.piece, self.stood_s = None, now
         self._done(piece.drive, True)
         if self.queue and not self.stopped:
             self._ask()

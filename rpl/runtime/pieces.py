@@ -178,10 +178,15 @@ def joined(model: RobotModel, piece: Piece, following: Drive, now: float) -> Pie
 
     first, second = piece.drive.plan, following.plan
     assert first is not None and second is not None
-    distance, fraction = blend_size(piece.drive.order.blend, first, second)
-    if distance is None and fraction is None:
+    size = blend_size(piece.drive.order.blend, first, second)
+    if size == (None, None):
         return None
-    made = blend(model, rest_of(piece, now), second, distance_mm=distance, fraction=fraction)
+    distance, fraction = size
+    overlap = overlap_of(piece.drive.order.blend, first)
+    alone = first.span[0] <= 0.0 and piece.plan.span[0] <= 0.0, following.order.blend.stops
+    made = blend(
+        model, rest_of(piece, now), second, distance_mm=distance, fraction=fraction, overlap=overlap, alone=alone
+    )
     if not isinstance(made, Blended):
         return None
     corner = Corner(made.corner, made.second, following, ratios(made.first, made.corner, made.second))
@@ -192,6 +197,13 @@ def corner_piece(piece: Piece, now: float) -> Piece:
     """The corner that this piece leads to."""
     assert piece.ahead is not None
     return Piece(piece.drive, piece.ahead.plan, now, corner=piece.ahead)
+
+
+def overlap_of(order: BlendOrder, first: PlannedMove) -> float | None:
+    """The share of a ramp in which two moves overlap, where the controller makes its corners so."""
+    if order.kind != "percent" or not first.controller.overlap:
+        return None
+    return first.controller.overlap_at(order.percent)
 
 
 def blend_size(order: BlendOrder, first: PlannedMove, second: PlannedMove | None) -> tuple[float | None, float | None]:
@@ -239,6 +251,11 @@ def _leave_alone(move: PlannedMove, order: BlendOrder) -> float:
     """Where the corner would begin as far as this move alone can tell."""
     import numpy as np
 
+    overlap = overlap_of(order, move)
+    if overlap is not None:
+        from rpl.emulator.blending import overlapping_s
+
+        return 1.0 - min(MOST, 0.5 * move.profile.acceleration * overlapping_s(move, move, overlap) ** 2)
     distance, fraction = blend_size(order, move, None)
     if fraction is not None:
         return 1.0 - fraction

@@ -12,6 +12,7 @@ from rpl.runtime.pieces import Piece
 from rpl.runtime.values import JointsValue, TargetValue, Value
 
 if TYPE_CHECKING:
+    from rpl.emulator.controller import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.emulator.rotations import FloatArray
     from rpl.ir.rules import Rules
@@ -36,6 +37,15 @@ class RobotState:
     @property
     def task(self) -> Task:
         return self.machine.tasks[self.task_index]
+
+    def controller_of(self, rules: Rules) -> MotionModel:
+        """Who drives moves of that language: the controller chosen for the run, else the language's own."""
+        from rpl.emulator.controller import controller_named, on_robot
+
+        chosen = self.machine.controller or controller_named(rules.name)
+        if self.model is None or self.model.motion_of != chosen.name:
+            return chosen
+        return on_robot(chosen, self.model.motion)
 
     def mark_interrupted(self) -> None:
         """An interrupt came: remember where the robot is."""

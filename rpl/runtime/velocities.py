@@ -124,7 +124,7 @@ def _wanted(queue: MotionQueue, order: Order, joints: FloatArray) -> tuple[Rate,
 
     assert queue.model is not None  # asked by the caller
     notation = queue.machine.linked.notation(order.rules.name)
-    plan = Planning(queue.model, joints, queue.external, queue.task.modal, notation)
+    plan = Planning(queue.model, joints, queue.external, queue.task.modal, notation, queue.controller_of(order.rules))
     request, tool, _, _ = request_of(order, plan)
     given = order.speed
     if request.target_joints is not None:

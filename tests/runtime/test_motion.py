@@ -106,7 +106,7 @@ def test_brake_and_resume_leave_the_interrupted_routine() -> None:
         '$OUT[2]=TRUE\nMsgNotify("back")'
     )
     more = "DEF SEARCH( )\n" + P1 + "\nLIN_REL {Y 200}\nWAIT SEC 0\n$OUT[1]=TRUE\nEND\nDEF HIT( )\nBRAKE\nRESUME\nEND"
-    cell = "[[input]]\ntime=1.8\nsignal='$IN[1]'\nvalue=true\n"
+    cell = "[[input]]\ntime=2.2\nsignal='$IN[1]'\nvalue=true\n"
     result = krl(body, more=more, robot=KUKA, cell=cell)
     assert result.status == "finished", result.fault
     assert on(result) == {"$OUT[2]": True} and result.messages == ("back",)
@@ -125,7 +125,7 @@ def test_a_braked_motion_goes_on_after_an_interrupt_without_resume() -> None:
         + "\nLIN_REL {Y 200}\nWAIT SEC 0"
     )
     more = "DEF HIT( )\nBRAKE\nWAIT SEC 2\nEND"
-    cell = "[[input]]\ntime=1.8\nsignal='$IN[1]'\nvalue=true\n"
+    cell = "[[input]]\ntime=2.2\nsignal='$IN[1]'\nvalue=true\n"
     braked, free = krl(body, more=more, robot=KUKA, cell=cell), krl(body, robot=KUKA, more=more)
     assert braked.status == "finished", braked.fault
     assert braked.joints == pytest.approx(free.joints, abs=1e-6)

@@ -1,0 +1,171 @@
+"""How a controller moves an arm: the parameters of its time laws and corners, and how sure we are of each.
+
+A language's folder holds its controller's `controller.toml`; a user may write one (`rpl run --controller F.toml`) or
+let `rpl fit` make one from a recorded log. A robot file may hold what was measured on that arm under its own
+controller. What no file says is the plain model: constant acceleration, corners that are parabolas.
+"""
+
+from __future__ import annotations
+
+import difflib
+import math
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from functools import cache
+from itertools import pairwise
+from pathlib import Path
+
+from rpl import registry
+from rpl.errors import UsageError
+
+# A right angle's corner is missed by this share of the zone where the corner is a parabola: sqrt(2) / 4.
+PARABOLA = math.sqrt(0.125)
+PLAIN_NAME = "plain"
+
+
+@dataclass(frozen=True, slots=True)
+class MotionModel:
+    """The parameters of one controller; times in s, lengths in mm.
+
+    joint_ramp_s, path_ramp_s: speeding up takes this long whatever the speed (0: the acceleration decides), which short
+    moves keep: they last their time at full speed and one ramp. joint_smoothing_s, path_smoothing_s: width of the
+    moving average over the speed (S-curve). path_acceleration_mm_s2: at 100 percent, where the program gives none.
+    corner_cut: by what share of the blend distance the path misses a right-angled corner (a parabola: 0.354).
+    corner_lag_s: more than that by this time at the speed of the corner, as filters behind the path planner make it.
+    corner_acceleration_mm_s2: what holds the speed of a corner down, where that is not the path's acceleration.
+    corner_whole: a corner may take up more than half of a move at whose other end the robot stands, if the move is
+    longer than the blend distance (1: yes, 0: no).
+    overlap: pairs of percent and share of a ramp by which two moves overlap in time, for controllers whose corners are
+    made so (CNT, continuous path); empty: corners have a size. restart_s: a move that follows one that stopped exactly
+    begins so much later. uncertainty: per parameter name (also `joint_speed`, `joint_acceleration`,
+    `path_acceleration`, `corner`) the relative error that it may have.
+    """
+
+    name: str = PLAIN_NAME
+    title: str = "constant acceleration, parabolic corners"
+    source: str = ""
+    joint_ramp_s: float = 0.0
+    joint_smoothing_s: float = 0.0
+    path_acceleration_mm_s2: float | None = None
+    path_ramp_s: float = 0.0
+    path_smoothing_s: float = 0.0
+    corner_cut: float = PARABOLA
+    corner_lag_s: float = 0.0
+    corner_acceleration_mm_s2: float | None = None
+    corner_whole: float = 0.0
+    overlap: tuple[tuple[float, float], ...] = ()
+    restart_s: float = 0.0
+    uncertainty: Mapping[str, float] = field(default_factory=dict)
+
+    def overlap_at(self, percent: float) -> float:
+        """The share of a ramp by which two moves overlap, linear between the given percents."""
+        points = self.overlap
+        if percent <= points[0][0]:
+            return points[0][1]
+        for (low, first), (high, second) in pairwise(points):
+            if percent <= high:
+                return first + (second - first) * (percent - low) / (high - low)
+        return points[-1][1]
+
+    def tangent_share(self, distance_mm: float, speed_mm_s: float) -> float:
+        """How far towards the corner point the inner control points of a corner's cubic lie, as a share (0.2..1) of the
+        blend distance, so that a right angle is missed by `corner_cut` and the filter's part of the speed."""
+        cut = self.corner_cut + self.corner_lag_s * speed_mm_s / max(distance_mm, 1e-9)
+        return min(max((4.0 - 8.0 * cut / math.sqrt(2.0)) / 3.0, 0.2), 1.0)
+
+
+PLAIN = MotionModel()
+NUMBERS = tuple(
+    each.name for each in fields(MotionModel) if each.name not in ("name", "title", "source", "overlap", "uncertainty")
+)
+UNCERTAIN = (*NUMBERS, "overlap", "joint_speed", "joint_acceleration", "path_acceleration", "corner")
+
+
+@cache
+def controller_named(name_or_path: str) -> MotionModel:
+    """The controller of a language, `plain`, or that of a `.toml` file. Raises UsageError when there is none."""
+    if name_or_path == PLAIN_NAME:
+        return PLAIN
+    if name_or_path.endswith(".toml"):
+        try:
+            text = Path(name_or_path).read_text(encoding="utf-8")
+        except OSError as error:
+            raise UsageError(f"controller file {name_or_path} cannot be read: {error.strerror}") from error
+        return parse_controller(text, Path(name_or_path).stem, name_or_path)
+    if name_or_path not in registry.dialect_names():
+        names = [PLAIN_NAME, *registry.dialect_names()]
+        close = difflib.get_close_matches(name_or_path, names, 1)
+        hint = f"; did you mean {close[0]}?" if close else ""
+        raise UsageError(f"no controller named {name_or_path!r}: there are {', '.join(names)} and .toml files{hint}")
+    text = registry.controller_text(name_or_path)
+    return PLAIN if not text else parse_controller(text, name_or_path, f"controller.toml of {name_or_path}")
+
+
+def parse_controller(text: str, name: str, place: str) -> MotionModel:
+    """A controller file's text as a model. Raises UsageError naming `place` and the key that is wrong."""
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise UsageError(f"controller file {place}: {error}") from error
+    known = {"title", "source", "overlap", "uncertainty", *NUMBERS}
+    for key in data:
+        if key not in known:
+            close = difflib.get_close_matches(key, known, 1)
+            raise UsageError(
+                f"controller file {place}: unknown key '{key}'" + (f"; meant {close[0]}?" if close else "")
+            )
+    numbers = {key: _number(data[key], key, place) for key in NUMBERS if key in data}
+    texts = {key: str(data[key]) for key in ("title", "source") if key in data}
+    uncertain = data.get("uncertainty", {})
+    if not isinstance(uncertain, dict):
+        raise UsageError(f"controller file {place}: 'uncertainty' must be a table")
+    for key in uncertain:
+        if key not in UNCERTAIN:
+            raise UsageError(f"controller file {place}: uncertainty of '{key}', which is no parameter")
+    uncertainty = {key: _number(value, f"uncertainty.{key}", place) for key, value in uncertain.items()}
+    made = MotionModel(name=name, overlap=_overlap(data.get("overlap", []), place), uncertainty=uncertainty)
+    return replace(made, **texts, **numbers)  # type: ignore[arg-type]  # names of fields with their types
+
+
+def on_robot(model: MotionModel, measured: Mapping[str, float]) -> MotionModel:
+    """The controller with what was measured on one arm."""
+    return replace(model, **measured) if measured else model  # type: ignore[arg-type]  # names of number fields
+
+
+def as_toml(model: MotionModel) -> str:
+    """The text of a controller file; `parse_controller` reads it back."""
+    lines = [f'title = "{_quoted(model.title)}"', f'source = "{_quoted(model.source)}"']
+    lines += [f"{key} = {float(getattr(model, key)):.9g}" for key in NUMBERS if getattr(model, key) is not None]
+    if model.overlap:
+        lines.append(
+            "overlap = [" + ", ".join(f"[{percent:.9g}, {share:.9g}]" for percent, share in model.overlap) + "]"
+        )
+    if model.uncertainty:
+        lines += ["", "[uncertainty]", *(f"{key} = {value:.9g}" for key, value in model.uncertainty.items())]
+    return "\n".join(lines) + "\n"
+
+
+def _quoted(text: str) -> str:
+    return text.replace("\\", "\\\\").replace('"', '\\"')
+
+
+def _number(value: object, key: str, place: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value) or value < 0.0:
+        raise UsageError(f"controller file {place}: '{key}' must be a number of at least 0, found {value!r}")
+    if key.endswith("acceleration_mm_s2") and value == 0.0:
+        raise UsageError(f"controller file {place}: '{key}' must be more than 0")
+    return float(value)
+
+
+def _overlap(value: object, place: str) -> tuple[tuple[float, float], ...]:
+    rows = value if isinstance(value, list) else [None]
+    pairs = []
+    for row in rows:
+        if not isinstance(row, list) or len(row) != 2:
+            raise UsageError(f"controller file {place}: 'overlap' must be a list of pairs [percent, share of a ramp]")
+        pairs.append((_number(row[0], "overlap", place), _number(row[1], "overlap", place)))
+    rising = all(a[0] < b[0] for a, b in pairwise(pairs))
+    if not rising or any(share > 1.0 for _, share in pairs):
+        raise UsageError(f"controller file {place}: 'overlap' needs rising percents and shares of at most 1")
+    return tuple(pairs)
