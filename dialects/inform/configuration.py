@@ -11,9 +11,12 @@ from typing import Final
 
 import numpy as np
 
-from rpl.emulator.configuration import Flags, Selection, format_number
+from rpl.emulator.arms import BoolArray
+from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel
-from rpl.emulator.rotations import FloatArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
+from rpl.emulator.postures import sides
+from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
+from rpl.emulator.selection import Candidates, Chosen, Rule, choose
 from rpl.errors import SourceError
 
 from .rules import FIELDS
@@ -29,12 +32,24 @@ _POINT = re.compile(
 )
 
 
-def is_flip(joints: FloatArray, by: str = FLIP_BY) -> bool:
-    """Flip by the sign of B, or by the quadrant of R."""
-    if by == "b":
-        return float(joints[4] + 180.0) % 360.0 >= 180.0  # arms whose wrist turns further: the sign within half a turn
-    turned = float(joints[3]) % 360.0
-    return turned <= 90.0 or turned > 270.0
+def is_flip(joints: FloatArray, by: str = FLIP_BY) -> BoolArray:
+    """Flip (...) of joints (..., n) by the sign of B, or by the quadrant of R."""
+    if by == "b":  # arms whose wrist turns further: the sign within half a turn
+        return np.asarray((joints[..., 4] + 180.0) % 360.0 >= 180.0)
+    turned = joints[..., 3] % 360.0
+    return np.asarray((turned <= 90.0) | (turned > 270.0))
+
+
+def _branch_flags(model: RobotModel, branch: IntArray, joints: FloatArray) -> IntArray:
+    """No-flip, lower and rear (..., 3) of sides (..., 3) and joints (..., n)."""
+    noflip = ~is_flip(joints) if model.axes > 4 else np.zeros(branch.shape[:-1], dtype=np.bool_)
+    # M: upper and lower arm as seen from outside, so that a rear posture mirrors them.
+    return np.stack([noflip, branch[..., 1] ^ branch[..., 0], branch[..., 0]], axis=-1).astype(np.int64)
+
+
+def _beyond(angles: FloatArray) -> BoolArray:
+    """Whether angles lie outside of (-180, 180]."""
+    return ~((angles > -180.0) & (angles <= 180.0))
 
 
 class InformNotation:
@@ -42,49 +57,62 @@ class InformNotation:
 
     name: Final = "inform"
     fields: Final = FIELDS
+    pose_fields: Final = ("x", "y", "z", "rx", "ry", "rz")
 
     def encode(self, model: RobotModel, joints: FloatArray) -> dict[str, int]:
         """The RCONF fields that the controller shows at these joints (n,)."""
-        posture = model.posture(joints)
-        # M: upper and lower arm as seen from outside, so that a rear posture mirrors them.
-        flags = {
-            "noflip": int(model.axes > 4 and not is_flip(joints)),
-            "lower": int(posture.behind_lower_arm != posture.behind_axis1),
-            "rear": int(posture.behind_axis1),
-        }
-        for name, axis in TURN_AXES.items():
-            angle = float(joints[axis]) if axis < model.axes else 0.0
-            flags[name] = int(not -180.0 < angle <= 180.0)
+        return dict(zip(self.fields, map(int, self.encode_all(model, joints[None])[0]), strict=True))
+
+    def encode_all(self, model: RobotModel, joints: FloatArray) -> IntArray:
+        """RCONF fields (k, 6) at joints (k, n)."""
+        flags = np.zeros((len(joints), 6), dtype=np.int64)
+        flags[:, :3] = _branch_flags(model, sides(model, joints), joints)
+        for place, axis in enumerate(TURN_AXES.values(), start=3):
+            if axis < model.axes:
+                flags[:, place] = _beyond(joints[:, axis])
         return flags
 
     def select(self, model: RobotModel, flange: FloatArray, flags: Flags, reference: FloatArray | None) -> Selection:
         """The solution of a joint move: each given flag must be met; those left out stay as at `reference`."""
-        solutions = model.inverse(flange, reference)
-        if not solutions:
+        found = self.select_all(model, flange[None], flag_row(self.fields, flags), reference)
+        if not found.reachable[0]:
             return Selection(None, "the position is out of reach")
-        near = model.home if reference is None else reference
-        now = self.encode(model, near) if reference is not None else {}
-        wanted = {name: flags.get(name) for name in self.fields}
-        for name in ("noflip", "lower", "rear"):
-            if wanted[name] is None:
-                wanted[name] = now.get(name)
-        choices: list[FloatArray] = []
-        shown: set[tuple[int, ...]] = set()
-        for solution in solutions:
-            straight = solution.singular and model.axes > 4 and solution.joints[4] == 0.0
-            for joints in model.expand_turns(solution):
-                found = self.encode(model, joints)
-                shown.add(tuple(found.values()))
-                differing = [name for name, flag in wanted.items() if flag is not None and found[name] != flag]
-                if not differing or (straight and differing == ["noflip"]):
-                    choices.append(joints)
-        if choices:
-            return Selection(min(choices, key=lambda joints: float(np.abs(joints - near).max())))
+        if not np.isnan(found.joints[0, 0]):
+            return Selection(found.joints[0])
         asked = ",".join("-" if flags.get(name) is None else str(flags[name]) for name in self.fields)
+        shown = {
+            tuple(self.encode(model, joints).values())
+            for solution in model.inverse(flange, reference)
+            for joints in model.expand_turns(solution)
+        }
         if not shown:
             return Selection(None, f"RCONF {asked} cannot be reached: every solution exceeds a joint limit")
         listed = "; ".join(",".join(map(str, each)) for each in sorted(shown))
         return Selection(None, f"RCONF {asked} cannot be reached: the arm reaches this position with {listed}")
+
+    def select_all(
+        self, model: RobotModel, flanges: FloatArray, flags: FloatArray, reference: FloatArray | None
+    ) -> Chosen:
+        """As `select`, for flange poses (k, 4, 4) and flags (k, 6)."""
+        near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
+        wanted = flags.copy()
+        if reference is not None:
+            wanted[:, :3] = np.where(np.isnan(wanted[:, :3]), self.encode_all(model, near)[:, :3], wanted[:, :3])
+
+        def fits(found: Candidates) -> BoolArray:
+            branch = np.broadcast_to(found.sides, (*found.valid.shape, 3))
+            asked = wanted[:, None, :3]
+            met = np.isnan(asked) | (_branch_flags(model, branch, found.joints) == asked)
+            met[..., 0] |= found.straight
+            return np.asarray(met.all(axis=-1))
+
+        def turn_cost(axis: int, values: FloatArray) -> FloatArray | None:
+            if axis not in TURN_AXES.values():
+                return None
+            asked = wanted[:, 3 + list(TURN_AXES.values()).index(axis), None, None]
+            return np.where(np.isnan(asked) | (_beyond(values) == asked), 0.0, np.inf)
+
+        return choose(model, flanges, near, Rule(fits, turn_cost, near))
 
     def format_pose(self, model: RobotModel, matrix: FloatArray, joints: FloatArray | None) -> str:
         """`x,y,z,Rx,Ry,Rz`, and with joints ` RCONF ...` behind it."""
@@ -94,6 +122,14 @@ class InformNotation:
         if joints is None:
             return text
         return f"{text} RCONF {','.join(str(flag) for flag in self.encode(model, joints).values())}"
+
+    def poses_of(self, values: FloatArray) -> FloatArray:
+        """Poses (k, 4, 4) of x, y, z, Rx, Ry, Rz (k, 6)."""
+        return pose_matrix(values[:, :3], zyx_to_matrix(values[:, :2:-1]))
+
+    def values_of(self, poses: FloatArray) -> FloatArray:
+        """x, y, z, Rx, Ry, Rz (k, 6) of poses (k, 4, 4)."""
+        return np.hstack([poses[:, :3, 3], matrix_to_zyx(poses)[:, ::-1]])
 
     def parse_pose(self, text: str) -> tuple[FloatArray, dict[str, int | None]]:
         """Pose and flags of `[C00001=]x,y,z,Rx,Ry,Rz [RCONF l,m,n,o,p,q]`; `SourceError` when it is none."""

@@ -11,9 +11,12 @@ from typing import Final
 
 import numpy as np
 
-from rpl.emulator.configuration import Flags, Selection, format_number
+from rpl.emulator.arms import BoolArray
+from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel, Solution
-from rpl.emulator.rotations import FloatArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
+from rpl.emulator.postures import sides
+from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
+from rpl.emulator.selection import Candidates, Chosen, Rule, choose
 from rpl.errors import SourceError
 
 # The branch bits of S; bit 3 is unused, bit 4 (absolute accuracy) and above have no branch meaning.
@@ -21,6 +24,11 @@ BRANCH_BITS: Final = 0b111
 WRIST_BIT: Final = 0b100
 # The controller does not look at the T bit of an axis that is this close to zero, degrees (about 0.0349 rad).
 TURN_IGNORED_DEG: Final = 2.0
+# An axis that a singular end point leaves free is moved to zero: $SINGUL_POS is 0 as delivered (KR C2 operating
+# handbook, machine data 2.1.151, https://manualshive.com/en/manual/kuka/kr-c2/2009633?page=74).
+SINGULAR_AXIS_DEG: Final = 0.0
+# No arm reaches further than this.
+FARTHEST_MM: Final = 1e5
 # X of a point that was declared by an inline form but never taught.
 UNTAUGHT_MM: Final = 666666.688
 
@@ -36,13 +44,17 @@ class KrlNotation:
 
     name: Final = "krl"
     fields: Final = ("s", "t")
+    pose_fields: Final = ("x", "y", "z", "a", "b", "c")
 
     def encode(self, model: RobotModel, joints: FloatArray) -> dict[str, int]:
         """S and T that the controller shows at these joints (n,)."""
-        posture = model.posture(joints)
-        status = posture.behind_axis1 + 2 * posture.elbow_above_stretched + 4 * posture.wrist_negative
-        turn = sum(1 << axis for axis, angle in enumerate(joints) if angle < 0.0)
-        return {"s": status, "t": turn}
+        status, turn = self.encode_all(model, joints[None])[0]
+        return {"s": int(status), "t": int(turn)}
+
+    def encode_all(self, model: RobotModel, joints: FloatArray) -> IntArray:
+        """S and T (k, 2) at joints (k, n)."""
+        turn = ((joints < 0.0) * (1 << np.arange(model.axes))).sum(axis=-1)
+        return np.stack([_status(sides(model, joints)), turn], axis=-1)
 
     def select(self, model: RobotModel, flange: FloatArray, flags: Flags, reference: FloatArray | None) -> Selection:
         """The solution of a PTP to a POS: S chooses the branch, T the revolution of each axis.
@@ -53,41 +65,45 @@ class KrlNotation:
         status, turn = flags.get("s"), flags.get("t")
         if reference is None and (status is None or turn is None):
             return Selection(None, "the first motion needs both S and T")
-        if abs(float(flange[0, 3])) > 1e5:
+        if abs(float(flange[0, 3])) > FARTHEST_MM:
             return Selection(None, "the point is not taught" if is_untaught(flange) else "the pose is out of reach")
-        solutions = model.inverse(flange, reference)
-        if not solutions:
+        found = self.select_all(model, flange[None], flag_row(self.fields, flags), reference)
+        if not found.reachable[0]:
             return Selection(None, "the pose is out of reach")
+        if not np.isnan(found.joints[0, 0]):
+            return Selection(found.joints[0])
         if status is None and reference is not None:
             status = self.encode(model, reference)["s"]
-        wanted = (status or 0) & BRANCH_BITS
-        chosen = [s for s in solutions if self._has_status(model, s, wanted)]
-        choices = [c for s in chosen for c in (self._turned(model, s, turn, reference),) if c is not None]
-        if choices:
-            near = model.home if reference is None else reference
-            return Selection(min(choices, key=lambda c: float(np.abs(c - near).max())))
-        return Selection(None, self._refusal(model, solutions, wanted, turn))
+        possible = model.inverse(flange, reference)
+        return Selection(None, self._refusal(model, possible, (status or 0) & BRANCH_BITS, turn))
 
-    def _has_status(self, model: RobotModel, solution: Solution, wanted: int) -> bool:
-        differing = self.encode(model, solution.joints)["s"] ^ wanted
-        straight = solution.singular and model.axes > 4 and solution.joints[4] == 0.0
-        return differing == 0 or (straight and differing == WRIST_BIT)
+    def select_all(
+        self, model: RobotModel, flanges: FloatArray, flags: FloatArray, reference: FloatArray | None
+    ) -> Chosen:
+        """As `select`, for flange poses (k, 4, 4) and flags (k, 2); a point not taught is not reachable."""
+        near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
+        status, turn = flags.T
+        if reference is not None:
+            kept = self.encode_all(model, near)[:, 0]
+            status = np.where(np.isnan(status), kept, status)
+        missing = np.isnan(status) | (np.isnan(turn) & (reference is None))
+        missing |= np.abs(flanges[:, 0, 3]) > FARTHEST_MM
+        wanted = np.nan_to_num(status).astype(np.int64) & BRANCH_BITS
+        bits = np.nan_to_num(turn).astype(np.int64)
+        open_turn = np.isnan(turn)
 
-    def _turned(
-        self, model: RobotModel, solution: Solution, turn: int | None, reference: FloatArray | None
-    ) -> FloatArray | None:
-        """The revolution of each axis that T asks for; None when the limits leave none."""
-        if turn is None and reference is not None:
-            joints = model.nearest_turn(solution.joints, reference)
-            return None if model.within_limits(joints) else joints
-        wanted = np.array([bool((turn or 0) >> axis & 1) for axis in range(model.axes)])
-        choices = model.expand_turns(solution)
-        fits = ((choices < 0.0) == wanted) | (np.abs(choices) <= TURN_IGNORED_DEG)
-        choices = choices[fits.all(axis=1)]
-        if len(choices) == 0:
-            return None
-        near = np.zeros(model.axes) if reference is None else reference
-        return np.asarray(choices[np.argmin(np.abs(choices - near).sum(axis=1))])
+        def fits(found: Candidates) -> BoolArray:
+            differing = _status(found.sides)[None] ^ wanted[:, None]
+            met = (differing == 0) | (found.straight & (differing == WRIST_BIT))
+            return np.asarray(met & ~missing[:, None])
+
+        def turn_cost(axis: int, values: FloatArray) -> FloatArray:
+            negative = (bits >> axis & 1).astype(np.bool_)[:, None, None]
+            met = ((values < 0.0) == negative) | (np.abs(values) <= TURN_IGNORED_DEG) | open_turn[:, None, None]
+            return np.where(met, 0.0, np.inf)
+
+        free = np.full(model.axes, SINGULAR_AXIS_DEG)
+        return choose(model, flanges, near, Rule(fits, turn_cost, free, half_turned=False))
 
     def _refusal(self, model: RobotModel, solutions: tuple[Solution, ...], status: int, turn: int | None) -> str:
         possible = set()
@@ -110,6 +126,14 @@ class KrlNotation:
             parts += [f"S {flags['s']}", f"T {flags['t']}"]
         return "{" + ",".join(parts) + "}"
 
+    def poses_of(self, values: FloatArray) -> FloatArray:
+        """Poses (k, 4, 4) of X, Y, Z, A, B, C (k, 6)."""
+        return pose_matrix(values[:, :3], zyx_to_matrix(values[:, 3:]))
+
+    def values_of(self, poses: FloatArray) -> FloatArray:
+        """X, Y, Z, A, B, C (k, 6) of poses (k, 4, 4)."""
+        return np.hstack([poses[:, :3, 3], matrix_to_zyx(poses)])
+
     def parse_pose(self, text: str) -> tuple[FloatArray, dict[str, int | None]]:
         """Pose and flags of a FRAME, POS or E6POS; external axes are read over. `SourceError` when it is none."""
         found = _AGGREGATE.search(text)
@@ -127,6 +151,11 @@ class KrlNotation:
         x, y, z, a, b, c = (values[axis] for axis in _AXES)
         flags = {key.lower(): int(values[key]) if key in values else None for key in ("S", "T")}
         return pose_matrix([x, y, z], zyx_to_matrix([a, b, c])), flags
+
+
+def _status(branch: IntArray) -> IntArray:
+    """S (...) of shoulder, elbow and wrist (..., 3)."""
+    return np.asarray(branch @ np.array([1, -2, 4]) + 2)
 
 
 def _number(text: str) -> float:

@@ -11,9 +11,12 @@ from typing import Final
 
 import numpy as np
 
-from rpl.emulator.configuration import Flags, Selection, format_number
+from rpl.emulator.arms import BoolArray
+from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel, Solution
-from rpl.emulator.rotations import FloatArray, matrix_to_quaternion, pose_matrix, quaternion_to_matrix
+from rpl.emulator.postures import sides
+from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_quaternion, pose_matrix, quaternion_to_matrix
+from rpl.emulator.selection import Candidates, Chosen, Rule, choose
 from rpl.errors import SourceError
 
 # With ConfJ \On an axis may lie this far outside its quarter turn and still counts as being in it, degrees.
@@ -21,6 +24,8 @@ QUARTER_SLACK_DEG: Final = 45.0
 # Arms whose parallelogram leaves no choice: their controller does not use cfx.
 CFX_UNUSED: Final = frozenset({"abb_irb2400"})
 QUARTERS: Final = {"cf1": 0, "cf4": 3, "cf6": 5}
+# What shoulder, elbow and wrist count in cfx.
+CFX_WEIGHTS: Final = np.array([4, 2, 1])
 # A quaternion may be off unit length by the rounding of four printed decimals, not more.
 UNIT_SLACK: Final = 0.01
 
@@ -36,15 +41,21 @@ class RapidNotation:
 
     name: Final = "rapid"
     fields: Final = ("cf1", "cf4", "cf6", "cfx")
+    pose_fields: Final = ("x", "y", "z", "q1", "q2", "q3", "q4")
 
     def encode(self, model: RobotModel, joints: FloatArray) -> dict[str, int]:
         """The confdata that the controller shows at these joints (n,)."""
-        flags = {
-            name: int(np.floor(joints[axis] / 90.0)) if axis < model.axes else 0 for name, axis in QUARTERS.items()
-        }
-        posture = model.posture(joints)
-        cfx = 4 * posture.behind_axis1 + 2 * posture.behind_lower_arm + posture.wrist_negative
-        return {**flags, "cfx": 0 if model.name in CFX_UNUSED else cfx}
+        return dict(zip(self.fields, map(int, self.encode_all(model, joints[None])[0]), strict=True))
+
+    def encode_all(self, model: RobotModel, joints: FloatArray) -> IntArray:
+        """Confdata (k, 4) at joints (k, n)."""
+        flags = np.zeros((len(joints), 4), dtype=np.int64)
+        for place, axis in enumerate(QUARTERS.values()):
+            if axis < model.axes:
+                flags[:, place] = np.floor(joints[:, axis] / 90.0)
+        if model.name not in CFX_UNUSED:
+            flags[:, 3] = sides(model, joints) @ CFX_WEIGHTS
+        return flags
 
     def select(self, model: RobotModel, flange: FloatArray, flags: Flags, reference: FloatArray | None) -> Selection:
         """The solution of a MoveJ to a robtarget.
@@ -52,36 +63,35 @@ class RapidNotation:
         Given flags (ConfJ \\On) must be met: cfx exactly, each quarter turn within 45 degrees, an exact one preferred.
         Missing flags (ConfJ \\Off) keep the main-arm configuration of `reference` and take the nearest revolution.
         """
-        solutions = model.inverse(flange, reference)
-        if not solutions:
+        found = self.select_all(model, flange[None], flag_row(self.fields, flags), reference)
+        if not found.reachable[0]:
             return Selection(None, "the position is outside the reach")
-        near = model.home if reference is None else reference
-        best: tuple[float, float] = (np.inf, np.inf)
-        joints: FloatArray | None = None
-        for solution in solutions:
-            if not self._has_main_configuration(model, solution, flags, reference):
-                continue
-            for choice in model.expand_turns(solution):
-                outside = _outside_quarters(model, choice, flags)
-                rank = (outside, float(np.linalg.norm((choice - near) / model.speeds)))
-                if outside <= QUARTER_SLACK_DEG and rank < best:
-                    best, joints = rank, choice
-        return Selection(joints) if joints is not None else Selection(None, self._refusal(model, solutions, flags))
+        if not np.isnan(found.joints[0, 0]):
+            return Selection(found.joints[0])
+        return Selection(None, self._refusal(model, model.inverse(flange, reference), flags))
 
-    def _has_main_configuration(
-        self, model: RobotModel, solution: Solution, flags: Flags, reference: FloatArray | None
-    ) -> bool:
-        wanted = flags.get("cfx")
-        if model.name in CFX_UNUSED:
-            return True
-        if wanted is None:
-            if reference is None:
-                return True
-            now, then = model.posture(reference).branch, model.posture(solution.joints).branch
-            return (now.shoulder, now.elbow) == (then.shoulder, then.elbow)
-        differing = self.encode(model, solution.joints)["cfx"] ^ wanted
-        straight = solution.singular and model.axes > 4 and solution.joints[4] == 0.0
-        return differing == 0 or (straight and differing == 1)
+    def select_all(
+        self, model: RobotModel, flanges: FloatArray, flags: FloatArray, reference: FloatArray | None
+    ) -> Chosen:
+        """As `select`, for flange poses (k, 4, 4) and flags (k, 4)."""
+        near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
+        wanted = flags[:, 3]
+        now = sides(model, near)
+
+        def fits(found: Candidates) -> BoolArray:
+            if model.name in CFX_UNUSED:
+                return np.ones(found.valid.shape, dtype=np.bool_)
+            kept = (found.sides[None, :, :2] == now[:, None, :2]).all(axis=-1) | (reference is None)
+            asked = np.nan_to_num(wanted).astype(np.int64)
+            differing = (found.sides @ CFX_WEIGHTS)[None] ^ asked[:, None]
+            met = (differing == 0) | (found.straight & (differing == 1))
+            return np.asarray(np.where(np.isnan(wanted)[:, None], kept, met))
+
+        def turn_cost(axis: int, values: FloatArray) -> FloatArray | None:
+            place = next((place for place, one in enumerate(QUARTERS.values()) if one == axis), None)
+            return None if place is None else _outside_quarter(values, flags[:, place])
+
+        return choose(model, flanges, near, Rule(fits, turn_cost, near, "time"))
 
     def _refusal(self, model: RobotModel, solutions: tuple[Solution, ...], flags: Flags) -> str:
         possible = set()
@@ -103,6 +113,18 @@ class RapidNotation:
         conf = ",".join(str(flags[field]) for field in self.fields)
         return f"[[{position}],[{turn}],[{conf}],[9E9,9E9,9E9,9E9,9E9,9E9]]"
 
+    def poses_of(self, values: FloatArray) -> FloatArray:
+        """Poses (k, 4, 4) of positions and quaternions (k, 7); NaN where a quaternion is not of length 1."""
+        length = np.linalg.norm(values[:, 3:], axis=1)
+        bad = ~(np.abs(length - 1.0) <= UNIT_SLACK)
+        poses = pose_matrix(values[:, :3], quaternion_to_matrix(np.where(bad[:, None], [1.0, 0, 0, 0], values[:, 3:])))
+        poses[bad] = np.nan
+        return poses
+
+    def values_of(self, poses: FloatArray) -> FloatArray:
+        """Positions and quaternions (k, 7) of poses (k, 4, 4)."""
+        return np.hstack([poses[:, :3, 3], matrix_to_quaternion(poses)])
+
     def parse_pose(self, text: str) -> tuple[FloatArray, dict[str, int | None]]:
         """Pose and flags of a robtarget, or of a pose (no flags); `SourceError` when it is neither."""
         found = _POSE.search(text)
@@ -118,18 +140,13 @@ class RapidNotation:
         return pose_matrix(position, quaternion_to_matrix(quaternion)), flags
 
 
-def _outside_quarters(model: RobotModel, joints: FloatArray, flags: Flags) -> float:
-    """How many degrees the worst axis lies outside the quarter turn asked of it; 0 when all are inside."""
-    worst = 0.0
-    for name, axis in QUARTERS.items():
-        quarter = flags.get(name)
-        if quarter is None or axis >= model.axes:
-            continue
-        angle = float(joints[axis])
-        if int(np.floor(angle / 90.0)) != quarter:
-            low = 90.0 * quarter
-            worst = max(worst, low - angle, angle - (low + 90.0), 1e-12)
-    return worst
+def _outside_quarter(angles: FloatArray, quarter: FloatArray) -> FloatArray:
+    """How many degrees angles (k, b, t) lie outside the quarter turn (k,) asked for, inf where that is too far."""
+    low = 90.0 * quarter[:, None, None]
+    exact = np.floor(angles / 90.0) == quarter[:, None, None]
+    outside = np.maximum(np.maximum(low - angles, angles - (low + 90.0)), 1e-12)
+    cost = np.where(exact | np.isnan(low), 0.0, outside)
+    return np.where(cost > QUARTER_SLACK_DEG, np.inf, cost)
 
 
 NOTATION: Final = RapidNotation()

@@ -12,9 +12,12 @@ from typing import Final
 
 import numpy as np
 
-from rpl.emulator.configuration import Flags, Selection, format_number
+from rpl.emulator.arms import BoolArray
+from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel
-from rpl.emulator.rotations import FloatArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
+from rpl.emulator.postures import sides
+from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
+from rpl.emulator.selection import Candidates, Chosen, Rule, choose
 from rpl.errors import SourceError
 
 from .words import POSTURE_FLAGS
@@ -31,39 +34,47 @@ class RplNotation:
 
     name: Final = "rpl"
     fields: Final = POSTURE_FLAGS
+    pose_fields: Final = _AXES
 
     def encode(self, model: RobotModel, joints: FloatArray) -> dict[str, int]:
         """The flags of these joints (n,)."""
-        branch = model.posture(joints).branch
+        return dict(zip(self.fields, map(int, self.encode_all(model, joints[None])[0]), strict=True))
+
+    def encode_all(self, model: RobotModel, joints: FloatArray) -> IntArray:
+        """Flags (k, 6) of joints (k, n)."""
         turns = model.turns(joints)
-        flags = {"shoulder": branch.shoulder, "elbow": branch.elbow, "wrist": branch.wrist}
-        return flags | {name: int(turns[axis]) if axis < model.axes else 0 for name, axis in _TURNS.items()}
+        columns = [turns[:, axis] if axis < model.axes else np.zeros(len(joints)) for axis in _TURNS.values()]
+        return np.column_stack([sides(model, joints), *columns]).astype(np.int64)
 
     def select(self, model: RobotModel, flange: FloatArray, flags: Flags, reference: FloatArray | None) -> Selection:
         """The solution nearest to `reference` (or the home position) among those that have the given flags."""
-        near = model.home if reference is None else reference
-        solutions = model.inverse(flange, near)
-        if not solutions:
+        found = self.select_all(model, flange[None], flag_row(self.fields, flags), reference)
+        if not found.reachable[0]:
             return Selection(None, "the pose is out of reach")
-        asked = {name: flags.get(name) for name in _BRANCH if flags.get(name) is not None}
-        fitting = [s for s in solutions if all(getattr(s.branch, name) == value for name, value in asked.items())]
-        fitting = fitting or [s for s in solutions if s.singular and self._but_wrist(s.branch, asked)]
-        choices = [joints for s in fitting for joints in model.expand_turns(s) if self._turned(model, joints, flags)]
-        if not choices:
-            return Selection(None, self._refusal(model, flags))
-        travel = [float(np.linalg.norm((joints - near) / model.speeds)) for joints in choices]
-        return Selection(choices[int(np.argmin(travel))])
+        if not np.isnan(found.joints[0, 0]):
+            return Selection(found.joints[0])
+        return Selection(None, self._refusal(model, flags))
 
-    def _but_wrist(self, branch: object, asked: dict[str, int | None]) -> bool:
-        """In a singular posture the wrist's side means nothing."""
-        return all(getattr(branch, name) == value for name, value in asked.items() if name != "wrist")
+    def select_all(
+        self, model: RobotModel, flanges: FloatArray, flags: FloatArray, reference: FloatArray | None
+    ) -> Chosen:
+        """As `select`, for flange poses (k, 4, 4) and flags (k, 6)."""
+        near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
 
-    def _turned(self, model: RobotModel, joints: FloatArray, flags: Flags) -> bool:
-        turns = model.turns(joints)
-        return all(
-            flags.get(name) is None or axis >= model.axes or int(turns[axis]) == flags[name]
-            for name, axis in _TURNS.items()
-        )
+        def fits(found: Candidates) -> BoolArray:
+            asked = flags[:, None, :3]
+            met = np.isnan(asked) | (found.sides[None] == asked)
+            met[..., 2] |= found.straight | found.singular  # in a singular posture the wrist's side means nothing
+            return np.asarray(met.all(axis=-1))
+
+        def turn_cost(axis: int, values: FloatArray) -> FloatArray | None:
+            if axis not in _TURNS.values():
+                return None
+            asked = flags[:, 3 + list(_TURNS.values()).index(axis), None, None]
+            turns = np.ceil((values - 180.0) / 360.0)
+            return np.where(np.isnan(asked) | (turns == asked), 0.0, np.inf)
+
+        return choose(model, flanges, near, Rule(fits, turn_cost, near, "time"))
 
     def _refusal(self, model: RobotModel, flags: Flags) -> str:
         asked = ", ".join(f"{name} {flags[name]}" for name in self.fields if flags.get(name) is not None)
@@ -76,6 +87,14 @@ class RplNotation:
         if joints is not None:
             parts += [f"{name}: {value}" for name, value in self.encode(model, joints).items()]
         return "{" + ", ".join(parts) + "}"
+
+    def poses_of(self, values: FloatArray) -> FloatArray:
+        """Poses (k, 4, 4) of x, y, z, a, b, c (k, 6)."""
+        return pose_matrix(values[:, :3], zyx_to_matrix(values[:, 3:]))
+
+    def values_of(self, poses: FloatArray) -> FloatArray:
+        """x, y, z, a, b, c (k, 6) of poses (k, 4, 4)."""
+        return np.hstack([poses[:, :3, 3], matrix_to_zyx(poses)])
 
     def parse_pose(self, text: str) -> tuple[FloatArray, dict[str, int | None]]:
         """Pose and flags of a written target. `SourceError` when it is none."""

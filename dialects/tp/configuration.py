@@ -12,9 +12,12 @@ from typing import Final
 
 import numpy as np
 
-from rpl.emulator.configuration import Flags, Selection, format_number
+from rpl.emulator.arms import BoolArray
+from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel, Solution
-from rpl.emulator.rotations import FloatArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
+from rpl.emulator.postures import sides
+from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
+from rpl.emulator.selection import Candidates, Chosen, Rule, choose
 from rpl.errors import SourceError
 
 FIELDS: Final = ("flip", "down", "back", "t1", "t4", "t6")
@@ -22,6 +25,9 @@ BRANCH: Final = ("flip", "down", "back")
 TURN_AXES: Final = {"t1": 0, "t4": 3, "t6": 5}
 # An angle this close to half a turn counts as exactly half a turn, degrees (measured by CrossArm).
 SNAP_DEG: Final = 5e-4
+# A wrist this close to straight is not flipped: rounding in double precision, degrees.
+ON_LINE_DEG: Final = 1e-10
+WRIST_AXIS: Final = 4
 _LISTED: Final = 6
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
@@ -32,12 +38,17 @@ _CONFIG = re.compile(
 _LETTERS: Final = {"flip": "NF", "down": "UD", "back": "TB"}
 
 
-def turn_of(angle: float) -> int:
-    """The turn number of an axis at an angle in degrees; half a turn belongs to the outer turn on both sides."""
-    nearest = round(angle / 180.0) * 180.0
-    if abs(angle - nearest) < SNAP_DEG:
-        angle = nearest
-    return int((abs(angle) + 180.0) // 360.0) * (1 if angle >= 0.0 else -1)
+def turns_of(angles: FloatArray) -> FloatArray:
+    """The turn numbers of an axis at angles in degrees; half a turn belongs to the outer turn on both sides."""
+    halves = np.round(angles / 180.0) * 180.0
+    angle = np.where(np.abs(angles - halves) < SNAP_DEG, halves, angles)
+    return np.asarray(np.floor((np.abs(angle) + 180.0) / 360.0) * np.sign(angle))
+
+
+def _flipped(model: RobotModel, angles: FloatArray) -> BoolArray:
+    """By the pendant's J5 on FANUC's own arms; on another arm by the same posture of the wrist."""
+    theta = angles * model.pendant_to_arm[WRIST_AXIS, WRIST_AXIS] - model.offsets[WRIST_AXIS]
+    return np.asarray(theta < -ON_LINE_DEG)
 
 
 def parse_config(text: str) -> dict[str, int | None] | None:
@@ -72,60 +83,66 @@ class TpNotation:
 
     name: Final = "tp"
     fields: Final = FIELDS
+    pose_fields: Final = ("x", "y", "z", "w", "p", "r")
 
     def encode(self, model: RobotModel, joints: FloatArray) -> dict[str, int]:
         """The flags that the pendant shows at these joints (n,)."""
-        posture = model.posture(joints)
-        flags = {
-            "flip": int(model.axes > 4 and self._flipped(model, joints)),
-            "down": int(not posture.elbow_above_stretched),
-            "back": int(posture.behind_axis1),
-        }
-        for name, axis in TURN_AXES.items():
-            flags[name] = turn_of(float(joints[axis])) if axis < model.axes else 0
-        return flags
+        return dict(zip(FIELDS, map(int, self.encode_all(model, joints[None])[0]), strict=True))
 
-    @staticmethod
-    def _flipped(model: RobotModel, joints: FloatArray) -> bool:
-        """By the pendant's J5 on FANUC's own arms; on another arm by the same posture of the wrist."""
-        theta = float(model.theta(joints)[4])
-        return theta < -1e-12
+    def encode_all(self, model: RobotModel, joints: FloatArray) -> IntArray:
+        """Flags (k, 6) at joints (k, n)."""
+        branch = sides(model, joints)
+        flags = np.zeros((len(joints), 6), dtype=np.int64)
+        if model.axes > 4:
+            flags[:, 0] = _flipped(model, joints[:, 4])
+        flags[:, 1], flags[:, 2] = branch[:, 1], branch[:, 0]
+        for place, axis in enumerate(TURN_AXES.values(), start=3):
+            if axis < model.axes:
+                flags[:, place] = turns_of(joints[:, axis])
+        return flags
 
     def select(self, model: RobotModel, flange: FloatArray, flags: Flags, reference: FloatArray | None) -> Selection:
         """The solution of a joint move to a Cartesian position: exactly the CONFIG asked for.
 
         Flags left out (a position register filled element by element) are kept from `reference`.
         """
-        solutions = model.inverse(flange, reference)
-        if not solutions:
+        found = self.select_all(model, flange[None], flag_row(FIELDS, flags), reference)
+        if not found.reachable[0]:
             return Selection(None, "the position is not reachable")
+        if not np.isnan(found.joints[0, 0]):
+            return Selection(found.joints[0])
         wanted = dict(flags)
         if reference is not None:
             kept = self.encode(model, reference)
             wanted |= {name: kept[name] for name in BRANCH if wanted.get(name) is None}
-        near = model.home if reference is None else reference
-        choices = [
-            choice
-            for solution in solutions
-            if self._has_branch(model, solution, wanted)
-            for choice in model.expand_turns(solution)
-            if self._has_turns(model, choice, wanted)
-        ]
-        if not choices:
-            return Selection(None, self._refusal(model, solutions, wanted))
-        return Selection(min(choices, key=lambda joints: float(np.abs(joints - near).max())))
+        return Selection(None, self._refusal(model, model.inverse(flange, reference), wanted))
 
-    def _has_branch(self, model: RobotModel, solution: Solution, wanted: Flags) -> bool:
-        shown = self.encode(model, solution.joints)
-        differing = [name for name in BRANCH if wanted.get(name) is not None and wanted[name] != shown[name]]
-        straight = solution.singular and model.axes > 4 and abs(float(solution.joints[4])) < 1e-9
-        return not differing or (straight and differing == ["flip"])
+    def select_all(
+        self, model: RobotModel, flanges: FloatArray, flags: FloatArray, reference: FloatArray | None
+    ) -> Chosen:
+        """As `select`, for flange poses (k, 4, 4) and flags (k, 6)."""
+        near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
+        wanted = flags.copy()
+        if reference is not None:
+            wanted[:, :3] = np.where(np.isnan(wanted[:, :3]), self.encode_all(model, near)[:, :3], wanted[:, :3])
+        flip, down, back = (wanted[:, place, None] for place in range(3))
 
-    def _has_turns(self, model: RobotModel, joints: FloatArray, wanted: Flags) -> bool:
-        return all(
-            wanted.get(name) is None or axis >= model.axes or turn_of(float(joints[axis])) == wanted[name]
-            for name, axis in TURN_AXES.items()
-        )
+        def fits(found: Candidates) -> BoolArray:
+            shoulder, elbow = found.sides[None, :, 0], found.sides[None, :, 1]
+            return np.asarray((np.isnan(back) | (shoulder == back)) & (np.isnan(down) | (elbow == down)))
+
+        def turn_cost(axis: int, values: FloatArray) -> FloatArray | None:
+            if axis == WRIST_AXIS and model.axes > 4:
+                asked, shown = flip[:, :, None], _flipped(model, values)
+                met = np.isnan(asked) | (shown == asked) | (values == 0.0)
+            elif axis in TURN_AXES.values():
+                asked = wanted[:, 3 + list(TURN_AXES.values()).index(axis), None, None]
+                met = np.isnan(asked) | (turns_of(values) == asked)
+            else:
+                return None
+            return np.where(met, 0.0, np.inf)
+
+        return choose(model, flanges, near, Rule(fits, turn_cost, near))
 
     def _refusal(self, model: RobotModel, solutions: tuple[Solution, ...], wanted: Flags) -> str:
         shown = [self.encode(model, joints) for solution in solutions for joints in model.expand_turns(solution)]
@@ -148,6 +165,18 @@ class TpNotation:
         if joints is not None:
             parts.insert(0, f"CONFIG : '{config_text(self.encode(model, joints))}'")
         return ", ".join(parts)
+
+    def poses_of(self, values: FloatArray) -> FloatArray:
+        """Poses (k, 4, 4) of X, Y, Z, W, P, R (k, 6)."""
+        return pose_matrix(values[:, :3], zyx_to_matrix(values[:, :2:-1]))
+
+    def values_of(self, poses: FloatArray) -> FloatArray:
+        """X, Y, Z, W, P, R (k, 6) of poses (k, 4, 4)."""
+        return np.hstack([poses[:, :3, 3], matrix_to_zyx(poses)[:, ::-1]])
+
+    def parse_flags(self, text: str) -> dict[str, int | None] | None:
+        """The flags of a CONFIG text."""
+        return parse_config(text)
 
     def parse_pose(self, text: str) -> tuple[FloatArray, dict[str, int | None]]:
         """Pose and flags of a Cartesian position; `SourceError` when it is none."""

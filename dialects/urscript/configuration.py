@@ -12,7 +12,14 @@ import numpy as np
 
 from rpl.emulator.configuration import Flags, Selection, format_number
 from rpl.emulator.model import RobotModel
-from rpl.emulator.rotations import FloatArray, matrix_to_rotation_vector, pose_matrix, rotation_vector_to_matrix
+from rpl.emulator.rotations import (
+    FloatArray,
+    IntArray,
+    matrix_to_rotation_vector,
+    pose_matrix,
+    rotation_vector_to_matrix,
+)
+from rpl.emulator.selection import Chosen, Rule, choose
 from rpl.errors import SourceError
 
 _POSE = re.compile(r"p?\s*\[([^\[\]]*)\]")
@@ -23,10 +30,22 @@ class UrscriptNotation:
 
     name: Final = "urscript"
     fields: Final = ()
+    pose_fields: Final = ("x", "y", "z", "rx", "ry", "rz")
 
     def encode(self, model: RobotModel, joints: FloatArray) -> dict[str, int]:
         """There is nothing to say about joints (n,)."""
         return {}
+
+    def encode_all(self, model: RobotModel, joints: FloatArray) -> IntArray:
+        """No columns for joints (k, n)."""
+        return np.zeros((len(joints), 0), dtype=np.int64)
+
+    def select_all(
+        self, model: RobotModel, flanges: FloatArray, flags: FloatArray, reference: FloatArray | None
+    ) -> Chosen:
+        """As `select`, for flange poses (k, 4, 4)."""
+        near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
+        return choose(model, flanges, near, Rule(lambda found: found.valid, lambda axis, values: None, near, "time"))
 
     def select(self, model: RobotModel, flange: FloatArray, flags: Flags, reference: FloatArray | None) -> Selection:
         """The solution nearest to the joints before the move; without any to the home position."""
@@ -41,6 +60,14 @@ class UrscriptNotation:
         vector = matrix_to_rotation_vector(matrix[:3, :3])
         values = [*(matrix[:3, 3] / 1000.0), *vector]
         return "p[" + ", ".join(format_number(float(value), 9) for value in values) + "]"
+
+    def poses_of(self, values: FloatArray) -> FloatArray:
+        """Poses (k, 4, 4) in mm of positions in m and rotation vectors (k, 6)."""
+        return pose_matrix(1000.0 * values[:, :3], rotation_vector_to_matrix(values[:, 3:]))
+
+    def values_of(self, poses: FloatArray) -> FloatArray:
+        """Positions in m and rotation vectors (k, 6) of poses (k, 4, 4)."""
+        return np.hstack([poses[:, :3, 3] / 1000.0, matrix_to_rotation_vector(poses)])
 
     def parse_pose(self, text: str) -> tuple[FloatArray, dict[str, int | None]]:
         """Pose of `p[...]`; `SourceError` when it is none."""

@@ -12,9 +12,13 @@ from typing import Final
 
 import numpy as np
 
-from rpl.emulator.configuration import Flags, Selection, format_number
+from rpl.emulator.arms import BoolArray
+from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel
-from rpl.emulator.rotations import FloatArray, pose_matrix, zyx_to_matrix
+from rpl.emulator.postures import sides
+from rpl.emulator.rotations import FloatArray, IntArray, pose_matrix, zyx_to_matrix, zyz_to_matrix
+from rpl.emulator.rotations import matrix_to_zyz as all_zyz
+from rpl.emulator.selection import Candidates, Chosen, Rule, choose
 from rpl.errors import SourceError
 
 WORDS: Final = {"shoulder": ("RIGHTY", "LEFTY"), "elbow": ("ABOVE", "BELOW"), "wrist": ("NOFLIP", "FLIP")}
@@ -27,48 +31,55 @@ def _only_elbow(model: RobotModel) -> bool:
     return len({branch.shoulder for branch in model.arm.branches}) == 1
 
 
+def _words(model: RobotModel, branch: IntArray) -> IntArray:
+    """Flags (..., 3) of shoulder, elbow and wrist (..., 3)."""
+    shoulder, elbow, wrist = branch[..., 0], branch[..., 1], branch[..., 2]
+    if _only_elbow(model):
+        return np.stack([elbow, 0 * elbow, 0 * elbow], axis=-1)
+    return np.stack([shoulder, elbow ^ shoulder, wrist], axis=-1)
+
+
 class VplusNotation:
     """Handedness, elbow, wrist."""
 
     name: Final = "vplus"
     fields: Final = ("shoulder", "elbow", "wrist")
+    pose_fields: Final = ("x", "y", "z", "yaw", "pitch", "roll")
 
     def encode(self, model: RobotModel, joints: FloatArray) -> dict[str, int]:
         """The posture of these joints (n,)."""
-        branch = model.posture(joints).branch
-        return self._of_branch(model, (branch.shoulder, branch.elbow, branch.wrist))
+        return dict(zip(self.fields, map(int, self.encode_all(model, joints[None])[0]), strict=True))
 
-    def _of_branch(self, model: RobotModel, branch: tuple[int, int, int]) -> dict[str, int]:
-        shoulder, elbow, wrist = branch
-        if _only_elbow(model):
-            return {"shoulder": elbow, "elbow": 0, "wrist": 0}
-        return {"shoulder": shoulder, "elbow": elbow ^ shoulder, "wrist": wrist}
+    def encode_all(self, model: RobotModel, joints: FloatArray) -> IntArray:
+        """Postures (k, 3) of joints (k, n)."""
+        return _words(model, sides(model, joints))
 
     def select(self, model: RobotModel, flange: FloatArray, flags: Flags, reference: FloatArray | None) -> Selection:
         """The solution in the posture asked for; what is not asked for stays as the arm has it, and each axis takes
         its shortest way. Without a reference everything not asked for is free."""
-        near = model.home if reference is None else reference
-        solutions = model.inverse(flange, near)
-        if not solutions:
+        found = self.select_all(model, flange[None], flag_row(self.fields, flags), reference)
+        if not found.reachable[0]:
             return Selection(None, "the location is out of range")
-        wanted = dict.fromkeys(self.fields) if reference is None else dict(self.encode(model, near))
+        if not np.isnan(found.joints[0, 0]):
+            return Selection(found.joints[0])
+        wanted = dict.fromkeys(self.fields) if reference is None else dict(self.encode(model, reference))
         wanted.update({name: value for name, value in flags.items() if value is not None and name in wanted})
-        best: tuple[float, FloatArray] | None = None
-        for solution in solutions:
-            branch = solution.branch
-            shown = self._of_branch(model, (branch.shoulder, branch.elbow, branch.wrist))
-            if not all(
-                wanted[name] in (None, shown[name]) or (solution.singular and name == "wrist") for name in self.fields
-            ):
-                continue
-            joints = model.nearest_turn(solution.joints, near)
-            travel = float(np.linalg.norm((joints - near) / model.speeds))
-            if not model.within_limits(joints) and (best is None or travel < best[0]):
-                best = travel, joints
-        if best is not None:
-            return Selection(best[1])
         asked = " ".join(WORDS[name][value] for name, value in wanted.items() if value is not None)
         return Selection(None, f"the location cannot be reached {asked}".rstrip())
+
+    def select_all(
+        self, model: RobotModel, flanges: FloatArray, flags: FloatArray, reference: FloatArray | None
+    ) -> Chosen:
+        """As `select`, for flange poses (k, 4, 4) and flags (k, 3)."""
+        near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
+        wanted = flags if reference is None else np.where(np.isnan(flags), self.encode_all(model, near), flags)
+
+        def fits(found: Candidates) -> BoolArray:
+            met = np.isnan(wanted)[:, None] | (_words(model, found.sides)[None] == wanted[:, None])
+            met[..., 2] |= found.straight
+            return np.asarray(met.all(axis=-1))
+
+        return choose(model, flanges, near, Rule(fits, lambda axis, values: None, near, "time"))
 
     def format_pose(self, model: RobotModel, matrix: FloatArray, joints: FloatArray | None) -> str:
         """`TRANS(x, y, z, yaw, pitch, roll)`; with joints the posture's words behind it, as a comment."""
@@ -79,6 +90,22 @@ class VplusNotation:
         flags = self.encode(model, joints)
         used = ("shoulder",) if _only_elbow(model) else self.fields
         return f"{text} ;{' '.join(WORDS[name][flags[name]] for name in used)}"
+
+    def poses_of(self, values: FloatArray) -> FloatArray:
+        """Poses (k, 4, 4) of x, y, z, yaw, pitch, roll (k, 6)."""
+        return pose_matrix(values[:, :3], zyz_to_matrix(values[:, 3:]))
+
+    def values_of(self, poses: FloatArray) -> FloatArray:
+        """x, y, z, yaw, pitch, roll (k, 6) of poses (k, 4, 4)."""
+        return np.hstack([poses[:, :3, 3], all_zyz(poses)])
+
+    def parse_flags(self, text: str) -> dict[str, int | None]:
+        """The posture of words such as `LEFTY ABOVE`."""
+        given = set(text.upper().replace(";", " ").replace(",", " ").split())
+        return {
+            name: next((value for value, word in enumerate(words) if word in given), None)
+            for name, words in WORDS.items()
+        }
 
     def parse_pose(self, text: str) -> tuple[FloatArray, dict[str, int | None]]:
         """Pose and posture of `TRANS(...) ;LEFTY ...`; `SourceError` when it is none."""
@@ -91,11 +118,7 @@ class VplusNotation:
             raise SourceError(f"'{found[0]}' is no V+ location: up to six numbers are expected")
         values = [float(number[1] or 0.0) if number else 0.0 for number in numbers]
         x, y, z, yaw, pitch, roll = values + [0.0] * (6 - len(values))
-        rest = set(text[found.end() :].upper().replace(";", " ").split())
-        flags = {
-            name: next((value for value, word in enumerate(words) if word in rest), None)
-            for name, words in WORDS.items()
-        }
+        flags = self.parse_flags(text[found.end() :])
         turn = zyx_to_matrix([yaw, pitch, 0.0]) @ zyx_to_matrix([roll, 0.0, 0.0])
         return pose_matrix([x, y, z], turn), flags
 

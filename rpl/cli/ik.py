@@ -12,11 +12,27 @@ from rpl.cli.kinematics import (
     joint_list,
     joints_of,
     matrix_rows,
+    named_notation,
     pose_of,
     required_robot,
     tool_option,
 )
 from rpl.cli.output import json_option, print_json, robot_named
+from rpl.cli.points import (
+    PREVIOUS,
+    Outcome,
+    Targets,
+    chunks,
+    joint_cells,
+    kept_columns,
+    points_option,
+    read_table,
+    report,
+    solved,
+    target_cells,
+    target_columns,
+    targets_of,
+)
 from rpl.errors import UsageError
 
 if TYPE_CHECKING:
@@ -25,38 +41,57 @@ if TYPE_CHECKING:
     from rpl.emulator.rotations import FloatArray
 
 _SAME_DEG = 1e-6
+_NEAR = (
+    "Joints before the move: they decide what the flags leave open. With --points also 'previous': each target is "
+    "reached from the one before."
+)
 
 
 @click.command("ik")
 @required_robot
-@click.option("--pose", required=True, metavar="TEXT", help="Pose in the dialect's notation, or x,y,z,a,b,c (mm, deg).")
-@click.option("--near", metavar="A,B,..", help="Joints before the move: they decide what the flags leave open.")
+@click.option("--pose", metavar="TEXT", help="Pose in the dialect's notation, or x,y,z,a,b,c (mm, deg).")
+@points_option
+@click.option("--near", metavar="A,B,..", help=_NEAR)
+@click.option("--to-dialect", metavar="D", help="Give the selected solution as a target in this language's notation.")
 @tool_option
 @dialect_option
 @json_option
-def command(robot: str, pose: str, near: str | None, tool: str | None, dialect: str | None, as_json: bool) -> int:
+def command(
+    robot: str, pose: str | None, points: str | None, near: str | None, to_dialect: str | None, tool: str | None,
+    dialect: str | None, as_json: bool,
+) -> int:  # fmt: skip
     """Inverse kinematics: a pose to all joint solutions; the one that the pose's flags select is marked.
 
-    Each posture of the arm is listed once, with the turns nearest to --near (else to the home position).
+    Each posture of the arm is listed once, with the turns nearest to --near (else to the home position). With
+    --to-dialect the selected one is given as a target of that language instead. With --points a file of targets becomes
+    a table of joints (and of targets), as CSV or as `points` in JSON.
     """
     model = robot_named(robot)
     if model is None:
         raise UsageError("--robot is needed")
+    if (pose is None) == (points is None):
+        raise UsageError("either --pose or --points is needed")
     name, notation = chosen_notation(dialect, model)
-    target, flags = pose_of(pose, "--pose", notation)
+    other = named_notation(to_dialect) if to_dialect is not None else None
+    tip = pose_of(tool, "--tool", notation)[0] if tool else None
+    if points is not None:
+        return _table(model, name, notation, other, points, near, tip, as_json)
+    target, flags = pose_of(pose or "", "--pose", notation)
     flange = target
-    if tool:
+    if tip is not None:
         import numpy as np
 
-        flange = target @ np.linalg.inv(pose_of(tool, "--tool", notation)[0])
+        flange = target @ np.linalg.inv(tip)
     reference = joints_of(near, "--near", model) if near else None
     selection = None
-    if reference is not None or any(value is not None for value in flags.values()):
+    if reference is not None or other is not None or any(value is not None for value in flags.values()):
         selection = notation.select(model, flange, flags, reference)
+    chosen = selection.joints if selection is not None else None
     rows = solutions(model, notation, flange, reference, selection)
     reason = selection.reason if selection is not None else "" if rows else "the pose is out of reach"
+    text = other[1].format_pose(model, target, chosen) if other is not None and chosen is not None else None
     if as_json:
-        document = {
+        document: dict[str, object] = {
             "robot": model.name,
             "dialect": name,
             "matrix": matrix_rows(flange),
@@ -64,13 +99,50 @@ def command(robot: str, pose: str, near: str | None, tool: str | None, dialect: 
             "solutions": rows,
             "reason": reason,
         }
+        if other is not None:
+            shown = other[1].encode(model, chosen) if chosen is not None else None
+            document["converted"] = {"dialect": other[0], "pose": text, "configuration": shown}
         print_json(document)
-    else:
+    elif other is None:
         for row in rows:
             print_solution(row)
+    elif text is not None:
+        click.echo(text)
     if reason:
         click.echo(f"rpl: {reason}", err=True)
-    return 0 if rows else 1
+    return 0 if rows and (other is None or text is not None) else 1
+
+
+def _table(
+    model: RobotModel, name: str, notation: Notation, other: tuple[str, Notation] | None, path: str, near: str | None,
+    tool: FloatArray | None, as_json: bool,
+) -> int:  # fmt: skip
+    """Rows of targets to rows of joints, and of another language's targets."""
+    import numpy as np
+
+    table = read_table(path)
+    follow = near == PREVIOUS
+    here = joints_of(near, "--near", model) if near and not follow else None
+    made = target_columns(other[1]) if other is not None else ()
+    used = (*made, "config", *target_columns(notation))
+    kept = kept_columns(table, used)
+    joint_names = tuple(f"j{axis}" for axis in range(1, model.axes + 1))
+    outcome = Outcome(("line", *(table.columns[place] for place in kept), *joint_names, *made))
+    for part in chunks(table.rows):
+        targets = targets_of(table, part, notation, outcome)
+        flanges = targets.poses if tool is None else targets.poses @ np.linalg.inv(tool)
+        rows, reached, joints, here = solved(
+            model, notation, Targets(targets.rows, flanges, targets.flags), here, follow, outcome
+        )
+        tips = reached if tool is None else reached @ tool
+        cells = target_cells(model, other[1], tips, joints) if other is not None else [()] * len(rows)
+        for row, one, more in zip(rows, joint_cells(joints), cells, strict=True):
+            aside = tuple(row.cells[place] if place < len(row.cells) else "" for place in kept)
+            outcome.rows.append((row.line, (*aside, *one, *more)))
+    facts: dict[str, object] = {"robot": model.name, "dialect": name}
+    if other is not None:
+        facts["to_dialect"] = other[0]
+    return report(table, outcome, facts, as_json)
 
 
 def solutions(

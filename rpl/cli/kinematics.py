@@ -37,12 +37,9 @@ def notations() -> dict[str, Notation]:
 
 def chosen_notation(dialect: str | None, model: RobotModel) -> tuple[str, Notation]:
     """The dialect asked for; else the one whose title names the robot's maker; else the first there is."""
-    known = notations()
     if dialect is not None:
-        name = registry.dialect(dialect).name
-        if name not in known:
-            raise UsageError(f"{name} has no notation of poses: there are {', '.join(known)}")
-        return name, known[name]
+        return named_notation(dialect)
+    known = notations()
     for name, notation in known.items():
         if model.maker and model.maker.lower() in registry.dialect(name).title.lower():
             return name, notation
@@ -50,6 +47,14 @@ def chosen_notation(dialect: str | None, model: RobotModel) -> tuple[str, Notati
         raise UsageError("no language with a notation of poses is installed")
     first = next(iter(known))
     return first, known[first]
+
+
+def named_notation(dialect: str) -> tuple[str, Notation]:
+    """A dialect's notation of poses. Raises UsageError when it has none."""
+    name, known = registry.dialect(dialect).name, notations()
+    if name not in known:
+        raise UsageError(f"{name} has no notation of poses: there are {', '.join(known)}")
+    return name, known[name]
 
 
 def joints_of(text: str, what: str, model: RobotModel) -> FloatArray:

@@ -4,12 +4,15 @@ Every brand has its own flags beside a pose; each dialect that has some offers a
 hands it the robot model and never looks at the flags itself.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
+
+import numpy as np
 
 from rpl.emulator.model import RobotModel
-from rpl.emulator.rotations import FloatArray
+from rpl.emulator.rotations import FloatArray, IntArray
+from rpl.emulator.selection import Chosen
 
 Flags = Mapping[str, int | None]
 
@@ -48,6 +51,46 @@ class Notation(Protocol):
 
     def parse_pose(self, text: str) -> tuple[FloatArray, dict[str, int | None]]:
         """The pose (4, 4) and the flags of a pose in the dialect's text; `SourceError` when it is none."""
+
+
+@runtime_checkable
+class BatchNotation(Protocol):
+    """A notation that also works on many targets at once, as columns of numbers."""
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """Names of the flags."""
+
+    @property
+    def pose_fields(self) -> tuple[str, ...]:
+        """Names of the numbers of a pose in the order they are written."""
+
+    def encode_all(self, model: RobotModel, joints: FloatArray) -> IntArray:
+        """The flags (k, f), in the order of `fields`, at joints (k, n)."""
+
+    def select_all(
+        self, model: RobotModel, flanges: FloatArray, flags: FloatArray, reference: FloatArray | None
+    ) -> Chosen:
+        """As `select`, for flange poses (k, 4, 4), flags (k, f) NaN for a missing one, reference (n,) or (k, n)."""
+
+    def poses_of(self, values: FloatArray) -> FloatArray:
+        """Poses (k, 4, 4) in mm of the numbers (k, p) that the language writes."""
+
+    def values_of(self, poses: FloatArray) -> FloatArray:
+        """The numbers (k, p) that the language writes for poses (k, 4, 4)."""
+
+
+@runtime_checkable
+class WordedFlags(Protocol):
+    """A notation that writes its flags as words of their own."""
+
+    def parse_flags(self, text: str) -> dict[str, int | None] | None:
+        """The flags of such words, None when they are none."""
+
+
+def flag_row(fields: Sequence[str], flags: Flags) -> FloatArray:
+    """Flags as one row (1, f) of numbers, NaN for a missing one."""
+    return np.array([[np.nan if flags.get(name) is None else float(flags[name] or 0) for name in fields]])
 
 
 def format_number(value: float, places: int) -> str:

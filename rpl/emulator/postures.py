@@ -15,12 +15,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rpl.emulator.arms import OpwArm
+from rpl.emulator.recognise import PlacedArm
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
-    from rpl.emulator.rotations import FloatArray
+    from rpl.emulator.rotations import FloatArray, IntArray
 
 ASKED_POSTURES = ("posture_shoulder", "posture_elbow", "posture_wrist")
+# Rounding in double precision: a wrist centre this close to axis 1, an angle this close to its boundary, is on it.
+ON_AXIS_MM, ON_LINE_RAD = 1e-9, 1e-12
 # Which side of a branch a word asks for: 1 is behind axis 1, elbow down (seen from outside), wrist turned over.
 _SIDES = {"front": 0, "back": 1, "up": 0, "down": 1, "noflip": 0, "flip": 1}
 
@@ -67,6 +70,25 @@ def _sine(model: RobotModel, amplitude: float, thetas: tuple[int, ...], offset: 
     ends = np.stack([rows * model.limits[:, 0], rows * model.limits[:, 1]])
     low, high = float(ends.min(axis=0).sum()) + start, float(ends.max(axis=0).sum()) + start
     return Sine(float(amplitude), tuple(float(row) for row in rows), start, low > -180.0 and high < 180.0)
+
+
+def sides(model: RobotModel, joints: FloatArray) -> IntArray:
+    """Shoulder, elbow and wrist (..., 3) of joints (..., n), 0 or 1 as in rpl.emulator.arms.Branch. What lies on a
+    boundary within rounding is on the near side of it."""
+    theta = model.theta(joints)
+    arm = model.arm.arm if isinstance(model.arm, PlacedArm) else model.arm
+    if isinstance(arm, OpwArm):
+        reach, _ = arm.in_plane(theta)
+        bend, wrist = _half_turn(theta[..., 2] + arm.elbow_angle), _half_turn(theta[..., 4])
+        return np.stack([reach < -ON_AXIS_MM, bend < -ON_LINE_RAD, wrist < -ON_LINE_RAD], axis=-1).astype(np.int64)
+    flat = theta.reshape(-1, model.axes)
+    found = [(one.shoulder, one.elbow, one.wrist) for one in map(arm.branch, flat)]
+    return np.array(found, dtype=np.int64).reshape(*theta.shape[:-1], 3)
+
+
+def _half_turn(angle: FloatArray) -> FloatArray:
+    """Radians into [-pi, pi), those inside untouched."""
+    return np.where(np.abs(angle) <= np.pi, angle, (angle + np.pi) % (2.0 * np.pi) - np.pi)
 
 
 def in_posture(model: RobotModel, flange: FloatArray, near: FloatArray, asked: Mapping[str, str]) -> FloatArray | None:

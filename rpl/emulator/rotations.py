@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 # Below this sine the axis that an angle turns about has no direction left in double precision.
 GIMBAL = 1e-9

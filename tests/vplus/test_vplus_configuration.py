@@ -10,6 +10,7 @@ from rpl.dialects.vplus.configuration import NOTATION, matrix_to_zyz
 
 from rpl.emulator.model import load_robot
 from rpl.emulator.rotations import zyx_to_matrix
+from rpl.emulator.selection import STRAIGHT_DEG
 from rpl.errors import SourceError
 
 VIPER, COBRA = load_robot("adept_viper_s650"), load_robot("adept_cobra_s600")
@@ -51,7 +52,8 @@ def test_the_posture_that_is_shown_selects_the_joints_again(angles: tuple[float,
     flange = VIPER.forward(joints)
     found = NOTATION.select(VIPER, flange, NOTATION.encode(VIPER, joints), joints)
     assert found.joints is not None
-    assert np.allclose(VIPER.forward(found.joints), flange, atol=1e-5)
+    missed = 1e-5 if abs(joints[4]) > STRAIGHT_DEG else 0.003  # a wrist straight within rounding is made straight
+    assert np.allclose(VIPER.forward(found.joints), flange, atol=missed)
     assert NOTATION.encode(VIPER, found.joints) == NOTATION.encode(VIPER, joints) or abs(joints[4]) < 0.1
 
 

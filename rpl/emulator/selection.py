@@ -1,0 +1,153 @@
+"""The choice among an arm's solutions for a target, for one pose or for a whole file of them at once.
+
+Each brand says in its own way which posture and which revolution of each axis a target means (`rpl.emulator.
+configuration`). What they share is here as array operations: all solutions of all poses, the turns of each axis inside
+its limits, and the nearest of those that the brand's rule leaves over. A straight wrist is taken as straight within the
+rounding of printed poses, because the solutions there are noise: the joint that is free takes a given value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from rpl.emulator.arms import OpwArm
+from rpl.emulator.model import LIMIT_SLACK
+from rpl.emulator.recognise import PlacedArm
+
+if TYPE_CHECKING:
+    from rpl.emulator.arms import BoolArray
+    from rpl.emulator.model import RobotModel
+    from rpl.emulator.rotations import FloatArray, IntArray
+
+# Three printed decimals of an orientation leave the wrist uncertain by about this much, degrees.
+STRAIGHT_DEG = 1e-3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Candidates:
+    """All solutions of k poses, b branches each: joints (k, b, n) in (-180, 180], NaN where there is none.
+
+    `sides` (b, 3) are shoulder, elbow and wrist of the branches, `straight` (k, b) where the wrist is straight, so that
+    its side means nothing, `singular` (k, b) where any joint was free.
+    """
+
+    joints: FloatArray
+    valid: BoolArray
+    straight: BoolArray
+    singular: BoolArray
+    sides: IntArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Chosen:
+    """Joints (k, n), NaN where nothing fits; `reachable` (k,): the pose has solutions at all."""
+
+    joints: FloatArray
+    reachable: BoolArray
+
+
+Fits = Callable[[Candidates], "BoolArray"]
+# Cost (degrees, inf: not allowed) of axis values (k, b, t), None where the rule does not look at that axis.
+TurnCost = Callable[[int, "FloatArray"], "FloatArray | None"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rule:
+    """How a brand chooses: which branches fit, what each axis's revolution costs, and what is near.
+
+    `distance`: "axis" is the longest way of any axis in degrees, "time" the root of the squared times at full speed.
+    `free` (n,) or (k, n): the values of joints that a singular posture leaves free. `half_turned`: a straight wrist may
+    also be taken with both its axes half a turn on.
+    """
+
+    fits: Fits
+    turn_cost: TurnCost
+    free: FloatArray
+    distance: Literal["axis", "time"] = "axis"
+    half_turned: bool = True
+
+
+def candidates(model: RobotModel, flanges: FloatArray, free: FloatArray) -> Candidates:
+    """Every solution for flange poses (k, 4, 4); free joints of singular postures as in `free` (n,) or (k, n)."""
+    found = model.inverse_batch(flanges, free)
+    sides = np.array([(one.shoulder, one.elbow, one.wrist) for one in model.arm.branches], dtype=np.int64)
+    joints, straight = _straightened(
+        model, found.joints, sides[:, 2], np.broadcast_to(free, (len(flanges), model.axes))
+    )
+    return Candidates(joints, found.valid, straight & found.valid, found.singular, sides)
+
+
+def _straightened(
+    model: RobotModel, joints: FloatArray, wrist: IntArray, free: FloatArray
+) -> tuple[FloatArray, BoolArray]:
+    """Wrists within rounding of straight made straight, joint 4 as in `free`; and where that is."""
+    arm = model.arm.arm if isinstance(model.arm, PlacedArm) else model.arm
+    if not isinstance(arm, OpwArm):
+        return joints, np.zeros(joints.shape[:2], dtype=np.bool_)
+    theta = model.theta(joints)
+    bent = np.abs(np.remainder(theta[..., 4] + np.pi, 2.0 * np.pi) - np.pi)
+    straight = bent < np.radians(STRAIGHT_DEG)
+    if not straight.any():
+        return joints, straight
+    fourth = model.theta(free)[:, None, 3] + np.where(wrist == 1, np.pi, 0.0)
+    made = theta.copy()
+    made[..., 3] = fourth
+    made[..., 4] = 0.0
+    made[..., 5] = theta[..., 5] + theta[..., 3] - fourth
+    return np.where(straight[..., None], model.pendant(made), joints), straight
+
+
+def choose(model: RobotModel, flanges: FloatArray, near: FloatArray, rule: Rule) -> Chosen:
+    """The joints (k, n) that a brand's rule takes for flange poses (k, 4, 4), `near` (n,) or (k, n) being where the
+    arm is: least cost first, then least distance."""
+    found = candidates(model, flanges, rule.free)
+    allowed = found.valid & rule.fits(found)
+    if not rule.half_turned:
+        allowed = allowed & ~(found.straight & (found.sides[:, 2] == 1))
+    here = np.broadcast_to(near, (len(flanges), model.axes))[:, None]
+    with np.errstate(invalid="ignore"):
+        joints, cost = _turned(model, found.joints, here, rule.turn_cost)
+        away = np.abs(joints - here)
+        if rule.distance == "axis":
+            distance = away.max(axis=-1)
+        else:
+            distance = np.linalg.norm(away / model.speeds, axis=-1)
+    allowed = allowed & np.isfinite(cost)
+    # Rounding must not decide between equal ways: the first branch of the fixed order wins.
+    equal = np.where(allowed, np.round(distance, 9), np.inf)
+    rank = np.lexsort((equal, np.where(allowed, cost, np.inf)), axis=1)[:, 0]
+    rows = np.arange(len(flanges))
+    taken = np.where(allowed[rows, rank, None], joints[rows, rank], np.nan)
+    return Chosen(taken, np.asarray(found.valid.any(axis=1)))
+
+
+def _turned(
+    model: RobotModel, joints: FloatArray, here: FloatArray, turn_cost: TurnCost
+) -> tuple[FloatArray, FloatArray]:
+    """Each axis of joints (k, b, n) on the revolution that costs least, then lies nearest to `here` (k, 1, n); and the
+    greatest cost (k, b), inf where an axis has none inside its limits."""
+    taken, worst = np.empty_like(joints), np.zeros(joints.shape[:2])
+    for axis, ((low, high), turning) in enumerate(zip(model.limits, model.revolute, strict=True)):
+        first = int(np.ceil((low - LIMIT_SLACK - 180.0) / 360.0)) if turning else 0
+        last = int(np.floor((high + LIMIT_SLACK + 180.0) / 360.0)) if turning else 0
+        values = joints[..., axis, None] + 360.0 * np.arange(first, max(last, first) + 1)
+        cost = turn_cost(axis, values)
+        cost = np.zeros_like(values) if cost is None else cost
+        inside = (values >= low - LIMIT_SLACK) & (values <= high + LIMIT_SLACK)
+        cost = np.where(inside, cost, np.inf)
+        if values.shape[-1] == 1:
+            taken[..., axis] = values[..., 0]
+            worst = np.maximum(worst, cost[..., 0])
+            continue
+        way = np.abs(values - here[..., axis, None])
+        best = np.lexsort((way, cost), axis=-1)[..., :1]
+        taken[..., axis] = np.take_along_axis(values, best, axis=-1)[..., 0]
+        worst = np.maximum(worst, np.take_along_axis(cost, best, axis=-1)[..., 0])
+    return taken, worst
+
+
+__all__ = ["STRAIGHT_DEG", "Candidates", "Chosen", "Fits", "Rule", "TurnCost", "candidates", "choose"]
