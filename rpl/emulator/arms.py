@@ -115,6 +115,21 @@ def _signed(root: FloatArray) -> FloatArray:
     return both
 
 
+def _two_links(square: FloatArray, first: float, second: float) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray]:
+    """Two links in a plane whose ends are apart by the root of `square` (mm²), both lengths of one sign.
+
+    The angle between them (0 stretched), the angle of the first to the line between the ends, reachable, and stretched
+    or folded. By half angles, which stay exact where links of equal length fold upon each other.
+    """
+    share = (square - (first - second) ** 2) * (0.25 / (first * second))
+    ok = (share >= -0.5 * COSINE_SLACK) & (share <= 1.0 + 0.5 * COSINE_SLACK)
+    straight = (share <= 0.5 * COSINE_SLACK) | (share >= 1.0 - 0.5 * COSINE_SLACK)
+    share = np.minimum(np.maximum(share, 0.0), 1.0)
+    across, along = np.sqrt(1.0 - share), np.sqrt(share)
+    ahead = np.arctan2(2.0 * second * across * along, first - second + 2.0 * second * share)
+    return 2.0 * np.arctan2(across, along), ahead, ok, straight
+
+
 def _solutions(theta: FloatArray, valid: BoolArray, singular: BoolArray) -> Branches:
     """Results from joints (n, ..., k) of b branches in all, valid and singular (b, k): as views, nothing is copied."""
     joints = theta.reshape(len(theta), len(valid), -1)
@@ -232,22 +247,16 @@ class OpwArm:
         self, reach: FloatArray, height: FloatArray, near: FloatArray
     ) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray]:
         """Joints 2 and 3 (shoulder, elbow, k); reachable and singular (stretched, folded) (shoulder, k)."""
-        forearm = math.hypot(self.a2, self.c3)
         square = reach * reach + height * height
-        cosine = (square - (self.c2**2 + forearm**2)) / (2.0 * self.c2 * forearm)
-        ok = np.abs(cosine) <= 1.0 + COSINE_SLACK
-        cosine = np.minimum(np.maximum(cosine, -1.0), 1.0)
-        sine = np.sqrt((1.0 - cosine) * (1.0 + cosine))
+        bend, ahead, ok, straight = _two_links(square, self.c2, math.hypot(self.a2, self.c3))
         lean = np.arctan2(reach, height)
-        ahead = np.arctan2(forearm * sine, self.c2 + forearm * cosine)
-        bend = np.arctan2(sine, cosine)
         folded = square <= STILL_MM**2
         t2, t3 = np.empty((2, 2, len(height))), np.empty((2, 2, len(height)))
         t2[:, 0], t2[:, 1] = lean - ahead, lean + ahead
         t3[:, 0], t3[:, 1] = bend - self.elbow_angle, -bend - self.elbow_angle
         if folded.any():
             t2 = np.where(folded[:, None], near[1], t2)
-        return t2, t3, ok, folded | (np.abs(cosine) >= 1.0 - COSINE_SLACK)
+        return t2, t3, ok, folded | straight
 
     def _spherical(
         self, rows: FloatArray, t1: FloatArray, t23: FloatArray, near: FloatArray, theta: FloatArray
@@ -357,28 +366,30 @@ class UrArm:
         c1, s1 = np.cos(t1), np.sin(t1)
         theta = np.empty((6, 2, 2, 2, len(flange)))
         theta[0] = t1[:, None, None]
-        x4, z4, sides, free = self._wrist(rows, c1, s1, reference[:, 5], theta)
+        x4, z4, sides, free = self._wrist(rows, centre, c1, s1, reference[:, 5], theta)
         # Where the planar links of joints 2 and 3 must end, and t2 + t3 + t4, each (shoulder, wrist, k).
         x = (c1 * centre[0] + s1 * centre[1])[:, None] - sides * (self.d5 * (c1 * z4[0] + s1 * z4[1]))[:, None]
         y = centre[2] - self.d1 - sides * (self.d5 * z4[2])[:, None]
         total = np.arctan2(sides * x4[2][:, None], sides * (c1 * x4[0] + s1 * x4[1])[:, None])
-        cosine = (x * x + y * y - (self.a2**2 + self.a3**2)) / (2.0 * self.a2 * self.a3)
-        ok = (np.abs(cosine) <= 1.0 + COSINE_SLACK) & reachable
-        cosine = np.minimum(np.maximum(cosine, -1.0), 1.0)
-        sine = np.sqrt((1.0 - cosine) * (1.0 + cosine))
-        lean, bend = np.arctan2(y, x), np.arctan2(sine, cosine)
-        ahead = np.arctan2(self.a3 * sine, self.a2 + self.a3 * cosine)
+        bend, ahead, ok, straight = _two_links(x * x + y * y, self.a2, self.a3)
+        lean = np.arctan2(y, x)
         for elbow, side in enumerate((1.0, -1.0)):
             turned = lean - side * ahead
             theta[1, :, elbow], theta[2, :, elbow] = turned, side * bend
             theta[3, :, elbow] = total - turned - side * bend
-        singular = free[:, None] | (np.abs(cosine) >= 1.0 - COSINE_SLACK)
+        singular = free[:, None] | straight
         flags = (2, 2, 2, len(flange))
-        valid = np.broadcast_to(ok[:, None], flags).reshape(8, -1)
+        valid = np.broadcast_to((ok & reachable)[:, None], flags).reshape(8, -1)
         return _solutions(theta, valid, np.broadcast_to(singular[:, None], flags).reshape(8, -1))
 
     def _wrist(
-        self, rows: FloatArray, c1: FloatArray, s1: FloatArray, near: FloatArray, theta: FloatArray
+        self,
+        rows: FloatArray,
+        centre: FloatArray,
+        c1: FloatArray,
+        s1: FloatArray,
+        near: FloatArray,
+        theta: FloatArray,
     ) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray]:
         """Fill joints 5 and 6 of `theta` (6, 2, 2, 2, k) from the flange's axes seen along axes 2, 3, 4.
 
@@ -394,8 +405,8 @@ class UrArm:
             c6, s6 = x / sine, -y / sine
         sides = np.array([[[1.0], [-1.0]]])
         if free.any():
-            t6 = np.where(free, near, t6)
-            c6, s6 = np.where(free, np.cos(near), c6), np.where(free, np.sin(near), s6)
+            t6 = np.where(free, near - np.sign(z) * self._out_of_reach(turn, centre, c1, s1, near), t6)
+            c6, s6 = np.where(free, np.cos(t6), c6), np.where(free, np.sin(t6), s6)
             sine = np.where(free, 0.0, sine)
             sides = np.where(free[:, None], 1.0, sides)
         t5, length = np.arctan2(sine, z), np.sqrt(sine * sine + z * z)
@@ -405,6 +416,22 @@ class UrArm:
         # Frame 4 seen from the base: R·(Rz(t5)·Rx(-90)·Rz(t6))^T.
         x4 = c5 * (c6 * turn[:, 0] - s6 * turn[:, 1]) - s5 * turn[:, 2]
         return x4, -s6 * turn[:, 0] - c6 * turn[:, 1], sides, np.asarray(free)
+
+    def _out_of_reach(
+        self, turn: FloatArray, centre: FloatArray, c1: FloatArray, s1: FloatArray, near: FloatArray
+    ) -> FloatArray:
+        """How far joint 6 must leave `near` (k,) for joints 2 and 3 to reach, joint 5 being zero; (shoulder, k)."""
+        z4 = -np.sin(near) * turn[:, 0] - np.cos(near) * turn[:, 1]
+        x, y = c1 * centre[0] + s1 * centre[1], centre[2] - self.d1
+        away = np.sqrt(x * x + y * y)
+        # The wrist's end lies on a circle about the centre, at this angle to the way from axis 2.
+        angle = _wrap(np.arctan2(z4[2], c1 * z4[0] + s1 * z4[1]) - np.arctan2(y, x))
+        whole, twice = away * away + self.d5**2, 2.0 * np.maximum(away, 1e-9) * self.d5
+        nearest, farthest = (whole - (self.a2 - self.a3) ** 2) / twice, (whole - (self.a2 + self.a3) ** 2) / twice
+        cosine = np.cos(angle)
+        possible = np.minimum(np.maximum(cosine, farthest), nearest)
+        moved = np.copysign(np.arccos(np.minimum(np.maximum(possible, -1.0), 1.0)), angle) - angle
+        return np.where(possible == cosine, 0.0, moved)
 
     def branch(self, theta: FloatArray) -> Branch:
         reach, _, total = self._in_plane(theta)
@@ -448,20 +475,19 @@ class ScaraArm:
     def inverse(self, flange: FloatArray, reference: FloatArray) -> Branches:
         x, y = flange[:, 0, 3], flange[:, 1, 3]
         square = x * x + y * y
-        cosine = (square - self.l1**2 - self.l2**2) / (2.0 * self.l1 * self.l2)
+        bend, ahead, ok, straight = _two_links(square, self.l1, self.l2)
         upright = (np.hypot(flange[:, 0, 2], flange[:, 1, 2]) <= self.tilt) & (flange[:, 2, 2] < 0.0)
-        ok = (np.abs(cosine) <= 1.0 + COSINE_SLACK) & upright
-        cosine = np.clip(cosine, -1.0, 1.0)
-        q2 = np.arccos(cosine)[:, None] * np.array([1.0, -1.0])
-        q1 = np.arctan2(y, x)[:, None] - np.arctan2(self.l2 * np.sin(q2), self.l1 + self.l2 * np.cos(q2))
+        sides = np.array([1.0, -1.0])
+        q2 = bend[:, None] * sides
+        q1 = np.arctan2(y, x)[:, None] - ahead[:, None] * sides
         on_axis = square <= STILL_MM**2
         q1 = np.where(on_axis[:, None], reference[:, :1], q1)
         yaw = np.arctan2(flange[:, 1, 0], flange[:, 0, 0])[:, None]
         stroke = np.broadcast_to((self.height - flange[:, 2, 3])[:, None], q1.shape)
         theta = np.stack([q1, q2, stroke, q1 + q2 - yaw], axis=-1)
-        valid = np.broadcast_to(ok[:, None], q1.shape).copy()
+        valid = np.broadcast_to((ok & upright)[:, None], q1.shape).copy()
         theta[~valid] = np.nan
-        singular = on_axis | (np.abs(cosine) >= 1.0 - COSINE_SLACK)
+        singular = on_axis | straight
         return Branches(theta, valid, np.broadcast_to(singular[:, None], q1.shape).copy())
 
     def branch(self, theta: FloatArray) -> Branch:

@@ -85,7 +85,7 @@ def published() -> dict[str, tuple[list[Joint], bool]]:
 
 
 def moved(file: RobotFile, joints: FloatArray) -> FloatArray:
-    """What the mechanism's joints do: a forearm that the pendant counts from the horizontal turns with the upper arm."""
+    """What the mechanism's joints do: a forearm that the pendant counts from the horizontal turns with joint 2."""
     turned = joints.copy()
     if file.joint_3_follows_joint_2:
         turned[:, 2] += turned[:, 1]
@@ -121,7 +121,7 @@ def test_most_arms_have_a_published_description() -> None:
 def built(file: RobotFile) -> list[Joint]:
     """The arm joint by joint from its file: signs turn axes round, an offset turns the frame in front of the joint."""
     g, base = file.lengths, 0.0 if file.origin_at_axis_2 else file.lengths.get("c1", 0.0)
-    x, y, z = DIRECTIONS["x"], DIRECTIONS["y"], DIRECTIONS["z"]
+    y, z = DIRECTIONS["y"], DIRECTIONS["z"]
     match file.kind:
         case "opw":
             steps = [
@@ -163,7 +163,6 @@ def built(file: RobotFile) -> list[Joint]:
         along = tuple(sign * value for value in axis)
         kind = "prismatic" if sliding else "revolute"
         joints.append(Joint(moved_place, (0.0, 0.0, 0.0) if sliding else turn, along, kind))
-    assert x not in {axis for axis, _ in steps}
     return [*joints, end]
 
 
