@@ -3,6 +3,8 @@ statements stand for. Every error names the file and the key.
 
     seed = 1                                             of random numbers
     joints = [0, -90, 90, 0, 45, 0]                      where the robot stands at the start (its home if not said)
+    external = [0, 500]                                  where external axes stand then (else where a move puts them)
+    [[mechanism]] name = "table" ...                     see rpl.emulator.mechanismfile
     [[input]]     time = 1.5  signal = "di1"  value = true  [duration = 0.2]
     [[reaction]]  when = "do1"  becomes = true  after = 0.4  signal = "di2"  value = true
     [variables]   count = 3   "module.name" = [1, 2]   "data[1]" = { x = 10.0, y = 0.0 }
@@ -21,6 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from rpl import ir
+from rpl.emulator.mechanismfile import Mechanism, read_mechanisms
 from rpl.errors import UsageError
 
 Value = Any  # what TOML can say: numbers, BOOLs, texts, lists, tables
@@ -80,6 +83,8 @@ class Cell:
     seed: int = 1
     joints: tuple[float, ...] | None = None
     path: str = ""
+    mechanisms: tuple[Mechanism, ...] = ()
+    external: tuple[float | None, ...] | None = None
 
 
 def read_cell(path: str | Path) -> Cell:
@@ -104,7 +109,22 @@ def parse_cell(text: str, path: str = "cell") -> Cell:
     return _Reader(path).cell(table)
 
 
-_TOP = frozenset(("seed", "joints", "input", "reaction", "variables", "system", "answer", "answers", "vendor"))
+_TOP = frozenset(
+    (
+        "seed",
+        "joints",
+        "external",
+        "input",
+        "reaction",
+        "variables",
+        "system",
+        "answer",
+        "answers",
+        "vendor",
+        "mechanism",
+    )
+)
+_MOST_EXTERNAL = 6
 
 
 class _Reader:
@@ -141,7 +161,18 @@ class _Reader:
             seed,
             self.joints(table),
             self.path,
+            read_mechanisms(table.get("mechanism", []), self.path),
+            self.external(table),
         )
+
+    def external(self, table: dict[str, Value]) -> tuple[float | None, ...] | None:
+        given = table.get("external")
+        if given is None:
+            return None
+        numbers = isinstance(given, list) and all(isinstance(one, int | float) for one in given)
+        if not numbers or not 1 <= len(given) <= _MOST_EXTERNAL:
+            raise self.wrong("external", f"must be a list of 1 to {_MOST_EXTERNAL} values of external axes")
+        return (*(float(one) for one in given), *(None,) * (_MOST_EXTERNAL - len(given)))
 
     def joints(self, table: dict[str, Value]) -> tuple[float, ...] | None:
         given = table.get("joints")

@@ -16,12 +16,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rpl.emulator.mechanisms import Carried
 from rpl.emulator.model import RobotModel
 from rpl.emulator.paths import Path
-from rpl.emulator.planner import Geometry, JointGeometry, PathGeometry, PlannedMove
+from rpl.emulator.planner import Geometry, JointGeometry, PathGeometry, PlannedMove, flanges_of
 from rpl.emulator.rotations import (
     FloatArray,
-    invert_pose,
     matrix_to_rotation_vector,
     pose_matrix,
     rotation_vector_to_matrix,
@@ -130,18 +130,40 @@ def _corner_geometry(
     before = first.geometry.joints(np.array([leave]))[0]
     after = second.geometry.joints(np.array([meet]))[0]
     a, b = first.geometry, second.geometry
-    if not (isinstance(a, PathGeometry) and isinstance(b, PathGeometry)):
-        return _joint_corner(model, before, first.end_joints, after, b.tool)
+    carried = _carried_corner(first, second, leave, meet)
+    if not (isinstance(a, PathGeometry) and isinstance(b, PathGeometry) and _one_work(a, b)):
+        return _joint_corner(model, before, first.end_joints, after, b.tool, carried)
     curve = _path_corner(a.path, b.path, leave, meet, _tangent_share(first, second, leave) if sized else 2.0 / 3.0)
     if curve.length_mm < 1e-9:
         return NoBlend("the path turns back on itself")
-    back = invert_pose(b.tool)
-    track = track_flanges(model, lambda u: curve.poses(u) @ back, before, SAMPLES)
+    track = track_flanges(model, lambda u: flanges_of(curve, b.tool, carried, u), before, SAMPLES)
     if isinstance(track, MotionFault):
         return NoBlend(f"no corner: {track.message}")
     if np.abs(track.joints[-1] - after).max() > 1e-3:
         return NoBlend("no corner: the arm would change its configuration")
-    return PathGeometry(model, curve, b.tool, track)
+    return PathGeometry(model, curve, b.tool, track, carried)
+
+
+def _one_work(a: PathGeometry, b: PathGeometry) -> bool:
+    """Are both paths in one work, so that their corner is a curve in it? (Paths in the robot's base always are.)"""
+    if a.carried is None or b.carried is None:
+        return a.carried is b.carried
+    return a.carried.carrier.same_work(b.carried.carrier)
+
+
+def _carried_corner(first: PlannedMove, second: PlannedMove, leave: float, meet: float) -> Carried | None:
+    """The carrier of the second move while external axes round the corner between both moves."""
+    geometry = second.geometry
+    carried = geometry.carried if isinstance(geometry, PathGeometry | JointGeometry) else None
+    middle = _external_middle(first, second)
+    if carried is None or middle is None:
+        return None
+    return Carried(carried.carrier, np.stack([_external(first, leave), middle, _external(second, meet)]))
+
+
+def _external_middle(first: PlannedMove, second: PlannedMove) -> FloatArray | None:
+    """External axes at the corner point; None where the two moves have not the same ones."""
+    return first.external_end if len(first.external_end) == len(second.external_start) else None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -216,13 +238,15 @@ class JointCorner:
     tool: FloatArray
     knots: FloatArray
     travelled: FloatArray
+    carried: Carried | None = None
 
     def joints(self, fraction: FloatArray) -> FloatArray:
         s, w = fraction[..., None], 1.0 - fraction[..., None]
         return np.asarray(w * w * self.control[0] + 2.0 * w * s * self.control[1] + s * s * self.control[2])
 
     def tcp(self, fraction: FloatArray) -> FloatArray:
-        return np.asarray(self.model.forward(self.joints(fraction)) @ self.tool)
+        flanges = self.model.forward(self.joints(fraction))
+        return np.asarray(flanges @ self.tool if self.carried is None else self.carried.in_work(flanges, fraction))
 
     def distance(self, fraction: FloatArray) -> FloatArray:
         return np.interp(fraction, self.knots, self.travelled)
@@ -232,9 +256,14 @@ class JointCorner:
 
 
 def _joint_corner(
-    model: RobotModel, before: FloatArray, corner: FloatArray, after: FloatArray, tool: FloatArray
+    model: RobotModel,
+    before: FloatArray,
+    corner: FloatArray,
+    after: FloatArray,
+    tool: FloatArray,
+    carried: Carried | None,
 ) -> JointCorner | NoBlend:
-    empty = JointCorner(model, np.stack([before, corner, after]), tool, np.zeros(2), np.zeros(2))
+    empty = JointCorner(model, np.stack([before, corner, after]), tool, np.zeros(2), np.zeros(2), carried)
     knots = np.linspace(0.0, 1.0, SAMPLES)
     for joints in empty.joints(knots):
         outside = model.within_limits(joints)
@@ -298,6 +327,7 @@ def _driven(
         span=(0.0, 1.0),
         external_start=_external(first, leave),
         external_end=_external(second, meet),
+        external_middle=_external_middle(first, second),
     )
     return Corner(trimmed, corner, rest, float(law.time_of(0.5)))
 

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from rpl.emulator.arms import Arm, BoolArray, Branch, OpwArm, ScaraArm, UrArm
 from rpl.emulator.chains import ChainArm, described, exact_opw, read_urdf
 from rpl.emulator.closedforms import ClosedForm, closed_form
+from rpl.emulator.mechanismfile import Mechanism
 from rpl.emulator.postures import Fact, in_posture, posture_facts
 from rpl.emulator.robotfile import (
     Kind,
@@ -117,6 +118,7 @@ class RobotModel:
     motion: Mapping[str, float] = field(default_factory=dict)  # time laws measured on this arm under `motion_of`
     motion_of: str = ""
     uncertain_axes: bool = True  # speeds or accelerations of the axes are not verified
+    mechanisms: tuple[Mechanism, ...] = ()  # what its file says of tracks and tables that come with it
     revolute: BoolArray = field(init=False)  # which joints turn, (n,)
     couplings: tuple[tuple[int, int], ...] = field(init=False)  # of arm_to_pendant: entries beside the diagonal
 
@@ -344,6 +346,7 @@ def _assembled(
         motion=file.motion,
         motion_of=file.motion_of,
         uncertain_axes=bool({"speeds", "accelerations"} & set(file.assumed)) or file.accelerations is None,
+        mechanisms=file.mechanisms,
     )
 
 

@@ -15,9 +15,10 @@ from numpy.typing import ArrayLike
 
 from rpl.emulator.configuration import Selection
 from rpl.emulator.controller import PLAIN, MotionModel
+from rpl.emulator.mechanisms import Carried, Carrier, along
 from rpl.emulator.model import RobotModel
 from rpl.emulator.paths import Arc, Line, Path, arc_through
-from rpl.emulator.rotations import FloatArray, invert_pose, pose_matrix
+from rpl.emulator.rotations import FloatArray, invert_pose, pose_matrix, rotation_angle
 from rpl.emulator.timelaw import Profile, TimeLaw, of_constant_time, slowed_to
 from rpl.emulator.tracking import MotionFault, Track, solve_arm_joints, track_flanges, track_wrist_joints
 
@@ -29,6 +30,8 @@ CheckEnd = Callable[[FloatArray], str | None]
 SPEED_SLACK = 1e-3
 # A path that needs too fast an axis is called singular when the Jacobian's condition (lengths per arm reach) is worse.
 SINGULAR_CONDITION = 25.0
+# Where a flange on a carried path is looked at first, to tell how finely the path has to be followed.
+_ROUGH = np.linspace(0.0, 1.0, 17)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,8 +41,10 @@ class MoveRequest:
     Give `target_joints` (n,) in pendant units or `target_pose` (4, 4). Axis speeds are fractions of their maximum (one
     number or (n,)). `select` chooses the configuration of a joint move to a pose (default: the nearest solution);
     `check_end` may refuse the configuration in which a path move arrives. External axes move evenly from
-    `external_start` to `external_target` at most at `external_speeds` (deg/s or mm/s). `effort` is the acceleration in
-    force as a share, which the accelerations contain already; ramps of a constant time get longer by it.
+    `external_start` to `external_target` at most at `external_speeds` (deg/s or mm/s), with `external_accs` and within
+    `external_limits` where these are known. With a `carrier` poses are of the tool in its work, not in the base.
+    `effort` is the acceleration in force as a share, which the accelerations contain already; ramps of a constant time
+    get longer by it.
     """
 
     kind: Literal["joint", "linear", "circular", "spline"]
@@ -66,6 +71,16 @@ class MoveRequest:
     external_speeds: tuple[float, ...] = ()
     controller: MotionModel = PLAIN
     effort: float = 1.0
+    external_accs: tuple[float | None, ...] = ()
+    external_limits: tuple[tuple[float, float] | None, ...] = ()
+    carrier: Carrier | None = None
+
+    def carried(self) -> Carried | None:
+        """The carrier over the external axes of this move."""
+        if self.carrier is None:
+            return None
+        start = self.external_start or (0.0,)
+        return Carried(self.carrier, np.array([start, self.external_target or start], dtype=np.float64))
 
 
 class Geometry(Protocol):
@@ -79,7 +94,7 @@ class Geometry(Protocol):
         """Joints (k, n) at fractions (k,)."""
 
     def tcp(self, fraction: FloatArray) -> FloatArray:
-        """Poses of the tool centre point (k, 4, 4) at fractions (k,)."""
+        """Poses of the tool centre point (k, 4, 4) at fractions (k,), in its work where that is carried."""
 
     def distance(self, fraction: FloatArray) -> FloatArray:
         """Millimetres (k,) that the tool centre point has travelled."""
@@ -98,12 +113,14 @@ class JointGeometry:
     tool: FloatArray
     knots: FloatArray
     travelled: FloatArray
+    carried: Carried | None = None
 
     def joints(self, fraction: FloatArray) -> FloatArray:
         return np.asarray(self.start + fraction[..., None] * (self.end - self.start))
 
     def tcp(self, fraction: FloatArray) -> FloatArray:
-        return np.asarray(self.model.forward(self.joints(fraction)) @ self.tool)
+        flanges = self.model.forward(self.joints(fraction))
+        return np.asarray(flanges @ self.tool if self.carried is None else self.carried.in_work(flanges, fraction))
 
     def distance(self, fraction: FloatArray) -> FloatArray:
         return np.interp(fraction, self.knots, self.travelled)
@@ -122,10 +139,11 @@ class PathGeometry:
     path: Path
     tool: FloatArray
     track: Track
+    carried: Carried | None = None
 
     def joints(self, fraction: FloatArray) -> FloatArray:
         near = self.track.at(fraction)
-        found = self.model.inverse_batch(self.path.poses(fraction) @ invert_pose(self.tool), near)
+        found = self.model.inverse_batch(flanges_of(self.path, self.tool, self.carried, fraction), near)
         ref = near[:, None, :]
         turns = np.where(self.model.revolute, 360.0 * np.round((ref - found.joints) / 360.0), 0.0)
         choices = found.joints + turns
@@ -144,6 +162,12 @@ class PathGeometry:
 
     def fraction_at(self, distance_mm: float) -> float:
         return min(max(distance_mm / self.path.length_mm, 0.0), 1.0) if self.path.length_mm > 0.0 else 0.0
+
+
+def flanges_of(path: Path, tool: FloatArray, carried: Carried | None, fraction: FloatArray) -> FloatArray:
+    """Flange poses (k, 4, 4) in the robot's base that put the tool on its path."""
+    poses = path.poses(fraction)
+    return np.asarray(poses @ invert_pose(tool) if carried is None else carried.flanges(poses, fraction))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -201,6 +225,7 @@ class PlannedMove:
     external_start: FloatArray
     external_end: FloatArray
     controller: MotionModel = PLAIN
+    external_middle: FloatArray | None = None  # of a corner: external axes on the parabola with this control point
 
     def _fraction(self, time_s: ArrayLike) -> FloatArray:
         begin, end = self.span
@@ -226,8 +251,8 @@ class PlannedMove:
 
     def external_at(self, time_s: ArrayLike) -> FloatArray:
         """External axes at a time (e,) or at times (k, e)."""
-        share = self._fraction(time_s)[..., None]
-        return np.asarray(self.external_start + share * (self.external_end - self.external_start))
+        middle = () if self.external_middle is None else (self.external_middle,)
+        return along(np.stack([self.external_start, *middle, self.external_end]), self._fraction(time_s))
 
     def time_at_distance_from_start(self, distance_mm: float) -> float:
         """The time at which the tool centre point has travelled that far; at most the whole duration."""
@@ -269,6 +294,11 @@ def bad_request(request: MoveRequest) -> MotionFault | None:
         return MotionFault("bad_target", "the move has no target")
     if request.kind == "circular" and (request.via_pose is None or request.target_pose is None):
         return MotionFault("bad_target", "a circular move needs a point on the way and an end pose")
+    for place, (goal, limits) in enumerate(zip(request.external_target, request.external_limits, strict=False)):
+        if limits is not None and not limits[0] - 1e-6 <= goal <= limits[1] + 1e-6:
+            low, high = limits
+            text = f"external axis {place + 1} would be at {goal:.3f}, outside {low:g}..{high:g}"
+            return MotionFault("joint_limit", text, None, 1.0)
     return None
 
 
@@ -276,7 +306,7 @@ def _plan_joint(model: RobotModel, start: FloatArray, request: MoveRequest) -> P
     end = joint_target(model, start, request)
     if isinstance(end, MotionFault):
         return end
-    geometry = joint_geometry(model, start, end, request.tool)
+    geometry = joint_geometry(model, start, end, request.tool, request.carried())
     way = np.abs(end - start)
     with np.errstate(divide="ignore"):
         speed = float(np.min(model.speeds * request.joint_speed / way))
@@ -288,13 +318,18 @@ def _plan_joint(model: RobotModel, start: FloatArray, request: MoveRequest) -> P
     return finished(request, geometry, _profile(request, speed, acceleration, ramp, smoothing))
 
 
-def joint_geometry(model: RobotModel, start: FloatArray, end: FloatArray, tool: FloatArray) -> JointGeometry:
+def joint_geometry(
+    model: RobotModel, start: FloatArray, end: FloatArray, tool: FloatArray, carried: Carried | None = None
+) -> JointGeometry:
     """Even joint motion with the tool's way measured along chords, one every four degrees."""
-    count = int(np.clip(np.ceil(np.abs(end - start).max() / 4.0), 8, 120)) + 1
+    turn = np.abs(end - start).max()
+    if carried is not None:
+        turn = max(turn, np.abs(carried.control[-1] - carried.control[0]).max())
+    count = int(np.clip(np.ceil(turn / 4.0), 8, 120)) + 1
     knots = np.linspace(0.0, 1.0, count)
-    points = (model.forward(start + knots[:, None] * (end - start)) @ tool)[:, :3, 3]
-    travelled = np.insert(np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1)), 0, 0.0)
-    return JointGeometry(model, start, end, tool, knots, travelled)
+    empty = JointGeometry(model, start, end, tool, knots, np.zeros(count), carried)
+    points = empty.tcp(knots)[:, :3, 3]
+    return replace(empty, travelled=np.insert(np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1)), 0, 0.0))
 
 
 def joint_target(model: RobotModel, start: FloatArray, request: MoveRequest) -> FloatArray | MotionFault:
@@ -318,7 +353,8 @@ def joint_target(model: RobotModel, start: FloatArray, request: MoveRequest) -> 
 
 def _pose_target(model: RobotModel, start: FloatArray, request: MoveRequest) -> FloatArray | MotionFault:
     pose = request.target_pose if request.target_pose is not None else np.eye(4)
-    flange = pose @ invert_pose(request.tool)
+    carried = request.carried()
+    flange = pose @ invert_pose(request.tool) if carried is None else carried.flanges(pose[None], np.ones(1))[0]
     x, y, z = pose[:3, 3]
     if not model.inverse(flange, start):
         return MotionFault("unreachable", f"the pose at {x:.3f}, {y:.3f}, {z:.3f} mm is out of reach", None, 1.0)
@@ -340,8 +376,11 @@ def _plan_path(model: RobotModel, start: FloatArray, request: MoveRequest) -> Pl
     outside = model.within_limits(start)
     if outside:
         return MotionFault("joint_limit", f"joint {outside[0] + 1} is outside its limits", outside[0], 0.0)
-    first = model.forward(start) @ request.tool
-    path = _path(model, first, request)
+    carried = request.carried()
+    if carried is not None and request.orientation == "wrist_joints":
+        text = "evenly moving wrist joints go with a tool on the robot and a frame that stands still"
+        return MotionFault("bad_target", text)
+    path = _path(model, _tool_at(model, start, request, 0.0), request)
     if isinstance(path, MotionFault):
         return path
     track = path_track(model, start, path, request)
@@ -355,7 +394,7 @@ def _plan_path(model: RobotModel, start: FloatArray, request: MoveRequest) -> Pl
     if request.orientation == "wrist_joints":
         geometry = WristGeometry(model, path, request.tool, track)
     else:
-        geometry = PathGeometry(model, path, request.tool, track)
+        geometry = PathGeometry(model, path, request.tool, track, carried)
     turn = np.rad2deg(path.turn_rad)
     with np.errstate(divide="ignore"):
         speed = min(_over(request.path_speed_mm_s, path.length_mm), _over(request.ori_speed_deg_s, turn))
@@ -372,9 +411,16 @@ def _over(rate: float, way: float) -> float:
     return rate / way if way > 1e-9 else np.inf
 
 
+def _tool_at(model: RobotModel, joints: FloatArray, request: MoveRequest, fraction: float) -> FloatArray:
+    """Where the tool is (4, 4), as the poses of the request count, at the start (0) or end (1) of the external axes."""
+    carried = request.carried()
+    flange = model.forward(joints)
+    return flange @ request.tool if carried is None else carried.in_work(flange[None], np.array([fraction]))[0]
+
+
 def _path(model: RobotModel, first: FloatArray, request: MoveRequest) -> Path | MotionFault:
     if request.target_pose is None:
-        goal = model.forward(request.target_joints if request.target_joints is not None else model.home) @ request.tool
+        goal = _tool_at(model, request.target_joints if request.target_joints is not None else model.home, request, 1.0)
     else:
         goal = request.target_pose
     constant = request.orientation == "constant"
@@ -396,6 +442,9 @@ def _path(model: RobotModel, first: FloatArray, request: MoveRequest) -> Path | 
 def path_track(model: RobotModel, start: FloatArray, path: Path, request: MoveRequest) -> Track | MotionFault:
     """The joints along a path, from `start` (n,) on."""
     length, turn = path.length_mm, np.rad2deg(path.turn_rad)
+    carried = request.carried()
+    if carried is not None:
+        length, turn = _swept(carried.flanges(path.poses(_ROUGH), _ROUGH), length, turn)
     if length < 1e-9 and turn < 1e-9:
         return Track(np.array([0.0, 1.0]), np.stack([start, start]))
     samples = int(np.clip(np.ceil(max(length / 10.0, turn / 3.0)), 8, 400)) + 1
@@ -407,7 +456,14 @@ def path_track(model: RobotModel, start: FloatArray, path: Path, request: MoveRe
         if end is None:
             return MotionFault("unreachable", "the end of the path is out of reach", None, 1.0)
         return track_wrist_joints(model, lambda s: path.poses(s)[:, :3, 3], request.tool, start, end, samples)
-    return track_flanges(model, lambda s: path.poses(s) @ inverse_tool, start, samples)
+    return track_flanges(model, lambda s: flanges_of(path, request.tool, carried, s), start, samples)
+
+
+def _swept(flanges: FloatArray, length: float, turn: float) -> tuple[float, float]:
+    """How far (mm) and how much (degrees) a flange moves at least, beside the tool's own way and turn."""
+    way = float(np.linalg.norm(np.diff(flanges[:, :3, 3], axis=0), axis=1).sum())
+    between = np.swapaxes(flanges[:-1, :3, :3], 1, 2) @ flanges[1:, :3, :3]
+    return max(length, way), max(turn, float(np.rad2deg(rotation_angle(between)).sum()))
 
 
 def within_axis_speeds(
@@ -445,9 +501,11 @@ def _ill(model: RobotModel, joints: FloatArray) -> bool:
 
 def _profile(request: MoveRequest, speed: float, acceleration: float, ramp_s: float, smoothing_s: float) -> Profile:
     """Top speed and acceleration of the whole move, external axes and a programmed duration included."""
-    for begin, goal, top in zip(request.external_start, request.external_target, request.external_speeds, strict=False):
+    tops = zip(request.external_start, request.external_target, request.external_speeds, strict=False)
+    for place, (begin, goal, top) in enumerate(tops):
+        own = request.external_accs[place] if place < len(request.external_accs) else None
         speed = min(speed, _over(top, abs(goal - begin)))
-        acceleration = min(acceleration, _over(top / 0.3, abs(goal - begin)))
+        acceleration = min(acceleration, _over(top / 0.3 if own is None else own, abs(goal - begin)))
     ramp_s /= request.effort
     if request.duration_s is not None and request.duration_s > 0.0 and np.isfinite(speed):
         moving_s = max(request.duration_s - smoothing_s, 0.5 * request.duration_s)

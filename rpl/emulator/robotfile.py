@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Literal
 
 from rpl.emulator.controller import NUMBERS
+from rpl.emulator.mechanismfile import Mechanism, read_mechanisms
 from rpl.errors import UsageError
 
 Kind = Literal["opw", "ur", "scara", "chain"]
@@ -72,6 +73,7 @@ class RobotFile:
     counts_pulses: bool = True
     motion: Mapping[str, float] = field(default_factory=dict)
     motion_of: str = ""
+    mechanisms: tuple[Mechanism, ...] = ()
 
 
 def robot_names() -> list[str]:
@@ -152,6 +154,7 @@ def _parse(text: str, place: str, folder: Path | None) -> RobotFile:
         counts_pulses=axes.flag("counts_pulses", True),
         motion=_motion(reader),
         motion_of=reader.table("motion").text("controller") if "motion" in data else "",
+        mechanisms=read_mechanisms(data.get("mechanism", []), f"robot file {place}"),
     )
 
 

@@ -6,14 +6,15 @@ stationary tool) the roles change:  robot_root · FK(joints) · part · displace
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from rpl.emulator.postures import ASKED_POSTURES
 from rpl.passes import rigid
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.orders import Modal, Order
+from rpl.runtime.scene import NOTHING, External, Scene, place_of
 from rpl.runtime.values import (
     AxesValue,
     ConfigValue,
@@ -32,6 +33,8 @@ from rpl.runtime.values import (
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation, Selection
     from rpl.emulator.controller import MotionModel
+    from rpl.emulator.mechanismfile import Mechanism
+    from rpl.emulator.mechanisms import Carrier
     from rpl.emulator.model import RobotModel
     from rpl.emulator.planner import MoveRequest
     from rpl.emulator.rotations import FloatArray
@@ -61,7 +64,6 @@ _ORIENTATIONS: dict[str, Literal["interpolated", "constant", "wrist_joints"]] = 
     "constant": "constant",
     "wrist": "wrist_joints",
 }
-EXTERNAL_SPEED = 500.0  # mm/s or deg/s of an external axis at 100 percent, for want of its data
 
 
 def convention_of(rules: Rules) -> str:
@@ -93,11 +95,38 @@ def setting(modal: Modal, over: Modal, name: str, index: int | None = None) -> V
 @dataclass(frozen=True, slots=True)
 class Frames:
     """The frames of a move. Robot holds the tool: `tool` in the flange, `base` of the targets in the robot's base.
-    `stationary`: `tool` is the part in the flange, `base` the fixed tool in the robot's base."""
+    `stationary`: `tool` is the part in the flange, `base` the fixed tool in the robot's base. `base` holds for the
+    external axes of one moment; it comes from `frame` on its `mount` (or in the world) and from `root`, the robot's
+    base on what it `rides` (or in the world)."""
 
     tool: rigid.Pose
     base: rigid.Pose
     stationary: bool
+    frame: rigid.Pose = rigid.IDENTITY
+    root: rigid.Pose = rigid.IDENTITY
+    rides: Mechanism | None = None
+    mount: Mechanism | None = None
+
+    def at(self, external: External) -> Frames:
+        """The same frames at other external axes."""
+        root = self.root if self.rides is None else place_of(self.rides, external).then(self.root)
+        if self.mount is None:
+            return replace(self, base=root.inverse.then(self.frame))
+        place = place_of(self.mount, external).then(self.frame)
+        return replace(self, base=place if self.mount.on_robot else root.inverse.then(place))
+
+    def target_in_work(self, goal: rigid.Pose) -> rigid.Pose:
+        """The tool's pose in the work that a carrier plans in (see rpl.emulator.mechanisms)."""
+        return (self.tool if self.stationary else self.frame).then(goal)
+
+    def carrier(self) -> Carrier | None:
+        """What carries work, tool or robot; None where nothing of them moves with the flange or external axes."""
+        if not self.stationary and self.rides is None and self.mount is None:
+            return None
+        from rpl.emulator.mechanisms import Carrier as Made
+
+        tool = self.frame if self.stationary else self.tool
+        return Made(matrix_of(tool), matrix_of(self.root), self.stationary, self.rides, self.mount)
 
     def target_in_robot(self, goal: rigid.Pose) -> tuple[rigid.Pose, rigid.Pose]:
         """The pose to go to and the moving point in the flange that goes there."""
@@ -112,8 +141,13 @@ class Frames:
         return self.base.inverse.then(flange).then(self.tool)
 
 
-def frames_of(tool: Value, frame: Value, modal: Modal, over: Modal) -> Frames:
-    """Tool and frame as given at the move, else the modal ones."""
+def frames_of(
+    tool: Value, frame: Value, modal: Modal, over: Modal, scene: Scene = NOTHING, external: External = (),
+    known: bool = True,
+) -> Frames:  # fmt: skip
+    """Tool and frame as given at the move, else the modal ones; at external axes. Without a robot it is not `known`
+    where mechanisms are: a frame on one of them then is where it stands."""
+    given = frame is not None
     tool = tool if tool is not None else setting(modal, over, "tool")
     frame = frame if frame is not None else setting(modal, over, "base")
     held = not isinstance(tool, Record) or bool(tool.get("held"))
@@ -124,11 +158,16 @@ def frames_of(tool: Value, frame: Value, modal: Modal, over: Modal) -> Frames:
         raise ProgramError("motion", "tool and work object must not both be held, or both stationary")
     tool_pose = _tool_pose(tool)
     frame_pose = _frame_pose(frame).then(_rigid(setting(modal, over, "displacement")))
+    rides = scene.rides
     if isinstance(tool, Record) and not held:
-        return Frames(frame_pose, root.inverse.then(tool_pose), True)
-    if modal_stationary and not isinstance(tool, Record):
-        return Frames(tool_pose, root.inverse.then(frame_pose), True)
-    return Frames(tool_pose, root.inverse.then(frame_pose), False)
+        made = Frames(frame_pose, rigid.IDENTITY, True, tool_pose, root, rides)
+    elif modal_stationary and not isinstance(tool, Record):
+        made = Frames(tool_pose, rigid.IDENTITY, True, frame_pose, root, rides)
+    else:
+        unit, place = setting(modal, over, "base_unit"), setting(modal, over, "base_root")
+        mount = scene.mount_of(frame, given, unit, place) if known else None
+        made = Frames(tool_pose, rigid.IDENTITY, False, frame_pose, root, rides, mount)
+    return made.at(external)
 
 
 def _rigid(value: Value) -> rigid.Pose:
@@ -251,38 +290,45 @@ class Planning:
     modal: Modal
     notation: Notation | None
     controller: MotionModel
+    scene: Scene = NOTHING
 
 
 def request_of(order: Order, plan: Planning) -> tuple[MoveRequest, rigid.Pose, rigid.Pose, tuple[float | None, ...]]:
     """The request, the moving point in the flange, the goal in the move's frame, the external axes after it."""
     import numpy as np
 
-    frames = frames_of(order.tool, order.frame, plan.modal, order.modal)
+    frames = frames_of(order.tool, order.frame, plan.modal, order.modal, plan.scene, plan.external)
     before = frames.goal_of(pose_of_array(plan.model.forward(plan.joints)))
     relative = order.relative is not None
     external = external_of(order.target, plan.external, relative)
-    options = _common(order, plan, external)
+    frames = frames.at(external)
+    carrier = None if order.velocity else frames.carrier()
+    options = _common(order, plan, external) | {"carrier": carrier}
     if order.external_only:
         options |= {"kind": "joint", "target_joints": plan.joints}
         return _request(options), frames.tool, before, external
     if is_joints(order.target):
         joints = np.array(joints_of(order.target, [float(j) for j in plan.joints], relative))
         goal = frames.goal_of(pose_of_array(plan.model.forward(joints)))
-        moving = frames.target_in_robot(goal)[1]
         options |= {"target_joints": joints}
     else:
         goal = _goal(order.target, before, order.relative)
-        target, moving = frames.target_in_robot(goal)
-        options |= {"target_pose": matrix_of(target)}
+        options |= {"target_pose": matrix_of(_planned(frames, carrier, goal))}
         options |= _configuration(order, plan)
+    moving = frames.target_in_robot(goal)[1]
     options |= {"kind": order.kind if order.kind in ("joint", "linear", "circular") else "linear"}
-    options |= {"tool": matrix_of(moving)}
+    options |= {"tool": matrix_of(frames.tool if carrier is not None and not frames.stationary else moving)}
     if order.kind == "circular":
         via = filled(order.via, before) if order.relative is None else shifted(order.via, before, order.relative)
-        options |= {"via_pose": matrix_of(frames.target_in_robot(via)[0]), "swept_deg": order.swept}
+        options |= {"via_pose": matrix_of(_planned(frames, carrier, via)), "swept_deg": order.swept}
         if is_joints(order.target):
-            options |= {"target_pose": matrix_of(frames.target_in_robot(goal)[0])}
+            options |= {"target_pose": matrix_of(_planned(frames, carrier, goal))}
     return _request(options), moving, goal, external
+
+
+def _planned(frames: Frames, carrier: Carrier | None, goal: rigid.Pose) -> rigid.Pose:
+    """A programmed pose as the planner counts it: in the work where something carries it, else in the base."""
+    return frames.target_in_robot(goal)[0] if carrier is None else frames.target_in_work(goal)
 
 
 def _goal(target: Value, before: rigid.Pose, relative: str | None) -> rigid.Pose:
@@ -401,18 +447,9 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
         "controller": plan.controller,
         "effort": effort_share,
     }
-    options |= _external(plan, external, value)
+    shares = [float(value("external_speed", place + 1)) / 100.0 for place in range(len(external))]
+    options |= plan.scene.options(plan.external, external, shares)
     return _by_time(options, over) if speed.duration else options
-
-
-def _external(plan: Planning, external: tuple[float | None, ...], value: Callable[..., Value]) -> dict[str, Value]:
-    """Where the external axes go from and to, and how fast they may."""
-    used = [place for place, number in enumerate(external) if number is not None]
-    return {
-        "external_start": tuple(plan.external[place] or 0.0 for place in used),
-        "external_target": tuple(external[place] for place in used),
-        "external_speeds": tuple(EXTERNAL_SPEED * float(value("external_speed", place + 1)) / 100.0 for place in used),
-    }
 
 
 def _path_acceleration(order: Order, plan: Planning) -> float:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from rpl.passes import rigid
 from rpl.passes.numeric import NUMERIC
 from rpl.runtime import arcs, axes, geometry, reaching, tasks, texts
-from rpl.runtime.chain import convention_of, filled, frames_of, joints_of, joints_value, matrix_of
+from rpl.runtime.chain import convention_of, external_of, filled, frames_of, joints_of, joints_value, matrix_of
 from rpl.runtime.faults import ProgramError, name_of
 from rpl.runtime.geometry import as_pose
 from rpl.runtime.tasks import robot_of
@@ -213,7 +213,8 @@ def _target_to_joints(task: Task, target: Value, tool: Value = None, frame: Valu
     robot, rules = _robot(task), task.frame.code.rules
     if robot.model is None:
         raise ProgramError("motion", "inverse kinematics need a robot")
-    frames = frames_of(tool, frame, task.modal, {})
+    external = external_of(target, robot.external_now(), False)
+    frames = frames_of(tool, frame, task.modal, {}, task.machine.scene, external)
     here = robot.joints_array()
     place, moving = frames.target_in_robot(filled(target, rigid.IDENTITY))
     flange = matrix_of(place.then(moving.inverse))
@@ -245,7 +246,8 @@ def _joints_to_target(task: Task, joints: Value, tool: Value = None, frame: Valu
     if robot.model is None:
         raise ProgramError("motion", "forward kinematics need a robot")
     here = np.array(joints_of(joints, [0.0] * robot.model.axes, False))
-    return robot.target_now(tool, frame, task.frame.code.rules, here)
+    external = external_of(joints, robot.external_now(), False)
+    return robot.target_now(tool, frame, task.frame.code.rules, here, external)
 
 
 def _modal(task: Task, set: str, used: str) -> Value:

@@ -31,7 +31,7 @@ class Imagined:
         """Make the move at once; its triggers fire in their order."""
         task = queue.task
         data: dict[str, Value] = {"motion": order.kind}
-        frames = frames_of(order.tool, order.frame, task.modal, order.modal)
+        frames = frames_of(order.tool, order.frame, task.modal, order.modal, known=False)
         relative = order.relative
         if order.external_only:
             pass

@@ -12,12 +12,14 @@ from collections.abc import Callable
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
+from rpl.emulator.mechanismfile import checked_together
 from rpl.runtime import searching, tasks
 from rpl.runtime.code import Code, Read, Values
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.interrupts import Interrupt
 from rpl.runtime.limits import EVENTS_OF_MOTION, MOST_WAITING, STEPS_OF_EVENT, Limits
 from rpl.runtime.motion import MotionQueue
+from rpl.runtime.scene import Scene
 from rpl.runtime.signals import Key, bit_kind, group_bits, is_bit_group, key_of, keys_named, usual, usual_key, zero_of
 from rpl.runtime.task import ENDED, READY, WAITING, Task
 from rpl.runtime.trace import Event, Fault, RunResult
@@ -53,6 +55,8 @@ class Machine:
         self.model = model
         self.controller = controller
         self.cell = cell
+        of_robot = model.mechanisms if model is not None else ()
+        self.scene = Scene(checked_together((*of_robot, *cell.mechanisms), cell.path))
         self.limits = limits
         self.on_event = on_event
         self.now = 0.0
@@ -87,7 +91,7 @@ class Machine:
             self.schedule(given.time_s, INPUTS, "input", 0, given.signal, given.value)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Machine:
-        for shared in (self.linked, self.model, self.controller, self.cell, self.on_event):
+        for shared in (self.linked, self.model, self.controller, self.cell, self.scene, self.on_event):
             memo[id(shared)] = shared
         twin = self.__class__.__new__(self.__class__)
         memo[id(self)] = twin

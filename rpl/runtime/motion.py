@@ -107,6 +107,7 @@ class MotionQueue(RobotState):
             self.task.modal,
             notation,
             self.controller_of(order.rules),
+            self.machine.scene,
         )
         request, moving, goal, external = request_of(order, plan)
         planned = pieces.plan(self.model, self.planned_joints, request)
@@ -501,7 +502,7 @@ class MotionQueue(RobotState):
         """Forget everything commanded; the robot stays where it is."""
         if self.piece is not None:
             self._close_leg(self.piece, self.machine.now)
-            self.joints = self.joints_array()
+            self.joints, self.external = self.joints_array(), self.external_now()
         resting.ended(self)
         begun = self.piece or self.halted
         self.piece = self.halted = None
@@ -554,7 +555,7 @@ class MotionQueue(RobotState):
         if self.piece is not None and self.model is not None:
             piece = self.piece
             self._close_leg(piece, self.machine.now)
-            self.joints = self.joints_array()
+            self.joints, self.external = self.joints_array(), self.external_now()
             self.piece = None
             if piece.drive.legs:
                 self._show(piece.drive, False, True)

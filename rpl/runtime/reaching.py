@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rpl.passes import rigid
-from rpl.runtime.chain import filled, frames_of, joints_of, joints_value, matrix_of
+from rpl.runtime.chain import external_of, filled, frames_of, joints_of, joints_value, matrix_of
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.geometry import as_pose
 from rpl.runtime.tasks import robot_of
@@ -38,7 +38,9 @@ def _near(task: Task, target: Value, joints: Value, tool: Value = None, frame: V
     robot = robot_of(task)
     if robot is None or robot.model is None:
         raise ProgramError("motion", "inverse kinematics need a robot")
-    place, moving = frames_of(tool, frame, task.modal, {}).target_in_robot(filled(target, rigid.IDENTITY))
+    external = external_of(target, robot.external_now(), False)
+    frames = frames_of(tool, frame, task.modal, {}, task.machine.scene, external)
+    place, moving = frames.target_in_robot(filled(target, rigid.IDENTITY))
     near = np.array(joints_of(joints, [0.0] * robot.model.axes, False))
     flange = matrix_of(place.then(moving.inverse))
     flags = {name: int(value) for name, value in _flags(target) if value is not None}

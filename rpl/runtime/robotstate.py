@@ -9,6 +9,7 @@ from rpl.runtime.chain import current_target, frames_of, joints_value
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.imagined import Imagined
 from rpl.runtime.pieces import Piece
+from rpl.runtime.scene import External
 from rpl.runtime.values import JointsValue, TargetValue, Value
 
 if TYPE_CHECKING:
@@ -28,11 +29,11 @@ class RobotState:
         self.task_index = task_index
         self.model = model
         self.joints: FloatArray | None = _start(machine, model)
-        self.external: tuple[float | None, ...] = (None,) * 6
+        self.external: External = machine.cell.external or (None,) * 6
         self.piece: Piece | None = None
         self.resting = False  # it keeps still for a time that the program has ordered (see resting)
         self.imagined = Imagined()
-        self.interrupted: tuple[FloatArray, float] | None = None
+        self.interrupted: tuple[FloatArray, float, External] | None = None
 
     @property
     def task(self) -> Task:
@@ -50,7 +51,7 @@ class RobotState:
     def mark_interrupted(self) -> None:
         """An interrupt came: remember where the robot is."""
         if self.model is not None:
-            self.interrupted = (self.joints_array(), self.machine.now)
+            self.interrupted = (self.joints_array(), self.machine.now, self.external_now())
 
     def joints_array(self) -> FloatArray:
         """Joints (n,) at this moment."""
@@ -72,20 +73,46 @@ class RobotState:
                 raise ProgramError("motion", "the joints are asked for, but the run has no robot")
             return joints_value(self.imagined.joints, self.external, rules)
         here = self.joints_array() if joints is None else joints
-        return joints_value([float(joint) for joint in here], self.external, rules)
+        return joints_value([float(joint) for joint in here], self.external_now(), rules)
 
-    def target_now(self, tool: Value, frame: Value, rules: Rules, joints: FloatArray | None = None) -> TargetValue:
-        """Where the tool centre point is."""
+    def external_now(self) -> External:
+        """External axes at this moment."""
+        piece = self.piece
+        return self.external if piece is None else external_of(piece, self.machine.now, self.external)
+
+    def target_now(
+        self,
+        tool: Value,
+        frame: Value,
+        rules: Rules,
+        joints: FloatArray | None = None,
+        external: External | None = None,
+    ) -> TargetValue:
+        """Where the tool centre point is, or would be at given joints and external axes."""
         modal = self.task.modal
         if rules.last_tool and modal.get("tool") is None:
             tool = tool if tool is not None else modal.get("tool_in_use")
             frame = frame if frame is not None else modal.get("frame_in_use")
-        frames = frames_of(tool, frame, modal, {})
+        here_external = self.external_now() if external is None else external
+        scene = self.machine.scene
+        frames = frames_of(tool, frame, modal, {}, scene, here_external, self.model is not None)
         if self.model is None:
             return self.imagined.target(frames, self.external, rules)
         here = self.joints_array() if joints is None else joints
         notation = self.machine.linked.notation(rules.name)
-        return current_target(self.model, here, self.external, frames, rules, notation)
+        return current_target(self.model, here, here_external, frames, rules, notation)
+
+
+def external_of(piece: Piece, now: float, before: External) -> External:
+    """External axes on a piece; those that no move has named yet have no value."""
+    values = piece.plan.external_at(min(max(now - piece.start_s, 0.0), piece.plan.duration_s))
+    if len(values) != len(before):
+        return before
+    goal = piece.drive.external if piece.corner is None else piece.corner.following.external
+    return tuple(
+        None if old is None and new is None else float(value)
+        for value, old, new in zip(values, before, goal, strict=True)
+    )
 
 
 def _start(machine: Machine, model: RobotModel | None) -> FloatArray | None:

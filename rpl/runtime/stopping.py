@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from rpl.runtime import pieces, resting
 from rpl.runtime.orders import Drive
 from rpl.runtime.pieces import Corner, Halting, Piece
+from rpl.runtime.robotstate import external_of
 
 if TYPE_CHECKING:
     from rpl.emulator.cornerlaws import Stretch
@@ -91,7 +92,7 @@ def _in_corner(drive: Drive, corner: Corner, stretch: Stretch, how: Halting | No
 
 
 def _stands(queue: MotionQueue, piece: Piece, how: Halting) -> None:
-    queue.joints = piece.plan.end_joints
+    queue.joints, queue.external = piece.plan.end_joints, external_of(piece, queue.machine.now, queue.external)
     queue.piece = None
     if how.ends_move:
         _drop(queue, piece)

@@ -11,6 +11,7 @@ from rpl import ir
 from rpl.runtime.chain import DEFAULTS
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.functions import identity
+from rpl.runtime.robotstate import external_of
 from rpl.runtime.tasks import robot_of
 from rpl.runtime.values import Member, Record, StopWatch, Value, copied, whole
 from rpl.runtime.waits import CYCLE_S
@@ -42,19 +43,26 @@ def _actual_joint(task: Task, index: int) -> Value:
 
 def _end_pose(task: Task, index: int) -> Value:
     robot = _robot(task)
-    return robot.target_now(None, None, _rules(task), robot.planned_joints if robot.piece is not None else None)
+    if robot.piece is None:
+        return robot.target_now(None, None, _rules(task))
+    return robot.target_now(None, None, _rules(task), robot.planned_joints, robot.planned_external)
 
 
 def _start_pose(task: Task, index: int) -> Value:
     robot = _robot(task)
     piece = robot.piece
-    return robot.target_now(None, None, _rules(task), piece.plan.start_joints if piece is not None else None)
+    if piece is None:
+        return robot.target_now(None, None, _rules(task))
+    begun = external_of(piece, piece.start_s, robot.external)
+    return robot.target_now(None, None, _rules(task), piece.plan.start_joints, begun)
 
 
 def _interrupt_pose(task: Task, index: int) -> Value:
     robot = _robot(task)
-    marked = robot.interrupted[0] if robot.interrupted is not None else None
-    return robot.target_now(None, None, _rules(task), marked)
+    marked = robot.interrupted
+    if marked is None:
+        return robot.target_now(None, None, _rules(task))
+    return robot.target_now(None, None, _rules(task), marked[0], marked[2])
 
 
 def _interrupt_joints(task: Task, index: int) -> Value:

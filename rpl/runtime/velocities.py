@@ -124,7 +124,8 @@ def _wanted(queue: MotionQueue, order: Order, joints: FloatArray) -> tuple[Rate,
 
     assert queue.model is not None  # asked by the caller
     notation = queue.machine.linked.notation(order.rules.name)
-    plan = Planning(queue.model, joints, queue.external, queue.task.modal, notation, queue.controller_of(order.rules))
+    controller, scene = queue.controller_of(order.rules), queue.machine.scene
+    plan = Planning(queue.model, joints, queue.external, queue.task.modal, notation, controller, scene)
     request, tool, _, _ = request_of(order, plan)
     given = order.speed
     if request.target_joints is not None:
