@@ -39,7 +39,7 @@ def read_urdf(path: Path, tip: str | None) -> UrdfChain:
         tree = ET.fromstring(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise RobotError(f"robot file {path} cannot be read: {error.strerror}") from error
-    except ET.ParseError as error:
+    except (ET.ParseError, UnicodeDecodeError) as error:
         raise RobotError(f"{path.name} is no URDF: {error}") from error
     leading: dict[str, ET.Element] = {}
     for joint in tree.findall("joint"):
@@ -57,7 +57,7 @@ def read_urdf(path: Path, tip: str | None) -> UrdfChain:
         raise RobotError(f"{path.name}: joint '{mimics[0]}' follows another one, which is not supported inside the arm")
     for joint in joints:
         _bound(joint)
-    facts = [_limits(joint) for joint in joints]
+    facts = [_limits(path, joint) for joint in joints]
     return UrdfChain(
         text=ET.tostring(tree, encoding="unicode"),
         tip=tip,
@@ -91,13 +91,28 @@ def _bound(joint: ET.Element) -> None:
         limit.set("upper", str(2.0 * np.pi))
 
 
-def _limits(joint: ET.Element) -> tuple[float, float, float]:
+def _limits(path: Path, joint: ET.Element) -> tuple[float, float, float]:
     """Lower, upper and speed of a joint in degrees or mm; a missing speed is a full turn in 2 s, or 1 m/s."""
     limit = joint.find("limit")
     sliding = joint.get("type") == "prismatic"
     scale = 1000.0 if sliding else 180.0 / np.pi
     values = {} if limit is None else limit.attrib
-    low, high, speed = (float(values.get(key, "0")) * scale for key in ("lower", "upper", "velocity"))
+    place = f"{path.name}: joint '{joint.get('name', '')}'"
+    numbers = []
+    for key in ("lower", "upper", "velocity"):
+        text = values.get(key, "0")
+        try:
+            number = float(text)
+        except ValueError:
+            number = np.nan
+        if not np.isfinite(number):
+            raise RobotError(f"{place}: the limit's '{key}' is '{text}', which is no number")
+        numbers.append(number * scale)
+    low, high, speed = numbers
+    if low > high:
+        raise RobotError(f"{place}: its lower limit {low:g} is above its upper one {high:g}")
+    if speed < 0.0:
+        raise RobotError(f"{place}: its speed is below zero")
     return low, high, speed if speed > 0.0 else (1000.0 if sliding else 180.0)
 
 
@@ -128,10 +143,11 @@ def described(path: Path, chain: UrdfChain) -> RobotFile:
 
 def exact_opw(arm: "ChainArm") -> OpwFit | None:
     """The closed form of this chain when one reproduces it exactly (1e-5 mm, 1e-8 in the rotation)."""
+    zero = np.zeros(len(arm.chain.kinds))
+    tip = arm.forward(zero)  # here a URDF that Pinocchio cannot read is refused, whatever its joints
     if arm.chain.kinds != ("revolute",) * 6:
         return None
-    zero = np.zeros(6)
-    fit = fit_opw(*arm.axes(zero), arm.forward(zero))
+    fit = fit_opw(*arm.axes(zero), tip)
     if fit is None:
         return None
     q = np.random.default_rng(0).uniform(-np.pi, np.pi, (20, 6))
@@ -144,7 +160,10 @@ def _pinocchio(chain: UrdfChain) -> "tuple[pin.Model, pin.Data, int]":
     """Pinocchio's model of the chain with every other joint held, its work space, and the frame of the tip."""
     import pinocchio as pin
 
-    whole = pin.buildModelFromXML(chain.text)
+    try:
+        whole = pin.buildModelFromXML(chain.text)
+    except ValueError as error:
+        raise RobotError(f"the URDF of '{chain.tip}' describes no robot: {str(error).strip()}") from error
     others = [i for i in range(1, whole.njoints) if whole.names[i] not in chain.joints]
     model = pin.buildReducedModel(whole, others, pin.neutral(whole))
     return model, model.createData(), model.getFrameId(chain.tip)

@@ -6,6 +6,8 @@ has verified are listed under `assumed`. This module only reads and checks; `rpl
 """
 
 import difflib
+import math
+import re
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -26,6 +28,8 @@ LENGTHS: dict[Kind, tuple[str, ...]] = {
     "chain": (),
 }
 AXES: dict[Kind, int] = {"opw": 6, "ur": 6, "scara": 4, "chain": 0}
+# No length, angle, speed or scale of a robot is larger.
+LARGEST = 1e9
 Vector = tuple[float, ...]
 
 
@@ -99,6 +103,8 @@ def read_robot_file(name_or_path: str) -> RobotFile:
             text = path.read_text(encoding="utf-8")
         except OSError as error:
             raise RobotError(f"robot file {name_or_path} cannot be read: {error.strerror}") from error
+        except UnicodeDecodeError as error:
+            raise RobotError(f"robot file {name_or_path} is no text in UTF-8") from error
         return _parse(text, name_or_path, path.parent)
     packaged = resources.files("rpl.robots") / f"{name_or_path}.toml"
     if name_or_path not in robot_names():
@@ -120,17 +126,25 @@ def _parse(text: str, place: str, folder: Path | None) -> RobotFile:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise RobotError(f"robot file {place}: {error}") from error
-    reader = _Reader(data, place)
+    reader = _Reader(data, place, _lines(text))
     kind = reader.text("kind")
     if kind not in LENGTHS:
-        raise RobotError(f"robot file {place}: kind is '{kind}', but must be one of {', '.join(LENGTHS)}")
+        raise reader.fail("kind", f"one of {', '.join(LENGTHS)}")
     family = kind
     axes = reader.table("axes")
     geometry = reader.table("geometry")
     count = AXES[family] or len(axes.numbers("home", None))
+    if count == 0:
+        raise axes.fail("home", "a list of one number an axis")
     urdf = geometry.text("urdf", "")
     if family == "chain" and (not urdf or folder is None):
-        raise RobotError(f"robot file {place}: a chain needs 'urdf', a path relative to the file, under [geometry]")
+        raise geometry.wrong("urdf", "a chain needs 'urdf', a path relative to the file, under [geometry]")
+    lengths = {key: geometry.number(key) for key in LENGTHS[family]}
+    _check_lengths(geometry, family, lengths)
+    limits, home = axes.pairs("limits", count), axes.numbers("home", count)
+    for axis, (value, (low, high)) in enumerate(zip(home, limits, strict=True), start=1):
+        if not low <= value <= high:
+            raise axes.wrong("home", f"'home' of axis {axis} is {value:g}, outside its limits {low:g}..{high:g}")
     return RobotFile(
         name=reader.text("name"),
         maker=reader.text("maker", ""),
@@ -139,18 +153,18 @@ def _parse(text: str, place: str, folder: Path | None) -> RobotFile:
         source=reader.text("source", ""),
         assumed=reader.texts("assumed"),
         notes=reader.texts("notes"),
-        lengths={key: geometry.number(key) for key in LENGTHS[family]},
+        lengths=lengths,
         offsets=geometry.numbers("offsets", count, (0.0,) * count),
-        signs=geometry.numbers("signs", count, (1.0,) * count),
+        signs=_signs(geometry, count),
         joint_3_follows_joint_2=geometry.flag("joint_3_follows_joint_2"),
         origin_at_axis_2=geometry.flag("origin_at_axis_2"),
-        limits=axes.pairs("limits", count),
-        speeds=axes.numbers("speeds", count),
-        accelerations=axes.numbers("accelerations", count) if "accelerations" in axes.data else None,
-        home=axes.numbers("home", count),
+        limits=limits,
+        speeds=axes.above_zero("speeds", count),
+        accelerations=axes.above_zero("accelerations", count) if "accelerations" in axes.data else None,
+        home=home,
         urdf=(folder / urdf) if urdf and folder is not None else None,
         tip=geometry.text("tip", "") or None,
-        pulses_per_degree=_pulses(axes, count),
+        pulses_per_degree=axes.above_zero("pulses_per_degree", count) if "pulses_per_degree" in axes.data else None,
         counts_pulses=axes.flag("counts_pulses", True),
         motion=_motion(reader),
         motion_of=reader.table("motion").text("controller") if "motion" in data else "",
@@ -169,32 +183,72 @@ def _motion(reader: "_Reader") -> dict[str, float]:
     return {key: table.number(key) for key in NUMBERS if key in table.data}
 
 
-def _pulses(axes: "_Reader", count: int) -> Vector | None:
-    """Motor pulses per degree of each axis, where somebody has published them."""
-    if "pulses_per_degree" not in axes.data:
-        return None
-    numbers = axes.numbers("pulses_per_degree", count)
-    if min(numbers) <= 0.0:
-        raise axes.fail("pulses_per_degree", "a list of numbers above 0")
-    return numbers
+def _signs(geometry: "_Reader", count: int) -> Vector:
+    signs = geometry.numbers("signs", count, (1.0,) * count)
+    if any(sign not in (1.0, -1.0) for sign in signs):
+        raise geometry.fail("signs", f"a list of {count} numbers, each 1 or -1")
+    return signs
+
+
+# Lengths without which two links are none; of the Universal Robots build both are negative.
+LINKS: dict[Kind, tuple[str, ...]] = {"opw": ("c2",), "ur": ("a2", "a3", "d5"), "scara": ("l1", "l2"), "chain": ()}
+
+
+def _check_lengths(geometry: "_Reader", family: Kind, lengths: dict[str, float]) -> None:
+    """A link of no length makes no arm of its family: there the closed form would divide by zero."""
+    for key in LINKS[family]:
+        if lengths[key] == 0.0:
+            raise geometry.fail(key, "a length that is not zero")
+    if family in ("opw", "scara"):
+        for key in LINKS[family]:
+            if lengths[key] < 0.0:
+                raise geometry.fail(key, "a length above zero")
+    if family == "opw" and math.hypot(lengths["a2"], lengths["c3"]) == 0.0:
+        raise geometry.wrong("c3", "'a2' and 'c3' are both zero: the forearm has no length")
+    if family == "ur" and lengths["a2"] * lengths["a3"] < 0.0:
+        raise geometry.wrong("a3", "'a2' and 'a3' must have the same sign")
+
+
+HEADER = re.compile(r"\s*\[\[?\s*([\w.-]+)\s*\]")
+KEY = re.compile(r"\s*[\"']?([\w-]+)[\"']?\s*=")
+
+
+def _lines(text: str) -> dict[tuple[str, str], int]:
+    """Where each key of each table stands: (table or "", key) to the number of its line; the key "" is the header."""
+    found: dict[tuple[str, str], int] = {("", ""): 1}
+    table = ""
+    for number, line in enumerate(text.splitlines(), start=1):
+        if header := HEADER.match(line):
+            table = header[1]
+            found.setdefault((table, ""), number)
+        elif key := KEY.match(line):
+            found.setdefault((table, key[1]), number)
+    return found
 
 
 @dataclass(frozen=True, slots=True)
 class _Reader:
-    """Typed look-ups in a TOML table, each failing with the name of the file and of the key."""
+    """Typed look-ups in a TOML table, each failing with the name of the file, the line and the key."""
 
     data: dict[str, object]
     place: str
+    lines: dict[tuple[str, str], int]
+    name: str = ""
+
+    def wrong(self, key: str, message: str) -> RobotError:
+        """An error at the line of a key; of a key that is missing, at its table's."""
+        line = self.lines.get((self.name, key), self.lines.get((self.name, ""), 1))
+        return RobotError(f"robot file {self.place}:{line}: {message}")
 
     def fail(self, key: str, wanted: str) -> RobotError:
         found = repr(self.data[key]) if key in self.data else "nothing"
-        return RobotError(f"robot file {self.place}: '{key}' must be {wanted}, found {found}")
+        return self.wrong(key, f"'{key}' must be {wanted}, found {found}")
 
     def table(self, key: str) -> "_Reader":
         value = self.data.get(key)
         if not isinstance(value, dict):
             raise self.fail(key, "a table")
-        return _Reader(value, self.place)
+        return _Reader(value, self.place, self.lines, key)
 
     def text(self, key: str, default: str | None = None) -> str:
         value = self.data.get(key, default)
@@ -215,10 +269,10 @@ class _Reader:
         return value
 
     def number(self, key: str) -> float:
-        value = self.data.get(key)
-        if isinstance(value, bool) or not isinstance(value, int | float):
+        numbers = _numbers([self.data.get(key)])
+        if numbers is None:
             raise self.fail(key, "a number")
-        return float(value)
+        return numbers[0]
 
     def numbers(self, key: str, count: int | None, default: Vector | None = None) -> Vector:
         value = self.data.get(key)
@@ -229,18 +283,30 @@ class _Reader:
             raise self.fail(key, "a list of numbers" if count is None else f"a list of {count} numbers")
         return numbers
 
+    def above_zero(self, key: str, count: int) -> Vector:
+        numbers = self.numbers(key, count)
+        if min(numbers) <= 0.0:
+            raise self.fail(key, f"a list of {count} numbers above 0")
+        return numbers
+
     def pairs(self, key: str, count: int) -> tuple[Vector, ...]:
         value = self.data.get(key)
         rows = [_numbers(row) for row in value] if isinstance(value, list) else []
-        pairs = tuple(row for row in rows if row is not None and len(row) == 2 and row[0] <= row[1])
+        pairs = tuple(row for row in rows if row is not None and len(row) == 2)
         if len(pairs) != count or len(rows) != count:
             raise self.fail(key, f"a list of {count} pairs [lower, upper]")
+        for axis, (low, high) in enumerate(pairs, start=1):
+            if low > high:
+                raise self.wrong(
+                    key, f"'{key}' of axis {axis}: the lower one, {low:g}, is above the upper one, {high:g}"
+                )
         return pairs
 
 
 def _numbers(value: object) -> Vector | None:
+    """The numbers of a list; None for anything else, TOML's nan and inf and whole numbers too long for any use too."""
     if not isinstance(value, list):
         return None
     if not all(isinstance(item, int | float) and not isinstance(item, bool) for item in value):
         return None
-    return tuple(float(item) for item in value)
+    return tuple(float(item) for item in value) if all(abs(item) <= LARGEST for item in value) else None
