@@ -21,7 +21,7 @@ from rpl.runtime.values import Member, Value
 
 if TYPE_CHECKING:
     from rpl.cell import Cell
-    from rpl.emulator.controller import MotionModel
+    from rpl.controllers import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.linking.program import LinkedProgram
 
@@ -67,7 +67,7 @@ class Simulation(Machine):
         controller: str | MotionModel | None = None,
     ) -> None:
         from rpl.cell import Cell as NoCell
-        from rpl.emulator.controller import controller_named
+        from rpl.controllers import controller_named
         from rpl.linking import link
 
         if max_time_s is not None:

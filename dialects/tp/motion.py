@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from lark import Tree
 
 from rpl import ir
+from rpl.controllers import controller_named
 from rpl.diagnostics import Severity, code
 from rpl.reading.pieces import Open
 from rpl.reading.shapes import StatementError, SyntaxTree
@@ -218,25 +219,30 @@ class Motion(Statements):
     # ---- the move
 
     def cnt_blend(self, letter: str, options: Options) -> ir.Blend:
-        """CNT n. Between path moves the corner begins a time before the target that the table gives: a distance that
-        grows with speed."""
+        """CNT n. Between path moves the corner begins where the overlap of their ramps does (controller.toml): a
+        distance that grows with speed."""
         percent = options.cnt
         assert percent is not None
         if letter == "J" or options.path_speed is None:
             return ir.BlendPercent(percent)
         if not isinstance(percent, ir.IntLiteral | ir.RealLiteral):
             return ir.BlendPercent(percent)
-        seconds = tables.cnt_distance_s(float(percent.value))
-        speed = options.path_speed
+        controller = controller_named("tp")
+        effort = options.acceleration
+        share = float(effort.value) / 100.0 if isinstance(effort, ir.IntLiteral | ir.RealLiteral) else 1.0
+        speed, number, most = options.path_speed, float(percent.value), max(share, 0.01)
         match speed:
             case ir.IntLiteral(value=value) | ir.RealLiteral(value=value):
-                distance: ir.Expression = ir.RealLiteral(round(float(value) * seconds, 3))
+                size = controller.overlap_distance_mm(number, float(value), most)
             case ir.Quantity(value=ir.IntLiteral(value=value) | ir.RealLiteral(value=value), unit=unit):
-                distance = ir.RealLiteral(round(float(value) * ir.UNITS[unit] * seconds, 3))
+                size = controller.overlap_distance_mm(number, float(value) * ir.UNITS[unit], most)
             case _:
-                distance = ir.Binary("*", speed, ir.RealLiteral(round(seconds, 6)), origin=self.origin)
-        if seconds == 0.0:
+                size = controller.overlap_distance_mm(number, 1.0, most)
+                seconds = ir.RealLiteral(round(size, 6))
+                return ir.BlendPercent(percent, ir.BlendDistance(ir.Binary("*", speed, seconds, origin=self.origin)))
+        if size == 0.0:
             return ir.BlendPercent(percent)
+        distance: ir.Expression = ir.RealLiteral(round(size, 3))
         return ir.BlendPercent(percent, ir.BlendDistance(distance))
 
     def move(self, letter: str, first: Typed, options: Options) -> ir.Move:

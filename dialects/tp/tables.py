@@ -99,12 +99,6 @@ UNITS: dict[str, tuple[str, str]] = {
     "msec": ("duration", "ms"),
 }
 
-# CNT: how far before the target a corner begins, as time at the programmed speed for CNT100, and the share of it for
-# CNT 0, 10 .. 100. Made from the corner cuts of an M-20iD/25 at 500 mm/s measured on a virtual controller (CrossArm);
-# the cut of a symmetric corner of 90 degrees is 0.354 of that distance. The distance grows with speed: a time overlap.
-CNT_OVERLAP_S = 0.02377 / 0.354
-CNT_SHARES = (0.0, 0.0384, 0.1053, 0.1911, 0.293, 0.4085, 0.5406, 0.6741, 0.815, 0.9188, 1.0)
-
 # Options of a move without a number that change only speed or smoothness, not where the robot goes.
 HARMLESS_OPTIONS = frozenset(("pth", "break", "mrot", "cjnt"))
 # Options with a number that say only how straight the way is near a point.
@@ -155,14 +149,6 @@ def instruction_effect(text: str) -> str:
     """The declared effect of an application instruction."""
     lower = " ".join(text.lower().split())
     return next((effect for start, effect in INSTRUCTION_EFFECTS if lower.startswith(start)), "unknown")
-
-
-def cnt_distance_s(percent: float) -> float:
-    """Seconds at the programmed speed before the target at which the corner of CNT `percent` begins."""
-    place = min(max(percent, 0.0), 100.0) / 10.0
-    low = min(int(place), len(CNT_SHARES) - 2)
-    share = CNT_SHARES[low] + (CNT_SHARES[low + 1] - CNT_SHARES[low]) * (place - low)
-    return CNT_OVERLAP_S * share
 
 
 NUMBER = ir.RealType()

@@ -15,7 +15,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Literal
 
-from rpl.emulator.controller import NUMBERS
+from rpl.controllers import NUMBERS
 from rpl.emulator.mechanismfile import Mechanism, read_mechanisms
 from rpl.errors import UsageError
 
@@ -52,7 +52,7 @@ class RobotSummary:
 class RobotFile:
     """One description, checked: lengths in mm, angles in degrees (mm for a sliding joint), speeds per second.
 
-    `motion`: parameters of rpl.emulator.controller.MotionModel measured on this arm under the controller `motion_of`.
+    `motion`: parameters of rpl.controllers.MotionModel measured on this arm under the controller `motion_of`.
     """
 
     name: str

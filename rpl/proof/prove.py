@@ -23,7 +23,7 @@ from rpl.runtime.limits import DEFAULTS, Limits
 
 if TYPE_CHECKING:
     from rpl.cell import Cell
-    from rpl.emulator.controller import MotionModel
+    from rpl.controllers import MotionModel
     from rpl.emulator.model import RobotModel
 
 

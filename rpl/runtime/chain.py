@@ -32,7 +32,7 @@ from rpl.runtime.values import (
 
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation, Selection
-    from rpl.emulator.controller import MotionModel
+    from rpl.controllers import MotionModel
     from rpl.emulator.mechanismfile import Mechanism
     from rpl.emulator.mechanisms import Carrier
     from rpl.emulator.model import RobotModel

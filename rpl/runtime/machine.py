@@ -29,7 +29,7 @@ from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.cell import Cell
-    from rpl.emulator.controller import MotionModel
+    from rpl.controllers import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.runtime.linked import Linked
 

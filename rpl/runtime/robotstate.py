@@ -13,7 +13,7 @@ from rpl.runtime.scene import External
 from rpl.runtime.values import JointsValue, TargetValue, Value
 
 if TYPE_CHECKING:
-    from rpl.emulator.controller import MotionModel
+    from rpl.controllers import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.emulator.rotations import FloatArray
     from rpl.ir.rules import Rules
@@ -41,7 +41,7 @@ class RobotState:
 
     def controller_of(self, rules: Rules) -> MotionModel:
         """Who drives moves of that language: the controller chosen for the run, else the language's own."""
-        from rpl.emulator.controller import controller_named, on_robot
+        from rpl.controllers import controller_named, on_robot
 
         chosen = self.machine.controller or controller_named(rules.name)
         if self.model is None or self.model.motion_of != chosen.name:

@@ -18,6 +18,7 @@ LEVELS = [
     ["project", "translation", "simulation", "report"],
     ["cell", "emulator", "runtime", "linking", "writing", "reading"],
     ["passes"],
+    ["controllers"],
     ["registry"],
     ["ir"],
     ["diagnostics", "source", "errors"],

@@ -68,6 +68,14 @@ class MotionModel:
                 return first + (second - first) * (percent - low) / (high - low)
         return points[-1][1]
 
+    def overlap_distance_mm(self, percent: float, speed_mm_s: float, effort: float = 1.0) -> float:
+        """How far before the target the corner of two overlapping path moves at that speed begins. `effort`: the
+        acceleration in force as a share. The sum of two even ramps is left half the acceleration times the square of
+        the overlap before their meeting point."""
+        most = (self.path_acceleration_mm_s2 or math.inf) * effort
+        ramp_s = max(self.path_ramp_s / effort, speed_mm_s / most)
+        return 0.5 * speed_mm_s * ramp_s * self.overlap_at(percent) ** 2
+
     def tangent_share(self, distance_mm: float, speed_mm_s: float) -> float:
         """How far towards the corner point the inner control points of a corner's cubic lie, as a share (0.2..1) of the
         blend distance, so that a right angle is missed by `corner_cut` and the filter's part of the speed."""
