@@ -20,6 +20,8 @@ from rpl.emulator.rotations import FloatArray
 BISECTIONS = 38
 # Most of the way that is left over by the ramps which may be driven evenly for the sake of the average.
 EVEN_SHARE = 0.98
+# A narrower average would be lost in rounding.
+NARROWEST_S = 1e-5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -219,7 +221,8 @@ class Profile:
         if part < 1e-6:
             return 0.0
         needed = abs(end_speed * end_speed - start_speed * start_speed) / (2.0 * self.acceleration)
-        return min(self.smoothing_s, max(2.0 * (part - needed) / sum_of_speeds * EVEN_SHARE, 0.0))
+        width = min(self.smoothing_s, 2.0 * (part - needed) / sum_of_speeds * EVEN_SHARE)
+        return width if width > NARROWEST_S else 0.0
 
     def unsmoothed(self, begin: float, end: float, start_speed: float = 0.0, end_speed: float = 0.0) -> TimeLaw:
         """The law of constant accelerations over a part of the path: what `law` averages."""
