@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rpl.ir.rules import AdvanceRules, Rules
+from rpl.ir.rules import AdvanceRules, Rules, TriggerRules
 
 from . import tables
 
@@ -18,6 +18,16 @@ COMPONENTS = {
 # Statements before which the advance run stops (expert programming, table of automatic stops); signals and actual
 # positions stop it wherever they are read or written.
 STOPS = frozenset(("Wait", "WaitUntil", "WaitForMotion", "Halt", "Pulse", "Message", "Dialog", "ResumeLevel"))
+
+# Expert programming KSS 5.2, 8.1 (DISTANCE and DELAY, figures 45 to 48) and 8.2 (PATH, figure 49, special cases).
+TRIGGERS = TriggerRules(
+    measured="path",
+    start_behind_corner=True,
+    delays_within_move=True,
+    passes_points=True,
+    end_at_joint_corner=True,
+    on_paths_only=True,
+)
 
 RULES = Rules(
     name="krl",
@@ -53,4 +63,5 @@ RULES = Rules(
         "held_work": False,
     },
     type_names=tables.BASIC_TYPES,
+    triggers=TRIGGERS,
 )

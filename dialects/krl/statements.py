@@ -140,7 +140,8 @@ class Statements(Declarations):
         return pairs
 
     def main_run_output(self, target: SyntaxTree, value: Make) -> Build:
-        """`$OUT_C[n]=...` switches when the robot begins the next move, without stopping the advance run."""
+        """`$OUT_C[n]=...` switches where the move before ends (in the middle of its corner), when the robot gets there,
+        without stopping the advance run (expert programming, 5.3)."""
         indices = self.optionals(_tree(target.children[1])) if len(target.children) == 2 else []
         index = indices[0] if len(indices) == 1 else None
         if index is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rpl.ir.rules import AdvanceRules, Rules
+from rpl.ir.rules import AdvanceRules, Rules, TriggerRules
 
 from .prelude import ERRORS
 from .types import TYPES
@@ -104,4 +104,5 @@ RULES = Rules(
     type_names=TYPES,
     exact_types=True,
     functions=FUNCTIONS,
+    triggers=TriggerRules(early_while_braking=True),  # TriggIO, limitations: not earlier than the braking begins
 )

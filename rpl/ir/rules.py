@@ -30,6 +30,31 @@ class AdvanceRules:
 
 
 @dataclass(frozen=True, slots=True)
+class TriggerRules:
+    """Where actions on the path happen, and how far a time shifts them.
+
+    measured: `path`: millimetres along the way that is driven, from the middle of a corner (KRL), or `programmed`:
+        along the move as programmed, the rest of it in a corner standing for that half of the corner.
+    start_behind_corner: the start with a time and no distance counts from where the corner at the move's start ends
+        (KRL DISTANCE=0), any other one from its middle.
+    delays_within_move: a time shifts an action no further than its move goes, one by a distance to the next stop.
+    passes_points: a distance behind the end counts on in the moves behind, up to the next stop; else it is the end.
+    end_at_joint_corner: what is left when a path is left for a joint move happens there, and a path that is met from a
+        joint move has its actions behind the corner only.
+    early_while_braking: an action a time before the end comes not earlier than the robot brakes (RAPID \\Time).
+    on_paths_only: distances mean something on paths only; a joint move with such an action is a fault.
+    """
+
+    measured: str = "programmed"
+    start_behind_corner: bool = False
+    delays_within_move: bool = False
+    passes_points: bool = False
+    end_at_joint_corner: bool = False
+    early_while_braking: bool = False
+    on_paths_only: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Rules:
     """What differs between languages that share the IR.
 
@@ -53,6 +78,7 @@ class Rules:
     another one of its routine (else nothing happens). exact_types: built-in types with components
     have to be equal too where a value is stored or passed. functions: neutral function -> how the language spells it
     and its parameters' types in the language's words (`word.part`: the reader takes that component of the argument).
+    triggers: where actions on the path happen.
     """
 
     name: str
@@ -82,3 +108,4 @@ class Rules:
     task_instances: bool = False
     exact_types: bool = False
     functions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    triggers: TriggerRules = TriggerRules()

@@ -225,6 +225,9 @@ class MotionStatements:
         """A trigger; with `frozen` its action is evaluated when it is stored."""
         distance, delay = self.optional(trigger.distance), self.optional(trigger.delay)
         reference, action = trigger.reference, trigger.action
+        rules, timed = self.linker.compiler.scope.rules.triggers, distance is None and delay is not None
+        braking = rules.early_while_braking and reference == "end" and timed
+        behind = rules.start_behind_corner and reference == "start" and timed
         act: Instruction | None = None
         routine = None
         freeze = None
@@ -246,7 +249,9 @@ class MotionStatements:
         def make(f: Values) -> TriggerOrder:
             act_here = act if freeze is None else _frozen(freeze[0](f), freeze[1])
             way = float(distance(f)) if distance is not None else None
-            return TriggerOrder(reference, way, float(delay(f)) if delay is not None else 0.0, f, act_here, routine)
+            order = TriggerOrder(reference, way, float(delay(f)) if delay is not None else 0.0, f, act_here, routine)
+            order.early_while_braking, order.behind_corner = braking, behind
+            return order
 
         return make
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rpl.runtime import pieces, resting, searching, stopping, velocities
+from rpl.runtime import pathevents, pieces, resting, searching, stopping, velocities
 from rpl.runtime.chain import (
     Planning,
     pose_of_array,
@@ -71,6 +71,8 @@ class MotionQueue(RobotState):
     def submit(self, order: Order, next: int) -> int:
         """Plan a move, queue it, and say how the program goes on."""
         task = self.task
+        if order.kind == "joint" and order.rules.triggers.on_paths_only and any(t.distance for t in order.triggers):
+            raise ProgramError("motion", "an action at a distance along the path needs a path: this is a joint move")
         if order.velocity:
             return velocities.go(self, order, next)
         if velocities.is_endless(self):
@@ -286,14 +288,20 @@ class MotionQueue(RobotState):
         if piece.halting is None and not drive.released:
             self._schedule_release(piece)
         if piece.corner is not None:
-            middle = pieces.time_in_corner(piece, 0.5)
+            middle = pathevents.middle_of(piece)
             if middle is not None:
                 self.schedule(middle, "middle")
+            piece.corner.following.entered = piece.corner.entered
+            self._schedule_triggers(piece, piece.corner.following)
+        self._schedule_triggers(piece, drive)
+
+    def _schedule_triggers(self, piece: Piece, drive: Drive) -> None:
+        """The actions of a move that happen on this piece, as far as can be told now."""
         for place, trigger in enumerate(drive.order.triggers):
             if not trigger.fired:
-                trigger.due = pieces.time_of_trigger(piece, trigger)
+                trigger.due = pathevents.due_of(piece, drive, trigger)
                 if trigger.due is not None:
-                    self.schedule(max(now, trigger.due), "fire", drive.number, place)
+                    self.schedule(max(self.machine.now, trigger.due), "fire", drive.number, place)
 
     def _schedule_release(self, piece: Piece) -> None:
         """When the program may go on behind a move that blends."""
@@ -366,8 +374,15 @@ class MotionQueue(RobotState):
     def left_corner(self, piece: Piece) -> None:
         """The end of a corner: the move before it has been made, the next one is driven."""
         assert piece.corner is not None
+        corner, following = piece.corner, piece.corner.following
+        rules = piece.drive.order.rules.triggers
+        for trigger in piece.drive.order.triggers if rules.passes_points else ():
+            behind = None if trigger.fired else pathevents.carried(piece.drive, trigger, corner)
+            if behind is not None:
+                trigger.fired = True
+                following.order.triggers.append(behind)
         self._done(piece.drive, False)
-        piece.corner.following.started_s = self.machine.now
+        following.started_s = self.machine.now
         self.piece = None
 
     def _after_corner(self, drive: Drive) -> None:
@@ -404,6 +419,8 @@ class MotionQueue(RobotState):
         for trigger in drive.order.triggers:
             if not trigger.fired:
                 due = trigger.due if trigger.due is not None else self.machine.now
+                if stops and drive.order.rules.triggers.delays_within_move:
+                    due = self.machine.now
                 self._fire_later(trigger, max(due, self.machine.now))
         task = self.task
         task.busy = bool(self.queue) or self.piece is not None

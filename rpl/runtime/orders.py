@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from rpl.runtime.code import Code, Instruction, Read, Values, Write
@@ -50,7 +50,8 @@ class BlendOrder:
 @dataclass(slots=True, eq=False)
 class TriggerOrder:
     """What happens on the path: `act` writes something at once, `routine` runs in the task, `interrupt` is an
-    interrupt's identity. `due` is its time as far as it is known."""
+    interrupt's identity. `due` is its time as far as it is known. `early_while_braking`: it comes before its place only
+    while the robot brakes for it. `behind_corner`: its place is the end of a corner at the start of the move."""
 
     reference: str
     distance: float | None
@@ -61,12 +62,12 @@ class TriggerOrder:
     interrupt: int | None = None
     due: float | None = None
     fired: bool = False
+    early_while_braking: bool = False
+    behind_corner: bool = False
 
     def copy(self) -> TriggerOrder:
         """A stored trigger is used by many moves: each has its own."""
-        return TriggerOrder(
-            self.reference, self.distance, self.delay, self.values, self.act, self.routine, self.interrupt
-        )
+        return replace(self, due=None, fired=False)
 
 
 @dataclass(slots=True, eq=False)
@@ -117,7 +118,8 @@ class Order:
 @dataclass(slots=True, eq=False)
 class Drive:
     """A planned move in the queue. `legs`: how it was driven so far; `goal`: the programmed target in its frame;
-    `rate`: of a move at a given speed, which has no end."""
+    `rate`: of a move at a given speed, which has no end. `entered`: where a corner at its start ends, in mm of the move
+    and in mm driven behind the corner's middle."""
 
     number: int
     order: Order
@@ -130,3 +132,4 @@ class Drive:
     legs: list[object] = field(default_factory=list)
     started_s: float | None = None
     rate: Rate | None = None
+    entered: tuple[float, float] | None = None

@@ -10,7 +10,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypeGuard
 
 from rpl.passes import rigid
-from rpl.runtime.orders import BlendOrder, Drive, TriggerOrder
+from rpl.runtime import pathevents
+from rpl.runtime.orders import BlendOrder, Drive
 from rpl.runtime.values import Value
 
 if TYPE_CHECKING:
@@ -29,12 +30,38 @@ ROUNDING = 1e-9
 @dataclass(slots=True, eq=False)
 class Corner:
     """A corner and what follows it: the rest of the next move. `rates`: fractions of the move before and of the next
-    one per fraction of the corner, where they meet it."""
+    one per fraction of the corner, where they meet it. `leave`: the fraction of the move before it where it begins;
+    `ways` (k,): millimetres along it at even fractions."""
 
     plan: PlannedMove
     rest: PlannedMove
     following: Drive
     rates: tuple[float, float]
+    leave: float
+    ways: FloatArray
+
+    @property
+    def entered(self) -> tuple[float, float]:
+        """Where the next move begins behind it: mm of that move, and mm driven behind the corner's middle."""
+        import numpy as np
+
+        met = float(self.rest.geometry.distance(np.array([self.rest.span[0]]))[0])
+        return met, float(self.ways[-1]) - self.half_mm
+
+    @property
+    def half_mm(self) -> float:
+        """Millimetres from its beginning to its middle."""
+        return float(self.ways[len(self.ways) // 2])
+
+    def fraction_of(self, part: str, at: float) -> float | None:
+        """The fraction of the corner: `at` itself (`out`), or so many mm behind its beginning (`on`); None: behind it."""
+        import numpy as np
+
+        if part != "on":
+            return at
+        if at > self.ways[-1]:
+            return None
+        return float(np.interp(at, self.ways, np.linspace(0.0, 1.0, len(self.ways))))
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,6 +199,8 @@ def way_back(model: RobotModel, joints: FloatArray, piece: Piece, now: float) ->
 
 def joined(model: RobotModel, piece: Piece, following: Drive, now: float) -> Piece | None:
     """The piece up to the corner with the next move, from where the robot is; None when there can be no corner."""
+    import numpy as np
+
     from rpl.emulator.blending import Corner as Blended
     from rpl.emulator.blending import blend
     from rpl.emulator.cornerlaws import ratios
@@ -189,7 +218,9 @@ def joined(model: RobotModel, piece: Piece, following: Drive, now: float) -> Pie
     )
     if not isinstance(made, Blended):
         return None
-    corner = Corner(made.corner, made.second, following, ratios(made.first, made.corner, made.second))
+    points = made.corner.geometry.tcp(np.linspace(0.0, 1.0, pathevents.SAMPLES))[:, :3, 3]
+    rates, leave = ratios(made.first, made.corner, made.second), made.first.span[1]
+    corner = Corner(made.corner, made.second, following, rates, leave, pathevents.corner_ways(points))
     return Piece(piece.drive, made.first, now, ahead=corner)
 
 
@@ -263,62 +294,3 @@ def _leave_alone(move: PlannedMove, order: BlendOrder) -> float:
     if distance is None or whole <= 0.0:
         return 1.0
     return move.geometry.fraction_at(whole - min(distance, MOST * whole))
-
-
-# ---- triggers
-
-
-def time_of_trigger(piece: Piece, trigger: TriggerOrder) -> float | None:
-    """When the trigger is due on this piece; None when only a later piece of the move can tell."""
-    import numpy as np
-
-    if piece.corner is not None:
-        return _in_corner(piece, trigger)
-    begin, end = piece.plan.span
-    geometry = piece.plan.geometry
-    whole = float(geometry.distance(np.array([1.0]))[0])
-    distance = trigger.distance or 0.0
-    if trigger.reference == "start":
-        place = geometry.fraction_at(distance) if distance > 0.0 else 0.0
-    else:
-        place = geometry.fraction_at(whole + distance) if distance < 0.0 and whole > 0.0 else 1.0
-    if place > end + 1e-12:
-        if trigger.delay < 0.0 and piece.ahead is not None:
-            share = min((place - end) / max(1.0 - end, 1e-12), 1.0)
-            return piece.end_s + float(piece.ahead.plan.law.time_of(0.5 * share)) + trigger.delay
-        if trigger.delay < 0.0 and piece.open_end and end > begin:  # the corner to come is taken as fast as the move
-            speed = float(piece.plan.law.speed_at(piece.plan.duration_s)) * (end - begin)
-            return piece.end_s + (place - end) / speed + trigger.delay if speed > 0.0 else None
-        return None
-    if place < begin:  # passed already: what counts since then goes on
-        return trigger.due if trigger.due is not None else piece.start_s + trigger.delay
-    share = (place - begin) / (end - begin) if end > begin else 1.0
-    return piece.start_s + float(piece.plan.law.time_of(share)) + trigger.delay
-
-
-def _in_corner(piece: Piece, trigger: TriggerOrder) -> float | None:
-    """In the corner at a move's end: its first half stands for the rest of the move."""
-    import numpy as np
-
-    assert piece.corner is not None and piece.drive.plan is not None
-    if trigger.reference == "start" and not trigger.distance:
-        return None
-    geometry = piece.drive.plan.geometry
-    whole = float(geometry.distance(np.array([1.0]))[0])
-    distance = trigger.distance or 0.0
-    travelled = distance if trigger.reference == "start" else whole + distance
-    left = max(whole - travelled, 0.0)
-    size = 0.5 * piece.corner.plan.length_mm
-    share = 1.0 - min(left / size, 1.0) if size > 0.0 else 1.0
-    when = time_in_corner(piece, 0.5 * share)
-    if when is None:
-        return trigger.due if 0.5 * share < piece.plan.span[0] else None
-    return when + trigger.delay
-
-
-def time_in_corner(piece: Piece, fraction: float) -> float | None:
-    """When the corner, or the part of it that this piece is, comes to that fraction; None: before or after it."""
-    begin, end = piece.plan.span
-    if not begin <= fraction <= end:
-        return None
-    return piece.start_s + float(piece.plan.law.time_of((fraction - begin) / max(end - begin, 1e-300)))

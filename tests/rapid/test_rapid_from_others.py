@@ -71,7 +71,7 @@ def test_a_search_for_a_signal_that_goes_off(condition: ir.Expression, edge: str
         (ir.Trigger("end", ir.Assign(GUN, ir.BoolLiteral(True)), ir.RealLiteral(-10.0)), ",10\\DOp:=do1,1;"),
         (
             ir.Trigger("end", ir.Assign(GUN, ir.BoolLiteral(False)), delay=ir.RealLiteral(-0.1)),
-            ",0.1\\Time\\DOp:=do1,0;",
+            ",0,0.1\\DOp:=do1,0;",
         ),
     ],
 )

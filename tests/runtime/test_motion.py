@@ -93,10 +93,10 @@ def test_krl_triggers_fire_at_their_place(trigger: str, where: float) -> None:
 
 
 def test_a_trigger_with_a_delay_and_one_that_calls() -> None:
-    body = INIT + START + P1 + "\nTRIGGER WHEN DISTANCE=1 DELAY=200 DO $OUT[1]=TRUE\n"
+    body = INIT + START + P1 + "\nTRIGGER WHEN DISTANCE=1 DELAY=-200 DO $OUT[1]=TRUE\n"
     result = krl(body + "TRIGGER WHEN DISTANCE=0 DELAY=0 DO HIT(5) PRIO=-1\nLIN_REL {Y 100}\nWAIT SEC 1",
                  more='DEF HIT(K:IN)\nINT K\nMsgNotify("%1","",K)\nEND', robot=KUKA)  # fmt: skip
-    assert time_of(result, "$OUT[1]") == pytest.approx(ends(result)[2] + 0.2)
+    assert time_of(result, "$OUT[1]") == pytest.approx(ends(result)[2] - 0.2)
     assert result.messages == ("5",)
 
 

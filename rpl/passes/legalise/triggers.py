@@ -111,6 +111,9 @@ class _Stored:
         if delay == 0:
             trigger = replace(trigger, delay=None)
         if isinstance(trigger.action, ir.Assign) and not self.by_a_trap(trigger.action):
+            if trigger.distance is None and trigger.delay is not None and trigger.reference != "start":
+                # A time before the end alone may count only while the robot brakes; from a place it counts as it is.
+                trigger = replace(trigger, distance=ir.RealLiteral(0.0, origin=later))
             return [ir.DefineTrigger(variable, replace(trigger, origin=later), origin=trigger.origin)]
         steps: list[ir.Statement] = []
         action: ir.Statement = trigger.action
