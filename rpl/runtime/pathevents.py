@@ -67,7 +67,8 @@ def _braking_begins(piece: Piece) -> float:
     """Seconds into the piece at which the robot leaves its top speed; 0 where it never drives evenly."""
     law = piece.plan.law
     fast = [time for time, speed in zip(law.times, law.speeds, strict=True) if speed >= 0.999 * law.speeds.max()]
-    return float(fast[-1]) if len(fast) > 1 and fast[-1] - fast[0] > 1e-6 else 0.0
+    evenly = len(fast) > 1 and fast[-1] - fast[0] > law.smoothing_s + 1e-6
+    return float(fast[-1]) - 0.5 * law.smoothing_s if evenly else 0.0
 
 
 # ---- where

@@ -68,7 +68,7 @@ def _braking(piece: Piece, place: float, speed: float, how: Halting, now: float)
     end, left = min(needed, furthest), 0.0
     if piece.ahead is not None and needed > furthest:
         left = max(speed * speed - 2.0 * strength * (furthest - place), 0.0) ** 0.5
-    law = replace(profile, acceleration=strength).law(place, end, speed, left)
+    law = replace(profile, acceleration=strength, smoothing_s=0.0).law(place, end, speed, left)
     driven = pieces.part(piece.plan, (place, end), law)
     return Piece(piece.drive, driven, now, ahead=piece.ahead, halting=replace(how, onward=left))
 
