@@ -64,4 +64,5 @@ RULES = Rules(
     },
     type_names=tables.BASIC_TYPES,
     triggers=TRIGGERS,
+    pulse_step_s=0.1,  # expert programming, 5.4: rounded to the nearest tenth of a second
 )

@@ -268,7 +268,12 @@ class Statements(Declarations):
     # ---- waiting, interrupts, background outputs
 
     def on_look_ahead(self, tree: SyntaxTree) -> Build:
-        return lambda pieces, origin: ir.LookAhead(origin=origin)
+        def make(pieces: Pieces, origin: Origin) -> Lowered:
+            """The next line counts, even if it is empty (expert programming, 3.4): then CONTINUE does nothing."""
+            behind = origin.source.text[origin.end :].split("\n", 2)[1:2] if origin.source is not None else []
+            return ir.LookAhead(origin=origin) if not behind or behind[0].strip() else ir.Nothing(origin=origin)
+
+        return make
 
     def on_wait_time(self, tree: SyntaxTree) -> Build:
         time = self.expression(_tree(tree.children[0]))

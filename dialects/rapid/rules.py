@@ -104,5 +104,6 @@ RULES = Rules(
     type_names=TYPES,
     exact_types=True,
     functions=FUNCTIONS,
+    pulse_step_s=0.001,  # PulseDO, limitations (0.01 s before RobotWare 5)
     triggers=TriggerRules(early_while_braking=True),  # TriggIO, limitations: not earlier than the braking begins
 )

@@ -78,7 +78,7 @@ class Rules:
     another one of its routine (else nothing happens). exact_types: built-in types with components
     have to be equal too where a value is stored or passed. functions: neutral function -> how the language spells it
     and its parameters' types in the language's words (`word.part`: the reader takes that component of the argument).
-    triggers: where actions on the path happen.
+    triggers: where actions on the path happen. pulse_step_s: a pulse's length is rounded to this.
     """
 
     name: str
@@ -109,3 +109,4 @@ class Rules:
     exact_types: bool = False
     functions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     triggers: TriggerRules = TriggerRules()
+    pulse_step_s: float = 0.0

@@ -207,6 +207,7 @@ def _timed_output(statement: ir.Pulse | ir.SetAfter, linker: RoutineLinker) -> M
     value = compiler.value(statement.value)
     seconds = compiler.value(statement.duration if isinstance(statement, ir.Pulse) else statement.delay)
     pulse = isinstance(statement, ir.Pulse)
+    step = compiler.scope.rules.pulse_step_s if pulse else 0.0
 
     def make(here: int, next: int) -> Instruction:
         def switch(f: Values) -> int:
@@ -215,12 +216,19 @@ def _timed_output(statement: ir.Pulse | ir.SetAfter, linker: RoutineLinker) -> M
             if pulse:
                 write(f, level)
             later = (not level) if pulse else level
-            task.machine.output_later(task, physical, later, seconds(f), task.frame.code, here)
+            task.machine.output_later(task, physical, later, _in_steps(seconds(f), step), task.frame.code, here)
             return next if not task.interrupts.pending else task.attention(next)
 
         return switch
 
     return make
+
+
+def _in_steps(seconds: float, step: float) -> float:
+    """The length of a pulse to the nearest step of the controller; what is shorter than half of one stays."""
+    if step <= 0.0 or seconds < 0.5 * step:
+        return seconds
+    return float(int(seconds / step + 0.5) * step)
 
 
 # ---- operator

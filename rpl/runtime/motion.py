@@ -310,7 +310,7 @@ class MotionQueue(RobotState):
         if drive.blending or piece.ahead is not None:
             if advance.runs_ahead_of == "fly_by":
                 # Past the place where its corner would begin already: the next move is asked for at once.
-                leaves_s = piece.end_s if piece.open_end or piece.ahead is not None else now
+                leaves_s = pieces.leaves_s(piece) if piece.open_end or piece.ahead is not None else now
                 self.schedule(max(now, leaves_s - advance.lead_s), "release")
         elif not drive.order.blend.stops:
             self.schedule(max(now, piece.end_s - advance.lead_s), "release")
@@ -355,9 +355,7 @@ class MotionQueue(RobotState):
         if piece.corner is not None:
             following, rest = piece.corner.following, piece.corner.rest
             self.left_corner(piece)
-            searching.watch(self, following)
             self._drive(Piece(following, rest, now))
-            searching.end_if_found(self, following)
             self._after_corner(following)
             return
         if piece.open_end:
@@ -408,6 +406,9 @@ class MotionQueue(RobotState):
         if piece is not None and piece.drive in self.queue:
             piece.drive.released = True
             self.queue.remove(piece.drive)
+            if piece.corner is not None and piece.halting is None:
+                searching.watch(self, piece.corner.following)
+                searching.end_if_found(self, piece.corner.following)
             self._look()
 
     def _done(self, drive: Drive, stops: bool) -> None:

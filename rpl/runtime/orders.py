@@ -73,7 +73,7 @@ class TriggerOrder:
 @dataclass(slots=True, eq=False)
 class SearchOrder:
     """`write` takes the target where it came, `hit` whether it came before the move's end. `last`: the condition's
-    value when looked at last; `found`: it has come."""
+    value when looked at last; `found`: it has come; `early`: it was there before the search."""
 
     condition: Read
     write: Write | None
@@ -83,6 +83,7 @@ class SearchOrder:
     hit: Write | None = None
     last: bool = False
     found: bool = False
+    early: bool = False
 
 
 @dataclass(slots=True, eq=False)

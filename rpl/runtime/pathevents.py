@@ -56,7 +56,7 @@ def _passed(piece: Piece, trigger: TriggerOrder) -> float:
 def _within(piece: Piece, trigger: TriggerOrder, due: float) -> float:
     """A time shifts an action at most to the limits of its move; one by a distance, to the next stop."""
     rests = piece.ahead is None and piece.corner is None and not piece.open_end
-    if rests or trigger.distance is None and (piece.corner is not None or trigger.reference == "start"):
+    if rests or (trigger.distance is None and (piece.corner is not None or trigger.reference == "start")):
         due = min(due, piece.end_s)
     if piece.ahead is not None and trigger.distance is None and trigger.reference != "start":
         due = max(due, piece.end_s)

@@ -54,7 +54,7 @@ class Corner:
         return float(self.ways[len(self.ways) // 2])
 
     def fraction_of(self, part: str, at: float) -> float | None:
-        """The fraction of the corner: `at` itself (`out`), or so many mm behind its beginning (`on`); None: behind it."""
+        """The fraction of the corner: `at` itself (`out`), or that many mm behind its start (`on`); None: behind it."""
         import numpy as np
 
         if part != "on":
@@ -228,6 +228,22 @@ def corner_piece(piece: Piece, now: float) -> Piece:
     """The corner that this piece leads to."""
     assert piece.ahead is not None
     return Piece(piece.drive, piece.ahead.plan, now, corner=piece.ahead)
+
+
+def leaves_s(piece: Piece) -> float:
+    """When the robot comes to the largest zone (of the place, the orientation, external axes) at the piece's end."""
+    import numpy as np
+
+    zone, order = piece.drive.order.blend.zone, piece.drive.order.blend
+    if zone is None or order.distance is not None:
+        return piece.end_s
+    whole = float(piece.plan.geometry.distance(np.array([1.0]))[0])
+    largest = max(float(zone.get(name) or 0.0) for name in ("path", "rotation_path", "external_path"))
+    begin, end = piece.plan.span
+    place = piece.plan.geometry.fraction_at(max(whole - largest, (1.0 - MOST) * whole))
+    if whole <= 0.0 or place >= end:
+        return piece.end_s
+    return piece.start_s + float(piece.plan.law.time_of(max(place - begin, 0.0) / max(end - begin, 1e-12)))
 
 
 def overlap_of(order: BlendOrder, first: PlannedMove) -> float | None:

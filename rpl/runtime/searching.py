@@ -24,12 +24,20 @@ def watch(robot: MotionQueue, drive: Drive) -> None:
             search.hit(search.values, True)
         return
     if search.edge != "either" and search.last == (search.edge == "rising") and search.stop != "none":
+        if robot.piece is not None:  # the robot drives already, through a corner: it brakes first
+            search.early = True
+            robot.halt(False, True)
+            return
         robot.queue.remove(drive)
         robot.task.busy = bool(robot.queue)
         robot.planned_joints, robot.planned_external = robot.joints, robot.external
-        at = drive.order.at
-        robot.task.fail(ProgramError("search_already", "the searched signal is there before the search"), at)
-        robot.machine.ready(robot.task)
+        refuse(robot, drive)
+
+
+def refuse(robot: MotionQueue, drive: Drive) -> None:
+    """What is searched was there before the search; the robot stands."""
+    robot.task.fail(ProgramError("search_already", "the searched signal is there before the search"), drive.order.at)
+    robot.machine.ready(robot.task)
 
 
 def end_if_found(robot: MotionQueue, drive: Drive) -> None:
@@ -41,8 +49,13 @@ def end_if_found(robot: MotionQueue, drive: Drive) -> None:
 def look(robot: MotionQueue) -> None:
     """Something changed: is it what the present move searches?"""
     piece = robot.piece
-    search = piece.drive.order.search if piece is not None else None
-    if piece is None or search is None or search.found:
+    if piece is None or piece.halting is not None:
+        return
+    drive = piece.drive
+    if piece.corner is not None and drive not in robot.queue:  # behind the corner's middle the next move counts
+        drive = piece.corner.following
+    search = drive.order.search
+    if search is None or search.found:
         return
     now = bool(search.condition(search.values))
     before, search.last = search.last, now
@@ -51,7 +64,7 @@ def look(robot: MotionQueue) -> None:
     search.found = True
     if search.hit is not None:
         search.hit(search.values, True)
-    _reached(robot, piece.drive, search)
+    _reached(robot, drive, search)
 
 
 def missed(robot: MotionQueue, drive: Drive) -> None:

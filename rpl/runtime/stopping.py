@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from rpl.runtime import pieces, resting
+from rpl.runtime import pieces, resting, searching
 from rpl.runtime.orders import Drive
 from rpl.runtime.pieces import Corner, Halting, Piece
 from rpl.runtime.robotstate import external_of
@@ -110,6 +110,10 @@ def _drop(queue: MotionQueue, piece: Piece) -> None:
     queue.queue.clear()
     queue.planned_joints, queue.planned_external = queue.joints, queue.external
     queue.task.busy = False
+    for drive in gone:
+        if drive.order.search is not None and drive.order.search.early:
+            searching.refuse(queue, drive)
+            return
     if not queue.task.aside:
         again(queue)
 
