@@ -24,6 +24,8 @@ from .rules import FIELDS
 # M: what decides about flip. `b`: the sign of B (no-flip: B negative), as the points of newer jobs show it.
 # `r`: R between -90 and 90 degrees is flip (NX100 operator's manual).
 FLIP_BY = "b"
+# M: what is so close to half a turn counts as just that, degrees.
+ROUNDED_DEG: Final = 5e-4
 TURN_AXES: Final = {"r180": 3, "t180": 5, "s180": 0}
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
@@ -48,8 +50,8 @@ def _branch_flags(model: RobotModel, branch: IntArray, joints: FloatArray) -> In
 
 
 def _beyond(angles: FloatArray) -> BoolArray:
-    """Whether angles lie outside of (-180, 180]."""
-    return ~((angles > -180.0) & (angles <= 180.0))
+    """Whether angles lie outside of (-180, 180]; half a turn within rounding is half a turn."""
+    return ~((angles > -180.0 + ROUNDED_DEG) & (angles <= 180.0 + ROUNDED_DEG))
 
 
 class InformNotation:
@@ -96,7 +98,7 @@ class InformNotation:
         """As `select`, for flange poses (k, 4, 4) and flags (k, 6)."""
         near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
         wanted = flags.copy()
-        if reference is not None:
+        if reference is not None and np.isnan(wanted[:, :3]).any():
             wanted[:, :3] = np.where(np.isnan(wanted[:, :3]), self.encode_all(model, near)[:, :3], wanted[:, :3])
 
         def fits(found: Candidates) -> BoolArray:

@@ -83,7 +83,7 @@ class KrlNotation:
         """As `select`, for flange poses (k, 4, 4) and flags (k, 2); a point not taught is not reachable."""
         near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
         status, turn = flags.T
-        if reference is not None:
+        if reference is not None and np.isnan(status).any():
             kept = self.encode_all(model, near)[:, 0]
             status = np.where(np.isnan(status), kept, status)
         missing = np.isnan(status) | (np.isnan(turn) & (reference is None))

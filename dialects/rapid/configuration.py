@@ -76,16 +76,19 @@ class RapidNotation:
         """As `select`, for flange poses (k, 4, 4) and flags (k, 4)."""
         near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
         wanted = flags[:, 3]
-        now = sides(model, near)
 
         def fits(found: Candidates) -> BoolArray:
             if model.name in CFX_UNUSED:
                 return np.ones(found.valid.shape, dtype=np.bool_)
-            kept = (found.sides[None, :, :2] == now[:, None, :2]).all(axis=-1) | (reference is None)
-            asked = np.nan_to_num(wanted).astype(np.int64)
+            asked, missing = np.nan_to_num(wanted).astype(np.int64), np.isnan(wanted)
             differing = (found.sides @ CFX_WEIGHTS)[None] ^ asked[:, None]
             met = (differing == 0) | (found.straight & (differing == 1))
-            return np.asarray(np.where(np.isnan(wanted)[:, None], kept, met))
+            if not missing.any():
+                return np.asarray(met)
+            kept = np.ones_like(met)
+            if reference is not None:
+                kept = (found.sides[None, :, :2] == sides(model, near)[:, None, :2]).all(axis=-1)
+            return np.asarray(np.where(missing[:, None], kept, met))
 
         def turn_cost(axis: int, values: FloatArray) -> FloatArray | None:
             place = next((place for place, one in enumerate(QUARTERS.values()) if one == axis), None)

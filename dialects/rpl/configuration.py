@@ -25,6 +25,8 @@ from .words import POSTURE_FLAGS
 _BRANCH: Final = ("shoulder", "elbow", "wrist")
 _TURNS: Final = {"t1": 0, "t4": 3, "t6": 5}
 _AXES: Final = ("x", "y", "z", "a", "b", "c")
+# What is so close to half a turn counts as just that, degrees.
+ROUNDED_DEG: Final = 5e-4
 _AGGREGATE = re.compile(r"\{([^{}]*)\}")
 _COMPONENT = re.compile(r"\s*([A-Za-z]\w*)\s*:\s*([+-]?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)\s*")
 
@@ -71,7 +73,7 @@ class RplNotation:
             if axis not in _TURNS.values():
                 return None
             asked = flags[:, 3 + list(_TURNS.values()).index(axis), None, None]
-            turns = np.ceil((values - 180.0) / 360.0)
+            turns = np.ceil((values - 180.0 - ROUNDED_DEG) / 360.0)
             return np.where(np.isnan(asked) | (turns == asked), 0.0, np.inf)
 
         return choose(model, flanges, near, Rule(fits, turn_cost, near, "time"))

@@ -28,6 +28,8 @@ SNAP_DEG: Final = 5e-4
 # A wrist this close to straight is not flipped: rounding in double precision, degrees.
 ON_LINE_DEG: Final = 1e-10
 WRIST_AXIS: Final = 4
+# M: three printed decimals of W, P and R leave an axis uncertain by this much, degrees.
+ROUNDED_DEG: Final = 2e-3
 _LISTED: Final = 6
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
@@ -43,6 +45,14 @@ def turns_of(angles: FloatArray) -> FloatArray:
     halves = np.round(angles / 180.0) * 180.0
     angle = np.where(np.abs(angles - halves) < SNAP_DEG, halves, angles)
     return np.asarray(np.floor((np.abs(angle) + 180.0) / 360.0) * np.sign(angle))
+
+
+def _outside_turn(angles: FloatArray, turn: FloatArray) -> FloatArray:
+    """0 where angles are in the turn asked for, little where rounding alone may have brought them out, else inf."""
+    near = np.where(turns_of(angles + ROUNDED_DEG) == turn, ROUNDED_DEG, np.inf)
+    near = np.where(turns_of(angles - ROUNDED_DEG) == turn, ROUNDED_DEG, near)
+    halves = np.abs(np.remainder(angles, 360.0) - 180.0) < SNAP_DEG
+    return np.where(turns_of(angles) == turn, 0.0, np.where(halves, np.inf, near))
 
 
 def _flipped(model: RobotModel, angles: FloatArray) -> BoolArray:
@@ -123,7 +133,7 @@ class TpNotation:
         """As `select`, for flange poses (k, 4, 4) and flags (k, 6)."""
         near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
         wanted = flags.copy()
-        if reference is not None:
+        if reference is not None and np.isnan(wanted[:, :3]).any():
             wanted[:, :3] = np.where(np.isnan(wanted[:, :3]), self.encode_all(model, near)[:, :3], wanted[:, :3])
         flip, down, back = (wanted[:, place, None] for place in range(3))
 
@@ -137,7 +147,7 @@ class TpNotation:
                 met = np.isnan(asked) | (shown == asked) | (values == 0.0)
             elif axis in TURN_AXES.values():
                 asked = wanted[:, 3 + list(TURN_AXES.values()).index(axis), None, None]
-                met = np.isnan(asked) | (turns_of(values) == asked)
+                return np.where(np.isnan(asked), 0.0, _outside_turn(values, asked))
             else:
                 return None
             return np.where(met, 0.0, np.inf)

@@ -72,7 +72,9 @@ class VplusNotation:
     ) -> Chosen:
         """As `select`, for flange poses (k, 4, 4) and flags (k, 3)."""
         near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
-        wanted = flags if reference is None else np.where(np.isnan(flags), self.encode_all(model, near), flags)
+        wanted = flags
+        if reference is not None and np.isnan(flags).any():
+            wanted = np.where(np.isnan(flags), self.encode_all(model, near), flags)
 
         def fits(found: Candidates) -> BoolArray:
             met = np.isnan(wanted)[:, None] | (_words(model, found.sides)[None] == wanted[:, None])

@@ -2,8 +2,8 @@
 
 Each brand says in its own way which posture and which revolution of each axis a target means (`rpl.emulator.
 configuration`). What they share is here as array operations: all solutions of all poses, the turns of each axis inside
-its limits, and the nearest of those that the brand's rule leaves over. A straight wrist is taken as straight within the
-rounding of printed poses, because the solutions there are noise: the joint that is free takes a given value.
+its limits, and the nearest of those that the brand's rule leaves over. Singular postures count as such within the
+rounding of printed poses, because solutions next to them are noise: the joint that is free takes a given value.
 """
 
 from __future__ import annotations
@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from rpl.emulator.arms import OpwArm
-from rpl.emulator.model import LIMIT_SLACK
+from rpl.emulator.arms import OpwArm, UrArm
+from rpl.emulator.model import LIMIT_SLACK, BatchSolutions
 from rpl.emulator.recognise import PlacedArm
+from rpl.emulator.rotations import invert_pose
 
 if TYPE_CHECKING:
     from rpl.emulator.arms import BoolArray
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 # Three printed decimals of an orientation leave the wrist uncertain by about this much, degrees.
 STRAIGHT_DEG = 1e-3
+# And the place by about this much, mm.
+ROUNDING_MM = 1e-3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -73,12 +76,42 @@ class Rule:
 
 def candidates(model: RobotModel, flanges: FloatArray, free: FloatArray) -> Candidates:
     """Every solution for flange poses (k, 4, 4); free joints of singular postures as in `free` (n,) or (k, n)."""
-    found = model.inverse_batch(flanges, free)
+    found = _within_rounding(model, flanges, np.broadcast_to(free, (len(flanges), model.axes)))
     sides = np.array([(one.shoulder, one.elbow, one.wrist) for one in model.arm.branches], dtype=np.int64)
     joints, straight = _straightened(
         model, found.joints, sides[:, 2], np.broadcast_to(free, (len(flanges), model.axes))
     )
     return Candidates(joints, found.valid, straight & found.valid, found.singular, sides)
+
+
+def _within_rounding(model: RobotModel, flanges: FloatArray, free: FloatArray) -> BatchSolutions:
+    """All solutions, where rounding of a printed pose is not held against it: a wrist centre as good as over axis 1 is
+    over it, and a pose as good as at the end of the reach is reached there."""
+    arm, base = (model.arm.arm, model.arm.base) if isinstance(model.arm, PlacedArm) else (model.arm, np.eye(4))
+    if isinstance(arm, OpwArm) and arm.b == 0.0:
+        tip = model.arm.tip if isinstance(model.arm, PlacedArm) else np.eye(4)
+        centre = flanges @ (invert_pose(tip) @ np.array([0.0, 0.0, -arm.c4, 1.0]))
+        aside = (centre[:, :3] - base[:3, 3]) @ base[:3, :2]
+        over = np.hypot(aside[:, 0], aside[:, 1]) < ROUNDING_MM
+        if over.any():
+            flanges = flanges.copy()
+            flanges[over, :3, 3] -= aside[over] @ base[:3, :2].T
+    found = model.inverse_batch(flanges, free)
+    shoulder = arm.c1 if isinstance(arm, OpwArm) else arm.d1 if isinstance(arm, UrArm) else None
+    if shoulder is None or found.valid.any(axis=1).all():
+        return found
+    joints, valid, singular = found.joints.copy(), found.valid.copy(), found.singular.copy()
+    middle = (base @ np.array([0.0, 0.0, shoulder, 1.0]))[:3]
+    for step in (ROUNDING_MM / 100.0, ROUNDING_MM):
+        lost = np.flatnonzero(~valid.any(axis=1) & np.isfinite(flanges).all(axis=(1, 2)))
+        if not len(lost):
+            break
+        pulled = flanges[lost].copy()
+        inward = middle - pulled[:, :3, 3]
+        pulled[:, :3, 3] += step * inward / np.maximum(np.linalg.norm(inward, axis=1, keepdims=True), 1.0)
+        again = model.inverse_batch(pulled, free[lost])
+        joints[lost], valid[lost], singular[lost] = again.joints, again.valid, again.singular
+    return BatchSolutions(joints, valid, singular)
 
 
 def _straightened(
@@ -130,24 +163,26 @@ def _turned(
 ) -> tuple[FloatArray, FloatArray]:
     """Each axis of joints (k, b, n) on the revolution that costs least, then lies nearest to `here` (k, 1, n); and the
     greatest cost (k, b), inf where an axis has none inside its limits."""
-    taken, worst = np.empty_like(joints), np.zeros(joints.shape[:2])
-    for axis, ((low, high), turning) in enumerate(zip(model.limits, model.revolute, strict=True)):
-        first = int(np.ceil((low - LIMIT_SLACK - 180.0) / 360.0)) if turning else 0
-        last = int(np.floor((high + LIMIT_SLACK + 180.0) / 360.0)) if turning else 0
-        values = joints[..., axis, None] + 360.0 * np.arange(first, max(last, first) + 1)
-        cost = turn_cost(axis, values)
-        cost = np.zeros_like(values) if cost is None else cost
-        inside = (values >= low - LIMIT_SLACK) & (values <= high + LIMIT_SLACK)
-        cost = np.where(inside, cost, np.inf)
-        if values.shape[-1] == 1:
-            taken[..., axis] = values[..., 0]
-            worst = np.maximum(worst, cost[..., 0])
+    low, high = model.limits[:, 0] - LIMIT_SLACK, model.limits[:, 1] + LIMIT_SLACK
+    taken, worst = joints.copy(), np.zeros(joints.shape[:2])
+    for axis, turning in enumerate(model.revolute):
+        # Whole turns that could bring an angle in (-180, 180] inside the limits.
+        first = int(np.ceil((low[axis] - 180.0) / 360.0)) if turning else 0
+        last = int(np.floor((high[axis] + 180.0) / 360.0)) if turning else 0
+        if last <= first == 0:
+            cost = turn_cost(axis, joints[..., axis, None])
+            worst = worst if cost is None else np.maximum(worst, cost[..., 0])
             continue
-        way = np.abs(values - here[..., axis, None])
-        best = np.lexsort((way, cost), axis=-1)[..., :1]
+        values = joints[..., axis, None] + 360.0 * np.arange(first, max(last, first) + 1)
+        asked = turn_cost(axis, values)
+        inside = (values >= low[axis]) & (values <= high[axis])
+        cost = np.where(inside, 0.0 if asked is None else asked, np.inf)
+        least = cost.min(axis=-1, keepdims=True)
+        best = np.where(cost <= least, np.abs(values - here[..., axis, None]), np.inf).argmin(axis=-1)[..., None]
         taken[..., axis] = np.take_along_axis(values, best, axis=-1)[..., 0]
-        worst = np.maximum(worst, np.take_along_axis(cost, best, axis=-1)[..., 0])
-    return taken, worst
+        worst = np.maximum(worst, least[..., 0])
+    inside = ((taken >= low) & (taken <= high)).all(axis=-1)
+    return taken, np.where(inside, worst, np.inf)
 
 
 __all__ = ["STRAIGHT_DEG", "Candidates", "Chosen", "Fits", "Rule", "TurnCost", "candidates", "choose"]

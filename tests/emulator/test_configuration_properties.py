@@ -110,8 +110,9 @@ def test_a_straight_wrist(dialect: str, printed: float) -> None:
     assert np.degrees(rotation_angle(model.forward(found)[:3, :3].T @ flange[:3, :3])) < 2e-3
 
 
+@pytest.mark.parametrize("printed", [0.0, 4e-4])
 @pytest.mark.parametrize("dialect", [name for name in NOTATIONS if name != "urscript"])
-def test_the_wrist_over_axis_1(dialect: str) -> None:
+def test_the_wrist_over_axis_1(dialect: str, printed: float) -> None:
     """Axis 1 stays where it is (KRL: goes to zero), whichever side the flags name."""
     model, notation = load_robot("abb_irb140"), batch(dialect)
     arm = model.arm
@@ -122,11 +123,12 @@ def test_the_wrist_over_axis_1(dialect: str) -> None:
     assert abs(arm.in_plane(model.theta(over))[0]) < 1e-9
     flange = model.forward(over)
     flange[:2, 3] -= (flange[:3, 3] - arm.c4 * flange[:3, 2])[:2]  # exactly over it, whatever rounding says
+    flange[0, 3] += printed
     near = np.array([-20.0, 0.0, 0.0, 5.0, 30.0, 5.0])
     flags = np.full((1, len(notation.fields)), np.nan)
     found = notation.select_all(model, flange[None], flags, near).joints[0]
     assert found[0] == pytest.approx(0.0 if dialect == "krl" else -20.0, abs=1e-6)
-    assert model.forward(found) == pytest.approx(flange, abs=1e-6)
+    assert model.forward(found) == pytest.approx(flange, abs=1e-6 + printed)
 
 
 @pytest.mark.parametrize("dialect", NOTATIONS)
@@ -141,6 +143,25 @@ def test_the_stretched_elbow(dialect: str) -> None:
         flags = notation.encode_all(model, (joints + np.eye(6)[2] * bent)[None]).astype(float)
         found = notation.select_all(model, flange[None], flags, near).joints[0]
         assert found == pytest.approx(joints, abs=1e-4)
+
+
+@pytest.mark.parametrize(("robot", "elbow"), [("kuka_kr6r900sixx", 4.7636417), ("ur5e", 0.0), ("fanuc_m20ia", None)])
+@pytest.mark.parametrize("places", [3, 6])
+def test_the_end_of_the_reach_in_printed_digits(robot: str, elbow: float | None, places: int) -> None:
+    """Rounding may put the pose beyond the reach: it is reached all the same, within that rounding."""
+    model = load_robot(robot)
+    arm = model.arm
+    for first in range(-60, 61, 10):
+        joints = np.array([first, 13.0, elbow or 0.0, 20.0, 40.0, 50.0])
+        if elbow is None:  # the pendant's joint 3 is the angle to the horizontal
+            assert isinstance(arm, OpwArm)
+            wanted = np.array([0.0, 0.0, -arm.elbow_angle, 0.0, 0.0, 0.0])
+            joints[2] = np.degrees(wanted[2] / model.pendant_to_arm[2, 2]) - 90.0 - joints[1]
+            joints[2] += (np.degrees(-arm.elbow_angle - model.theta(joints)[2])) / model.pendant_to_arm[2, 2]
+        flange = np.round(model.forward(joints), places + 3)
+        flange[:3, 3] = np.round(flange[:3, 3], places)
+        found = batch("rpl").select_all(model, flange[None], np.full((1, 6), np.nan), joints).joints[0]
+        assert model.forward(found) == pytest.approx(flange, abs=0.003)
 
 
 @pytest.mark.parametrize(
@@ -168,6 +189,23 @@ def test_axes_of_many_turns(dialect: str, angle: float) -> None:
     from_home = notation.select_all(model, flange, flags, model.home).joints[0]
     nearest = angle - 360.0 * np.sign(angle) if dialect == "krl" else angle
     assert from_home[5] == pytest.approx(nearest, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("dialect", "robot"),
+    [("tp", "fanuc_r2000ic165f"), ("inform", "motoman_gp7"), ("rpl", "puma560"), ("rapid", "abb_irb140")],
+)
+@pytest.mark.parametrize("sixth", [180.0, -180.0])
+def test_half_a_turn_in_printed_digits(dialect: str, robot: str, sixth: float) -> None:
+    """Rounding of the pose must not carry axis 6 to the other side of half a turn."""
+    model, notation = load_robot(robot), batch(dialect)
+    for first in np.linspace(-50.0, 50.0, 21):
+        joints = np.array([first, 10.3, -20.7, 31.1, -50.9, sixth])
+        flange = np.round(model.forward(joints), 6)
+        flange[:3, 3] = np.round(flange[:3, 3], 3)
+        flags = notation.encode_all(model, joints[None]).astype(float)
+        found = notation.select_all(model, flange[None], flags, None).joints[0]
+        assert found == pytest.approx(joints, abs=0.003)
 
 
 def test_a_point_that_was_never_taught() -> None:
