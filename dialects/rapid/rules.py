@@ -103,6 +103,9 @@ RULES = Rules(
     errors=ERRORS,
     type_names=TYPES,
     exact_types=True,
+    # Reference manual, loaddata: the tool's load in wrist coordinates, GripLoad's in those of the tool; MoveL, \\TLoad:
+    # the total load of the move, the load of its tooldata is not looked at then.
+    loads_of_tools=True,
     functions=FUNCTIONS,
     pulse_step_s=0.001,  # PulseDO, limitations (0.01 s before RobotWare 5)
     triggers=TriggerRules(early_while_braking=True),  # TriggIO, limitations: not earlier than the braking begins

@@ -1,59 +1,145 @@
-"""Reports that `rpl run` writes beside its result."""
+"""Reports that `rpl run` makes beside its result: a page to look at, and the layers of torques and following errors."""
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path, PurePath
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from rpl.cli.output import write_file
+from rpl.cli.output import numbers, write_file
+from rpl.errors import UsageError
 
 if TYPE_CHECKING:
+    from rpl.emulator.inertias import Body
     from rpl.emulator.model import RobotModel
     from rpl.project import ReadProgram
+    from rpl.report.dynamics import Moment, RunDynamics
     from rpl.simulation import RunResult
 
-plot_option = click.option(
-    "--plot",
-    type=click.Path(dir_okay=False, path_type=Path),
-    metavar="F.html",
-    help="Write a page about the run that opens without a network: path, joints, signals, margins, moves.",
-)
+Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 
-def drawing_library_for(plot: Path | None) -> str:
-    """What the page needs, looked for before the run: a missing package is said at once, not after an hour."""
-    if plot is None:
-        return ""
-    from rpl.report.page import drawing_library
+@dataclass(frozen=True, slots=True)
+class Reports:
+    """What is asked for. `library`: the script that the page needs; `load` stands in place of the program's loads."""
 
-    return drawing_library()
+    plot: Path | None
+    dynamics: bool
+    library: str
+    load: Body | None
+
+    def layers(self, result: RunResult, model: RobotModel | None) -> RunDynamics | None:
+        """Torques and following errors; warnings go to stderr."""
+        if not self.dynamics or model is None:
+            return None
+        from rpl.report.dynamics import run_dynamics
+
+        found = run_dynamics(result, model, self.load)
+        for warning in found.warnings:
+            click.echo(f"warning: {warning}", err=True)
+        return found
+
+    def write(
+        self,
+        result: RunResult,
+        read: ReadProgram,
+        model: RobotModel | None,
+        dynamics: RunDynamics | None = None,
+        controller: str = "",
+    ) -> None:
+        """Write the page, if one is asked for."""
+        if self.plot is None:
+            return
+        from rpl import registry
+        from rpl.report.document import Heading, run_document
+        from rpl.report.page import page
+
+        fault = result.fault
+        place = f"{fault.origin.file}:{fault.origin.line}: " if fault is not None and fault.origin.source else ""
+        heading = Heading(
+            files=tuple(source.path for source in read.sources),
+            language=", ".join(registry.dialect(name).title for name in read.dialects),
+            robot=" ".join(word for word in (model.maker, model.title) if word) if model is not None else "",
+            controller=controller,
+            moves=result.moves,
+            fault=f"{place}{fault.code}: {fault.message}" if fault is not None else "",
+        )
+        layers = dynamics.layers() if dynamics is not None else ()
+        document = run_document(result, model, heading, layers=layers)
+        write_file(self.plot, page(document, self.library).encode("utf-8"))
 
 
-def write_plot(
-    plot: Path | None,
-    library: str,
-    result: RunResult,
-    read: ReadProgram,
-    model: RobotModel | None,
-    controller: str = "",
-) -> None:
-    """Write the page, if one is asked for."""
-    if plot is None:
-        return
-    from rpl import registry
-    from rpl.report.document import Heading, run_document
-    from rpl.report.page import page
-
-    fault = result.fault
-    place = f"{fault.origin.file}:{fault.origin.line}: " if fault is not None and fault.origin.source else ""
-    heading = Heading(
-        files=tuple(source.path for source in read.sources),
-        language=", ".join(registry.dialect(name).title for name in read.dialects),
-        robot=" ".join(word for word in (model.maker, model.title) if word) if model is not None else "",
-        controller=controller,
-        moves=result.moves,
-        fault=f"{place}{fault.code}: {fault.message}" if fault is not None else "",
+def report_options(command: Decorated) -> Decorated:
+    """The options of a command that can make these reports; `reports_of` takes their values."""
+    options = (
+        click.option(
+            "--plot",
+            type=click.Path(dir_okay=False, path_type=Path),
+            metavar="F.html",
+            help="Write a page about the run that opens without a network: path, joints, signals, margins, moves.",
+        ),
+        click.option(
+            "--dynamics", is_flag=True, help="Joint torques, speeds and following errors, each with its line."
+        ),
+        click.option(
+            "--payload", metavar="KG[,X,Y,Z]", help="Load at the flange for the whole run: mass, centre in mm."
+        ),
     )
-    write_file(plot, page(run_document(result, model, heading), library).encode("utf-8"))
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def reports_of(plot: Path | None, dynamics: bool, payload: str | None, robot: str | None) -> Reports:
+    """Checked before the run: what is wrong or missing is said at once, not after an hour."""
+    library = ""
+    if payload is not None and not dynamics:
+        raise UsageError("--payload is a load for --dynamics; ask for both")
+    if dynamics and robot is None:
+        raise UsageError("--dynamics needs an arm: name one with --robot")
+    if plot is not None:
+        from rpl.report.page import drawing_library
+
+        library = drawing_library()
+    return Reports(plot, dynamics, library, None if payload is None else _load(payload))
+
+
+def _load(text: str) -> Body:
+    """A point mass; its inertias are those about its own centre, so none."""
+    import numpy as np
+
+    from rpl.emulator.inertias import Body
+
+    given = numbers(text, "--payload")
+    if len(given) not in (1, 4) or given[0] < 0.0:
+        raise UsageError(f"--payload: {text!r} is not a mass in kg, or mass,x,y,z with the centre in mm")
+    return Body(given[0], np.array(given[1:] or [0.0, 0.0, 0.0]), np.zeros((3, 3)))
+
+
+def show_dynamics(found: RunDynamics) -> None:
+    """The layers for people: a line for each joint, then the tool."""
+    if found.joints:
+        click.echo(f"{'joint':<6}{'torque':>13}{'of limit':>10}{'rms':>9}{'speed':>15}{'of limit':>10}  where")
+    for joint in found.joints:
+        share = "" if joint.share is None else f"{100.0 * joint.share:.0f} %"
+        rate = "deg/s" if joint.unit == "N m" else "mm/s"
+        speed = f"{joint.speed.value:.1f} {rate}"
+        of_speed = f"{100.0 * abs(joint.speed.value) / joint.speed_limit:.0f} %"
+        torque = f"{joint.torque.value:.1f} {joint.unit}"
+        where = f"{_where(joint.torque)}; speed {_where(joint.speed)}"
+        click.echo(f"{joint.name:<6}{torque:>13}{share:>10}{joint.rms:>9.1f}{speed:>15}{of_speed:>10}  {where}")
+    following = found.following
+    model = " (a model: the robot file has no time constants)" if following.assumed else ""
+    lags = sorted({f"{1000.0 * lag:g}" for lag in following.lag_s}, key=float)
+    click.echo(f"tool at most {following.behind.value:.3f} mm behind its command, {_where(following.behind)}")
+    click.echo(f"tool at most {following.off.value:.3f} mm off its path, {_where(following.off)}")
+    click.echo(f"with joints that follow by {', '.join(lags)} ms{model}; load {found.payload_kg:g} kg at most")
+
+
+def _where(moment: Moment) -> str:
+    origin = moment.origin
+    place = f"{PurePath(origin.file).name}:{origin.line}" if origin.source is not None else "at rest"
+    return f"{place} at {moment.time_s:.3f} s"

@@ -24,7 +24,7 @@ from rpl.cli.output import (
     waiting,
     write_file,
 )
-from rpl.cli.reports import drawing_library_for, plot_option, write_plot
+from rpl.cli.reports import report_options, reports_of, show_dynamics
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.errors import UsageError
 from rpl.passes.legalise.pulses import report_assumed
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 @click.option("--cell", metavar="F.toml", help="Surroundings: inputs over time, answers of the operator, parts.")
 @click.option("--entry", metavar="NAME", help="Routine to start with; else main, or the only one nobody calls.")
 @click.option("--trace", type=click.Path(dir_okay=False, path_type=Path), metavar="F.jsonl", help="Write every event.")
-@plot_option
+@report_options
 @click.option("--despite-errors", is_flag=True, help="Run what was read in spite of errors in it.")
 @limit_options
 @json_option
@@ -52,6 +52,8 @@ def command(
     entry: str | None,
     trace: Path | None,
     plot: Path | None,
+    dynamics: bool,
+    payload: str | None,
     despite_errors: bool,
     max_time: float | None,
     max_steps: int | None,
@@ -68,7 +70,7 @@ def command(
     from rpl.proof.prove import load_cell
     from rpl.simulation import run_program
 
-    limits, library = limits_of(max_time, max_steps, max_events), drawing_library_for(plot)
+    limits, reports = limits_of(max_time, max_steps, max_events), reports_of(plot, dynamics, payload, robot)
     diagnostics = collector()
     with waiting("reading"):
         read = read_program(paths, dialect_exists(dialect), diagnostics)
@@ -88,11 +90,14 @@ def command(
     with waiting("running"):
         result = run_program(read.program, model, surroundings, entry, limits=limits)
     write_trace(trace, result)
-    write_plot(plot, library, result, read, model)
+    layers = reports.layers(result, model)
+    reports.write(result, read, model, layers)
     if as_json:
-        print_json(result.as_json())
+        print_json(result.as_json() | ({"dynamics": layers.as_json()} if layers is not None else {}))
     else:
         show(result)
+        if layers is not None:
+            show_dynamics(layers)
     return 0 if result.status in ("finished", "stopped") else 1
 
 

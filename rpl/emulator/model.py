@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from rpl.emulator.arms import Arm, BoolArray, Branch, OpwArm, ScaraArm, UrArm
 from rpl.emulator.chains import ChainArm, described, exact_opw, read_urdf
 from rpl.emulator.closedforms import ClosedForm, closed_form
+from rpl.emulator.inertias import ArmInertias, arm_inertias
 from rpl.emulator.mechanismfile import Mechanism
 from rpl.emulator.postures import Fact, in_posture, posture_facts
 from rpl.emulator.robotfile import (
@@ -119,6 +120,8 @@ class RobotModel:
     motion_of: str = ""
     uncertain_axes: bool = True  # speeds or accelerations of the axes are not verified
     mechanisms: tuple[Mechanism, ...] = ()  # what its file says of tracks and tables that come with it
+    inertias: ArmInertias | None = None  # what the links weigh, where somebody has published it
+    lag: FloatArray | None = None  # time constants (n,) s of following the command, where somebody has measured them
     revolute: BoolArray = field(init=False)  # which joints turn, (n,)
     couplings: tuple[tuple[int, int], ...] = field(init=False)  # of arm_to_pendant: entries beside the diagonal
 
@@ -347,6 +350,8 @@ def _assembled(
         motion_of=file.motion_of,
         uncertain_axes=bool({"speeds", "accelerations"} & set(file.assumed)) or file.accelerations is None,
         mechanisms=file.mechanisms,
+        inertias=None if file.weights is None else arm_inertias(file.weights),
+        lag=None if file.lag is None else _fixed(file.lag),
     )
 
 

@@ -49,6 +49,29 @@ class RobotSummary:
 
 
 @dataclass(frozen=True, slots=True)
+class LinkFile:
+    """One link as published: mass kg, centre mm and inertia kg m2 about it (xx, yy, zz, xy, xz, yz) in a frame whose
+    origin (mm) and axes (x, y, z) are given in the base where all the family's own joint variables are zero."""
+
+    mass: float
+    centre: Vector
+    inertia: Vector
+    origin: Vector
+    axes: tuple[Vector, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class WeightFile:
+    """The links of an arm, base outwards; torques (N m, N) and inertias of motor and gear (kg m2, kg) at the joints,
+    where known; who published it."""
+
+    links: tuple[LinkFile, ...]
+    torques: Vector | None
+    rotors: Vector | None
+    source: str
+
+
+@dataclass(frozen=True, slots=True)
 class RobotFile:
     """One description, checked: lengths in mm, angles in degrees (mm for a sliding joint), speeds per second.
 
@@ -78,6 +101,8 @@ class RobotFile:
     motion: Mapping[str, float] = field(default_factory=dict)
     motion_of: str = ""
     mechanisms: tuple[Mechanism, ...] = ()
+    weights: WeightFile | None = None
+    lag: Vector | None = None  # time constants of the axes' following behind their command, s
 
 
 def robot_names() -> list[str]:
@@ -169,6 +194,8 @@ def _parse(text: str, place: str, folder: Path | None) -> RobotFile:
         motion=_motion(reader),
         motion_of=reader.table("motion").text("controller") if "motion" in data else "",
         mechanisms=read_mechanisms(data.get("mechanism", []), f"robot file {place}"),
+        weights=_weights(reader, count),
+        lag=_lag(axes, count),
     )
 
 
@@ -214,16 +241,82 @@ KEY = re.compile(r"\s*[\"']?([\w-]+)[\"']?\s*=")
 
 
 def _lines(text: str) -> dict[tuple[str, str], int]:
-    """Where each key of each table stands: (table or "", key) to the number of its line; the key "" is the header."""
+    """Where each key of each table stands: (table or "", key) to the number of its line; the key "" is the header. The
+    second table of a list of them is called `link 2`."""
     found: dict[tuple[str, str], int] = {("", ""): 1}
     table = ""
     for number, line in enumerate(text.splitlines(), start=1):
         if header := HEADER.match(line):
-            table = header[1]
-            found.setdefault((table, ""), number)
+            before = sum(name == header[1] or name.startswith(f"{header[1]} ") for name, inner in found if not inner)
+            table = f"{header[1]} {before + 1}" if before else header[1]
+            found[table, ""] = number
         elif key := KEY.match(line):
             found.setdefault((table, key[1]), number)
     return found
+
+
+def _weights(reader: "_Reader", count: int) -> WeightFile | None:
+    """What the arm weighs, where the file says it: one [[link]] for each joint, and [dynamics]."""
+    if "link" not in reader.data:
+        return None
+    entries = reader.data["link"]
+    if not isinstance(entries, list) or len(entries) != count:
+        raise reader.table_of("link", {}).wrong("", f"there must be one [[link]] for each of the {count} joints")
+    names = ["link", *(f"link {number}" for number in range(2, count + 1))]
+    links = [reader.table_of(name, entry) for name, entry in zip(names, entries, strict=True)]
+    dynamics = reader.table("dynamics")
+    for key in ("torques", "rotors"):
+        if key in dynamics.data and min(dynamics.numbers(key, count)) < 0.0:
+            raise dynamics.fail(key, "a list of numbers of at least 0")
+    return WeightFile(
+        tuple(_link(link) for link in links),
+        dynamics.numbers("torques", count) if "torques" in dynamics.data else None,
+        dynamics.numbers("rotors", count) if "rotors" in dynamics.data else None,
+        dynamics.text("source"),
+    )
+
+
+def _link(link: "_Reader") -> LinkFile:
+    mass, inertia = link.number("mass"), link.numbers("inertia", 6, (0.0,) * 6)
+    if mass < 0.0:
+        raise link.fail("mass", "a number of at least 0")
+    if min(inertia[:3]) < 0.0:
+        raise link.fail("inertia", "six numbers xx, yy, zz, xy, xz, yz, the first three at least 0")
+    axes = link.data.get("axes", [[1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    rows = [_numbers(row) for row in axes] if isinstance(axes, list) else []
+    turned = tuple(row for row in rows if row is not None and len(row) == 3)
+    if len(turned) != 3 or not _is_rotation(turned):
+        raise link.fail("axes", "three unit vectors x, y, z at right angles, right-handed")
+    return LinkFile(mass, link.numbers("centre", 3), inertia, link.numbers("origin", 3, (0.0,) * 3), turned)
+
+
+def _is_rotation(axes: tuple[Vector, ...]) -> bool:
+    """Are these three vectors a right-handed frame?"""
+    x, y, z = axes
+    across = (x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0])
+    units = (sum(a * a for a in axis) for axis in axes)
+    apart = max(abs(a - b) for a, b in zip(across, z, strict=True))
+    return max(abs(unit - 1.0) for unit in units) < 1e-6 and apart < 1e-6
+
+
+def _lag(axes: "_Reader", count: int) -> Vector | None:
+    """Time constants of following, s, where somebody has measured them."""
+    if "lag" not in axes.data:
+        return None
+    numbers = axes.numbers("lag", count)
+    if min(numbers) < 0.0:
+        raise axes.fail("lag", "a list of numbers of at least 0")
+    return numbers
+
+
+def _pulses(axes: "_Reader", count: int) -> Vector | None:
+    """Motor pulses per degree of each axis, where somebody has published them."""
+    if "pulses_per_degree" not in axes.data:
+        return None
+    numbers = axes.numbers("pulses_per_degree", count)
+    if min(numbers) <= 0.0:
+        raise axes.fail("pulses_per_degree", "a list of numbers above 0")
+    return numbers
 
 
 @dataclass(frozen=True, slots=True)
@@ -249,6 +342,10 @@ class _Reader:
         if not isinstance(value, dict):
             raise self.fail(key, "a table")
         return _Reader(value, self.place, self.lines, key)
+
+    def table_of(self, name: str, entry: object) -> "_Reader":
+        """One table of a list of them, by the name that `_lines` gives it."""
+        return _Reader(entry if isinstance(entry, dict) else {}, self.place, self.lines, name)
 
     def text(self, key: str, default: str | None = None) -> str:
         value = self.data.get(key, default)

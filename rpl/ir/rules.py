@@ -76,7 +76,9 @@ class Rules:
     any other register, in such a text. last_tool: while the program has set no tool, the place of the robot is told
     by tool and frame of the last move that named some (else by none). task_instances: starting a task that runs begins
     another one of its routine (else nothing happens). exact_types: built-in types with components
-    have to be equal too where a value is stored or passed. functions: neutral function -> how the language spells it
+    have to be equal too where a value is stored or passed. loads_of_tools: a tool has its own load; a load set for all
+    moves is the part's, given in the tool, and that of one move is all of it (else there is one load, in the flange).
+    functions: neutral function -> how the language spells it
     and its parameters' types in the language's words (`word.part`: the reader takes that component of the argument).
     triggers: where actions on the path happen. pulse_step_s: a pulse's length is rounded to this.
     """
@@ -107,6 +109,7 @@ class Rules:
     last_tool: bool = True
     task_instances: bool = False
     exact_types: bool = False
+    loads_of_tools: bool = False
     functions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     triggers: TriggerRules = TriggerRules()
     pulse_step_s: float = 0.0

@@ -102,7 +102,9 @@ class MotionStatements:
                 order.triggers = [trigger(f) for trigger in triggers] + task.take_triggers()
                 order.search = search(f) if search is not None else None
                 if load is not None:
-                    task.modal["load"] = load(f)
+                    order.load = load(f)
+                    if not rules.loads_of_tools:
+                        task.modal["load"] = order.load
                 return _submit(task, order, here, next)
 
             return drive

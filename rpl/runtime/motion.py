@@ -19,6 +19,7 @@ from rpl.runtime.chain import (
 )
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.orders import Drive, Order, TriggerOrder
+from rpl.runtime.payloads import payloads_of
 from rpl.runtime.pieces import Piece
 from rpl.runtime.robotstate import RobotState
 from rpl.runtime.trace import Leg
@@ -84,6 +85,7 @@ class MotionQueue(RobotState):
             task.modal["tool_in_use"], task.modal["frame_in_use"] = order.tool, order.frame
         if self.model is None:
             return self.imagined.make(self, order, next)
+        order.payloads = payloads_of(order, task.modal)
         if self.failed is not None:
             return task.wait_for("idle", order.at, next)
         if self.stopped and task.aside and order.rules.advance.runs_ahead_of == "all":
@@ -455,7 +457,9 @@ class MotionQueue(RobotState):
         self.machine.moves += 1
         origin = drive.order.code.origin(drive.order.at)
         blend = drive.order.blend.kind
-        self.machine.event("move", data, self.task, origin, legs=legs, stops=stops, blend=blend)
+        self.machine.event(
+            "move", data, self.task, origin, legs=legs, stops=stops, blend=blend, payloads=drive.order.payloads
+        )
 
     # ---- triggers
 

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from rpl.emulator.planner import PlannedMove
     from rpl.ir.rules import Rules
     from rpl.passes import rigid
+    from rpl.runtime.payloads import Payload
     from rpl.runtime.velocities import Rate
 
 Modal = dict[str, Value]
@@ -101,6 +102,8 @@ class Order:
     relative: str | None = None
     tool: Value = None
     frame: Value = None
+    load: Value = None
+    payloads: tuple[Payload, ...] = ()
     speed: SpeedOrder = field(default_factory=SpeedOrder)
     acceleration: float | None = None
     blend: BlendOrder = field(default_factory=lambda: BlendOrder("stop"))

@@ -11,6 +11,7 @@ from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.emulator.planner import PlannedMove
+    from rpl.runtime.payloads import Payload
 
 KINDS = ("move", "output", "input", "message", "wait", "call", "fault", "end")
 
@@ -33,7 +34,8 @@ class Leg:
 class Event:
     """One happening. `data` is what the trace prints beside time, task, kind and place. For comparing runs: `port` is
     the signal of an output or input, `names` all its names; `legs` is how a move was driven (empty without a robot) and
-    `stops` whether it ended in rest; `blend` the kind of its corner (see orders.BlendOrder)."""
+    `stops` whether it ended in rest; `blend` the kind of its corner (see orders.BlendOrder); `payloads` what it
+    carries in it, as the program says."""
 
     t: float
     task: str
@@ -45,6 +47,7 @@ class Event:
     legs: tuple[Leg, ...] = ()
     stops: bool = True
     blend: str = ""
+    payloads: tuple[Payload, ...] = ()
 
     def __deepcopy__(self, memo: object) -> Event:
         return self
