@@ -45,9 +45,10 @@ class Journey:
 
     def run(self, entry: str = "main", cell: Cell | None = None, limit_s: float = 60.0) -> RunResult:
         """Run what was read back: from the routine that the source calls `entry`, in surroundings that are described in
-        the words of the source."""
+        the words of the source; driven as proofs drive both, by constant accelerations."""
         theirs = in_words_of(cell, self.source.program, self.program) if cell is not None else None
-        return run_program(self.program, self.robot, theirs, self.written.renamed.get(entry, entry), limit_s)
+        begins = self.written.renamed.get(entry, entry)
+        return run_program(self.program, self.robot, theirs, begins, limit_s, controller="plain")
 
     def prove(self, entry: str = "main") -> ProofResult:
         """Do the source and what was read back mean the same?"""

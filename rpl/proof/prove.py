@@ -1,7 +1,7 @@
 """Decides whether two programs mean the same: runs both in the same surroundings and compares what they showed.
 
-Both are driven alike, by the controller of the first one's language unless another is named: what differs then is what
-the programs say, not how fast two makers' arms speed up.
+Both are driven alike, with constant accelerations unless a controller is named: what differs then is what the programs
+say, not how smoothly two makers' arms speed up.
 
 The limit of this proof: it covers the way the programs took with these inputs, on models of the arms; and where our
 reader and our writer of one language share a misunderstanding, both runs share it too.
@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from rpl import ir
+from rpl.controllers import PLAIN_NAME
 from rpl.proof.bits import with_wired_groups
 from rpl.proof.compare import Tolerance, Verdict, compare
 from rpl.proof.difference import Difference
@@ -70,10 +71,10 @@ def prove_programs(
     to_entry: str | None = None,
     path_mm: float | None = None,
     limits: Limits = DEFAULTS,
-    controller: str | MotionModel | None = None,
+    controller: str | MotionModel = PLAIN_NAME,
 ) -> ProofResult:
-    """Run two normalised programs and compare them. `robot_b` None: the same arm as A's. `controller` None: that of A's
-    language.
+    """Run two normalised programs and compare them. `robot_b` None: the same arm as A's. `controller` drives
+    both.
 
     `path_mm` overrides how far apart the tool paths may be (see compare.Tolerance). Raises UsageError for an unknown
     robot or an entry that cannot be found.
@@ -106,11 +107,11 @@ def prove_against(
     to_entry: str | None = None,
     path_mm: float | None = None,
     limits: Limits = DEFAULTS,
-    controller: str | MotionModel | None = None,
+    controller: str | MotionModel = PLAIN_NAME,
 ) -> ProofResult:
     """Run B and compare it with a run of A that was recorded before, for who compares A with several programs."""
     theirs = in_words_of(cell, program_a, program_b) if cell is not None else None
-    record_b = recorded_run(program_b, robot_b, theirs, to_entry, limits, controller or record_a.language or None)
+    record_b = recorded_run(program_b, robot_b, theirs, to_entry, limits, controller)
     record_a, record_b = (
         with_wired_groups(record_a, wired_bits(program_b)),
         with_wired_groups(record_b, wired_bits(program_a)),
@@ -152,7 +153,7 @@ def recorded_run(
     cell: Cell | None = None,
     entry: str | None = None,
     limits: Limits = DEFAULTS,
-    controller: str | MotionModel | None = None,
+    controller: str | MotionModel = PLAIN_NAME,
 ) -> Record:
     """What a run of the program shows, as proofs compare it."""
     from rpl.simulation import run_program

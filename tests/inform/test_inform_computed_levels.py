@@ -40,7 +40,7 @@ ARM = "motoman_gp7"
 
 
 def times(program: ir.Program) -> list[float]:
-    result = run_program(program, ARM)
+    result = run_program(program, ARM, controller="plain")
     assert result.status == "finished", result.fault
     return [float(str(event.data["duration"])) for event in result.trace if event.kind == "move"]
 

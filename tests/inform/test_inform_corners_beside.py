@@ -34,7 +34,8 @@ def both(body: str, target: str, *others: str) -> tuple[RunResult, RunResult, Di
     sources = [source_from_bytes(file.path, file.data) for file in translation.files]
     back = with_signal_names(read_sources(sources, target, Diagnostics()).program, translation.program)
     begins = back.entry or translation.renamed.get("TEST", "TEST")
-    return run_program(read.program, arm, None, "TEST", 60.0), run_program(back, arm, None, begins, 60.0), told
+    runs = [run_program(p, arm, None, e, 60.0, controller="plain") for p, e in ((read.program, "TEST"), (back, begins))]
+    return runs[0], runs[1], told
 
 
 def changes(result: RunResult) -> list[tuple[float, object]]:

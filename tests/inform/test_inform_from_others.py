@@ -31,7 +31,7 @@ def jobs_of(
     if not diagnostics.of(Severity.LOSS):
         result = prove_programs(read.program, back.program, robot, robot, None)
         assert result.equal, result.as_text()
-    run = run_program(back.program, robot, None, entry)
+    run = run_program(back.program, robot, None, entry, controller="plain")
     state: dict[int, bool] = {}
     for _, name, value in run.outputs:
         state[int(str(name).partition("(")[2].rstrip(")"))] = bool(value)
@@ -551,9 +551,9 @@ def test_an_action_some_time_behind_the_start_of_a_computed_move_follows_a_timer
     lines = sources[0].text.splitlines()
     at = next(n for n, line in enumerate(lines) if line.endswith("NWAIT"))
     assert lines[at + 1 : at + 6] == ["TIMER T=0.10", "DOUT OT#(1) ON", "TIMER T=0.15", "DOUT OT#(3) ON", "CWAIT"]
-    first = [round(time, 2) for time, *_ in run_program(read.program, robot).outputs]
+    first = [round(time, 2) for time, *_ in run_program(read.program, robot, controller="plain").outputs]
     back = read_sources(sources, "inform", diagnostics)
-    second = [round(time, 2) for time, *_ in run_program(back.program, robot).outputs]
+    second = [round(time, 2) for time, *_ in run_program(back.program, robot, controller="plain").outputs]
     assert first[1] - first[0] == pytest.approx(second[1] - second[0])
     assert first[2] - first[0] == pytest.approx(second[2] - second[0], abs=0.02)
 

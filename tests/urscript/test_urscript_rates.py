@@ -89,7 +89,7 @@ def translated(text: str, target: str, cell: Cell = CELL) -> tuple[list[Value], 
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
     named = with_signal_names(back.program, written.program)
     entry = written.renamed.get("main", "main") if target != "rpl" else entry_name(back.program)
-    result = run_program(named, "ur5e", in_words_of(cell, read.program, named), entry)
+    result = run_program(named, "ur5e", in_words_of(cell, read.program, named), entry, controller="plain")
     said = [item.code.name for item in diagnostics if item.severity >= Severity.WARNING]
     shown = "".join(f.data.decode() for f in written.files)
     return [value for _, _, value in result.outputs], said, f"{result.status} {said}\n{shown}"
