@@ -29,11 +29,16 @@ class MotionModel:
     """The parameters of one controller; times in s, lengths in mm.
 
     joint_ramp_s, path_ramp_s: speeding up takes this long whatever the speed (0: the acceleration decides), which short
-    moves keep: they last their time at full speed and one ramp. joint_smoothing_s, path_smoothing_s: width of the
-    moving average over the speed (S-curve). path_acceleration_mm_s2: at 100 percent, where the program gives none.
+    moves keep: they last their time at full speed and one ramp. joint_ramp_deg: each axis has a ramp of its own, in
+    which it would go this many degrees (mm) at full speed; joint_ramps_s: those ramps themselves, per axis; of the axes
+    that move, in the share of their speed that they have, the longest governs. corner_ramp_s: ramps beside a corner
+    made by overlapping moves (0: as beside a stop).
+    joint_smoothing_s, path_smoothing_s: width of the moving average over the speed (S-curve). path_acceleration_mm_s2: at 100 percent, where the program gives none.
     corner_cut: by what share of the blend distance the path misses a right-angled corner (a parabola: 0.354).
     corner_lag_s: more than that by this time at the speed of the corner, as filters behind the path planner make it.
     corner_acceleration_mm_s2: what holds the speed of a corner down, where that is not the path's acceleration.
+    corner_even: the tool keeps its speed through a corner between path moves (1: yes; 0: it dips, as a parabola driven
+    in even time does).
     corner_whole: a corner may take up more than half of a move at whose other end the robot stands, if the move is
     longer than the blend distance (1: yes, 0: no).
     overlap: pairs of percent and share of a ramp by which two moves overlap in time, for controllers whose corners are
@@ -46,6 +51,8 @@ class MotionModel:
     title: str = "constant acceleration, parabolic corners"
     source: str = ""
     joint_ramp_s: float = 0.0
+    joint_ramp_deg: float = 0.0
+    joint_ramps_s: tuple[float, ...] = ()
     joint_smoothing_s: float = 0.0
     path_acceleration_mm_s2: float | None = None
     path_ramp_s: float = 0.0
@@ -53,7 +60,9 @@ class MotionModel:
     corner_cut: float = PARABOLA
     corner_lag_s: float = 0.0
     corner_acceleration_mm_s2: float | None = None
+    corner_even: float = 0.0
     corner_whole: float = 0.0
+    corner_ramp_s: float = 0.0
     overlap: tuple[tuple[float, float], ...] = ()
     restart_s: float = 0.0
     uncertainty: Mapping[str, float] = field(default_factory=dict)
@@ -74,6 +83,8 @@ class MotionModel:
         the overlap before their meeting point."""
         most = (self.path_acceleration_mm_s2 or math.inf) * effort
         ramp_s = max(self.path_ramp_s / effort, speed_mm_s / most)
+        if self.corner_ramp_s > 0.0:
+            ramp_s *= self.corner_ramp_s / self.path_ramp_s if self.path_ramp_s > 0.0 else 1.0
         return 0.5 * speed_mm_s * ramp_s * self.overlap_at(percent) ** 2
 
     def tangent_share(self, distance_mm: float, speed_mm_s: float) -> float:
@@ -85,7 +96,9 @@ class MotionModel:
 
 PLAIN = MotionModel()
 NUMBERS = tuple(
-    each.name for each in fields(MotionModel) if each.name not in ("name", "title", "source", "overlap", "uncertainty")
+    each.name
+    for each in fields(MotionModel)
+    if each.name not in ("name", "title", "source", "overlap", "joint_ramps_s", "uncertainty")
 )
 UNCERTAIN = (*NUMBERS, "overlap", "joint_speed", "joint_acceleration", "path_acceleration", "corner")
 
@@ -116,7 +129,7 @@ def parse_controller(text: str, name: str, place: str) -> MotionModel:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise UsageError(f"controller file {place}: {error}") from error
-    known = {"title", "source", "overlap", "uncertainty", *NUMBERS}
+    known = {"title", "source", "overlap", "joint_ramps_s", "uncertainty", *NUMBERS}
     for key in data:
         if key not in known:
             close = difflib.get_close_matches(key, known, 1)
@@ -132,11 +145,19 @@ def parse_controller(text: str, name: str, place: str) -> MotionModel:
         if key not in UNCERTAIN:
             raise UsageError(f"controller file {place}: uncertainty of '{key}', which is no parameter")
     uncertainty = {key: _number(value, f"uncertainty.{key}", place) for key, value in uncertain.items()}
-    made = MotionModel(name=name, overlap=_overlap(data.get("overlap", []), place), uncertainty=uncertainty)
+    ramps = data.get("joint_ramps_s", [])
+    if not isinstance(ramps, list):
+        raise UsageError(f"controller file {place}: 'joint_ramps_s' must be a list of times, one per axis")
+    made = MotionModel(
+        name=name,
+        overlap=_overlap(data.get("overlap", []), place),
+        joint_ramps_s=tuple(_number(each, "joint_ramps_s", place) for each in ramps),
+        uncertainty=uncertainty,
+    )
     return replace(made, **texts, **numbers)  # type: ignore[arg-type]  # names of fields with their types
 
 
-def on_robot(model: MotionModel, measured: Mapping[str, float]) -> MotionModel:
+def on_robot(model: MotionModel, measured: Mapping[str, float | tuple[float, ...]]) -> MotionModel:
     """The controller with what was measured on one arm."""
     return replace(model, **measured) if measured else model  # type: ignore[arg-type]  # names of number fields
 
@@ -145,6 +166,8 @@ def as_toml(model: MotionModel) -> str:
     """The text of a controller file; `parse_controller` reads it back."""
     lines = [f'title = "{_quoted(model.title)}"', f'source = "{_quoted(model.source)}"']
     lines += [f"{key} = {float(getattr(model, key)):.9g}" for key in NUMBERS if getattr(model, key) is not None]
+    if model.joint_ramps_s:
+        lines.append("joint_ramps_s = [" + ", ".join(f"{ramp:.9g}" for ramp in model.joint_ramps_s) + "]")
     if model.overlap:
         lines.append(
             "overlap = [" + ", ".join(f"[{percent:.9g}, {share:.9g}]" for percent, share in model.overlap) + "]"

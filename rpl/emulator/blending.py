@@ -32,6 +32,8 @@ from rpl.emulator.tracking import MotionFault, track_flanges
 # No corner takes more than this share of a move, so that the corners at its two ends never meet.
 MOST = 0.5
 SAMPLES = 33
+# In how many places the way along a corner is measured.
+WAYS = 32
 # A corner that would take longer than the inverse of this (1/s) is none: it turns on the spot into a way.
 SLOWEST = 1e-4
 
@@ -88,12 +90,29 @@ def blend(
 
 def overlapping_s(first: PlannedMove, second: PlannedMove, share: float) -> float:
     """How long two moves go on at once: a share of the shorter ramp, and not beyond the middle of a move."""
-    profiles = first.profile, second.profile
-    if not all(np.isfinite(profile.speed) for profile in profiles):
+    moves = first, second
+    if not all(np.isfinite(move.profile.speed) for move in moves):
         return 0.0
-    ramps = [profile.peak / profile.acceleration for profile in profiles]
-    rooms = [float(np.sqrt(2.0 * MOST / profile.acceleration)) for profile in profiles]
+    ramps = [move.profile.peak / corner_acceleration(move) for move in moves]
+    rooms = [float(np.sqrt(2.0 * MOST / corner_acceleration(move))) for move in moves]
     return min(share * min(ramps), *rooms)
+
+
+def corner_acceleration(move: PlannedMove) -> float:
+    """The acceleration (1/s²) of a move's ramp beside a corner that is made by overlapping moves."""
+    controller, acceleration = move.controller, move.profile.acceleration
+    if controller.corner_ramp_s <= 0.0 or move.kind == "joint":
+        return acceleration
+    ramp_s = controller.path_ramp_s or move.profile.peak / acceleration
+    return acceleration * ramp_s / controller.corner_ramp_s
+
+
+def open_end(move: PlannedMove, share: float) -> tuple[float, float, Profile]:
+    """Where a move leaves for a corner by overlap with a move like itself, as a fraction; its speed there, 1/s; the
+    profile that slows down to it."""
+    braking = corner_acceleration(move)
+    seconds = overlapping_s(move, move, share)
+    return 1.0 - min(MOST, 0.5 * braking * seconds**2), braking * seconds, replace(move.profile, braking=braking)
 
 
 def _ends(
@@ -106,7 +125,7 @@ def _ends(
 ) -> tuple[float, float] | NoBlend:
     """Where to leave the first move and to meet the second, as fractions of their whole geometry."""
     if seconds is not None:
-        shares = [0.5 * move.profile.acceleration * seconds * seconds for move in (first, second)]
+        shares = [0.5 * corner_acceleration(move) * seconds * seconds for move in (first, second)]
         if min(shares) <= 1e-9 or not np.isfinite(shares).all():
             return NoBlend("the moves do not overlap")
         return 1.0 - min(shares[0], MOST), min(shares[1], MOST)
@@ -133,7 +152,10 @@ def _corner_geometry(
     carried = _carried_corner(first, second, leave, meet)
     if not (isinstance(a, PathGeometry) and isinstance(b, PathGeometry) and _one_work(a, b)):
         return _joint_corner(model, before, first.end_joints, after, b.tool, carried)
-    curve = _path_corner(a.path, b.path, leave, meet, _tangent_share(first, second, leave) if sized else 2.0 / 3.0)
+    share = _tangent_share(first, second, leave) if sized else 2.0 / 3.0
+    curve = _path_corner(a.path, b.path, leave, meet, share)
+    if sized and first.controller.corner_even > 0.0:
+        curve = curve.evenly()
     if curve.length_mm < 1e-9:
         return NoBlend("the path turns back on itself")
     track = track_flanges(model, lambda u: flanges_of(curve, b.tool, carried, u), before, SAMPLES)
@@ -170,12 +192,37 @@ def _external_middle(first: PlannedMove, second: PlannedMove) -> FloatArray | No
 class BezierPath:
     """Poses on a cubic through four control positions (4, 3), orientation on the curve of three rotations (3, 3, 3).
 
-    `share`: of the way to the corner point, where the inner control positions lie.
+    `share`: of the way to the corner point, where the inner control positions lie. `ways` (k,): of the whole length at
+    k even places of the curve, where its fraction is the way along it; None: it is the curve's own parameter.
     """
 
     positions: FloatArray
     rotations: FloatArray
     share: float = 2.0 / 3.0
+    ways: FloatArray | None = None
+
+    def evenly(self) -> "BezierPath":
+        """The same curve, its fraction in proportion to the way of the tool centre point."""
+        speeds = np.linalg.norm(self._velocity(np.linspace(0.0, 1.0, 2 * WAYS + 1)), axis=1)
+        steps = (speeds[:-2:2] + 4.0 * speeds[1::2] + speeds[2::2]) / (6.0 * WAYS)
+        ways = np.insert(np.cumsum(steps), 0, 0.0)
+        return replace(self, ways=ways / ways[-1]) if speeds.min() > 1e-9 else self
+
+    def _parameter(self, fraction: FloatArray) -> FloatArray:
+        """The curve's own parameter: a cubic between the measured places, with the slopes of the curve."""
+        if self.ways is None:
+            return fraction
+        i = np.clip(np.searchsorted(self.ways, fraction, side="right") - 1, 0, WAYS - 1)
+        span = self.ways[i + 1] - self.ways[i]
+        t = np.clip((fraction - self.ways[i]) / span, 0.0, 1.0)
+        ends = np.stack([i, i + 1]) / WAYS
+        slopes = span * self._length() / np.linalg.norm(self._velocity(ends), axis=-1)
+        bends = t * (1.0 - t) * ((1.0 - t) * (slopes[0] - 1.0 / WAYS) - t * (slopes[1] - 1.0 / WAYS))
+        return np.asarray((i + t) / WAYS + bends)
+
+    def _length(self) -> float:
+        speeds = np.linalg.norm(self._velocity(np.linspace(0.0, 1.0, 2 * WAYS + 1)), axis=1)
+        return float((speeds[:-2:2] + 4.0 * speeds[1::2] + speeds[2::2]).sum() / (6.0 * WAYS))
 
     @property
     def length_mm(self) -> float:
@@ -202,11 +249,15 @@ class BezierPath:
         return np.asarray(one @ rotation_vector_to_matrix(share * between))
 
     def poses(self, fraction: ArrayLike) -> FloatArray:
-        u = np.asarray(fraction, dtype=np.float64)
+        u = self._parameter(np.asarray(fraction, dtype=np.float64))
         return pose_matrix(self._points(u), self._turns(u))
 
     def tangent(self, fraction: float) -> FloatArray:
-        p, s, w = self.positions, fraction, 1.0 - fraction
+        way = self._velocity(self._parameter(np.array([fraction])))[0]
+        return way if self.ways is None else np.asarray(way * self._length() / np.linalg.norm(way))
+
+    def _velocity(self, u: FloatArray) -> FloatArray:
+        p, s, w = self.positions, u[..., None], 1.0 - u[..., None]
         return np.asarray(3 * (w * w * (p[1] - p[0]) + 2 * w * s * (p[2] - p[1]) + s * s * (p[3] - p[2])))
 
 
@@ -288,12 +339,10 @@ def _driven(
     Speeds are of fractions: a parabola at rate w leaves the first move at 2 (1 - leave) w and meets the second at
     2 meet w, since the corner's tangents are the rest and the beginning of the two moves; a cubic in proportion.
     """
-    steepness = (
-        3.0 * geometry.path.share
-        if isinstance(geometry, PathGeometry) and isinstance(geometry.path, BezierPath)
-        else 2.0
-    )
-    tail, head = steepness * (1.0 - leave), steepness * meet
+    tail, head = _steepness(geometry, first, second, leave, meet)
+    if seconds is not None:
+        first = replace(first, profile=replace(first.profile, braking=corner_acceleration(first)))
+        second = replace(second, profile=replace(second.profile, rising=corner_acceleration(second)))
     begin, arriving = first.span[0], float(first.law.speeds[0]) * (first.span[1] - first.span[0])
     room = 2.0 * first.profile.acceleration * (leave - begin)
     stopping = float(np.sqrt(2.0 * second.profile.acceleration * (1.0 - meet)))
@@ -330,6 +379,19 @@ def _driven(
         external_middle=_external_middle(first, second),
     )
     return Corner(trimmed, corner, rest, float(law.time_of(0.5)))
+
+
+def _steepness(
+    geometry: Geometry, first: PlannedMove, second: PlannedMove, leave: float, meet: float
+) -> tuple[float, float]:
+    """The fractions of the two moves per fraction of the corner, where they meet it."""
+    if not (isinstance(geometry, PathGeometry) and isinstance(geometry.path, BezierPath)):
+        return 2.0 * (1.0 - leave), 2.0 * meet
+    if geometry.path.ways is None:
+        return 3.0 * geometry.path.share * (1.0 - leave), 3.0 * geometry.path.share * meet
+    wholes = [float(move.geometry.distance(np.array([1.0]))[0]) for move in (first, second)]
+    length = float(np.linalg.norm(geometry.path.tangent(0.0)))
+    return length / wholes[0], length / wholes[1]
 
 
 def _ceiling(profile: Profile, fraction: float) -> float:

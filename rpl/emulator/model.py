@@ -116,7 +116,9 @@ class RobotModel:
     unit: FloatArray
     pulses_per_degree: FloatArray | None = None  # motor pulses, of arms whose controller counts positions in them
     counts_pulses: bool = True  # whether the maker's own controller does, or nobody has said that it does not
-    motion: Mapping[str, float] = field(default_factory=dict)  # time laws measured on this arm under `motion_of`
+    motion: Mapping[str, float | tuple[float, ...]] = field(
+        default_factory=dict
+    )  # time laws measured on this arm under `motion_of`
     motion_of: str = ""
     uncertain_axes: bool = True  # speeds or accelerations of the axes are not verified
     mechanisms: tuple[Mechanism, ...] = ()  # what its file says of tracks and tables that come with it

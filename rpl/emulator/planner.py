@@ -314,8 +314,21 @@ def _plan_joint(model: RobotModel, start: FloatArray, request: MoveRequest) -> P
     length = float(geometry.travelled[-1])
     if request.tcp_speed_for_joint_move is not None and length > 1e-6:
         speed = min(speed, request.tcp_speed_for_joint_move / length)
-    ramp, smoothing = request.controller.joint_ramp_s, request.controller.joint_smoothing_s
+    ramp, smoothing = _joint_ramp_s(model, request.controller, way), request.controller.joint_smoothing_s
     return finished(request, geometry, _profile(request, speed, acceleration, ramp, smoothing))
+
+
+def _joint_ramp_s(model: RobotModel, controller: MotionModel, way: FloatArray) -> float:
+    """How long all axes speed up together that go these ways (n,): each in the share of its ramp that it has of its
+    speed, at least the ramp of the controller."""
+    shares = way / model.speeds
+    if not (controller.joint_ramps_s or controller.joint_ramp_deg > 0.0) or shares.max() <= 0.0:
+        return controller.joint_ramp_s
+    if len(controller.joint_ramps_s) == len(way):
+        ramps = np.array(controller.joint_ramps_s)
+    else:
+        ramps = controller.joint_ramp_deg / model.speeds
+    return max(controller.joint_ramp_s, float(np.max(ramps * shares) / shares.max()))
 
 
 def joint_geometry(

@@ -31,6 +31,7 @@ AXES: dict[Kind, int] = {"opw": 6, "ur": 6, "scara": 4, "chain": 0}
 # No length, angle, speed or scale of a robot is larger.
 LARGEST = 1e9
 Vector = tuple[float, ...]
+RAMPS = "joint_ramps_s"
 
 
 class RobotError(UsageError):
@@ -98,7 +99,7 @@ class RobotFile:
     tip: str | None
     pulses_per_degree: Vector | None = None
     counts_pulses: bool = True
-    motion: Mapping[str, float] = field(default_factory=dict)
+    motion: Mapping[str, float | Vector] = field(default_factory=dict)
     motion_of: str = ""
     mechanisms: tuple[Mechanism, ...] = ()
     weights: WeightFile | None = None
@@ -191,7 +192,7 @@ def _parse(text: str, place: str, folder: Path | None) -> RobotFile:
         tip=geometry.text("tip", "") or None,
         pulses_per_degree=axes.above_zero("pulses_per_degree", count) if "pulses_per_degree" in axes.data else None,
         counts_pulses=axes.flag("counts_pulses", True),
-        motion=_motion(reader),
+        motion=_motion(reader, count),
         motion_of=reader.table("motion").text("controller") if "motion" in data else "",
         mechanisms=read_mechanisms(data.get("mechanism", []), f"robot file {place}"),
         weights=_weights(reader, count),
@@ -199,15 +200,18 @@ def _parse(text: str, place: str, folder: Path | None) -> RobotFile:
     )
 
 
-def _motion(reader: "_Reader") -> dict[str, float]:
+def _motion(reader: "_Reader", count: int) -> dict[str, float | Vector]:
     """What was measured of the time laws on this arm."""
     if "motion" not in reader.data:
         return {}
     table = reader.table("motion")
-    wrong = next((key for key in table.data if key not in (*NUMBERS, "controller")), None)
+    wrong = next((key for key in table.data if key not in (*NUMBERS, RAMPS, "controller")), None)
     if wrong is not None:
-        raise table.fail(wrong, f"left out: [motion] has {', '.join(NUMBERS)}")
-    return {key: table.number(key) for key in NUMBERS if key in table.data}
+        raise table.fail(wrong, f"left out: [motion] has {', '.join((*NUMBERS, RAMPS))}")
+    found: dict[str, float | Vector] = {key: table.number(key) for key in NUMBERS if key in table.data}
+    if RAMPS in table.data:
+        found[RAMPS] = table.numbers(RAMPS, count)
+    return found
 
 
 def _signs(geometry: "_Reader", count: int) -> Vector:

@@ -134,21 +134,31 @@ def at_rest() -> TimeLaw:
     return TimeLaw(np.zeros(2), np.array([0.0, 1.0]), np.zeros(2))
 
 
-def travel(speed: float, acceleration: float, start_speed: float = 0.0, end_speed: float = 0.0) -> TimeLaw:
+def travel(
+    speed: float,
+    acceleration: float,
+    start_speed: float = 0.0,
+    end_speed: float = 0.0,
+    braking: float | None = None,
+) -> TimeLaw:
     """The trapezoid (or triangle) over the whole path at a top speed in 1/s and an acceleration in 1/s².
 
-    Start and end speed (1/s) are not zero next to a corner. Where the path is too short to get from one to the other,
-    the acceleration is raised as far as it takes. Infinite speed and acceleration mean there is nothing to do.
+    Start and end speed (1/s) are not zero next to a corner; `braking` (1/s²) slows down to the end speed, where that is
+    not the same. Where the path is too short to get from one to the other, the acceleration is raised as far as it
+    takes. Infinite speed and acceleration mean there is nothing to do.
     """
     if not np.isfinite(speed) or not np.isfinite(acceleration):
         return at_rest()
     squares = start_speed * start_speed, end_speed * end_speed
-    acceleration = max(acceleration, 0.5 * abs(squares[1] - squares[0]))
-    top = min(max(speed, end_speed), float(np.sqrt(0.5 * (squares[0] + squares[1]) + acceleration)))
-    first = abs(top * top - squares[0]) / (2.0 * acceleration)
-    last = min((top * top - squares[1]) / (2.0 * acceleration), 1.0 - first)
+    up = max(acceleration, 0.5 * (squares[1] - squares[0]))
+    down = max(acceleration if braking is None else braking, 0.5 * (squares[0] - squares[1]))
+    peak = (2.0 * up * down + down * squares[0] + up * squares[1]) / (up + down)
+    top = min(max(speed, end_speed), float(np.sqrt(peak)))
+    begin = up if top >= start_speed else down
+    first = abs(top * top - squares[0]) / (2.0 * begin)
+    last = min((top * top - squares[1]) / (2.0 * down), 1.0 - first)
     cruise = max(1.0 - first - last, 0.0)
-    ramps = abs(top - start_speed) / acceleration, (top - end_speed) / acceleration
+    ramps = abs(top - start_speed) / begin, (top - end_speed) / down
     return TimeLaw(
         np.cumsum([0.0, ramps[0], cruise / top, ramps[1]]),
         np.array([0.0, first, first + cruise, 1.0]),
@@ -188,7 +198,8 @@ class Profile:
     """How fast a move may go along its whole path: top speed 1/s, acceleration 1/s², in fractions of the path.
 
     `ceilings` (m-1,) in 1/s lower the speed in the intervals between `knots` (m,), where an axis would be too slow.
-    `smoothing_s` is the width of the moving average over the speed.
+    `smoothing_s` is the width of the moving average over the speed. `rising`, `braking`: the accelerations (1/s²) out
+    of the corner before and into the corner behind, where ramps beside corners differ from those beside a stop.
     """
 
     speed: float
@@ -196,6 +207,13 @@ class Profile:
     knots: FloatArray | None = None
     ceilings: FloatArray | None = None
     smoothing_s: float = 0.0
+    rising: float | None = None
+    braking: float | None = None
+
+    @property
+    def slowest(self) -> float:
+        """The lowest of its accelerations, 1/s²."""
+        return min(self.acceleration, self.rising or np.inf, self.braking or np.inf)
 
     @property
     def peak(self) -> float:
@@ -220,7 +238,7 @@ class Profile:
             return self.smoothing_s if np.isfinite(self.speed) else 0.0
         if part < 1e-6:
             return 0.0
-        needed = abs(end_speed * end_speed - start_speed * start_speed) / (2.0 * self.acceleration)
+        needed = abs(end_speed * end_speed - start_speed * start_speed) / (2.0 * self.slowest)
         width = min(self.smoothing_s, 2.0 * (part - needed) / sum_of_speeds * EVEN_SHARE)
         return width if width > NARROWEST_S else 0.0
 
@@ -230,13 +248,14 @@ class Profile:
         if part <= 1e-12:
             return at_rest()
         speeds = start_speed / part, end_speed / part
+        up, down = (self.rising or self.acceleration) / part, (self.braking or self.acceleration) / part
         if self.knots is None or self.ceilings is None:
-            return travel(self.speed / part, self.acceleration / part, *speeds)
+            return travel(self.speed / part, up, *speeds, down)
         inside = (self.knots > begin) & (self.knots < end)
         knots = np.concatenate([[begin], self.knots[inside], [end]])
         holder = np.clip(np.searchsorted(self.knots, knots[:-1], side="right") - 1, 0, len(self.ceilings) - 1)
         ceilings = np.minimum(self.ceilings[holder], self.speed) / part
-        return limited((knots - begin) / part, ceilings, self.acceleration / part, *speeds)
+        return limited((knots - begin) / part, ceilings, up, *speeds, down)
 
 
 def _smoothed(law: TimeLaw, lead: float, tail: float, part: float, width: float) -> TimeLaw:
@@ -253,37 +272,44 @@ def _smoothed(law: TimeLaw, lead: float, tail: float, part: float, width: float)
 
 
 def limited(
-    fractions: FloatArray, ceilings: FloatArray, acceleration: float, start_speed: float = 0.0, end_speed: float = 0.0
+    fractions: FloatArray,
+    ceilings: FloatArray,
+    acceleration: float,
+    start_speed: float = 0.0,
+    end_speed: float = 0.0,
+    braking: float | None = None,
 ) -> TimeLaw:
     """The fastest law under a speed ceiling (m-1,) in 1/s per interval of `fractions` (m,).
 
-    Ceilings hold inside their interval; ramps are of constant acceleration (1/s²): one sweep forward for speeding up,
-    one backward for slowing down (Bobrow 1985, without the dynamics).
+    Ceilings hold inside their interval; ramps are of constant acceleration (1/s²; `braking` where slowing down
+    differs): one sweep forward for speeding up, one backward for slowing down (Bobrow 1985, without the dynamics).
     """
+    down = acceleration if braking is None else braking
     steps = np.diff(fractions)
     top = np.minimum(np.append(ceilings, np.inf), np.insert(ceilings, 0, np.inf))
     top[0], top[-1] = start_speed, end_speed
     for i in range(1, len(top)):
         top[i] = min(top[i], float(np.sqrt(top[i - 1] ** 2 + 2.0 * acceleration * steps[i - 1])))
     for i in range(len(top) - 2, -1, -1):
-        top[i] = min(top[i], float(np.sqrt(top[i + 1] ** 2 + 2.0 * acceleration * steps[i])))
-    fractions, top = _with_peaks(fractions, top, ceilings, acceleration)
+        top[i] = min(top[i], float(np.sqrt(top[i + 1] ** 2 + 2.0 * down * steps[i])))
+    fractions, top = _with_peaks(fractions, top, ceilings, acceleration, down)
     steps = np.diff(fractions)
     times = np.insert(np.cumsum(2.0 * steps / np.maximum(top[1:] + top[:-1], 1e-300)), 0, 0.0)
     return TimeLaw(times, fractions, top)
 
 
 def _with_peaks(
-    fractions: FloatArray, speeds: FloatArray, ceilings: FloatArray, acceleration: float
+    fractions: FloatArray, speeds: FloatArray, ceilings: FloatArray, rising: float, braking: float
 ) -> tuple[FloatArray, FloatArray]:
     """Insert the ramp-cruise-ramp corners inside intervals whose ceiling lies above both of their ends."""
     positions: list[float] = [float(fractions[0])]
     tops: list[float] = [float(speeds[0])]
     for i, ceiling in enumerate(ceilings):
         low, high, step = float(speeds[i]), float(speeds[i + 1]), float(fractions[i + 1] - fractions[i])
-        peak = min(float(ceiling), float(np.sqrt(0.5 * (low * low + high * high) + acceleration * step)))
-        up = (peak * peak - low * low) / (2.0 * acceleration)
-        down = (peak * peak - high * high) / (2.0 * acceleration)
+        highest = (2.0 * rising * braking * step + braking * low * low + rising * high * high) / (rising + braking)
+        peak = min(float(ceiling), float(np.sqrt(highest)))
+        up = (peak * peak - low * low) / (2.0 * rising)
+        down = (peak * peak - high * high) / (2.0 * braking)
         if peak > max(low, high) * (1.0 + 1e-12) and up + down <= step * (1.0 + 1e-12):
             positions.append(float(fractions[i]) + up)
             tops.append(peak)

@@ -169,6 +169,9 @@ def to_the_end(piece: Piece, now: float) -> Piece:
 
 def open_ended(piece: Piece, now: float) -> Piece:
     """Towards where the corner would begin, without slowing down for a stop."""
+    overlap = overlap_of(piece.drive.order.blend, piece.plan)
+    if overlap is not None:
+        return _overlap_ended(piece, now, overlap)
     leave = _leave_alone(piece.plan, piece.drive.order.blend) - ROUNDING
     place, speed = place_of(piece, now)
     if leave <= place + 1e-9:
@@ -176,6 +179,18 @@ def open_ended(piece: Piece, now: float) -> Piece:
     profile = piece.plan.profile
     end_speed = min(profile.speed, (speed * speed + 2.0 * profile.acceleration * (leave - place)) ** 0.5)
     opened = part(piece.plan, (place, leave), profile.law(place, leave, speed, end_speed))
+    return Piece(piece.drive, opened, now, open_end=True)
+
+
+def _overlap_ended(piece: Piece, now: float, share: float) -> Piece:
+    """Towards a corner with a move like this one, at the speed that it has there."""
+    from rpl.emulator.blending import open_end
+
+    leave, end_speed, profile = open_end(piece.plan, share)
+    place, speed = place_of(piece, now)
+    if leave - ROUNDING <= place + 1e-9:
+        return piece
+    opened = part(piece.plan, (place, leave - ROUNDING), profile.law(place, leave - ROUNDING, speed, end_speed))
     return Piece(piece.drive, opened, now, open_end=True)
 
 
@@ -300,13 +315,15 @@ def _leave_alone(move: PlannedMove, order: BlendOrder) -> float:
 
     overlap = overlap_of(order, move)
     if overlap is not None:
-        from rpl.emulator.blending import overlapping_s
+        from rpl.emulator.blending import open_end
 
-        return 1.0 - min(MOST, 0.5 * move.profile.acceleration * overlapping_s(move, move, overlap) ** 2)
+        return open_end(move, overlap)[0]
     distance, fraction = blend_size(order, move, None)
     if fraction is not None:
         return 1.0 - fraction
     whole = float(move.geometry.distance(np.array([1.0]))[0])
     if distance is None or whole <= 0.0:
         return 1.0
-    return move.geometry.fraction_at(whole - min(distance, MOST * whole))
+    if not (move.controller.corner_whole and move.span[0] <= 0.0 and whole > distance):
+        distance = min(distance, MOST * whole)
+    return move.geometry.fraction_at(whole - distance)

@@ -252,12 +252,12 @@ def test_a_frame_that_is_certainly_another_is_reported() -> None:
 
 
 def test_a_time_before_a_corner_counts_before_the_corner_is_known() -> None:
-    """The next move is read where the corner begins; an action 0.1 s before its middle comes earlier than that. At an
-    even speed that is where the same way before the point lies."""
-    lines = "J P[1] 100% FINE\nL P[2] 100mm/sec CNT50 {},DO[1]=ON\nL P[1] 100mm/sec FINE"
-    by_time, by_way = (run(listing(lines.format(when))).outputs for when in ("TB    .10sec", "DB   10.0mm"))
-    assert by_time[0][1:] == by_way[0][1:]
-    assert by_time[0][0] == pytest.approx(by_way[0][0], abs=0.004)
+    """The next move is read where the corner begins; an action 0.1 s before its middle comes earlier than that."""
+    lines = "J P[1] 100% FINE\nL P[2] 100mm/sec CNT50 TB    .10sec,DO[1]=ON\nL P[1] 100mm/sec FINE"
+    result = run(listing(lines))
+    corner = next(leg for event in result.trace for leg in event.legs if leg.plan.kind == "corner")
+    assert result.outputs[0][1:] == ("DO[1]", True)
+    assert result.outputs[0][0] == pytest.approx(corner.start_s + 0.5 * corner.duration_s - 0.1, abs=0.004)
 
 
 def test_what_the_brackets_say_of_signals_and_whole_banks_is_kept() -> None:
