@@ -33,7 +33,8 @@ class MotionModel:
     which it would go this many degrees (mm) at full speed; joint_ramps_s: those ramps themselves, per axis; of the axes
     that move, in the share of their speed that they have, the longest governs. corner_ramp_s: ramps beside a corner
     made by overlapping moves (0: as beside a stop).
-    joint_smoothing_s, path_smoothing_s: width of the moving average over the speed (S-curve). path_acceleration_mm_s2: at 100 percent, where the program gives none.
+    joint_smoothing_s, path_smoothing_s: width of the moving average over the speed (S-curve).
+    path_acceleration_mm_s2: at 100 percent, where the program gives none.
     corner_cut: by what share of the blend distance the path misses a right-angled corner (a parabola: 0.354).
     corner_lag_s: more than that by this time at the speed of the corner, as filters behind the path planner make it.
     corner_acceleration_mm_s2: what holds the speed of a corner down, where that is not the path's acceleration.

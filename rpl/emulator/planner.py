@@ -13,8 +13,8 @@ from typing import Literal, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rpl.emulator.configuration import Selection
 from rpl.controllers import PLAIN, MotionModel
+from rpl.emulator.configuration import Selection
 from rpl.emulator.mechanisms import Carried, Carrier, along
 from rpl.emulator.model import RobotModel
 from rpl.emulator.paths import Arc, Line, Path, arc_through

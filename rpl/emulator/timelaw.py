@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike
 
 from rpl.emulator.rotations import FloatArray
 
-
 # Halvings of the width of an average: 0.2 s ends below a picosecond.
 BISECTIONS = 38
 # Most of the way that is left over by the ramps which may be driven evenly for the sake of the average.

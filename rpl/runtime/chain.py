@@ -31,8 +31,8 @@ from rpl.runtime.values import (
 )
 
 if TYPE_CHECKING:
-    from rpl.emulator.configuration import Notation, Selection
     from rpl.controllers import MotionModel
+    from rpl.emulator.configuration import Notation, Selection
     from rpl.emulator.mechanismfile import Mechanism
     from rpl.emulator.mechanisms import Carrier
     from rpl.emulator.model import RobotModel

@@ -19,9 +19,9 @@ CASES = [
     ("L P[2] 100mm/sec CR10", L + "SPEED 100 BLEND 10"),
     ("L P[2] 100mm/sec CD5", L + "SPEED 100 BLEND 5"),
     ("L P[2] 100mm/sec CNT0", L + "SPEED 100 BLEND PERCENT 0"),
-    ("L P[2] 500mm/sec CNT100", L + "SPEED 500 BLEND PERCENT 100 PATH BLEND 33.604"),
+    ("L P[2] 500mm/sec CNT100", L + "SPEED 500 BLEND PERCENT 100 PATH BLEND 33.627"),
     # half the acceleration: a ramp twice as long, and a corner twice as large
-    ("L P[2] 500mm/sec CNT100 ACC50", L + "SPEED 500 ACCELERATION 50 BLEND PERCENT 100 PATH BLEND 67.207"),
+    ("L P[2] 500mm/sec CNT100 ACC50", L + "SPEED 500 ACCELERATION 50 BLEND PERCENT 100 PATH BLEND 67.253"),
     ("L P[2] 100mm/sec FINE ACC R[3]", L + "SPEED 100 ACCELERATION R3 FINE"),
     ("L P[2] 100mm/sec FINE Wjnt", L + "SPEED 100 FINE ORIENTATION wrist"),
     ("L PR[1] 100mm/sec FINE INC", "MOVE LINEAR BY PR1 SPEED 100 FINE"),
