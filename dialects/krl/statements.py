@@ -15,6 +15,7 @@ from rpl.source import Origin
 
 from . import tables
 from .calls import procedure_call
+from .coupled import coupled_base
 from .declarations import Declarations
 from .expressions import Make, Pieces, as_number, mode_member
 
@@ -109,6 +110,10 @@ class Statements(Declarations):
 
         def one(pieces: Pieces, origin: Origin) -> list[Pair]:
             written, given = place(pieces, origin), value(pieces, origin)
+            if name == "$base" and not suffixes and isinstance(given, ir.Call):
+                coupled = coupled_base(given, origin)
+                if coupled is not None:
+                    return coupled
             if isinstance(written, ir.Magnitude):  # $VEL.CP is m/s: what is assigned is a quantity
                 return [(written.value, ir.Quantity(given, written.unit, origin=origin))]
             if isinstance(written, ir.System) and written.name in tables.MODES and isinstance(given, ir.EnumLiteral):

@@ -19,7 +19,7 @@ CAPABILITIES = Capabilities(
     functions=frozenset((*tables.FUNCTIONS, "text_equal", "text_find", "is_uninitialised", "message_text", "compose")),
     procedures=frozenset(tables.PROCEDURES),
     # $ROB_TIMER runs since the controller started: as seconds in a REAL it is too coarse for programs of others.
-    system_variables=frozenset((*tables.SYSTEM, "actual_joint")) - {"time"},
+    system_variables=frozenset((*tables.SYSTEM, "actual_joint", "base_unit", "base_root")) - {"time"},
     operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary)),
     types=frozenset(
         (

@@ -6,7 +6,7 @@ from rpl import ir
 from rpl.writing.statements import CannotSayError
 
 from .expressions import Expressions
-from .settings import assignment, grouped
+from .settings import assignment, coupled, grouped
 
 _WORDS = {
     ("joint", "classic"): "PTP",
@@ -98,8 +98,9 @@ class Motion:
     def settings(self, settings: tuple[tuple[ir.Expression, ir.Expression], ...]) -> str:
         if not settings:
             return ""
-        shown = []
-        for target, value in grouped(settings):
+        base = coupled(settings, self.expressions)
+        shown = [base[0]] if base is not None else []
+        for target, value in grouped(settings[base[1] :] if base is not None else settings):
             if isinstance(target, str):
                 shown.append(f"{target}={self.expressions.text(value)}")
             else:

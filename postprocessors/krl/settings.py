@@ -36,6 +36,36 @@ def _component(pair: Pair, component: str, neutral: str) -> ir.Expression | None
     return value.base if value.name.upper() == component and isinstance(value.base, ir.Call) else None
 
 
+def coupled_base(pairs: Sequence[Pair]) -> tuple[str, ir.Expression, ir.Expression, ir.Expression | None] | None:
+    """The number of external kinematics, the frame on it and its root, when the first pairs put the base on one."""
+    names = [target.name for target, _ in pairs[:3] if isinstance(target, ir.System)]
+    if names[:2] != ["base", "base_unit"]:
+        return None
+    frame, unit = pairs[0][1], pairs[1][1]
+    word = unit.value.upper() if isinstance(unit, ir.TextLiteral) else ""
+    if word and word not in tables.EXTERNAL_KINEMATICS:
+        raise CannotSayError(f"external kinematics are {', '.join(tables.EXTERNAL_KINEMATICS)}; '{word}' is none")
+    root = pairs[2][1] if len(names) > 2 and names[2] == "base_root" else None
+    return word, frame, unit, root
+
+
+def coupled(pairs: Sequence[Pair], expressions: Expressions) -> tuple[str, int] | None:
+    """`$BASE=EK(...)` for such pairs, and how many they are. The root that nobody says is the machine's own."""
+    found = coupled_base(pairs)
+    if found is None:
+        return None
+    word, frame, unit, root = found
+    number = tables.EXTERNAL_KINEMATICS.index(word) + 1 if word else 0
+    if root is None and not number:
+        if not isinstance(unit, ir.Field):
+            raise CannotSayError("external kinematics that are chosen at run time")
+        place = expressions.text(unit.base) + ".ROOT"
+    else:
+        place = setting("base_root", root, expressions) if root is not None else f"EX_AX_DATA[{number}].ROOT"
+    kind = f"#{word}" if word else expressions.text(unit)
+    return f"$BASE=EK({place},{kind},{setting('base', frame, expressions)})", 2 if root is None else 3
+
+
 def all_axes(pairs: Sequence[Pair]) -> bool:
     """Do the first pairs set one axis variable to one value for every axis, in order?"""
     if len(pairs) < _AXES:

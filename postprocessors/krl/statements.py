@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import takewhile
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
@@ -15,7 +16,7 @@ from . import tables
 from .declarations import constant, elements
 from .expressions import Expressions
 from .motion import Motion
-from .settings import assignment, speed_of_axes, whole_structure
+from .settings import assignment, coupled, speed_of_axes, whole_structure
 
 GUARDED = code(
     "krl-guarded-stop",
@@ -88,10 +89,14 @@ class Printer(StatementPrinter[str]):
         first = body[0]
         if not (isinstance(first, ir.Assign) and isinstance(first.target, ir.System)):
             return 0
-        pairs = [(s.target, s.value) for s in body[:_LARGEST_STRUCTURE] if isinstance(s, ir.Assign)]
+        together = takewhile(lambda one: isinstance(one, ir.Assign), body[:_LARGEST_STRUCTURE])
+        pairs = [(one.target, one.value) for one in together if isinstance(one, ir.Assign)]
         whole = whole_structure(pairs)
         try:
-            if whole is not None:
+            base = coupled(pairs, self.expressions)
+            if base is not None:
+                shown, count = base
+            elif whole is not None:
                 name, value = whole
                 shown, count = f"{name}={self.expressions.text(value)}", len(tables.STRUCTURES[name])
             elif speed_of_axes(pairs):

@@ -52,6 +52,7 @@ OPERATORS = OperatorTable(
     mixed=(frozenset(_BINARY),),
 )
 
+EXTERNAL_KINEMATICS = ("EASYS", "EBSYS", "ECSYS", "EDSYS", "EESYS", "EFSYS")
 COUNTED = frozenset(("timer", "time"))  # INT in their own unit
 # Neutral system variable -> spelling and the unit that KRL measures it in ("" for the neutral one).
 SYSTEM: dict[str, tuple[str, str]] = {

@@ -176,6 +176,8 @@ SYSTEM_VARIABLES: dict[str, SystemVariable] = _system(
     """
     tool            | P | rw | - |       | - | tool centre point in the flange (or the work piece, see interpolation)
     base            | P | rw | - |       | - | base or work object frame in the world
+    base_unit       | x | rw | - |       | - | name of what carries the modal base; writing `base` takes it off
+    base_root       | P | rw | - |       | - | where that mechanism's root is in the world, where the program says it
     displacement    | P | rw | - |       | - | between the frame and the targets (RAPID program displacement)
     load            | L | rw | - |       | - | payload
     robot_root      | P | rw | - |       | - | robot base in the world

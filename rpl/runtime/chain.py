@@ -164,7 +164,8 @@ def frames_of(
     elif modal_stationary and not isinstance(tool, Record):
         made = Frames(tool_pose, rigid.IDENTITY, True, frame_pose, root, rides)
     else:
-        unit, place = setting(modal, over, "base_unit"), setting(modal, over, "base_root")
+        of_frame = {} if "base" in over else modal  # a frame of the move alone is not on what carries the modal one
+        unit, place = (setting(of_frame, over, name) for name in ("base_unit", "base_root"))
         mount = scene.mount_of(frame, given, unit, place) if known else None
         made = Frames(tool_pose, rigid.IDENTITY, False, frame_pose, root, rides, mount)
     return made.at(external)

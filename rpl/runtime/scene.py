@@ -20,6 +20,7 @@ EXTERNAL_SPEED = 500.0  # mm/s or deg/s of an external axis at 100 percent, for 
 # An axis whose data give a speed but no acceleration reaches it in this time; a model, as for the arm's own axes.
 _RAMP_S = 0.3
 _SIX = 6
+_NO_UNIT = ("", "none")
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +50,7 @@ class Scene:
             name = str(frame.get("unit") or "")
             named = frame.get("fixed") is False and not frame.get("held") and name.strip()
             return self.called(name) if named else None
-        if given or not unit:
+        if given or not unit or str(unit) in _NO_UNIT:
             return None
         found = self.called(str(unit))
         return found if root is None else replace(found, root=_six(root), on_robot=False)

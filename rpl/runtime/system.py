@@ -151,6 +151,12 @@ def _write_cyclic(task: Task, index: int, value: Value) -> None:
     task.machine.changed()
 
 
+def _write_base(task: Task, index: int, value: Value) -> None:
+    """A new modal frame stands in the world until the program puts it on a mechanism."""
+    task.modal["base"] = copied(value)
+    task.modal["base_unit"] = task.modal["base_root"] = None
+
+
 def _time(task: Task, index: int) -> Value:
     task.looked = task.looked_at_time = True
     return task.machine.now
@@ -205,6 +211,7 @@ _SPECIAL: dict[str, Read] = {
     "moving": _moving,
 }
 SPECIAL_WRITE: dict[str, Write] = {
+    "base": _write_base,
     "timer": _write_timer,
     "timer_stopped": _write_timer_stopped,
     "flag": _write_flag("flag"),

@@ -13,6 +13,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import rewrite, walk
+from rpl.passes.legalise import carriedframes
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.datalists import moving_entries
 from rpl.passes.legalise.helpers import Helpers
@@ -298,7 +299,7 @@ class Modal:
             if known.get(name) != value:
                 known[name] = value
                 before.extend(_set(name, value, replace(origin, comments=())))
-        if move.tool is not None and self.is_fixed(move.tool):
+        if (move.tool is not None and self.is_fixed(move.tool)) or self.is_carried_away(move):
             before.insert(0, ir.Halt(origin=replace(origin, comments=())))  # no controller may drive on from here
         done = replace(move, tool=None, frame=None, load=None, speed=own, blend=blend, configuration=None)
         if before:
@@ -320,7 +321,24 @@ class Modal:
         held = self.component(tool, "held")
         return isinstance(held, ir.BoolLiteral) and not held.value
 
+    def unit_of(self, frame: ir.Expression | None) -> str | None:
+        """The mechanism that carries the work object."""
+        is_data = frame is not None and isinstance(self.type(frame), ir.WorkObjectType)
+        return carriedframes.unit_of(frame, self.component) if frame is not None and is_data else None
+
+    def is_carried_away(self, move: ir.Move) -> bool:
+        """Is its frame on a mechanism, which the target cannot say? Then that is reported."""
+        unit = self.unit_of(move.frame)
+        lost = carriedframes.is_lost(unit, self.context)
+        if lost:
+            self.context.diagnostics.report(carriedframes.CARRIED_FRAME, move.origin, unit=unit)
+        return lost
+
     def frame_of_work_object(self, frame: ir.Expression) -> ir.Expression:
+        return carriedframes.both(self.placed(frame), self.unit_of(frame), self.context)
+
+    def placed(self, frame: ir.Expression) -> ir.Expression:
+        """The pose of a work object."""
         if not isinstance(self.type(frame), ir.WorkObjectType):
             return frame
         user, item = self.component(frame, "user_frame"), self.component(frame, "object_frame")
@@ -465,7 +483,8 @@ def _assigned(statement: ir.Statement) -> str | None:
 def _set(name: str, value: ir.Expression, origin: Origin) -> list[ir.Statement]:
     if name in _OF_EACH_AXIS:
         return [ir.Assign(ir.System(name, (ir.IntLiteral(axis),)), value, origin=origin) for axis in range(1, 7)]
-    return [ir.Assign(ir.System(name), value, origin=origin)]
+    carried = carriedframes.assignments(value, origin)
+    return carried if carried is not None else [ir.Assign(ir.System(name), value, origin=origin)]
 
 
 def _quantity(value: ir.Expression, unit: str) -> ir.Expression:

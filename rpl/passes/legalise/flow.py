@@ -285,6 +285,8 @@ class ModalFlow:
                 return None  # the robot holds the part; the tool stands in the room
             if name == "tool":
                 return pose_of(value.part("frame"))
+            if value.part("fixed") is False and value.part("unit"):
+                return None  # it is where a mechanism carries it
             user, item = pose_of(value.part("user_frame")), pose_of(value.part("object_frame"))
             return user.then(item) if user and item else None
         return pose_of(value)

@@ -12,11 +12,13 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.legalise.carriedframes import ROOT, UNIT
 from rpl.passes.legalise.circles import has_arcs
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.tooldata import HOME, PLACES, tool_of, work_object_of
 from rpl.passes.legalise.usage import Usage, each_expression, usage_of
 from rpl.passes.rewrite import rewrite_parts
+from rpl.source import Origin
 
 JOINT_SPEED = code(
     "approximated-joint-speed",
@@ -28,6 +30,16 @@ JOINT_BLEND = code(
 )
 DROPPED = code("dropped-setting", Severity.WARNING, "the target has no setting for {name}; it is left out")
 
+UNIT_NAME = code(
+    "mechanism-name",
+    Severity.WARNING,
+    "the mechanism that carries the frame keeps its name '{unit}'; the target's configuration must have one called so",
+)
+UNIT_ROOT = code(
+    "mechanism-root",
+    Severity.WARNING,
+    "where a mechanism stands is not said by the target's programs but by its configuration; it is left out",
+)
 # A joint move's speed in percent as a tool speed: 100 % is the largest programmable tool speed of the target.
 MM_S_PER_PERCENT = 50.0
 # The path speed of a move that only its turning speed limits: the largest programmable one.
@@ -50,6 +62,9 @@ DROPPED_SETTINGS = frozenset(
         *("end_tolerance", "deceleration_percent"),
     }
 )
+
+
+_OWN_SETTINGS = DROPPED_SETTINGS | {UNIT, ROOT}
 
 
 def _real(value: float) -> ir.Expression:
@@ -128,7 +143,8 @@ class _Explicit:
         self.arcs = has_arcs(program)
         self.usage = usage
         self.state = _State()
-        self.never = {"tool", "base"} - _settings_made(program)
+        self.made = _settings_made(program)
+        self.never = {"tool", "base"} - self.made
         self.defaults = rules_of(context.source).system_defaults
 
     # ---- generated data
@@ -210,7 +226,7 @@ class _Explicit:
 
     def statement(self, statement: ir.Statement, known: Environment) -> list[ir.Statement]:
         match statement:
-            case ir.Assign(target=ir.System(name=name)) if name in _MODAL or name in DROPPED_SETTINGS:
+            case ir.Assign(target=ir.System(name=name)) if name in _MODAL or name in _OWN_SETTINGS:
                 return self.setting(statement, known)
             case ir.Move():
                 return self.move(statement, known)
@@ -263,6 +279,11 @@ class _Explicit:
         target = statement.target
         assert isinstance(target, ir.System)
         name, value = target.name, self.expression(statement.value)
+        if name == UNIT:
+            return self.carried(statement, value)
+        if name == ROOT:
+            self.report_once(UNIT_ROOT, statement, name)
+            return [ir.Nothing(origin=statement.origin)]
         if name in DROPPED_SETTINGS:
             if name == "circle_orientation" and name in self.context.capabilities.system_variables:
                 return [statement if self.arcs else ir.Nothing(origin=statement.origin)]
@@ -280,12 +301,28 @@ class _Explicit:
         kind, component = _MODAL[name]
         place = ir.Field(self.name(kind, written=True), component)
         made = [ir.Assign(place, _scaled(value, _FACTOR.get(name, 1.0)), origin=statement.origin)]
+        if name == "base" and UNIT in self.made:  # it was perhaps on a mechanism
+            made.append(ir.Assign(replace(place, name="fixed"), ir.BoolLiteral(True), origin=_later(statement)))
         if component == "path" and kind.endswith("zone"):
             later = replace(statement.origin, comments=())
             for other, factor in _ZONE_PROPORTIONS[1:]:
                 scaled = _scaled(value, _FACTOR.get(name, 1.0) * factor)
                 made.append(ir.Assign(ir.Field(self.name(kind, written=True), other), scaled, origin=later))
         return list(made)
+
+    def carried(self, statement: ir.Assign, value: ir.Expression) -> list[ir.Statement]:
+        """The modal frame goes on a mechanism: its work object names the unit, under the name that the source has."""
+        if not isinstance(value, ir.TextLiteral):
+            return [statement]
+        if says(value, "none"):
+            return [ir.Nothing(origin=statement.origin)]
+        word = value.value
+        self.report_once(UNIT_NAME, statement, word, unit=word)
+        frame = self.name("frame", written=True)
+        return [
+            ir.Assign(ir.Field(frame, "fixed"), ir.BoolLiteral(False), origin=statement.origin),
+            ir.Assign(ir.Field(frame, "unit"), ir.TextLiteral(word), origin=_later(statement)),
+        ]
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
         if isinstance(expression, ir.System) and expression.name == "actual_pose":
@@ -407,6 +444,11 @@ class _Explicit:
         size = zone.value if isinstance(zone, ir.RealLiteral | ir.IntLiteral) else "a computed size"
         self.report_once(JOINT_BLEND, move, str(size), size=f"{size} mm")
         return ir.BlendZone(_zone(zone))
+
+
+def _later(statement: ir.Assign) -> Origin:
+    """The place of a second statement made of one: its comments stay at the first."""
+    return replace(statement.origin, comments=())
 
 
 def _settings_made(program: ir.Program) -> set[str]:

@@ -39,10 +39,13 @@ def used_elements(program: ir.Program, context: Context) -> ir.Program:
                 made = elements.get(name.lower())
                 if made is not None:
                     return tuple(replace(one, name=made[at], type=element) for at in sorted(made))
-            case ir.Initialise(assign=ir.Assign(target=ir.Index(base=ir.Name(id=name)) as target)):
-                made = elements.get(name.lower())
-                if made is not None and _numbers(target) not in made:
-                    return ()
+            case ir.Initialise(assign=ir.Assign(target=target)):
+                while isinstance(target, ir.Field):  # a first value of a component alone
+                    target = target.base
+                if isinstance(target, ir.Index) and isinstance(target.base, ir.Name):
+                    made = elements.get(target.base.id.lower())
+                    if made is not None and _numbers(target) not in made:
+                        return ()
         return (one,)
 
     modules = tuple(
