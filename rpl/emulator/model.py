@@ -19,7 +19,7 @@ from rpl.emulator.chains import ChainArm, described, exact_opw, read_urdf
 from rpl.emulator.closedforms import ClosedForm, closed_form
 from rpl.emulator.inertias import ArmInertias, arm_inertias
 from rpl.emulator.mechanismfile import Mechanism
-from rpl.emulator.postures import Fact, in_posture, posture_facts
+from rpl.emulator.postures import Fact, in_posture, posture_facts, same_posture
 from rpl.emulator.robotfile import (
     Kind,
     RobotError,
@@ -278,6 +278,10 @@ class RobotModel:
     def in_posture(self, flange: FloatArray, near: FloatArray, asked: Mapping[str, str]) -> FloatArray | None:
         """The joints (n,) for a flange pose (4, 4) in the posture that words ask for (rpl.emulator.postures)."""
         return in_posture(self, flange, near, asked)
+
+    def same_posture(self, joints: FloatArray, other: "RobotModel") -> FloatArray:
+        """About the joints (n,) of another arm in the posture and the turns of `joints` (rpl.emulator.postures)."""
+        return same_posture(self, joints, other)
 
     def posture_facts(self) -> dict[str, Fact]:
         """The posture as inequalities over the joints; empty where the arm's build has none."""

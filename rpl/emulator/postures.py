@@ -91,6 +91,17 @@ def _half_turn(angle: FloatArray) -> FloatArray:
     return np.where(np.abs(angle) <= np.pi, angle, (angle + np.pi) % (2.0 * np.pi) - np.pi)
 
 
+def same_posture(source: RobotModel, joints: FloatArray, other: RobotModel) -> FloatArray:
+    """Joints (n,) of another arm whose own angles are those of `joints` (n,) on `source`; (n,) its home position where
+    the two are not of one build. The half turn by which flanges may differ counts upwards: axis 6 at 0 on an arm whose
+    flange is not turned is +180 on one whose is, as controllers' own joints show (axis 6 = 180 - axis 6)."""
+    if not (isinstance(source.arm, OpwArm) and isinstance(other.arm, OpwArm)):
+        return np.array(other.home)
+    before, after = (arm.canonical(arm.arm_to_pendant @ arm.offsets) for arm in (source, other))
+    angles = (source.theta(joints) - source.theta(before)) / other.unit
+    return np.asarray(after + other.arm_to_pendant @ angles)
+
+
 def in_posture(model: RobotModel, flange: FloatArray, near: FloatArray, asked: Mapping[str, str]) -> FloatArray | None:
     """Joints (n,) for a flange pose (4, 4) in the posture asked for; what is not asked for stays as it is at `near`
     (n,), and each axis takes its shortest way from there. None: out of reach or of an axis's limits."""

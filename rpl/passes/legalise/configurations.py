@@ -433,15 +433,17 @@ class _Configurations(Rewriter):
     # ---- another arm
 
     def on_other_arm(self, flange: Any, joints: Any) -> Any:
-        """The other arm's joints for the same flange pose: the posture with the most equal names, turns minimal."""
+        """The other arm's joints for the same flange pose: the posture with the most equal names, in the turns that the
+        axes have on the arm it was written for, else minimal ones."""
         assert self.arm is not None and self.to_arm is not None  # only with two arms
         arm = self.to_arm
         posture = None if joints is None else self.arm.posture(joints).branch
+        near = arm.home if joints is None else self.arm.same_posture(_array(joints), arm)
         best, rank = None, (9, 0.0)
-        for solution in arm.inverse(flange, arm.home):
+        for solution in arm.inverse(flange, near):
             for choice in arm.expand_turns(solution):
                 differing = 0 if posture is None else _differing(posture, arm.posture(choice).branch)
-                travel = float(abs(choice - arm.home).sum())
+                travel = float(abs(choice - near).sum())
                 if (differing, travel) < rank:
                     best, rank = choice, (differing, travel)
         return best
