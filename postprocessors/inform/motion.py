@@ -319,6 +319,8 @@ class Motion:
             else:
                 start = self.positions.registers.helper("P", "pulses")
                 self.lines.append(f"GETS {start} $PX000")
+            if self.last is not None and self.last.arc:  # its points would go on as those of the arc before
+                self.lines.append(" ".join(("MOVL", start, *speed, "PL=0")))
             self.lines.append(" ".join(("MOVC", start, *speed, "PL=0")))
         self.lines.append(" ".join(("MOVC", via.place, *speed)))
 

@@ -29,7 +29,7 @@ from rpl.emulator.planner import (
     within_axis_speeds,
 )
 from rpl.emulator.rotations import FloatArray, pose_matrix, rotation_angle, rotation_vector_to_matrix
-from rpl.emulator.timelaw import Profile
+from rpl.emulator.timelaw import Profile, of_constant_time
 from rpl.emulator.tracking import MotionFault
 from rpl.passes.curves import SAME_MM, Leg, Segment, block, smooth_numbers
 from rpl.passes.rigid import Pose, pose_of_matrix
@@ -266,7 +266,7 @@ def _plan_run(
     geometry: Geometry = PathGeometry(model, path, whole.tool, track)
     if by_wrist:
         geometry = WristGeometry(model, path, whole.tool, track)
-    own = _profile(path, requests)
+    own = _driven_by(whole, _profile(path, requests), joint=False)
     profile = within_axis_speeds(model, track, own, whole)
     if isinstance(profile, MotionFault):
         return _at_segment(marks, profile)
@@ -325,7 +325,18 @@ def _lower(one: Profile, other: Profile) -> Profile:
         for each in (one, other)
         if each.knots is not None and each.ceilings is not None
     ]
-    return Profile(min(one.speed, other.speed), one.acceleration, knots, np.minimum(*found))
+    return replace(one, speed=min(one.speed, other.speed), knots=knots, ceilings=np.minimum(*found))
+
+
+def _driven_by(request: MoveRequest, profile: Profile, joint: bool) -> Profile:
+    """The profile with the ramps of the controller."""
+    controller = request.controller
+    ramp_s = (controller.joint_ramp_s if joint else controller.path_ramp_s) / request.effort
+    smoothing_s = controller.joint_smoothing_s if joint else controller.path_smoothing_s
+    acceleration = profile.acceleration
+    if ramp_s > 0.0 and np.isfinite(profile.speed):
+        acceleration = min(acceleration, of_constant_time(profile.speed, ramp_s))
+    return replace(profile, acceleration=acceleration, smoothing_s=smoothing_s)
 
 
 # ---- joints
@@ -409,6 +420,7 @@ def _plan_joints(model: RobotModel, start: FloatArray, requests: Sequence[MoveRe
     way = np.linalg.norm(np.diff(bare.tcp(fine)[:, :3, 3], axis=0), axis=1)
     geometry = replace(bare, knots=fine, travelled=np.insert(np.cumsum(way), 0, 0.0))
     profile = _joint_profile(model, geometry, [shares[number] for number in kept], requests, kept)
+    profile = _driven_by(requests[-1], profile, joint=True)
     return [Run(finished(requests[-1], geometry, profile), tuple(float(mark) for mark in marks[1:]))]
 
 

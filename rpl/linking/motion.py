@@ -7,7 +7,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from rpl import ir
+from rpl.linking.flatten import has_call
 from rpl.linking.places import writer
+from rpl.linking.stops import looks_outside
 from rpl.runtime.code import Instruction, Read, Values
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.limits import MOST_WAITING
@@ -22,6 +24,8 @@ if TYPE_CHECKING:
 
 MakeTrigger = Callable[[Values], TriggerOrder]
 Overlay = Callable[[Values], dict[str, Value]]
+Submit = Callable[[Any, Order, int, int], int]
+SplineItem = ir.Move | ir.Trigger | ir.Assign | ir.CallRoutine | ir.Vendor | ir.Nothing | ir.Opaque
 
 
 class MotionStatements:
@@ -58,7 +62,13 @@ class MotionStatements:
 
     # ---- moves
 
-    def move(self, move: ir.Move, more: tuple[tuple[ir.Expression, ir.Expression], ...] = ()) -> Make:
+    def move(
+        self,
+        move: ir.Move,
+        more: tuple[tuple[ir.Expression, ir.Expression], ...] = (),
+        submit: Submit | None = None,
+    ) -> Make:
+        """One move; `submit` hands it over (in a spline block, not one by one)."""
         target, via = self.target(move.target), self.target(move.via) if move.via is not None else None
         options: dict[str, Read | None] = {
             "swept": self.optional(move.swept),
@@ -81,6 +91,7 @@ class MotionStatements:
         kind = move.kind
         rules = self.linker.compiler.scope.rules
         load = self.optional(move.load)
+        hand_over = submit or _submit
 
         def make(here: int, next: int) -> Instruction:
             def drive(f: Values) -> int:
@@ -105,7 +116,7 @@ class MotionStatements:
                     order.load = load(f)
                     if not rules.loads_of_tools:
                         task.modal["load"] = order.load
-                return _submit(task, order, here, next)
+                return hand_over(task, order, here, next)
 
             return drive
 
@@ -204,22 +215,52 @@ class MotionStatements:
         return make
 
     def spline(self, spline: ir.Spline) -> None:
-        """A spline block as its segments, one behind the other. Points of a spline are joined by straight lines: the
-        emulator has no spline path of its own yet."""
-        emit = self.linker.assembler.emit
-        moves = [item for item in spline.body if isinstance(item, ir.Move)]
-        for item in spline.body:
-            match item:
-                case ir.Move():
-                    last = item is moves[-1]
-                    blend = spline.blend if last else None
-                    kind = "joint" if spline.kind == "joint" else "linear" if item.kind == "spline" else item.kind
-                    segment = replace(item, kind=kind, blend=blend, motion_class="spline")
-                    outer = self.linker.assembler.begin(item.origin)
-                    emit(self.move(segment, spline.settings))
-                    self.linker.assembler.end(outer)
-                case _:
+        """The moves of a block are gathered and handed over with the last one: the robot drives them as one path. An
+        output between two of them is switched when it passes there; what else would have to wait for the robot ends the
+        path (M: the makers allow little or nothing of it)."""
+        ends = next((item for item in reversed(spline.body) if isinstance(item, ir.Move)), None)
+        for part in self._paths(spline.body):
+            moves = [at for at, item in enumerate(part) if isinstance(item, ir.Move)]
+            for at, item in enumerate(part):
+                if isinstance(item, ir.Move):
+                    self._segment(item, spline, at == moves[0], at == moves[-1], item is ends)
+                elif isinstance(item, ir.Assign) and moves and moves[0] < at < moves[-1] and self._switches(item):
+                    self.statement(ir.Trigger("start", item, origin=item.origin))
+                else:
                     self.linker.statements.statement(item)
+
+    def _paths(self, body: tuple[SplineItem, ...]) -> list[tuple[SplineItem, ...]]:
+        """The statements of a block, cut where one of them cannot be done on the way."""
+        parts: list[tuple[SplineItem, ...]] = []
+        begin = 0
+        for at, item in enumerate(body):
+            if not self._on_the_way(item):
+                parts += [body[begin:at], (item,)]
+                begin = at + 1
+        return [part for part in (*parts, body[begin:]) if part]
+
+    def _on_the_way(self, item: SplineItem) -> bool:
+        match item:
+            case ir.Move() | ir.Trigger() | ir.Nothing():
+                return True
+            case ir.Vendor(effect=effect):
+                return effect in ("none", "tuning")
+            case ir.Assign(value=value):
+                return self._switches(item) if looks_outside(item, self.linker) else not has_call(value)
+        return False
+
+    def _switches(self, item: ir.Assign) -> bool:
+        """Does it give an output a value that is known without looking outside?"""
+        inside = looks_outside(item.value, self.linker) or has_call(item.value)
+        return not inside and looks_outside(item.target, self.linker)
+
+    def _segment(self, move: ir.Move, spline: ir.Spline, first: bool, last: bool, ends: bool) -> None:
+        kind = "joint" if spline.kind == "joint" else move.kind
+        blend = spline.blend if ends else ir.BlendStop()
+        segment = replace(move, kind=kind, blend=blend, motion_class="spline")
+        outer = self.linker.assembler.begin(move.origin)
+        self.linker.assembler.emit(self.move(segment, spline.settings, _gathering(first, last)))
+        self.linker.assembler.end(outer)
 
     # ---- triggers
 
@@ -352,6 +393,21 @@ def _zone(zone: Value, distance: float | None) -> BlendOrder:
     if not isinstance(zone, Record):
         raise ProgramError("wrong_kind", "a zone is needed")
     return BlendOrder("zone", distance, zone=zone)
+
+
+def _gathering(first: bool, last: bool) -> Submit:
+    """A move of a spline block is kept; the last one is handed over with those before it."""
+
+    def gather(task: Any, order: Order, here: int, next: int) -> int:
+        if first:
+            task.gathered = {}
+        if not last:
+            task.gathered[here] = order
+            return next
+        order.block = tuple(task.gathered.values())
+        return _submit(task, order, here, next)
+
+    return gather
 
 
 def _submit(task: Any, order: Order, here: int, next: int) -> int:

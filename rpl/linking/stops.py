@@ -24,7 +24,7 @@ def stops_before(statement: ir.Statement, linker: RoutineLinker) -> bool:
         return True
     if not rules.signals_stop or isinstance(statement, ir.Trigger | ir.DefineTrigger | ir.DeclareInterrupt):
         return False
-    return any(_looks_outside(part, linker) for part in _own_expressions(statement))
+    return any(looks_outside(part, linker) for part in _own_expressions(statement))
 
 
 def _own_expressions(statement: ir.Statement) -> list[object]:
@@ -45,7 +45,8 @@ def _own_expressions(statement: ir.Statement) -> list[object]:
     return [statement]
 
 
-def _looks_outside(root: object, linker: RoutineLinker) -> bool:
+def looks_outside(root: object, linker: RoutineLinker) -> bool:
+    """Does the node read or write a signal, or read where the robot is?"""
     stack: list[object] = [root]
     while stack:
         node = stack.pop()

@@ -322,7 +322,8 @@ def _segment(one: _Raw, curve: tuple[Numbers, ...], turns: tuple[Vector, Vector]
         rotation = _three([(0.0, each) for each in _xyz(turn)])
         line = _three([(a, b - a) for a, b in zip(start, end, strict=True)])
         kind: Literal["line", "arc"] = "line" if one.circle is None else "arc"
-        return Segment(kind, one.start, one.end, one.span, line, rotation, one.circle, one.leg.follow)
+        follow = one.circle is not None and one.leg.follow
+        return Segment(kind, one.start, one.end, one.span, line, rotation, one.circle, follow)
     first, last = turns[0].times(one.span), _chart_rate(turn, turns[1].times(one.span))
     cubic = [
         (0.0, v, 3.0 * way - 2.0 * v - w, v + w - 2.0 * way)

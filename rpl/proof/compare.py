@@ -21,6 +21,8 @@ from rpl.proof.paths import gap
 from rpl.proof.record import Happening, Record, Stretch, Value
 
 LEVELS = ("none", "events", "geometry", "time")
+# Moves of two programs whose goals are that near to each other head for one point.
+_SAME_GOAL_MM = 0.1
 
 
 @dataclass(frozen=True, slots=True)
@@ -417,26 +419,34 @@ Group = tuple[Sequence[Stretch], Sequence[Stretch]]
 
 
 def _aligned(a: Sequence[Stretch], b: Sequence[Stretch]) -> list[Group]:
-    """Move against move where both have the same; else from stop to stop, because one language says with several moves
-    what another says with one (splines, relative moves)."""
+    """Move against move where both have the same; else, from the first two that differ in kind or goal, up to the next
+    stop, because one language says with several moves what another says with one (splines, relative moves)."""
     if [stretch.motion for stretch in a] == [stretch.motion for stretch in b]:
         return [([one], [other]) for one, other in zip(a, b, strict=True)]
-    left, right = _between_stops(a), _between_stops(b)
-    longest = max(len(left), len(right))
-    left += [[]] * (longest - len(left))
-    right += [[]] * (longest - len(right))
-    return list(zip(left, right, strict=True))
+    groups: list[Group] = []
+    at, there = 0, 0
+    while at < len(a) or there < len(b):
+        end, other = _behind_stop(a, at), _behind_stop(b, there)
+        if end > at and other > there and _alike(a[at], b[there]):
+            end, other = at + 1, there + 1
+        groups.append((a[at:end], b[there:other]))
+        at, there = end, other
+    return groups
 
 
-def _between_stops(stretches: Sequence[Stretch]) -> list[Sequence[Stretch]]:
-    groups: list[Sequence[Stretch]] = []
-    group: list[Stretch] = []
-    for stretch in stretches:
-        group.append(stretch)
-        if stretch.stops:
-            groups.append(group)
-            group = []
-    return [*groups, group] if group else groups
+def _alike(one: Stretch, other: Stretch) -> bool:
+    """Two moves of one kind that head for the same point and both stop there, or both do not."""
+    if one.motion != other.motion or one.stops != other.stops or one.goal is None or other.goal is None:
+        return False
+    return float(np.linalg.norm(one.goal[:3] - other.goal[:3])) < _SAME_GOAL_MM
+
+
+def _behind_stop(stretches: Sequence[Stretch], begin: int) -> int:
+    """Where the next move begins at rest, from a place of the row on."""
+    for number in range(begin, len(stretches)):
+        if stretches[number].stops:
+            return number + 1
+    return len(stretches)
 
 
 def _group(

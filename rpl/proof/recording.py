@@ -26,6 +26,8 @@ _FEWEST, _MOST = 9, 600
 # Waits shorter than this make nobody wait; those up to a slow controller's cycle are looks of a polling loop.
 _SHORTEST_WAIT_S, _CYCLE_S = 1e-4, 0.02
 _STANDING_MM = 1e-3
+# A speed (of the whole move, 1/s) below which the robot has not begun, or has come to rest.
+_SLOW = 1e-6
 _COUNTED = frozenset(("output", "message", "wait", "fault", "end"))
 
 
@@ -159,7 +161,8 @@ class _Way:
             return 0.0, False
         leg = self.legs[index]
         gone = time_s - leg.start_s
-        moving = 1e-9 < gone < leg.duration_s - 1e-9
+        speed = float(leg.plan.law.speed_at(leg.offset_s + min(gone, leg.duration_s)))
+        moving = 1e-9 < gone < leg.duration_s - 1e-9 or (gone <= leg.duration_s + 1e-9 and speed > _SLOW)
         return self.before[index] + _travelled(leg, min(gone, leg.duration_s)), moving
 
     def stretches(self) -> tuple[Stretch, ...]:

@@ -28,7 +28,9 @@ class Imagined:
     joints: list[float] | None = None
 
     def make(self, queue: MotionQueue, order: Order, next: int) -> int:
-        """Make the move at once; its triggers fire in their order."""
+        """Make the move at once, of a block each one; its triggers fire in their order."""
+        for one in order.block:
+            self.make(queue, one, next)
         task = queue.task
         data: dict[str, Value] = {"motion": order.kind}
         frames = frames_of(order.tool, order.frame, task.modal, order.modal, known=False)

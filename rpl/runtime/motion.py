@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rpl.runtime import pathevents, pieces, resting, searching, stopping, velocities
+from rpl.runtime import blocks, pathevents, pieces, resting, searching, stopping, velocities
 from rpl.runtime.chain import (
     Planning,
     pose_of_array,
@@ -91,14 +91,13 @@ class MotionQueue(RobotState):
         if self.stopped and task.aside and order.rules.advance.runs_ahead_of == "all":
             self.store()
             self.set_aside = True
-        self.numbers += 1
-        drive = self._planned(order, self.numbers)
-        if not isinstance(drive, Drive):
-            return self._refuse(drive, order, next)
-        self.queue.append(drive)
+        drives = blocks.planned(self, order)
+        if isinstance(drives, blocks.Refused):
+            return self._refuse(drives.fault, drives.order, next)
+        self.queue += drives
         task.busy = True
         self._ask()
-        return self._go_on(drive, next)
+        return self._go_on(drives[-1], next)
 
     def _planned(self, order: Order, number: int) -> Drive | MotionFault:
         """The move as it is driven from where everything commanded before it ends."""
@@ -210,6 +209,8 @@ class MotionQueue(RobotState):
                 resting.ended(self)
             case "middle":
                 self._passed()
+            case "point":
+                blocks.passed(self)
             case "fire":
                 self._fire_number(data[1], data[2])
 
@@ -295,6 +296,7 @@ class MotionQueue(RobotState):
                 self.schedule(middle, "middle")
             piece.corner.following.entered = piece.corner.entered
             self._schedule_triggers(piece, piece.corner.following)
+        blocks.look_ahead(self, piece)
         self._schedule_triggers(piece, drive)
 
     def _schedule_triggers(self, piece: Piece, drive: Drive) -> None:
@@ -327,8 +329,11 @@ class MotionQueue(RobotState):
         self.machine.schedule(time, ARRIVALS, "motion", self.task_index, what, self.generation, *data)
 
     def _close_leg(self, piece: Piece, now: float) -> None:
-        if now > piece.start_s or piece.plan.duration_s == 0.0:
-            piece.drive.legs.append(Leg(piece.plan, piece.start_s, min(now, piece.end_s) - piece.start_s))
+        """What has been driven of the piece until now is a leg of its move in the trace."""
+        begin, done = piece.start_s + piece.shown_s, piece.shown_s
+        if now > begin or piece.plan.duration_s == 0.0:
+            piece.drive.legs.append(Leg(piece.plan, begin, min(now, piece.end_s) - begin, done))
+            piece.shown_s = max(min(now, piece.end_s) - piece.start_s, done)
 
     def _arrived(self) -> None:
         """The end of the piece that is driven."""
@@ -418,6 +423,7 @@ class MotionQueue(RobotState):
         drive.released = True
         if drive in self.queue:
             self.queue.remove(drive)
+        blocks.pass_rest(self, drive)
         self._show(drive, stops)
         for trigger in drive.order.triggers:
             if not trigger.fired:
@@ -439,15 +445,16 @@ class MotionQueue(RobotState):
     def _look(self) -> None:
         self.machine.look_at(self.task)
 
-    def _show(self, drive: Drive, stops: bool, interrupted: bool = False) -> None:
-        plan = drive.plan
-        assert plan is not None
-        legs = tuple(leg for leg in drive.legs if isinstance(leg, Leg))
-        joints = self.joints if interrupted and self.joints is not None else plan.end_joints
+    def _show(self, drive: Drive, stops: bool, interrupted: bool = False, joints: FloatArray | None = None) -> None:
+        """A move in the trace, or that segment of a spline block which ends in `joints`."""
+        assert drive.plan is not None
+        legs, order = tuple(leg for leg in drive.legs if isinstance(leg, Leg)), drive.present
+        if joints is None:
+            joints = self.joints if interrupted and self.joints is not None else drive.plan.end_joints
         pose = pose_of_array(self.model.forward(joints)).then(drive.tool) if self.model is not None else None
         started = drive.started_s if drive.started_s is not None else self.machine.now
         data: dict[str, Value] = {
-            "motion": drive.order.kind,
+            "motion": order.kind,
             "joints": [round(float(joint), 6) for joint in joints],
             **pieces.pose_data(pose),
             "duration": round(self.machine.now - started, 6),
@@ -455,11 +462,8 @@ class MotionQueue(RobotState):
         if interrupted:
             data["interrupted"] = True
         self.machine.moves += 1
-        origin = drive.order.code.origin(drive.order.at)
-        blend = drive.order.blend.kind
-        self.machine.event(
-            "move", data, self.task, origin, legs=legs, stops=stops, blend=blend, payloads=drive.order.payloads
-        )
+        origin, blend, payloads = order.code.origin(order.at), order.blend.kind, order.payloads
+        self.machine.event("move", data, self.task, origin, legs=legs, stops=stops, blend=blend, payloads=payloads)
 
     # ---- triggers
 

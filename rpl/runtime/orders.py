@@ -90,7 +90,7 @@ class SearchOrder:
 @dataclass(slots=True, eq=False)
 class Order:
     """One move as the program asks for it. `modal` overlays the task's system variables for this move; `once` is what
-    of it statements before the move have set."""
+    of it statements before the move have set. `block`: of the last move of a spline block those before it."""
 
     kind: str
     target: Value
@@ -117,13 +117,15 @@ class Order:
     concurrent: bool = False
     external_only: bool = False
     velocity: bool = False
+    block: tuple[Order, ...] = ()
 
 
 @dataclass(slots=True, eq=False)
 class Drive:
     """A planned move in the queue. `legs`: how it was driven so far; `goal`: the programmed target in its frame;
     `rate`: of a move at a given speed, which has no end. `entered`: where a corner at its start ends, in mm of the move
-    and in mm driven behind the corner's middle."""
+    and in mm driven behind the corner's middle. `orders`: of a smooth run of a spline block its segments; `marks`: the
+    fractions of the run at which all but the last of them end; so many are `passed`."""
 
     number: int
     order: Order
@@ -137,3 +139,11 @@ class Drive:
     started_s: float | None = None
     rate: Rate | None = None
     entered: tuple[float, float] | None = None
+    orders: tuple[Order, ...] = ()
+    marks: tuple[float, ...] = ()
+    passed: int = 0
+
+    @property
+    def present(self) -> Order:
+        """The order that is driven now."""
+        return self.orders[self.passed] if self.passed < len(self.marks) else self.order

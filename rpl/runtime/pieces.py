@@ -77,7 +77,8 @@ class Halting:
 @dataclass(slots=True, eq=False)
 class Piece:
     """What is driven from `start_s` on. `ahead`: a corner follows this piece; `corner`: this piece is that corner, or a
-    part of it. `open_end`: it ends where a corner should begin, the next move not being known yet."""
+    part of it. `open_end`: it ends where a corner should begin, the next move not being known yet. `shown_s`: how much
+    of it is in the trace already."""
 
     drive: Drive
     plan: PlannedMove
@@ -86,6 +87,7 @@ class Piece:
     corner: Corner | None = None
     open_end: bool = False
     halting: Halting | None = None
+    shown_s: float = 0.0
 
     @property
     def end_s(self) -> float:
@@ -172,7 +174,7 @@ def open_ended(piece: Piece, now: float) -> Piece:
     overlap = overlap_of(piece.drive.order.blend, piece.plan)
     if overlap is not None:
         return _overlap_ended(piece, now, overlap)
-    leave = _leave_alone(piece.plan, piece.drive.order.blend) - ROUNDING
+    leave = _leave_alone(piece.plan, piece.drive) - ROUNDING
     place, speed = place_of(piece, now)
     if leave <= place + 1e-9:
         return piece
@@ -225,7 +227,7 @@ def joined(model: RobotModel, piece: Piece, following: Drive, now: float) -> Pie
     size = blend_size(piece.drive.order.blend, first, second)
     if size == (None, None):
         return None
-    distance, fraction = size
+    distance, fraction = _in_segments(piece.drive, following, *size)
     overlap = overlap_of(piece.drive.order.blend, first)
     alone = first.span[0] <= 0.0 and piece.plan.span[0] <= 0.0, following.order.blend.stops
     made = blend(
@@ -309,16 +311,31 @@ def _turn_share(rotation: float | None, move: PlannedMove) -> float | None:
     return min(MOST, rotation / turn) if turn > 1e-9 else None
 
 
-def _leave_alone(move: PlannedMove, order: BlendOrder) -> float:
+def _in_segments(
+    drive: Drive, following: Drive | None, distance: float | None, fraction: float | None
+) -> tuple[float | None, float | None]:
+    """M: the corner of a spline block takes at most half of its last segment, that into one half of its first."""
+    shares: list[tuple[PlannedMove, float]] = []
+    if len(drive.orders) > 1 and drive.plan is not None:
+        shares.append((drive.plan, MOST * (1.0 - drive.marks[-1])))
+    if following is not None and len(following.orders) > 1 and following.plan is not None:
+        shares.append((following.plan, MOST * following.marks[0]))
+    for plan, share in shares:
+        fraction = min(fraction, share) if fraction is not None else None
+        distance = min(distance, plan.length_mm * share) if distance is not None else None
+    return distance, fraction
+
+
+def _leave_alone(move: PlannedMove, drive: Drive) -> float:
     """Where the corner would begin as far as this move alone can tell."""
     import numpy as np
 
-    overlap = overlap_of(order, move)
+    overlap = overlap_of(drive.order.blend, move)
     if overlap is not None:
         from rpl.emulator.blending import open_end
 
         return open_end(move, overlap)[0]
-    distance, fraction = blend_size(order, move, None)
+    distance, fraction = _in_segments(drive, None, *blend_size(drive.order.blend, move, None))
     if fraction is not None:
         return 1.0 - fraction
     whole = float(move.geometry.distance(np.array([1.0]))[0])

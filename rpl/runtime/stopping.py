@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from rpl.runtime import pieces, resting, searching
+from rpl.runtime import blocks, pieces, resting, searching
 from rpl.runtime.orders import Drive
 from rpl.runtime.pieces import Corner, Halting, Piece
 from rpl.runtime.robotstate import external_of
@@ -122,11 +122,11 @@ def again(queue: MotionQueue) -> None:
     """Plan the moves anew that were commanded behind a dropped one."""
     behind, queue.behind = queue.behind, []
     for old in behind:
-        drive = queue._planned(old.order, old.number)
-        if not isinstance(drive, Drive):
-            queue._fault(drive, old.order)
+        drives = blocks.planned(queue, blocks.order_of(old), old)
+        if isinstance(drives, blocks.Refused):
+            queue._fault(drives.fault, drives.order)
             return
-        queue.queue.append(drive)
+        queue.queue += drives
         queue.task.busy = True
         queue._ask()
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from rpl.ir.rules import Rules
     from rpl.runtime.machine import Machine
     from rpl.runtime.motion import MotionQueue
-    from rpl.runtime.orders import TriggerOrder
+    from rpl.runtime.orders import Order, TriggerOrder
     from rpl.runtime.signals import Key
 
 READY, WAITING, ENDED = "ready", "waiting", "ended"
@@ -65,6 +65,7 @@ class Task:
         self.triggers: list[Frame] = []
         self.next_triggers: list[TriggerOrder] = []
         self.next_settings: dict[str, Value] = {}
+        self.gathered: dict[int, Order] = {}  # of a spline block, by the places of its moves in the code
         self.error_routine: Code | None = None
         self.last_error: tuple[ProgramError, Origin] | None = None
         self.frame = self._start()

@@ -1,4 +1,6 @@
-"""Spline blocks in languages that have none: straight moves through the points, as a run drives them."""
+"""Spline blocks in languages that have none: arcs along the curve, or straight moves through the points."""
+
+import re
 
 import pytest
 
@@ -25,10 +27,7 @@ SPLINES = """DEF way( )
     $OUT[1]=TRUE
   ENDIF
   SLIN {X 500.0,Y 120.0,Z 400.0,A 180.0,B 0.0,C 180.0} WITH $VEL.CP=0.1
-  PTP_SPLINE
-    SPTP {X 500.0,Y 0.0,Z 400.0,A 180.0,B 0.0,C 180.0,S 2,T 2}
-    SPTP {A1 0,A2 -90,A3 90,A4 0,A5 90,A6 10}
-  ENDSPLINE
+  SPTP {A1 0,A2 -90,A3 90,A4 0,A5 90,A6 10}
   WAIT SEC 0
   IF ABS($AXIS_ACT.A6-10)<0.1 THEN
     $OUT[2]=TRUE
@@ -53,9 +52,9 @@ C00003=500.000,120.000,400.000,180.0000,0.0000,0.0000
 ///GROUP1 RB1
 NOP
 MOVJ C00000 VJ=20.00
-MOVS C00001 V=100.0
+MOVS C00001 V=100.0 PL=0
 MOVS C00002 V=100.0
-MOVS C00003 V=50.0
+MOVS C00003 V=50.0 PL=0
 DOUT OT#(1) ON
 END
 """
@@ -67,18 +66,48 @@ def translated(path: str, text: str, language: str, target: str, arm: str) -> tu
     return journey.prove("way"), told, journey.text
 
 
-@pytest.mark.parametrize("target", ["rapid", "tp", "urscript", "vplus", "inform"])
-def test_a_block_is_driven_through_its_points(target: str) -> None:
+@pytest.mark.parametrize("target", ["rapid", "tp", "urscript"])
+def test_a_block_is_written_as_arcs_along_its_curve(target: str) -> None:
     result, told, _ = translated("way.src", SPLINES, "krl", target, ARM)
     assert result.equal, result.as_text()
-    assert told.count("spline-as-lines") == 2
+    assert result.max_path_mm < 0.01
+    assert told.count("spline-as-arcs") == 1 and "spline-as-lines" not in told
     assert not [one for one in told if "guarded" in one or "lost" in one]
+
+
+@pytest.mark.parametrize("target", ["vplus", "inform"])
+def test_the_way_is_the_curve_where_outputs_are_switched_beside_their_point(target: str) -> None:
+    """These controllers switch it at the beginning or behind the end of a corner, or stop for it."""
+    without = "\n".join(line for line in SPLINES.splitlines() if "TRIGGER" not in line)
+    result, told, _ = translated("way.src", without, "krl", target, ARM)
+    assert result.equal, result.as_text()
+    assert "spline-as-arcs" in told and result.max_path_mm < 0.01
 
 
 def test_each_point_has_its_own_speed() -> None:
     text = translated("way.src", SPLINES, "krl", "urscript", ARM)[2]
-    speeds = [line.rpartition("v=")[2] for line in text.splitlines() if "movel" in line or "movec" in line]
-    assert speeds == ["0.2)", "0.2)", "0.1)", "0.2)", "0.1)"]
+    said = re.findall(r"(move[lc]).* v=([0-9.]+)", text)
+    assert [speed for at, (_, speed) in enumerate(said) if at == 0 or said[at - 1][1] != speed] == [
+        "0.2",
+        "0.1",
+        "0.2",
+        "0.1",
+    ]
+
+
+UNKNOWN = [
+    ("PTP {X 500.0", "PTP_REL {X 10.0", "where the block begins"),
+    ("SPL {X 500.0,Y 40.0,Z 420.0", "SPL {X 500.0,Y HEIGHT,Z 420.0", "a point that the program computes"),
+]
+
+
+@pytest.mark.parametrize(("known", "unknown", "what"), UNKNOWN)
+def test_a_block_whose_points_are_not_known_is_written_as_straight_moves(known: str, unknown: str, what: str) -> None:
+    declared = SPLINES.replace("DEF way( )", "DEF way( )\nDECL REAL HEIGHT").replace(
+        "  $VEL.CP", "  HEIGHT=$OV_PRO\n  $VEL.CP"
+    )
+    told = translated("way.src", declared.replace(known, unknown, 1), "krl", "rapid", ARM)[1]
+    assert "spline-as-lines" in told and "spline-as-arcs" not in told, what
 
 
 @pytest.mark.parametrize("target", ["rapid", "tp", "urscript", "vplus", "krl"])
@@ -86,4 +115,4 @@ def test_points_of_a_spline_in_a_job(target: str) -> None:
     """The way to the first point is straight, the others make a block; each says its own speed."""
     result, told, _ = translated("WAY.JBI", JOB, "inform", target, "motoman_gp7")
     assert result.equal, result.as_text()
-    assert "spline-as-lines" in told
+    assert "spline-as-arcs" in told

@@ -57,7 +57,7 @@ def _by_components(place: ir.Aggregate) -> bool:
 class _Places:
     def __init__(self, program: ir.Program) -> None:
         self.source = program
-        self.unchanged, self.moving = unchanged_in(program), _moving(program)
+        self.unchanged, self.moving = unchanged_in(program), moving_routines(program)
         self.scope: Scope | None = None
 
     def program(self) -> ir.Program:
@@ -82,7 +82,7 @@ class _Places:
             known.clear()
             known.update(found)
             return done
-        stays = not self.moves(statement)
+        stays = not may_move(statement, self.moving)
         if isinstance(statement, _BLOCKS):
             inside: Known = dict(known) if stays else {}
             new = self.body(statement.body, inside)
@@ -92,20 +92,6 @@ class _Places:
         if not stays:
             known.clear()
         return statement
-
-    def moves(self, statement: ir.Statement) -> bool:
-        """May the robot, or the frame its place is seen from, be another one behind it?"""
-        for node in walk(statement):
-            match node:
-                case ir.Move() | ir.Spline() | ir.MoveExternal() | ir.Label():
-                    return True
-                case ir.Assign(target=target) if _sets_frame(target):
-                    return True
-                case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
-                    return True
-                case ir.CallRoutine(name=name) | ir.Call(name=name) if name.lower() in self.moving:
-                    return True
-        return False
 
     def filled(self, move: ir.Move, known: Known) -> ir.Move:
         """The move with the components that are known."""
@@ -148,6 +134,21 @@ class _Places:
         return found
 
 
+def may_move(statement: ir.Statement, moving: set[str]) -> bool:
+    """May the robot, or the frame its place is seen from, be another one behind it? `moving`: routines that do that."""
+    for node in walk(statement):
+        match node:
+            case ir.Move() | ir.Spline() | ir.MoveExternal() | ir.Label():
+                return True
+            case ir.Assign(target=target) if _sets_frame(target):
+                return True
+            case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
+                return True
+            case ir.CallRoutine(name=name) | ir.Call(name=name) if name.lower() in moving:
+                return True
+    return False
+
+
 def _own_frame(move: ir.Move) -> bool:
     """Is the place of the move seen otherwise than that of the moves around it?"""
     set_here = any(not isinstance(one, ir.System) or one.name in _FRAMES for one, _ in move.settings)
@@ -171,7 +172,7 @@ def _sets_frame(target: ir.Expression) -> bool:
     return isinstance(target, ir.System) and target.name in _FRAMES
 
 
-def _moving(program: ir.Program) -> set[str]:
+def moving_routines(program: ir.Program) -> set[str]:
     """Routines that move the robot or set a frame, folded, with those that call them."""
     found: set[str] = set()
     calls: dict[str, set[str]] = {}
@@ -192,4 +193,4 @@ def _moving(program: ir.Program) -> set[str]:
     return found
 
 
-__all__ = ["partial_places"]
+__all__ = ["may_move", "moving_routines", "partial_places"]

@@ -1,9 +1,9 @@
-"""Spline blocks and moves of the spline kind for targets that have neither: straight moves through the points.
+"""Spline blocks and moves of the spline kind for targets that have neither.
 
 Also where the target has blocks, but the points say tools, frames and speeds of their own, which such a target has not.
 
-A run drives a block as its segments one behind the other, each point but the last an exact stop; so it is written.
-On a controller with splines the path bends between the points, and the robot does not stop: each block is named.
+Where all places are known, the moves follow the curve that a run takes (`splinearcs`). Else they are straight, with a
+stop at each point: each such block is named, since its path bends between the points and has no stops.
 """
 
 from __future__ import annotations
@@ -14,8 +14,11 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.jumps import inside
+from rpl.passes.legalise.partialplaces import moving_routines
+from rpl.passes.legalise.splinearcs import SplineArcs, settings_of, with_comments
+from rpl.passes.legalise.walk import unchanged_in
 
 AS_LINES = code(
     "spline-as-lines",
@@ -30,17 +33,25 @@ def straight_splines(program: ir.Program, context: Context) -> ir.Program:
     blocks = "Spline" in context.capabilities.statements
     if not any(map(_is_spline, walk(*program.modules))):
         return program
-
-    def change(statement: ir.Statement) -> ir.Body:
-        match statement:
-            case ir.Spline() if not blocks or _has_settings(statement):
-                return _segments(statement, context)
-            case ir.Move(motion_class="spline") if not blocks:
-                return (replace(statement, motion_class="classic"),)
-        return (inside(statement, lambda body: map_body(body, change)),)
+    unchanged, moving = unchanged_in(program), moving_routines(program)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        return edit_bodies(routine, lambda body: map_body(body, change))
+        arcs = SplineArcs(program, context, editor.scope, unchanged, moving)
+
+        def change(body: ir.Body) -> ir.Body:
+            done: list[ir.Statement] = []
+            for at, statement in enumerate(body):
+                match statement:
+                    case ir.Spline() if not blocks or _has_settings(statement):
+                        done += arcs.written(statement, body[:at]) or _segments(statement, context)
+                    case ir.Move(motion_class="spline") if not blocks:
+                        done.append(replace(statement, motion_class="classic"))
+                    case _:
+                        done.append(inside(statement, change))
+            same = len(done) == len(body) and all(new is old for new, old in zip(done, body, strict=True))
+            return body if same else tuple(done)
+
+        return edit_bodies(routine, change)
 
     return edit_routines(program, context, work)
 
@@ -65,28 +76,15 @@ def _segments(spline: ir.Spline, context: Context) -> ir.Body:
     done: list[ir.Statement] = []
     for item in spline.body:
         if isinstance(item, ir.Move):
-            own = {_name(place) for place, _ in item.settings}
-            outer = tuple(one for one in spline.settings if _name(one[0]) not in own)
             item = replace(
                 item,
                 kind="joint" if joint else "linear" if item.kind == "spline" else item.kind,
                 blend=spline.blend if item is moves[-1] else ir.BlendStop(),
-                settings=(*outer, *item.settings),
+                settings=settings_of(item, spline),
                 motion_class="classic",
             )
         done.append(item)
-    if not done or not spline.origin.comments:
-        return tuple(done)
-    first = done[0].origin
-    comments = (*spline.origin.comments, *(one for one in first.comments if one not in spline.origin.comments))
-    return (replace(done[0], origin=replace(first, comments=comments)), *done[1:])
-
-
-def _name(place: ir.Expression) -> tuple[str, object]:
-    """What a setting sets."""
-    if isinstance(place, ir.Magnitude):
-        place = place.value
-    return (place.name, place.indices) if isinstance(place, ir.System) else ("", place)
+    return with_comments(tuple(done), spline)
 
 
 __all__ = ["straight_splines"]
