@@ -95,10 +95,10 @@ def _rows(flange: FloatArray) -> FloatArray:
     return np.ascontiguousarray(flange[:, :3].transpose(1, 2, 0))
 
 
-def _circle(angles: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Cosines and sines of angles (..., m), angle by angle: both (m, ...)."""
-    first = np.moveaxis(angles, -1, 0)
-    return np.cos(first), np.sin(first)
+def _circle(theta: FloatArray, joints: tuple[int, ...]) -> tuple[list[FloatArray], list[FloatArray]]:
+    """Cosines and sines of these joints of (..., n), joint by joint."""
+    cosines, sines = np.cos(theta), np.sin(theta)
+    return [cosines[..., joint] for joint in joints], [sines[..., joint] for joint in joints]
 
 
 def _flanges(like: FloatArray) -> FloatArray:
@@ -165,7 +165,7 @@ class OpwArm:
 
     def forward(self, theta: FloatArray) -> FloatArray:
         reach, height = self.in_plane(theta)
-        (c1, c4, c5, c6), (s1, s4, s5, s6) = _circle(theta[..., (0, 3, 4, 5)])
+        (c1, c4, c5, c6), (s1, s4, s5, s6) = _circle(theta, (0, 3, 4, 5))
         t23 = theta[..., 1] + theta[..., 2]
         c23, s23 = np.cos(t23), np.sin(t23)
         pose = _flanges(c1)
@@ -328,11 +328,12 @@ class UrArm:
         return frames
 
     def forward(self, theta: FloatArray) -> FloatArray:
-        (c1, c5, c6), (s1, s5, s6) = _circle(theta[..., (0, 4, 5)])
+        (c1, c5, c6), (s1, s5, s6) = _circle(theta, (0, 4, 5))
         reach, rise, total = self._in_plane(theta)
         c234, s234 = np.cos(total), np.sin(total)
         # The third axis of joint 4's frame is level; the other two lie in the plane of joints 2, 3 and 4.
-        x4, y4, z4 = (c1 * c234, s1 * c234, s234), (s1, -c1, 0.0), (c1 * s234, s1 * s234, -c234)
+        level = np.zeros_like(c1)
+        x4, y4, z4 = (c1 * c234, s1 * c234, s234), (s1, -c1, level), (c1 * s234, s1 * s234, -c234)
         ahead = (c1 * reach, s1 * reach, self.d1 + rise)
         pose = _flanges(c1)
         for row, (x, y, z) in enumerate(zip(x4, y4, z4, strict=True)):

@@ -5,7 +5,7 @@ distance. It knows nothing of joints or of time. Orientation turns about one fix
 an arc either in space or relative to the arc's tangent.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
@@ -18,6 +18,7 @@ from rpl.emulator.rotations import (
     rotation_angle,
     rotation_vector_to_matrix,
     slerp,
+    turned,
 )
 
 # Three points whose triangle is flatter than this sine define no circle.
@@ -49,6 +50,10 @@ class Line:
 
     start: FloatArray
     end: FloatArray
+    turn: FloatArray = field(init=False)  # rotation vector from start to end, in the start's frame, radians
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "turn", matrix_to_rotation_vector(self.start[:3, :3].T @ self.end[:3, :3]))
 
     @property
     def length_mm(self) -> float:
@@ -56,12 +61,12 @@ class Line:
 
     @property
     def turn_rad(self) -> float:
-        return float(rotation_angle(self.start[:3, :3].T @ self.end[:3, :3]))
+        return float(np.linalg.norm(self.turn))
 
     def poses(self, fraction: ArrayLike) -> FloatArray:
         s = np.asarray(fraction, dtype=np.float64)
         position = self.start[:3, 3] + s[..., None] * (self.end[:3, 3] - self.start[:3, 3])
-        return pose_matrix(position, slerp(self.start, self.end, s))
+        return pose_matrix(position, turned(self.start[:3, :3], self.turn, s))
 
     def tangent(self, fraction: float) -> FloatArray:
         del fraction
@@ -106,7 +111,7 @@ class Arc:
 
     def poses(self, fraction: ArrayLike) -> FloatArray:
         s = np.asarray(fraction, dtype=np.float64)
-        around = rotation_vector_to_matrix(s[..., None] * self.sweep_rad * self.axis)
+        around = turned(np.eye(3), self.sweep_rad * self.axis, s)
         position = self.centre + around @ (self.start[:3, 3] - self.centre)
         if not self.follow_path:
             return pose_matrix(position, slerp(self.start, self._goal(), s))
@@ -125,7 +130,7 @@ class Arc:
 
     def _against_arc(self, s: FloatArray) -> FloatArray:
         """Rotations relative to the tangent frame."""
-        return np.asarray(self.start[:3, :3] @ rotation_vector_to_matrix(s[..., None] * self._own_turn()))
+        return turned(self.start[:3, :3], self._own_turn(), s)
 
     def tangent(self, fraction: float) -> FloatArray:
         around = rotation_vector_to_matrix(fraction * self.sweep_rad * self.axis)

@@ -144,13 +144,15 @@ class PathGeometry:
     def joints(self, fraction: FloatArray) -> FloatArray:
         near = self.track.at(fraction)
         found = self.model.inverse_batch(flanges_of(self.path, self.tool, self.carried, fraction), near)
-        ref = near[:, None, :]
-        turns = np.where(self.model.revolute, 360.0 * np.round((ref - found.joints) / 360.0), 0.0)
-        choices = found.joints + turns
-        off = np.where(found.valid, np.abs((choices - ref) * self.model.revolute).max(axis=2), np.inf)
-        best = np.argmin(off, axis=1)
-        rows = np.arange(len(near))
-        exact = np.where((off[rows, best] < 5.0)[:, None], choices[rows, best], near)
+        # Axis by axis, as the inverse lays its results out: (n, branch, k).
+        off = found.joints.T - near.T[:, None]
+        off -= 360.0 * np.rint(off * (1.0 / 360.0))
+        largest = np.abs(off, out=off)[self.model.revolute].max(axis=0)
+        largest[~found.valid.T] = np.inf
+        best, rows = largest.argmin(axis=0), np.arange(len(near))
+        joints = found.joints[rows, best]
+        joints += np.where(self.model.revolute, 360.0 * np.rint((near - joints) / 360.0), 0.0)
+        exact = np.where((largest[best, rows] < 5.0)[:, None], joints, near)
         ends = ((fraction <= 0.0) | (fraction >= 1.0))[:, None]
         return np.where(ends, near, exact)
 
