@@ -44,11 +44,13 @@ def run(
     cell: Cell | None = None,
     entry: str | None = None,
     max_time_s: float = 3600.0,
+    controller: str | None = None,
 ) -> RunResult:
-    """Run a program on an emulated robot in simulated time."""
+    """Run a program on an emulated robot in simulated time. `controller` (a language's name, `plain`, or a file) moves
+    the robot in place of each language's own."""
     from rpl.simulation import run_program
 
-    return run_program(program.program, robot, cell, entry, max_time_s)
+    return run_program(program.program, robot, cell, entry, max_time_s, controller=controller)
 
 
 def prove(a: ReadProgram, b: ReadProgram, robot: str | None = None, cell: Cell | None = None) -> ProofResult:

@@ -20,6 +20,12 @@ from rpl.errors import UsageError
 @click.option("--to-entry", metavar="NAME", help="Routine to start with in B.")
 @click.option("--from", "dialect", metavar="D", help="Language of A; else seen from its content.")
 @click.option("--to", "other", metavar="D", help="Language of B; else seen from its content.")
+@click.option(
+    "--controller",
+    metavar="NAME|F.toml",
+    default="plain",
+    help="Who moves both robots: a language's controller or a file; else constant accelerations.",
+)
 @click.option("--tolerance", type=float, metavar="MM", help="Distance of the tool paths that still counts as equal.")
 @limit_options
 @json_option
@@ -33,6 +39,7 @@ def command(
     to_entry: str | None,
     dialect: str | None,
     other: str | None,
+    controller: str,
     tolerance: float | None,
     max_time: float | None,
     max_steps: int | None,
@@ -43,13 +50,14 @@ def command(
 
     Exit status 0 when they do, 1 when they do not; the first difference is shown with both source lines.
     """
+    from rpl.controllers import controller_named
     from rpl.project import read_program
     from rpl.proof.cellnames import report_unknown_signals
     from rpl.proof.prove import load_cell, prove_programs
 
     if tolerance is not None and not tolerance >= 0:
         raise UsageError(f"--tolerance: {tolerance:g} is not a distance")
-    limits = limits_of(max_time, max_steps, max_events)
+    limits, driver = limits_of(max_time, max_steps, max_events), controller_named(controller)
     programs = []
     for path, language in ((a, dialect), (b, other)):
         diagnostics = collector()
@@ -72,6 +80,7 @@ def command(
             entry=entry,
             to_entry=to_entry or entry,
             path_mm=tolerance,
+            controller=driver,
             limits=limits,
         )
     if as_json:

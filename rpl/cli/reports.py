@@ -10,13 +10,16 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from rpl.cli.output import numbers, write_file
+from rpl.controllers import controller_named
 from rpl.errors import UsageError
 
 if TYPE_CHECKING:
+    from rpl.controllers import MotionModel
     from rpl.emulator.inertias import Body
     from rpl.emulator.model import RobotModel
     from rpl.project import ReadProgram
     from rpl.report.dynamics import Moment, RunDynamics
+    from rpl.report.times import RunTimes
     from rpl.simulation import RunResult
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
@@ -24,12 +27,23 @@ Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 @dataclass(frozen=True, slots=True)
 class Reports:
-    """What is asked for. `library`: the script that the page needs; `load` stands in place of the program's loads."""
+    """What is asked for. `library`: the script that the page needs; `load` stands in place of the program's loads;
+    `controller` drives the robot in place of each language's own."""
 
     plot: Path | None
     dynamics: bool
     library: str
     load: Body | None
+    timed: bool = False
+    controller: MotionModel | None = None
+
+    def times(self, result: RunResult, model: RobotModel | None) -> RunTimes | None:
+        """Where the time of the run goes."""
+        if not self.timed or model is None:
+            return None
+        from rpl.report.times import run_times
+
+        return run_times(result, model)
 
     def layers(self, result: RunResult, model: RobotModel | None) -> RunDynamics | None:
         """Torques and following errors; warnings go to stderr."""
@@ -48,7 +62,6 @@ class Reports:
         read: ReadProgram,
         model: RobotModel | None,
         dynamics: RunDynamics | None = None,
-        controller: str = "",
     ) -> None:
         """Write the page, if one is asked for."""
         if self.plot is None:
@@ -57,13 +70,14 @@ class Reports:
         from rpl.report.document import Heading, run_document
         from rpl.report.page import page
 
+        drivers = [self.controller] if self.controller else [controller_named(name) for name in read.dialects]
         fault = result.fault
         place = f"{fault.origin.file}:{fault.origin.line}: " if fault is not None and fault.origin.source else ""
         heading = Heading(
             files=tuple(source.path for source in read.sources),
             language=", ".join(registry.dialect(name).title for name in read.dialects),
             robot=" ".join(word for word in (model.maker, model.title) if word) if model is not None else "",
-            controller=controller,
+            controller=", ".join(dict.fromkeys(driver.title for driver in drivers)) if model is not None else "",
             moves=result.moves,
             fault=f"{place}{fault.code}: {fault.message}" if fault is not None else "",
         )
@@ -82,6 +96,14 @@ def report_options(command: Decorated) -> Decorated:
             help="Write a page about the run that opens without a network: path, joints, signals, margins, moves.",
         ),
         click.option(
+            "--times", "timed", is_flag=True, help="Time of each move, where the time goes, and how sure that is."
+        ),
+        click.option(
+            "--controller",
+            metavar="NAME|F.toml",
+            help="Who moves the robot: a language's controller, plain, or a file; else each language's own.",
+        ),
+        click.option(
             "--dynamics", is_flag=True, help="Joint torques, speeds and following errors, each with its line."
         ),
         click.option(
@@ -93,18 +115,23 @@ def report_options(command: Decorated) -> Decorated:
     return command
 
 
-def reports_of(plot: Path | None, dynamics: bool, payload: str | None, robot: str | None) -> Reports:
+def reports_of(
+    plot: Path | None, dynamics: bool, payload: str | None, robot: str | None, timed: bool, controller: str | None
+) -> Reports:
     """Checked before the run: what is wrong or missing is said at once, not after an hour."""
     library = ""
     if payload is not None and not dynamics:
         raise UsageError("--payload is a load for --dynamics; ask for both")
     if dynamics and robot is None:
         raise UsageError("--dynamics needs an arm: name one with --robot")
+    if timed and robot is None:
+        raise UsageError("--times needs an arm: name one with --robot")
+    chosen = controller_named(controller) if controller is not None else None
     if plot is not None:
         from rpl.report.page import drawing_library
 
         library = drawing_library()
-    return Reports(plot, dynamics, library, None if payload is None else _load(payload))
+    return Reports(plot, dynamics, library, None if payload is None else _load(payload), timed, chosen)
 
 
 def _load(text: str) -> Body:
@@ -117,6 +144,14 @@ def _load(text: str) -> Body:
     if len(given) not in (1, 4) or given[0] < 0.0:
         raise UsageError(f"--payload: {text!r} is not a mass in kg, or mass,x,y,z with the centre in mm")
     return Body(given[0], np.array(given[1:] or [0.0, 0.0, 0.0]), np.zeros((3, 3)))
+
+
+def show_reports(layers: RunDynamics | None, times: RunTimes | None) -> None:
+    """What was asked for, for people."""
+    if times is not None:
+        show_times(times)
+    if layers is not None:
+        show_dynamics(layers)
 
 
 def show_dynamics(found: RunDynamics) -> None:
@@ -137,6 +172,31 @@ def show_dynamics(found: RunDynamics) -> None:
     click.echo(f"tool at most {following.behind.value:.3f} mm behind its command, {_where(following.behind)}")
     click.echo(f"tool at most {following.off.value:.3f} mm off its path, {_where(following.off)}")
     click.echo(f"with joints that follow by {', '.join(lags)} ms{model}; load {found.payload_kg:g} kg at most")
+
+
+def show_times(found: RunTimes) -> None:
+    """The times for people: a line for each move, then the sums."""
+    if found.moves:
+        click.echo(f"{'start':>9}{'seconds':>9}{'between':>17}{'corner':>8}  move")
+    for move in found.moves:
+        place = f"{PurePath(move.origin.file).name}:{move.origin.line}"
+        between = f"{move.low_s:.3f}..{move.high_s:.3f}"
+        corner = f"{move.blended_s:.3f}" if move.blended_s > 0.0 else ""
+        click.echo(f"{move.start_s:9.3f}{move.seconds:9.3f}{between:>17}{corner:>8}  {move.kind} {place}")
+    for name, seconds in (
+        ("moving", found.moving_s),
+        ("in corners", found.blending_s),
+        ("waiting for a time", found.timed_s),
+        ("waiting for signals", found.signal_s),
+        ("standing", found.standing_s),
+    ):
+        share = 100.0 * seconds / found.total_s if found.total_s > 0.0 else 0.0
+        click.echo(f"{seconds:9.3f} s {share:5.1f} %  {name}")
+    click.echo(
+        f"{found.total_s:9.3f} s in all, between {found.low_s:.3f} and {found.high_s:.3f} s ({found.controller})"
+    )
+    for name, early, late in found.effects:
+        click.echo(f"          {name}: -{early:.3f} +{late:.3f} s")
 
 
 def _where(moment: Moment) -> str:

@@ -24,7 +24,7 @@ from rpl.cli.output import (
     waiting,
     write_file,
 )
-from rpl.cli.reports import report_options, reports_of, show_dynamics
+from rpl.cli.reports import report_options, reports_of, show_reports
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.errors import UsageError
 from rpl.passes.legalise.pulses import report_assumed
@@ -52,6 +52,8 @@ def command(
     entry: str | None,
     trace: Path | None,
     plot: Path | None,
+    timed: bool,
+    controller: str | None,
     dynamics: bool,
     payload: str | None,
     despite_errors: bool,
@@ -70,7 +72,8 @@ def command(
     from rpl.proof.prove import load_cell
     from rpl.simulation import run_program
 
-    limits, reports = limits_of(max_time, max_steps, max_events), reports_of(plot, dynamics, payload, robot)
+    limits = limits_of(max_time, max_steps, max_events)
+    reports = reports_of(plot, dynamics, payload, robot, timed, controller)
     diagnostics = collector()
     with waiting("reading"):
         read = read_program(paths, dialect_exists(dialect), diagnostics)
@@ -88,16 +91,16 @@ def command(
     report_unknown_signals(read.program, surroundings, assumptions)
     print_diagnostics(assumptions, Severity.WARNING)
     with waiting("running"):
-        result = run_program(read.program, model, surroundings, entry, limits=limits)
+        result = run_program(read.program, model, surroundings, entry, limits=limits, controller=reports.controller)
     write_trace(trace, result)
-    layers = reports.layers(result, model)
+    layers, times = reports.layers(result, model), reports.times(result, model)
     reports.write(result, read, model, layers)
     if as_json:
-        print_json(result.as_json() | ({"dynamics": layers.as_json()} if layers is not None else {}))
+        more = {"dynamics": layers, "times": times}
+        print_json(result.as_json() | {name: made.as_json() for name, made in more.items() if made is not None})
     else:
         show(result)
-        if layers is not None:
-            show_dynamics(layers)
+        show_reports(layers, times)
     return 0 if result.status in ("finished", "stopped") else 1
 
 
