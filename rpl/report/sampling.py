@@ -76,7 +76,7 @@ def sample_run(result: RunResult, model: RobotModel, step_s: float = STEP_S) -> 
     parts: list[RunSamples] = []
     last_s = 0.0
     for leg, number in legs:
-        part = _sampled(leg, number, step_s)
+        part = _sampled(model, leg, number, step_s)
         before = parts[-1] if parts else part
         if leg.start_s - last_s > SHORTEST_LEG_S:
             place = -1 if parts else 0
@@ -96,18 +96,23 @@ def moments(start_s: float, duration_s: float, step_s: float) -> FloatArray:
     return np.concatenate([[start_s], inside, [end_s]])
 
 
-def _sampled(leg: Leg, number: int, step_s: float) -> RunSamples:
+def _sampled(model: RobotModel, leg: Leg, number: int, step_s: float) -> RunSamples:
     times = moments(leg.start_s, leg.duration_s, step_s)
     local = np.clip(times - leg.start_s, 0.0, leg.duration_s) + leg.offset_s
     half = min(STENCIL_S, 0.5 * leg.duration_s)
     centre = np.clip(local, leg.offset_s + half, leg.offset_s + leg.duration_s - half)
     count = len(times)
-    asked = np.concatenate([local, centre - half, centre, centre + half])
-    joints, before, middle, after = leg.plan.joints_at(asked).reshape(4, count, -1)
+    moved = np.flatnonzero(local != centre)  # at the ends of the leg, where the joints are asked for besides
+    asked = np.concatenate([centre - half, centre, centre + half, local[moved]])
+    found = leg.plan.joints_at(asked)
+    before, middle, after = found[: 3 * count].reshape(3, count, -1)
+    joints = middle.copy()
+    joints[moved] = found[3 * count :]
     speeds = (after - before) / (2.0 * half)
     accelerations = (after - 2.0 * middle + before) / (half * half)
     speeds = speeds + accelerations * (local - centre)[:, None]
-    tool = leg.plan.tcp_at(local)[:, :3, 3]
+    # By the joints, for the path of a move on a turning table is given on the table.
+    tool = (model.forward(joints) @ leg.plan.geometry.tool)[:, :3, 3]
     return RunSamples(times, joints, speeds, accelerations, tool, np.full(count, number, dtype=np.int64))
 
 
