@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rpl.ir.rules import AdvanceRules, Rules, TriggerRules
+from rpl.ir.rules import AdvanceRules, LoadVariables, Rules, TriggerRules
 
 from . import tables
 
@@ -27,6 +27,11 @@ TRIGGERS = TriggerRules(
     passes_points=True,
     end_at_joint_corner=True,
     on_paths_only=True,
+)
+
+# $LOAD is the load at the flange; the inline forms and BAS take it from LOAD_DATA with the number of the tool.
+LOADS = LoadVariables(
+    "$LOAD", "LOAD_DATA", "$ACT_TOOL", {"mass": "m", "frame": "cm", "ix": "j.x", "iy": "j.y", "iz": "j.z"}
 )
 
 RULES = Rules(
@@ -64,5 +69,6 @@ RULES = Rules(
     },
     type_names=tables.BASIC_TYPES,
     triggers=TRIGGERS,
+    load_variables=LOADS,
     pulse_step_s=0.1,  # expert programming, 5.4: rounded to the nearest tenth of a second
 )

@@ -55,6 +55,18 @@ class TriggerRules:
 
 
 @dataclass(frozen=True, slots=True)
+class LoadVariables:
+    """Of a controller that keeps its load in variables of the language (KRL): `variable` is the load in force; where
+    that weighs nothing, the element of `table` that `number` says. components: neutral names (mass, `frame` of the
+    centre in the flange, ix, iy, iz) -> those of the language, `a.b` for a component of a component."""
+
+    variable: str
+    table: str
+    number: str
+    components: Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True)
 class Rules:
     """What differs between languages that share the IR.
 
@@ -77,7 +89,8 @@ class Rules:
     by tool and frame of the last move that named some (else by none). task_instances: starting a task that runs begins
     another one of its routine (else nothing happens). exact_types: built-in types with components
     have to be equal too where a value is stored or passed. loads_of_tools: a tool has its own load; a load set for all
-    moves is the part's, given in the tool, and that of one move is all of it (else there is one load, in the flange).
+    moves is the part's, given in the tool, and that of one move is all of it (else there is one load, in the flange). load_variables: where it is kept, if not
+    in the neutral system variable.
     functions: neutral function -> how the language spells it
     and its parameters' types in the language's words (`word.part`: the reader takes that component of the argument).
     triggers: where actions on the path happen. pulse_step_s: a pulse's length is rounded to this.
@@ -110,6 +123,7 @@ class Rules:
     task_instances: bool = False
     exact_types: bool = False
     loads_of_tools: bool = False
+    load_variables: LoadVariables | None = None
     functions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     triggers: TriggerRules = TriggerRules()
     pulse_step_s: float = 0.0

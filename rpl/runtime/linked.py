@@ -16,6 +16,9 @@ class Linked(Protocol):
     def initialise(self, values: Values, machine: Any) -> None:
         """Fill the global data with first values."""
 
+    def variable_slot(self, name: str) -> int | None:
+        """The place of a global variable."""
+
     def alias(self, name: str) -> SignalRef | None:
         """The physical signal behind a declared name."""
 

@@ -285,6 +285,13 @@ class Machine:
         if code.globals_needed > len(self.globals):
             self.linked.initialise(self.globals, self)
 
+    def global_value(self, name: str) -> Value:
+        """The value of a program's global variable; None where there is none of that name."""
+        slot = self.linked.variable_slot(name)
+        if slot is not None and slot >= len(self.globals):
+            self.linked.initialise(self.globals, self)
+        return None if slot is None else self.globals[slot]
+
     # ---- signals
 
     def read_unset(self, key: Key, kind: str) -> Value:

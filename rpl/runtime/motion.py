@@ -85,7 +85,7 @@ class MotionQueue(RobotState):
             task.modal["tool_in_use"], task.modal["frame_in_use"] = order.tool, order.frame
         if self.model is None:
             return self.imagined.make(self, order, next)
-        order.payloads = payloads_of(order, task.modal)
+        order.payloads = payloads_of(order, task.modal, self.machine)
         if self.failed is not None:
             return task.wait_for("idle", order.at, next)
         if self.stopped and task.aside and order.rules.advance.runs_ahead_of == "all":

@@ -11,9 +11,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rpl.passes import rigid
-from rpl.runtime.values import PoseValue, Record, RotationValue, Value, VectorValue
+from rpl.runtime.values import Array, PoseValue, Record, RotationValue, Value, VectorValue
 
 if TYPE_CHECKING:
+    from rpl.ir.rules import LoadVariables
+    from rpl.runtime.machine import Machine
     from rpl.runtime.orders import Modal, Order
 
 
@@ -30,8 +32,11 @@ class Payload:
         return self
 
 
-def payloads_of(order: Order, modal: Modal) -> tuple[Payload, ...]:
+def payloads_of(order: Order, modal: Modal, machine: Machine) -> tuple[Payload, ...]:
     """The loads of a move; none where the program has said nothing."""
+    if order.rules.load_variables is not None:
+        kept = _kept(order.rules.load_variables, machine)
+        return () if kept is None else (kept,)
     tool = order.tool if order.tool is not None else modal.get("tool")
     of_tools = order.rules.loads_of_tools
     found = []
@@ -42,6 +47,36 @@ def payloads_of(order: Order, modal: Modal) -> tuple[Payload, ...]:
     frame = _frame(tool) if of_tools else rigid.IDENTITY
     found.append(_payload(modal.get("load"), frame))
     return tuple(one for one in found if one is not None)
+
+
+def _kept(names: LoadVariables, machine: Machine) -> Payload | None:
+    """The load in the language's own variables: that in force, else that of the tool's number."""
+    load = _named(machine.global_value(names.variable), names)
+    if load is not None:
+        return load
+    number, table = machine.global_value(names.number), machine.global_value(names.table)
+    if not isinstance(table, Array) or not isinstance(number, int):
+        return None
+    place = number - table.base
+    return _named(table.items[place], names) if 0 <= place < len(table.items) else None
+
+
+def _named(load: Value, names: LoadVariables) -> Payload | None:
+    def component(name: str) -> Value:
+        found = load
+        for part in names.components[name].split("."):
+            found = found.parts.get(part) if isinstance(found, Record) else None
+        return found
+
+    mass, frame = _number(component("mass")), component("frame")
+    if mass <= 0.0:
+        return None
+    place = frame.rigid() if isinstance(frame, PoseValue) and _is_whole(frame) else rigid.IDENTITY
+    return Payload(mass, place, (_number(component("ix")), _number(component("iy")), _number(component("iz"))))
+
+
+def _is_whole(pose: PoseValue) -> bool:
+    return None not in pose.trans and None not in pose.rot.parts
 
 
 def _frame(tool: Value) -> rigid.Pose:

@@ -64,6 +64,29 @@ def test_the_load_set_by_a_language_that_has_one() -> None:
     assert (place.x, place.y, place.z) == pytest.approx((0.0, 10.0, 50.0))
 
 
+KRL_LOADS = """DEF PROG( )
+LOAD_DATA[2]={M 4.0,CM {X 10.0,Y 0.0,Z 60.0,A 90.0,B 0.0,C 0.0},J {X 0.1,Y 0.2,Z 0.3}}
+$ACT_TOOL=2
+PTP {A1 0,A2 -90,A3 90,A4 0,A5 45,A6 0}
+$LOAD={M 3.0,CM {X 0.0,Y 0.0,Z 100.0,A 0.0,B 0.0,C 0.0},J {X 0.0,Y 0.0,Z 0.0}}
+PTP {A1 10}
+$LOAD.M=0
+$ACT_TOOL=5
+PTP {A1 0}
+END
+"""
+
+
+def test_the_load_kept_in_variables_of_the_language() -> None:
+    """The load in force, else that of the tool's number; the frame of the centre turns the inertias."""
+    result = run("krl", KRL_LOADS, robot=KUKA)
+    assert masses(result) == [[4.0], [3.0], []]
+    (load,) = driven_moves(result)[0].payloads
+    assert load.inertias == (0.1, 0.2, 0.3)
+    assert (load.frame.position.x, load.frame.position.z) == (10.0, 60.0)
+    assert load.frame.rotation.zyx[0] == pytest.approx(90.0)
+
+
 def layers(result: RunResult, robot: str = "ur5e", payload: Body | None = None) -> RunDynamics:
     assert result.status == "finished", result.fault
     return run_dynamics(result, load_robot(robot), payload)
