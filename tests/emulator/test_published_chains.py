@@ -118,6 +118,37 @@ def test_most_arms_have_a_published_description() -> None:
     assert len(published()) >= 45
 
 
+# Height of the frame `base` of the same descriptions, mm: where the controller's own coordinates begin.
+BASES = {
+    "abb_irb120_3_58": 0.0,
+    "fanuc_lrmate200id": 330.0,
+    "fanuc_m10ia": 450.0,
+    "fanuc_m710ic50": 565.0,
+    "fanuc_m900ia260l": 950.0,
+    "kuka_kr6r900sixx": 0.0,
+    "motoman_gp12": 450.0,
+    "motoman_gp25": 505.0,
+    "motoman_gp7": 330.0,
+    "motoman_gp8": 330.0,
+    "motoman_ma2010": 505.0,
+    "motoman_mh12": 450.0,
+    "motoman_mh50": 540.0,
+}
+
+
+@pytest.mark.parametrize(("name", "height"), sorted(BASES.items()))
+def test_poses_are_in_the_coordinates_of_the_controller(name: str, height: float) -> None:
+    chain, _ = published()[name]
+    zero = np.zeros((1, 6))
+    assert poses(chain, zero)[0, 2, 3] - load_robot(name).forward(zero)[0, 2, 3] == pytest.approx(height)
+
+
+def test_arms_of_one_maker_count_from_the_same_place() -> None:
+    files = [read_robot_file(name) for name in robot_names()]
+    assert {file.maker for file in files if file.origin_at_axis_2} == {"FANUC", "Yaskawa"}
+    assert all(file.origin_at_axis_2 for file in files if file.maker in ("FANUC", "Yaskawa"))
+
+
 def built(file: RobotFile) -> list[Joint]:
     """The arm joint by joint from its file: signs turn axes round, an offset turns the frame in front of the joint."""
     g, base = file.lengths, 0.0 if file.origin_at_axis_2 else file.lengths.get("c1", 0.0)
