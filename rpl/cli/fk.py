@@ -97,12 +97,13 @@ def _table(model: RobotModel, name: str, notation: Notation, path: str, tool: Fl
     made = target_columns(notation)
     joint_names = tuple(f"j{axis}" for axis in range(1, model.axes + 1))
     kept = kept_columns(table, made)
-    outcome = Outcome(("line", *(table.columns[place] for place in kept), *joint_names, *made))
+    outcome = Outcome(("line", *(table.columns[place] for place in kept), *joint_names, *made, "outside_limits"))
     for part in chunks(table.rows):
         rows, joints = matrix_of(table, part, places, outcome)
         flanges = model.forward(joints)
         cells = target_cells(model, notation, flanges if tool is None else flanges @ tool, joints)
         for row, one, more in zip(rows, joint_cells(joints), cells, strict=True):
             aside = tuple(row.cells[place] if place < len(row.cells) else "" for place in kept)
-            outcome.rows.append((row.line, (*aside, *one, *more)))
+            outside = " ".join(str(axis + 1) for axis in model.within_limits(one))
+            outcome.rows.append((row.line, (*aside, *one, *more, outside)))
     return report(table, outcome, {"robot": model.name, "dialect": name}, as_json)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import click
@@ -12,7 +13,6 @@ from rpl.cli.kinematics import (
     joint_list,
     joints_of,
     matrix_rows,
-    named_notation,
     pose_of,
     required_robot,
     tool_option,
@@ -53,18 +53,19 @@ _NEAR = (
 @points_option
 @click.option("--near", metavar="A,B,..", help=_NEAR)
 @click.option("--to-dialect", metavar="D", help="Give the selected solution as a target in this language's notation.")
+@click.option("--to-robot", metavar="R", help="Another arm that shall come there in the same posture: its joints then.")
 @tool_option
 @dialect_option
 @json_option
 def command(
-    robot: str, pose: str | None, points: str | None, near: str | None, to_dialect: str | None, tool: str | None,
-    dialect: str | None, as_json: bool,
+    robot: str, pose: str | None, points: str | None, near: str | None, to_dialect: str | None, to_robot: str | None,
+    tool: str | None, dialect: str | None, as_json: bool,
 ) -> int:  # fmt: skip
     """Inverse kinematics: a pose to all joint solutions; the one that the pose's flags select is marked.
 
     Each posture of the arm is listed once, with the turns nearest to --near (else to the home position). With
-    --to-dialect the selected one is given as a target of that language instead. With --points a file of targets becomes
-    a table of joints (and of targets), as CSV or as `points` in JSON.
+    --to-dialect the selected one is given as a target of that language instead, with --to-robot as one of that arm.
+    With --points a file of targets becomes a table of joints (and of targets), as CSV or as `points` in JSON.
     """
     model = robot_named(robot)
     if model is None:
@@ -72,10 +73,10 @@ def command(
     if (pose is None) == (points is None):
         raise UsageError("either --pose or --points is needed")
     name, notation = chosen_notation(dialect, model)
-    other = named_notation(to_dialect) if to_dialect is not None else None
+    goal = _goal(model, to_dialect, to_robot)
     tip = pose_of(tool, "--tool", notation)[0] if tool else None
     if points is not None:
-        return _table(model, name, notation, other, points, near, tip, as_json)
+        return _table(model, name, notation, goal, points, near, tip, as_json)
     target, flags = pose_of(pose or "", "--pose", notation)
     flange = target
     if tip is not None:
@@ -84,12 +85,16 @@ def command(
         flange = target @ np.linalg.inv(tip)
     reference = joints_of(near, "--near", model) if near else None
     selection = None
-    if reference is not None or other is not None or any(value is not None for value in flags.values()):
+    if reference is not None or goal is not None or any(value is not None for value in flags.values()):
         selection = notation.select(model, flange, flags, reference)
-    chosen = selection.joints if selection is not None else None
     rows = solutions(model, notation, flange, reference, selection)
     reason = selection.reason if selection is not None else "" if rows else "the pose is out of reach"
-    text = other[1].format_pose(model, target, chosen) if other is not None and chosen is not None else None
+    chosen = selection.joints if selection is not None else None
+    if goal is not None and chosen is not None:
+        chosen = _joints_for(model, goal, flange[None], chosen[None])[0]
+        if chosen is None:
+            reason = _not_there(goal)
+    text = goal.notation.format_pose(goal.model, target, chosen) if goal is not None and chosen is not None else None
     if as_json:
         document: dict[str, object] = {
             "robot": model.name,
@@ -99,22 +104,59 @@ def command(
             "solutions": rows,
             "reason": reason,
         }
-        if other is not None:
-            shown = other[1].encode(model, chosen) if chosen is not None else None
-            document["converted"] = {"dialect": other[0], "pose": text, "configuration": shown}
+        if goal is not None:
+            document["converted"] = {
+                "robot": goal.model.name,
+                "dialect": goal.name,
+                "pose": text,
+                "joints_deg": joint_list(chosen) if chosen is not None else None,
+                "configuration": goal.notation.encode(goal.model, chosen) if chosen is not None else None,
+            }
         print_json(document)
-    elif other is None:
+    elif goal is None:
         for row in rows:
             print_solution(row)
     elif text is not None:
         click.echo(text)
     if reason:
         click.echo(f"rpl: {reason}", err=True)
-    return 0 if rows and (other is None or text is not None) else 1
+    return 0 if rows and (goal is None or text is not None) else 1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Goal:
+    """In whose notation the answer is, and for which arm."""
+
+    name: str
+    notation: Notation
+    model: RobotModel
+
+
+def _goal(model: RobotModel, to_dialect: str | None, to_robot: str | None) -> _Goal | None:
+    if to_dialect is None and to_robot is None:
+        return None
+    other = robot_named(to_robot) or model
+    return _Goal(*chosen_notation(to_dialect, other), other)
+
+
+def _joints_for(model: RobotModel, goal: _Goal, flanges: FloatArray, joints: FloatArray) -> list[FloatArray | None]:
+    """The joints of the arm that shall come there, None where it does not in that posture."""
+    if goal.model is model:
+        return list(joints)
+    import numpy as np
+
+    from rpl.emulator.selection import on_other_arm
+
+    found = on_other_arm(model, joints, goal.model, flanges).joints
+    return [None if np.isnan(one).any() else one for one in found]
+
+
+def _not_there(goal: _Goal) -> str:
+    return f"{goal.model.name} does not reach this in the same posture"
 
 
 def _table(
-    model: RobotModel, name: str, notation: Notation, other: tuple[str, Notation] | None, path: str, near: str | None,
+    model: RobotModel, name: str, notation: Notation, goal: _Goal | None, path: str, near: str | None,
     tool: FloatArray | None, as_json: bool,
 ) -> int:  # fmt: skip
     """Rows of targets to rows of joints, and of another language's targets."""
@@ -123,10 +165,9 @@ def _table(
     table = read_table(path)
     follow = near == PREVIOUS
     here = joints_of(near, "--near", model) if near and not follow else None
-    made = target_columns(other[1]) if other is not None else ()
-    used = (*made, "config", *target_columns(notation))
-    kept = kept_columns(table, used)
-    joint_names = tuple(f"j{axis}" for axis in range(1, model.axes + 1))
+    made = target_columns(goal.notation) if goal is not None else ()
+    kept = kept_columns(table, (*made, "config", *target_columns(notation)))
+    joint_names = tuple(f"j{axis}" for axis in range(1, (goal.model if goal is not None else model).axes + 1))
     outcome = Outcome(("line", *(table.columns[place] for place in kept), *joint_names, *made))
     for part in chunks(table.rows):
         targets = targets_of(table, part, notation, outcome)
@@ -134,14 +175,22 @@ def _table(
         rows, reached, joints, here = solved(
             model, notation, Targets(targets.rows, flanges, targets.flags), here, follow, outcome
         )
-        tips = reached if tool is None else reached @ tool
-        cells = target_cells(model, other[1], tips, joints) if other is not None else [()] * len(rows)
+        cells: list[tuple[object, ...]] = [()] * len(rows)
+        if goal is not None:
+            found = _joints_for(model, goal, reached, joints)
+            lost = [row.line for row, one in zip(rows, found, strict=True) if one is None]
+            outcome.errors.extend((line, "unreachable-point", _not_there(goal)) for line in lost)
+            there = [place for place, one in enumerate(found) if one is not None]
+            rows, reached = [rows[place] for place in there], reached[there]
+            joints = np.array([found[place] for place in there]).reshape(-1, goal.model.axes)
+            tips = reached if tool is None else reached @ tool
+            cells = target_cells(goal.model, goal.notation, tips, joints)
         for row, one, more in zip(rows, joint_cells(joints), cells, strict=True):
             aside = tuple(row.cells[place] if place < len(row.cells) else "" for place in kept)
             outcome.rows.append((row.line, (*aside, *one, *more)))
     facts: dict[str, object] = {"robot": model.name, "dialect": name}
-    if other is not None:
-        facts["to_dialect"] = other[0]
+    if goal is not None:
+        facts |= {"to_robot": goal.model.name, "to_dialect": goal.name}
     return report(table, outcome, facts, as_json)
 
 

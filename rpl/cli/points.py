@@ -292,7 +292,7 @@ def _rounded(value: float) -> float:
 
 def kept_columns(table: Table, made: Sequence[str]) -> list[int]:
     """Columns of the file that are carried along: names and remarks, whatever was not made anew."""
-    used = {*made, "line", *_TEXT_COLUMNS}
+    used = {*made, "line", "outside_limits", *_TEXT_COLUMNS}
     return [place for place, name in enumerate(table.columns) if name not in used and not _JOINT.fullmatch(name)]
 
 

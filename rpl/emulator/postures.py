@@ -92,14 +92,14 @@ def _half_turn(angle: FloatArray) -> FloatArray:
 
 
 def same_posture(source: RobotModel, joints: FloatArray, other: RobotModel) -> FloatArray:
-    """Joints (n,) of another arm whose own angles are those of `joints` (n,) on `source`; (n,) its home position where
-    the two are not of one build. The half turn by which flanges may differ counts upwards: axis 6 at 0 on an arm whose
-    flange is not turned is +180 on one whose is, as controllers' own joints show (axis 6 = 180 - axis 6)."""
+    """Joints (..., n) of another arm whose own angles are those of `joints` (..., n) on `source`; its home position
+    (n,) where the two are not of one build. The half turn by which flanges may differ counts upwards: axis 6 at 0 on an
+    arm whose flange is not turned is +180 on one whose is, as controllers' own joints show (180 - axis 6)."""
     if not (isinstance(source.arm, OpwArm) and isinstance(other.arm, OpwArm)):
         return np.array(other.home)
     before, after = (arm.canonical(arm.arm_to_pendant @ arm.offsets) for arm in (source, other))
     angles = (source.theta(joints) - source.theta(before)) / other.unit
-    return np.asarray(after + other.arm_to_pendant @ angles)
+    return np.asarray(after + angles @ other.arm_to_pendant.T)
 
 
 def in_posture(model: RobotModel, flange: FloatArray, near: FloatArray, asked: Mapping[str, str]) -> FloatArray | None:

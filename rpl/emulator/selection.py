@@ -16,6 +16,7 @@ import numpy as np
 
 from rpl.emulator.arms import OpwArm, UrArm
 from rpl.emulator.model import LIMIT_SLACK, BatchSolutions
+from rpl.emulator.postures import same_posture, sides
 from rpl.emulator.recognise import PlacedArm
 from rpl.emulator.rotations import invert_pose
 
@@ -77,11 +78,11 @@ class Rule:
 def candidates(model: RobotModel, flanges: FloatArray, free: FloatArray) -> Candidates:
     """Every solution for flange poses (k, 4, 4); free joints of singular postures as in `free` (n,) or (k, n)."""
     found = _within_rounding(model, flanges, np.broadcast_to(free, (len(flanges), model.axes)))
-    sides = np.array([(one.shoulder, one.elbow, one.wrist) for one in model.arm.branches], dtype=np.int64)
+    branches = np.array([(one.shoulder, one.elbow, one.wrist) for one in model.arm.branches], dtype=np.int64)
     joints, straight = _straightened(
-        model, found.joints, sides[:, 2], np.broadcast_to(free, (len(flanges), model.axes))
+        model, found.joints, branches[:, 2], np.broadcast_to(free, (len(flanges), model.axes))
     )
-    return Candidates(joints, found.valid, straight & found.valid, found.singular, sides)
+    return Candidates(joints, found.valid, straight & found.valid, found.singular, branches)
 
 
 def _within_rounding(model: RobotModel, flanges: FloatArray, free: FloatArray) -> BatchSolutions:
@@ -185,4 +186,21 @@ def _turned(
     return taken, np.where(inside, worst, np.inf)
 
 
-__all__ = ["STRAIGHT_DEG", "Candidates", "Chosen", "Fits", "Rule", "TurnCost", "candidates", "choose"]
+def on_other_arm(source: RobotModel, joints: FloatArray, other: RobotModel, flanges: FloatArray) -> Chosen:
+    """Joints (k, m) of another arm for flange poses (k, 4, 4) that `source` reaches with `joints` (k, n): the same
+    posture and turns, and no other one, where the arms are of one build; else what is nearest to its home position."""
+    near = same_posture(source, joints, other)
+    alike = isinstance(source.arm, OpwArm) and isinstance(other.arm, OpwArm)
+    asked = sides(source, joints)[:, None]
+
+    def fits(found: Candidates) -> BoolArray:
+        if not alike:
+            return found.valid
+        met = found.sides[None] == asked
+        met[..., 2] |= found.straight
+        return np.asarray(met.all(axis=-1))
+
+    return choose(other, flanges, near, Rule(fits, lambda axis, values: None, near))
+
+
+__all__ = ["STRAIGHT_DEG", "Candidates", "Chosen", "Fits", "Rule", "TurnCost", "candidates", "choose", "on_other_arm"]

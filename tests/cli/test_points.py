@@ -192,3 +192,33 @@ def test_one_target_in_another_notation(capsys: pytest.CaptureFixture[str]) -> N
     out, err = capsys.readouterr()
     assert out == ""
     assert "S 1, T 2 cannot be reached" in err
+
+
+def test_another_arm_comes_there_in_the_same_posture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """(j1, j2, -(j2+j3), -j4, -j5, 180-j6): axis 6 at 0 is half a turn, turn 1, where the flange is turned."""
+    path = tmp_path / "points.csv"
+    down, unused = "[0,0,1,0],[0,0,0,0]", "[9E9,9E9,9E9,9E9,9E9,9E9]"
+    path.write_text(f"[[1300,0,900],{down},{unused}]\n[[2500,0,900],{down},{unused}]\n", encoding="utf-8")
+    call = ["ik", "--robot", "abb_irb6700_140_285", "--dialect", "rapid", "--to-robot", "fanuc_r2000ic190s"]
+    assert run([*call, "--points", str(path)]) == 1
+    rows, errors = answer(capsys)
+    assert [row["line"] for row in rows] == ["1"]
+    assert rows[0]["target"].startswith("CONFIG : 'N U T, 0, 0, 1', X = 1300 mm")
+    assert float(rows[0]["j6"]) == pytest.approx(180.0)
+    assert errors == [f"{path}:2:1: error unreachable-point fanuc_r2000ic190s does not reach this in the same posture"]
+    assert run([*call, "--pose", f"[[1300,0,900],{down},{unused}]", "--json"]) == 0
+    converted = json.loads(capsys.readouterr().out)["converted"]
+    assert (converted["robot"], converted["dialect"]) == ("fanuc_r2000ic190s", "tp")
+    assert converted["joints_deg"][5] == pytest.approx(180.0)
+    assert run([*call, "--pose", f"[[2500,0,900],{down},{unused}]"]) == 1
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "same posture" in err
+
+
+def test_joints_beyond_their_limits_are_marked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "joints.csv"
+    path.write_text("0,-90,90,0,0,0\n200,-90,90,0,130,0\n", encoding="utf-8")
+    assert run(["fk", "--robot", ROBOT, "--points", str(path)]) == 0
+    rows, _ = answer(capsys)
+    assert [row["outside_limits"] for row in rows] == ["", "1 5"]
