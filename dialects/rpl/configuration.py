@@ -31,6 +31,11 @@ _AGGREGATE = re.compile(r"\{([^{}]*)\}")
 _COMPONENT = re.compile(r"\s*([A-Za-z]\w*)\s*:\s*([+-]?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)\s*")
 
 
+def _turns(angles: FloatArray) -> FloatArray:
+    """Whole turns of angles away from (-180, 180]."""
+    return np.asarray(np.ceil((angles - 180.0 - ROUNDED_DEG) / 360.0))
+
+
 class RplNotation:
     """The branch of the arm and the turns of its axes."""
 
@@ -44,8 +49,7 @@ class RplNotation:
 
     def encode_all(self, model: RobotModel, joints: FloatArray) -> IntArray:
         """Flags (k, 6) of joints (k, n)."""
-        turns = model.turns(joints)
-        columns = [turns[:, axis] if axis < model.axes else np.zeros(len(joints)) for axis in _TURNS.values()]
+        columns = [_turns(joints[:, axis]) if axis < model.axes else np.zeros(len(joints)) for axis in _TURNS.values()]
         return np.column_stack([sides(model, joints), *columns]).astype(np.int64)
 
     def select(self, model: RobotModel, flange: FloatArray, flags: Flags, reference: FloatArray | None) -> Selection:
@@ -73,8 +77,7 @@ class RplNotation:
             if axis not in _TURNS.values():
                 return None
             asked = flags[:, 3 + list(_TURNS.values()).index(axis), None, None]
-            turns = np.ceil((values - 180.0 - ROUNDED_DEG) / 360.0)
-            return np.where(np.isnan(asked) | (turns == asked), 0.0, np.inf)
+            return np.where(np.isnan(asked) | (_turns(values) == asked), 0.0, np.inf)
 
         return choose(model, flanges, near, Rule(fits, turn_cost, near, "time"))
 

@@ -102,8 +102,8 @@ def _table(model: RobotModel, name: str, notation: Notation, path: str, tool: Fl
         rows, joints = matrix_of(table, part, places, outcome)
         flanges = model.forward(joints)
         cells = target_cells(model, notation, flanges if tool is None else flanges @ tool, joints)
-        for row, one, more in zip(rows, joint_cells(joints), cells, strict=True):
+        beyond = [" ".join(str(axis + 1) for axis in model.within_limits(one)) for one in joints]
+        for row, one, more, outside in zip(rows, joint_cells(joints), cells, beyond, strict=True):
             aside = tuple(row.cells[place] if place < len(row.cells) else "" for place in kept)
-            outside = " ".join(str(axis + 1) for axis in model.within_limits(one))
             outcome.rows.append((row.line, (*aside, *one, *more, outside)))
     return report(table, outcome, {"robot": model.name, "dialect": name}, as_json)

@@ -77,7 +77,15 @@ def command(
     tip = pose_of(tool, "--tool", notation)[0] if tool else None
     if points is not None:
         return _table(model, name, notation, goal, points, near, tip, as_json)
-    target, flags = pose_of(pose or "", "--pose", notation)
+    return _one(model, name, notation, goal, pose or "", near, tip, as_json)
+
+
+def _one(
+    model: RobotModel, name: str, notation: Notation, goal: _Goal | None, pose: str, near: str | None,
+    tip: FloatArray | None, as_json: bool,
+) -> int:  # fmt: skip
+    """All solutions of one pose, or the selected one as a target."""
+    target, flags = pose_of(pose, "--pose", notation)
     flange = target
     if tip is not None:
         import numpy as np
@@ -94,7 +102,7 @@ def command(
         chosen = _joints_for(model, goal, flange[None], chosen[None])[0]
         if chosen is None:
             reason = _not_there(goal)
-    text = goal.notation.format_pose(goal.model, target, chosen) if goal is not None and chosen is not None else None
+    converted = None if goal is None else _converted(goal, target, chosen)
     if as_json:
         document: dict[str, object] = {
             "robot": model.name,
@@ -104,23 +112,27 @@ def command(
             "solutions": rows,
             "reason": reason,
         }
-        if goal is not None:
-            document["converted"] = {
-                "robot": goal.model.name,
-                "dialect": goal.name,
-                "pose": text,
-                "joints_deg": joint_list(chosen) if chosen is not None else None,
-                "configuration": goal.notation.encode(goal.model, chosen) if chosen is not None else None,
-            }
-        print_json(document)
-    elif goal is None:
+        print_json(document if converted is None else {**document, "converted": converted})
+    elif converted is None:
         for row in rows:
             print_solution(row)
-    elif text is not None:
-        click.echo(text)
+    elif converted["pose"] is not None:
+        click.echo(converted["pose"])
     if reason:
         click.echo(f"rpl: {reason}", err=True)
-    return 0 if rows and (goal is None or text is not None) else 1
+    return 0 if rows and (converted is None or converted["pose"] is not None) else 1
+
+
+def _converted(goal: _Goal, target: FloatArray, joints: FloatArray | None) -> dict[str, object]:
+    """The selected solution in the notation asked for; nothing of it without one."""
+    there = joints is not None
+    return {
+        "robot": goal.model.name,
+        "dialect": goal.name,
+        "pose": goal.notation.format_pose(goal.model, target, joints) if there else None,
+        "joints_deg": joint_list(joints) if joints is not None else None,
+        "configuration": goal.notation.encode(goal.model, joints) if joints is not None else None,
+    }
 
 
 @dataclass(frozen=True, slots=True, eq=False)

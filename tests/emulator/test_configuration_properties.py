@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from rpl import registry
@@ -77,7 +77,7 @@ ARMS += [("inform", "motoman_gp7"), ("rpl", "staubli_tx60")]
 
 @pytest.mark.parametrize(("dialect", "robot"), ARMS)
 @given(parts=st.tuples(*[st.floats(0.0, 1.0)] * 6), steps=st.integers(0, 6))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much])
 def test_wherever_the_arm_comes_from(dialect: str, robot: str, parts: tuple[float, ...], steps: int) -> None:
     model, notation = load_robot(robot), batch(dialect)
     low, high = model.limits[:, 0], model.limits[:, 1]
