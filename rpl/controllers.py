@@ -88,6 +88,16 @@ class MotionModel:
             ramp_s *= self.corner_ramp_s / self.path_ramp_s if self.path_ramp_s > 0.0 else 1.0
         return 0.5 * speed_mm_s * ramp_s * self.overlap_at(percent) ** 2
 
+    def with_ramp(self, percent: float) -> MotionModel:
+        """With accelerations that rise at this share of their usual rate (RAPID AccSet, its second number): the moving
+        average over the speed gets wider by it."""
+        if percent == 100.0 or percent <= 0.0:
+            return self
+        wider = 100.0 / percent
+        return replace(
+            self, joint_smoothing_s=self.joint_smoothing_s * wider, path_smoothing_s=self.path_smoothing_s * wider
+        )
+
     def tangent_share(self, distance_mm: float, speed_mm_s: float) -> float:
         """How far towards the corner point the inner control points of a corner's cubic lie, as a share (0.2..1) of the
         blend distance, so that a right angle is missed by `corner_cut` and the filter's part of the speed."""

@@ -54,6 +54,7 @@ DEFAULTS: Modal = {
     "override": 100.0,
     "speed_percent": 100.0,
     "acceleration_percent": 100.0,
+    "acceleration_ramp": 100.0,
     "path_limit_rule": "reduce",
     "orientation_mode": "variable",
     "circle_orientation": "base",
@@ -445,7 +446,7 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
         "orientation": _ORIENTATIONS.get(mode, "interpolated"),
         "circle_orientation": order.circle_orientation or str(value("circle_orientation")),
         "reduce_speed_near_singularity": value("path_limit_rule") == "reduce",
-        "controller": plan.controller,
+        "controller": plan.controller.with_ramp(float(value("acceleration_ramp"))),
         "effort": effort_share,
     }
     shares = [float(value("external_speed", place + 1)) / 100.0 for place in range(len(external))]
