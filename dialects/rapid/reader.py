@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import cache
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
@@ -35,11 +36,16 @@ NO_MODULE = code("no-module", Severity.WARNING, "the text stands in no module; i
 _TASK_FOLDER = re.compile(r"(?:^|[/\\])(TASK\d+)[/\\]", re.IGNORECASE)
 
 
+@cache
+def _parser() -> RapidParser:
+    return RapidParser()
+
+
 def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     """All sources of one project together."""
     usable = [source for source in sources if not encoded(source.data)]
     project = survey(usable, PREDEFINED_NAMES)
-    parser = RapidParser()
+    parser = _parser()
     modules: list[ir.Module] = []
     reports: list[FileReport] = []
     for source in sources:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
@@ -30,9 +31,14 @@ REPLACED = code(
 )
 
 
+@cache
+def _parser() -> ShapeParser:
+    return ShapeParser("rpl.lark", NUMBERS)
+
+
 def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     """Read all sources as one program."""
-    parser = ShapeParser("rpl.lark", NUMBERS)
+    parser = _parser()
     modules: list[ir.Module] = []
     tasks: list[ir.Task] = []
     places: list[Origin] = []

@@ -9,6 +9,7 @@ so no caller ever converts signs. The closed-form families need NumPy only; arms
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -310,6 +311,16 @@ def load_robot(name_or_path: str) -> RobotModel:
     """The robot of that name, or described by a `.toml` or `.urdf` file; `RobotError` when there is none."""
     if name_or_path.endswith(".urdf"):
         return _from_urdf(Path(name_or_path))
+    return _from_toml(name_or_path) if name_or_path.endswith(".toml") else _packaged(name_or_path)
+
+
+@lru_cache(maxsize=64)
+def _packaged(name: str) -> RobotModel:
+    """An arm of the package's own, which nothing changes."""
+    return _from_toml(name)
+
+
+def _from_toml(name_or_path: str) -> RobotModel:
     file = read_robot_file(name_or_path)
     return _from_urdf(file.urdf, file) if file.urdf is not None else _from_file(file)
 

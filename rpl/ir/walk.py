@@ -7,7 +7,8 @@ did not change stays the same object, so that comparing by identity tells whethe
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
+from operator import attrgetter, is_
 from typing import TypeGuard, TypeVar, cast, get_args
 
 from rpl.ir.expressions import Expression
@@ -20,17 +21,43 @@ _EXPRESSIONS = frozenset(get_args(Expression))
 _STATEMENTS = frozenset(get_args(Statement))
 
 
-_FIELDS: dict[type, tuple[str, ...]] = {}
+# Annotations of fields that never hold a node: names, operators, switches. Most fields are of these.
+_PLAIN_TYPES = frozenset(("str", "int", "float", "bool", "str | None", "int | None", "float | None", "bool | None"))
 
 
-def _fields(kind: type) -> tuple[str, ...]:
+class _Fields(dict[type, tuple[str, ...]]):
     """The fields of a node class that can hold parts; remembered, because this is asked for every node."""
-    known = _FIELDS.get(kind)
-    if known is None:
+
+    def __missing__(self, kind: type) -> tuple[str, ...]:
         node = dataclasses.is_dataclass(kind) and not issubclass(kind, Origin)
-        known = tuple(f.name for f in dataclasses.fields(kind) if f.name != "origin") if node else ()
-        _FIELDS[kind] = known
-    return known
+        fields = dataclasses.fields(kind) if node else ()
+        self[kind] = found = tuple(f.name for f in fields if f.name != "origin" and f.type not in _PLAIN_TYPES)
+        return found
+
+
+class _Parts(dict[type, Callable[[object], tuple[object, ...]]]):
+    """What takes those fields' values from a node of the class, in order."""
+
+    def __missing__(self, kind: type) -> Callable[[object], tuple[object, ...]]:
+        names = PART_FIELDS[kind]
+        taken: Callable[[object], tuple[object, ...]]
+        if len(names) > 1:
+            taken = attrgetter(*names)
+        elif names:
+            one = attrgetter(*names)
+            taken = lambda node: (one(node),)  # noqa: E731 (one of three)
+        else:
+            taken = _no_parts
+        self[kind] = taken
+        return taken
+
+
+def _no_parts(node: object) -> tuple[object, ...]:
+    return ()
+
+
+PART_FIELDS = _Fields()
+PARTS = _Parts()
 
 
 # Classes whose values hold no nodes: what most fields of a node are; classes that were asked for are added.
@@ -53,8 +80,7 @@ def _is_node(part: object) -> bool:
 def children(node: object) -> list[object]:
     """The nodes directly below a node (or inside nested tuples), in the order of its fields."""
     found: list[object] = []
-    for name in _FIELDS.get(node.__class__) or _fields(node.__class__):
-        part = getattr(node, name)
+    for part in PARTS[node.__class__](node):
         kind = part.__class__
         if kind in _NODES:
             found.append(part)
@@ -84,10 +110,21 @@ def _nodes(part: object) -> list[object]:
 def walk(*roots: object) -> Iterator[object]:
     """Every node of the trees, each before the ones below it. A root may be a body (a tuple of nodes)."""
     stack: list[object] = [node for root in reversed(roots) for node in reversed(_nodes(root))]
+    parts_of = PARTS
     while stack:
         node = stack.pop()
         yield node
-        below = children(node)
+        taken = parts_of[node.__class__]
+        if taken is _no_parts:
+            continue
+        # The same as `children`, in place: every pass goes through here for every node.
+        below: list[object] = []
+        for part in taken(node):
+            kind = part.__class__
+            if kind in _NODES:
+                below.append(part)
+            elif kind not in _PLAIN:
+                _collect(part, below)
         if below:
             below.reverse()
             stack += below
@@ -120,8 +157,10 @@ def rewrite(node: Node, change: Callable[[object], object]) -> Node:
 def map_children(node: Node, change: Callable[[object], object]) -> Node:
     """The node with each node directly below it replaced; the depth is the caller's affair."""
     changes: dict[str, object] = {}
-    for name in _fields(node.__class__):
-        old = getattr(node, name)
+    kind = node.__class__
+    for name, old in zip(PART_FIELDS[kind], PARTS[kind](node), strict=True):
+        if old.__class__ in _PLAIN:
+            continue
         new = _mapped(old, change)
         if new is not old:
             changes[name] = new
@@ -134,18 +173,14 @@ def _rewritten(node: object, change: Callable[[object], object]) -> object:
 
 def _mapped(part: object, change: Callable[[object], object]) -> object:
     if isinstance(part, tuple):
-        done = list(_items(part, change))
-        same = len(done) == len(part) and all(new is old for new, old in zip(done, part, strict=True))
-        return part if same else tuple(done)
+        done: list[object] = []
+        for item in part:
+            new = item if item.__class__ in _PLAIN else _mapped(item, change)
+            if new is not item and isinstance(new, tuple) and not isinstance(item, tuple):
+                done += new  # a statement that became several
+            else:
+                done.append(new)
+        return part if len(done) == len(part) and all(map(is_, done, part)) else tuple(done)
     if _is_node(part):
         return change(part)
     return part
-
-
-def _items(part: Iterable[object], change: Callable[[object], object]) -> Iterator[object]:
-    for item in part:
-        new = _mapped(item, change)
-        if isinstance(new, tuple) and not isinstance(item, tuple):
-            yield from new
-        else:
-            yield new

@@ -6,12 +6,12 @@ A node whose parts all stay the same objects is given back itself: most of a pro
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Hashable, Mapping
-from functools import cache
+from collections.abc import Callable, Mapping
 from operator import attrgetter, is_
 from typing import Any, TypeVar, cast, get_args
 
 from rpl import ir
+from rpl.ir.walk import PART_FIELDS, PARTS
 
 Node = TypeVar("Node")
 OnExpression = Callable[[ir.Expression], ir.Expression]
@@ -23,19 +23,17 @@ _LEAVES = frozenset((str, int, float, bool, type(None)))
 _NOTHING_GIVEN: Mapping[str, object] = {}
 
 
-@cache
-def _fields(node_class: Hashable) -> tuple[str, ...]:
-    if not (isinstance(node_class, type) and dataclasses.is_dataclass(node_class)):
-        return ()
-    return tuple(field.name for field in dataclasses.fields(node_class) if field.name != "origin")
+class _Rebuilding(dict[type, tuple[tuple[str, ...], Callable[[object], tuple[Any, ...]]]]):
+    """All fields of a node class, and what takes their values; `dataclasses.replace` looks them up each time."""
+
+    def __missing__(self, kind: type) -> tuple[tuple[str, ...], Callable[[object], tuple[Any, ...]]]:
+        names = tuple(field.name for field in dataclasses.fields(kind))
+        one = attrgetter(*names)
+        self[kind] = found = (names, one if len(names) > 1 else lambda node: (one(node),))
+        return found
 
 
-@cache
-def _getter(node_class: Hashable) -> Callable[[object], tuple[object, ...]]:
-    names = _fields(node_class)
-    if len(names) > 1:
-        return attrgetter(*names)
-    return lambda node: tuple([getattr(node, name) for name in names])
+_REBUILDING = _Rebuilding()
 
 
 def rewrite_parts(
@@ -47,23 +45,55 @@ def rewrite_parts(
     """The node with each direct expression replaced by `on_expression` and each body by `on_body` (bodies stay as they
     are without it). Parts that are neither (speeds, blends, cases, arguments) are entered. `given`: fields that are
     rewritten already, by name."""
-    kind = cast(Hashable, node.__class__)
-    names = _fields(kind)
-    values = list(_getter(kind)(node))
-    same = True
-    for at, old in enumerate(values):
+    kind = node.__class__
+    changes: dict[str, object] | None = None
+    for at, old in enumerate(PARTS[kind](node)):
         if old.__class__ in _LEAVES:
             continue
-        new = given[names[at]] if names[at] in given else _part(old, on_expression, on_body)
+        name = PART_FIELDS[kind][at] if given else ""
+        new = given[name] if name in given else _part(old, on_expression, on_body)
         if new is not old:
-            values[at] = new
-            same = False
-    if same:
+            if changes is None:
+                changes = {}
+            changes[PART_FIELDS[kind][at]] = new
+    if changes is None:
         return node
-    parts: dict[str, Any] = dict(zip(names, values, strict=True))
-    if hasattr(node, "origin"):
-        parts["origin"] = node.origin
-    return node.__class__(**parts)
+    names, values = _REBUILDING[kind]
+    parts: dict[str, Any] = dict(zip(names, values(node), strict=True))
+    parts.update(changes)
+    return kind(**parts)
+
+
+def visit_parts(
+    node: object, on_expression: Callable[[ir.Expression], object], on_body: Callable[[ir.Body], object] | None = None
+) -> None:
+    """Show the same parts as `rewrite_parts` in the same order, and rebuild nothing."""
+    for part in PARTS[node.__class__](node):
+        if part.__class__ not in _LEAVES:
+            _visit(part, on_expression, on_body)
+
+
+def _visit(
+    part: object, on_expression: Callable[[ir.Expression], object], on_body: Callable[[ir.Body], object] | None
+) -> None:
+    kind = part.__class__
+    if kind in _LEAVES:
+        return
+    if kind in _EXPRESSIONS:
+        on_expression(cast(ir.Expression, part))
+    elif kind is tuple:
+        items = cast(tuple[object, ...], part)
+        if items and on_body is not None and _STATEMENTS.issuperset(map(type, items)):
+            on_body(cast(ir.Body, items))
+            return
+        for item in items:
+            _visit(item, on_expression, on_body)
+    elif kind in _STATEMENTS:
+        if on_body is not None:
+            on_body((cast(ir.Statement, part),))
+    else:
+        for inner in PARTS[kind](part):
+            _visit(inner, on_expression, on_body)
 
 
 def changed(node: Node, **parts: object) -> Node:
@@ -90,14 +120,15 @@ def _part(part: object, on_expression: OnExpression, on_body: OnBody | None) -> 
         items = cast(tuple[object, ...], part)
         if not items:
             return part
-        if on_body is not None and all(item.__class__ in _STATEMENTS for item in items):
+        if on_body is not None and _STATEMENTS.issuperset(map(type, items)):
             return on_body(cast(ir.Body, items))
-        return each(items, lambda item: _part(item, on_expression, on_body))
+        done = tuple([_part(item, on_expression, on_body) for item in items])
+        return items if all(map(is_, done, items)) else done
     if kind in _STATEMENTS:
         if on_body is not None:
             one = on_body((cast(ir.Statement, part),))
             return one[0] if len(one) == 1 else part
         return part
-    if _fields(cast(Hashable, kind)):
+    if PART_FIELDS[kind]:
         return rewrite_parts(part, on_expression, on_body)
     return part

@@ -177,9 +177,12 @@ class Machine:
                     robot.happen(*data)
 
     def _is_finished(self) -> bool:
-        if any(task.state != ENDED for task in self.tasks if task.kind == "motion"):
-            return False
-        motion = any(task.kind == "motion" for task in self.tasks)
+        motion = False
+        for task in self.tasks:
+            if task.kind == "motion":
+                if task.state != ENDED:
+                    return False
+                motion = True
         if not motion and any(task.state != ENDED for task in self.tasks):
             return False
         return self.timed_outputs == 0 and not any(task.busy for task in self.tasks)

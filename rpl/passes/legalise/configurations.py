@@ -441,8 +441,9 @@ class _Configurations(Rewriter):
         near = arm.home if joints is None else self.arm.same_posture(_array(joints), arm)
         best, rank = None, (9, 0.0)
         for solution in arm.inverse(flange, near):
+            # whole turns leave the posture as it is
+            differing = 0 if posture is None else _differing(posture, arm.posture(solution.joints).branch)
             for choice in arm.expand_turns(solution):
-                differing = 0 if posture is None else _differing(posture, arm.posture(choice).branch)
                 travel = float(abs(choice - near).sum())
                 if (differing, travel) < rank:
                     best, rank = choice, (differing, travel)

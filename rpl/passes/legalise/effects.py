@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rpl import ir
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import visit_parts
 
 # Built-in functions that fail for some arguments (a root of a negative number, a text that is no number, ...).
 _FAILING = frozenset(
@@ -28,12 +28,7 @@ _LITERALS = (ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.E
 def children(node: ir.Expression | ir.Statement) -> list[ir.Expression]:
     """The direct expressions of a node in the order of its fields; bodies are not entered."""
     found: list[ir.Expression] = []
-
-    def note(expression: ir.Expression) -> ir.Expression:
-        found.append(expression)
-        return expression
-
-    rewrite_parts(node, note)
+    visit_parts(node, found.append)
     return found
 
 

@@ -10,6 +10,7 @@ names the difference.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
 from rpl import ir, registry
@@ -49,12 +50,37 @@ def free_postures(program: ir.Program, context: Context) -> ir.Program:
     ours, theirs = registry.dialect(context.source).notation, registry.dialect(can.notation).notation
     if ours is None or theirs is None or not any(_may_be_free(one) for one in walk(*program.modules)):
         return program
-    work = _Free(program, context, ours(), theirs())
-    return work.program() if work.apart() else program
+    one: Any = arm
+    first: Any = ours()
+    second: Any = theirs()
+    return _Free(program, context, first, second).program() if _apart(one, first, second) else program
 
 
 def _may_be_free(node: object) -> bool:
     return isinstance(node, ir.Move) and node.kind == "joint" and node.relative is None
+
+
+@lru_cache(maxsize=64)
+def _apart(arm: Any, ours: Any, theirs: Any) -> bool:
+    """Do the controllers often choose otherwise on this arm, with nothing said?"""
+    import numpy as np  # most translations ask nothing of the arm
+
+    low, high = arm.limits[:, 0], arm.limits[:, 1]
+    spread = np.random.default_rng(1).uniform(-0.9, 0.9, size=(_TRIED, 2, len(low)))
+    pairs = np.clip((low + high) / 2 + spread * (high - low) / 2, -170.0, 170.0)
+    differ = sum(_differ(arm, ours, theirs, arm.forward(to), at) for at, to in pairs)
+    return differ > _OFTEN * _TRIED
+
+
+def _chosen(arm: Any, notation: Any, flange: Any, before: Any) -> Any:
+    return notation.select(arm, flange, {}, before).joints
+
+
+def _differ(arm: Any, ours: Any, theirs: Any, flange: Any, before: Any) -> bool:
+    """Do both controllers come there, but otherwise?"""
+    first = _chosen(arm, ours, flange, before)
+    second = None if first is None else _chosen(arm, theirs, flange, before)
+    return second is not None and bool(abs(first - second).max() > _SAME_DEG)
 
 
 class _Free(Rewriter):
@@ -63,28 +89,6 @@ class _Free(Rewriter):
         self.arm: Any = context.robot
         self.ours, self.theirs = ours, theirs
         self.stands = Whereabouts(program, context)
-
-    def apart(self) -> bool:
-        """Do the controllers often choose otherwise, with nothing said?"""
-        import numpy as np  # most translations ask nothing of the arm
-
-        arm = self.arm
-        low, high = arm.limits[:, 0], arm.limits[:, 1]
-        spread = np.random.default_rng(1).uniform(-0.9, 0.9, size=(_TRIED, 2, len(low)))
-        pairs = np.clip((low + high) / 2 + spread * (high - low) / 2, -170.0, 170.0)
-        differ = sum(
-            self.chosen(self.ours, arm.forward(to), at) is not None and self.differs(arm.forward(to), at)
-            for at, to in pairs
-        )
-        return differ > _OFTEN * _TRIED
-
-    def chosen(self, notation: Any, flange: Any, before: Any) -> Any:
-        return notation.select(self.arm, flange, {}, before).joints
-
-    def differs(self, flange: Any, before: Any) -> bool:
-        """Do both controllers come there, but otherwise?"""
-        first, second = (self.chosen(one, flange, before) for one in (self.ours, self.theirs))
-        return first is not None and second is not None and abs(first - second).max() > _SAME_DEG
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
         if isinstance(statement, ir.Move) and _may_be_free(statement) and self.is_free(statement):
@@ -113,7 +117,9 @@ class _Free(Rewriter):
             self.context.diagnostics.report(FREE if joints is None else ASSUMED, move.origin)
             return move if joints is None else self.to_joints(move, joints)
         at = np.array(before.joints)
-        return self.to_joints(move, self.chosen(self.ours, flange, at)) if self.differs(flange, at) else move
+        if not _differ(self.arm, self.ours, self.theirs, flange, at):
+            return move
+        return self.to_joints(move, _chosen(self.arm, self.ours, flange, at))
 
     def from_everywhere(self, flange: Any) -> Any:
         """The joints that the source's controller takes from all places where the arm is known to be; None where these
@@ -121,7 +127,7 @@ class _Free(Rewriter):
         import numpy as np
 
         known = {one.joints for one in self.stands.ends.values() if one.joints is not None}
-        found = [self.chosen(self.ours, flange, np.array(one)) for one in sorted(known)]
+        found = [_chosen(self.arm, self.ours, flange, np.array(one)) for one in sorted(known)]
         if not found or any(one is None or abs(one - found[0]).max() > _SAME_DEG for one in found):
             return None
         return found[0]

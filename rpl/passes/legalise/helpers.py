@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import lru_cache
 
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
@@ -410,16 +411,22 @@ class Helpers:
         if self.context.capabilities.text_results:
             text = _TEXT_REFERENCE.sub("", text)  # texts are values there
         text = _NAME.sub(lambda match: self.names.get(match[0], match[0]), text)
-        diagnostics = Diagnostics()
-        source = source_from_text("rpl_support.rpl", f"MODULE rpl_support\n{text}END MODULE\n")
-        read = registry.dialect("rpl").read([source], diagnostics).program
-        read = normalise(read, diagnostics)
-        if diagnostics.has_errors or not read.modules:
-            raise InternalError(f"helper routines: {[item.as_text() for item in diagnostics]}")
+        read = _read(text)
         inside = names_in(read) - {module.name.lower() for module in read.modules}
         self.context.taken |= inside  # what later passes add to the helpers gets other names
         routines = [replace(_nowhere(routine), scope="global") for routine in read.modules[0].routines]
         return with_support(program, self.context, (), routines)
+
+
+@lru_cache(maxsize=64)
+def _read(text: str) -> ir.Program:
+    """Helper routines as a program; many programs ask for the same ones."""
+    diagnostics = Diagnostics()
+    source = source_from_text("rpl_support.rpl", f"MODULE rpl_support\n{text}END MODULE\n")
+    read = normalise(registry.dialect("rpl").read([source], diagnostics).program, diagnostics)
+    if diagnostics.has_errors or not read.modules:
+        raise InternalError(f"helper routines: {[item.as_text() for item in diagnostics]}")
+    return read
 
 
 def _nowhere(routine: ir.Routine) -> ir.Routine:

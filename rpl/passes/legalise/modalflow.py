@@ -6,14 +6,14 @@ Routines are entered with what all their calls have in common, and leave with wh
 
 from __future__ import annotations
 
-from collections.abc import Set
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.datalists import never_called
 from rpl.passes.legalise.heldtexts import known_calls
-from rpl.passes.legalise.usage import Usage, doing, each_expression, usage_of
+from rpl.passes.legalise.usage import Usage, doing_each, each_expression, usage_of
 from rpl.passes.scope import ProgramScope, Scope
 
 SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distance", "blend_joint"))
@@ -81,8 +81,13 @@ def joined(*states: State | None) -> State | None:
     found = [state for state in states if state is not None]
     if not found:
         return None
-    first = found[0]
-    return {name: value if all(one[name] == value for one in found) else None for name, value in first.items()}
+    known = dict(found[0])
+    for other in found[1:]:
+        for name, value in other.items():
+            before = known[name]
+            if before is not value and before is not None and before != value:
+                known[name] = None
+    return known
 
 
 @dataclass(slots=True)
@@ -142,10 +147,11 @@ class _Follower:
         self.scopes = ProgramScope(program)
         self.routines = {r.name.lower(): (m, r) for m in reversed(program.modules) for r in m.routines}
         self.beside = _beside(program)
-        self.setting = _setting_routines(program)
         self.entries: dict[str, State | None] = dict.fromkeys(self.routines)
         self.exits: dict[str, State | None] = dict.fromkeys(self.routines)
-        self.setters = {setting: _setting_routines(program, {setting}) for setting in _FOLLOWED}
+        self.setters = _setters(program)
+        self.setting = frozenset().union(*self.setters.values())
+        self.called_in: dict[int, tuple[str, ...]] = {}  # by identity of a part of the program, which stays alive
         self.anywhere = dict(_UNKNOWN)
         self.loops: list[_Loop] = []
         self.jumps: dict[str, State] = {}  # what holds where a label (folded) is jumped to
@@ -294,10 +300,13 @@ class _Follower:
 
     def calls(self, node: object, state: State) -> State | None:
         """The state behind the functions that an expression or a plain statement calls."""
+        names = self.called_in.get(id(node))
+        if names is None:
+            names = self.called_in[id(node)] = tuple([one.name for one in walk(node) if isinstance(one, ir.Call)])
         after: State | None = state
-        for one in walk((node,) if not isinstance(node, tuple) else node):
-            if isinstance(one, ir.Call) and after is not None:
-                after = self.called(one.name, after)
+        for name in names:
+            if after is not None:
+                after = self.called(name, after)
         return after
 
     def called(self, name: str, state: State) -> State | None:
@@ -374,15 +383,15 @@ def _beside(program: ir.Program) -> set[str]:
     return names
 
 
-def _setting_routines(program: ir.Program, settings: Set[str] = _FOLLOWED) -> frozenset[str]:
-    """Routines that change one of the settings, themselves or by what they call; behind others it is as before."""
+def _setters(program: ir.Program) -> dict[str, frozenset[str]]:
+    """Setting -> routines that change it, themselves or by what they call; behind others it is as before."""
 
-    def sets(node: object) -> bool:
+    def sets(node: object) -> Iterable[str]:
         match node:
-            case ir.Assign(target=ir.System(name=setting)):
-                return setting in settings
-            case ir.CallRoutine(dynamic=dynamic):
-                return dynamic is not None
-        return False
+            case ir.Assign(target=ir.System(name=setting)) if setting in _FOLLOWED:
+                return (setting,)
+            case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
+                return _FOLLOWED
+        return ()
 
-    return doing(program, sets)
+    return doing_each(program, sets, _FOLLOWED)

@@ -7,8 +7,11 @@ Calls of small system routines with a constant selector (`BAS(#INITMOV,0)`) are 
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 from rpl import ir, registry
+from rpl.diagnostics import Diagnostics
+from rpl.errors import InternalError
 from rpl.passes.fold import constant, literal
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies
@@ -26,16 +29,28 @@ def link_prelude(program: ir.Program, context: Context) -> ir.Program:
     """The program with the used part of each source dialect's prelude as a module of its own."""
     modules = list(program.modules)
     for dialect in sorted({module.dialect for module in program.modules}):
-        prelude = registry.dialect(dialect).prelude()
+        prelude = _prelude(dialect)
         if prelude is None:
             continue
-        prelude = normalise(ir.Program((replace(prelude, dialect=dialect),)), context.diagnostics).modules[0]
         modules = _inlined(modules, prelude, usage_of(program).assigned)
         modules = _with_own_values(modules, prelude)
         linked = _used_part(prelude, [module for module in modules if module.dialect == dialect], context)
         if linked is not None:
             modules.append(linked)
     return replace(program, modules=tuple(modules))
+
+
+@cache
+def _prelude(dialect: str) -> ir.Module | None:
+    """A dialect's prelude in normal form, of which there is nothing to report."""
+    prelude = registry.dialect(dialect).prelude()
+    if prelude is None:
+        return None
+    diagnostics = Diagnostics()
+    done = normalise(ir.Program((replace(prelude, dialect=dialect),)), diagnostics).modules[0]
+    if diagnostics.items:
+        raise InternalError(f"prelude of {dialect}: {[item.as_text() for item in diagnostics]}")
+    return done
 
 
 def _inlined(modules: list[ir.Module], prelude: ir.Module, assigned: set[str]) -> list[ir.Module]:

@@ -11,17 +11,16 @@ from functools import partial
 
 from rpl import ir
 from rpl.ir.walk import walk
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import visit_parts
 
 
 def each_statement(body: ir.Body, visit: Callable[[ir.Statement], None]) -> None:
     """Visit every statement of a body, outer before inner."""
 
-    def look(statements: ir.Body) -> ir.Body:
+    def look(statements: ir.Body) -> None:
         for statement in statements:
             visit(statement)
-            rewrite_parts(statement, _same, look)
-        return statements
+            visit_parts(statement, _nothing, look)
 
     look(body)
 
@@ -29,16 +28,15 @@ def each_statement(body: ir.Body, visit: Callable[[ir.Statement], None]) -> None
 def each_expression(statement: ir.Statement, visit: Callable[[ir.Expression], None], inner: bool = False) -> None:
     """Visit every expression of a statement, outer before inner; with `inner` also those of its bodies."""
 
-    def look(expression: ir.Expression) -> ir.Expression:
+    def look(expression: ir.Expression) -> None:
         visit(expression)
-        return rewrite_parts(expression, look)
+        visit_parts(expression, look)
 
-    def deeper(statements: ir.Body) -> ir.Body:
+    def deeper(statements: ir.Body) -> None:
         for one in statements:
-            rewrite_parts(one, look, deeper)
-        return statements
+            visit_parts(one, look, deeper)
 
-    rewrite_parts(statement, look, deeper if inner else None)
+    visit_parts(statement, look, deeper if inner else None)
 
 
 def bodies(routine: ir.Routine) -> list[ir.Body]:
@@ -46,8 +44,8 @@ def bodies(routine: ir.Routine) -> list[ir.Body]:
     return [routine.body, *(handler.body for handler in routine.handlers), routine.undo, routine.backward]
 
 
-def _same(expression: ir.Expression) -> ir.Expression:
-    return expression
+def _nothing(expression: ir.Expression) -> None:
+    """Expressions hold no statements."""
 
 
 def base_name(lvalue: ir.Expression) -> str | None:
@@ -229,8 +227,16 @@ def _close(sets: dict[str, set[str]], calls: dict[str, set[str]]) -> None:
 
 def doing(program: ir.Program, does: Callable[[object], bool]) -> frozenset[str]:
     """The routines (folded names) with a node for which `does` holds, in themselves or in what they call by name."""
+    return doing_each(program, lambda node: ("",) if does(node) else (), ("",))[""]
+
+
+def doing_each(
+    program: ir.Program, does: Callable[[object], Iterable[str]], whats: Iterable[str]
+) -> dict[str, frozenset[str]]:
+    """For each of `whats`, the routines (folded names) with a node that `does` it, in themselves or in what they
+    call."""
     calls: dict[str, set[str]] = {}
-    found: set[str] = set()
+    found: dict[str, set[str]] = {what: set() for what in whats}
     for module in program.modules:
         for routine in module.routines:
             name = routine.name.lower()
@@ -239,11 +245,12 @@ def doing(program: ir.Program, does: Callable[[object], bool]) -> frozenset[str]
                 match node:
                     case ir.CallRoutine(name=other, dynamic=None) | ir.Call(name=other):
                         called.add(other.lower())
-                if does(node):
-                    found.add(name)
-    while more := {name for name, called in calls.items() if name not in found and called & found}:
-        found |= more
-    return frozenset(found)
+                for what in does(node):
+                    found[what].add(name)
+    for names in found.values():
+        while more := {name for name, called in calls.items() if name not in names and called & names}:
+            names |= more
+    return {what: frozenset(names) for what, names in found.items()}
 
 
 def called_below(program: ir.Program, roots: set[str]) -> frozenset[str]:
