@@ -33,6 +33,7 @@ class MotionModel:
     which it would go this many degrees (mm) at full speed; joint_ramps_s: those ramps themselves, per axis; of the axes
     that move, in the share of their speed that they have, the longest governs. corner_ramp_s: ramps beside a corner
     made by overlapping moves (0: as beside a stop).
+    joint_acceleration_share: of the accelerations of the robot file.
     joint_smoothing_s, path_smoothing_s: width of the moving average over the speed (S-curve).
     path_acceleration_mm_s2: at 100 percent, where the program gives none.
     corner_cut: by what share of the blend distance the path misses a right-angled corner (a parabola: 0.354).
@@ -54,6 +55,7 @@ class MotionModel:
     joint_ramp_s: float = 0.0
     joint_ramp_deg: float = 0.0
     joint_ramps_s: tuple[float, ...] = ()
+    joint_acceleration_share: float = 1.0
     joint_smoothing_s: float = 0.0
     path_acceleration_mm_s2: float | None = None
     path_ramp_s: float = 0.0
@@ -195,7 +197,7 @@ def _quoted(text: str) -> str:
 def _number(value: object, key: str, place: str) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value) or value < 0.0:
         raise UsageError(f"controller file {place}: '{key}' must be a number of at least 0, found {value!r}")
-    if key.endswith("acceleration_mm_s2") and value == 0.0:
+    if key.endswith(("acceleration_mm_s2", "acceleration_share")) and value == 0.0:
         raise UsageError(f"controller file {place}: '{key}' must be more than 0")
     return float(value)
 

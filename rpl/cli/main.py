@@ -25,6 +25,7 @@ COMMANDS = {
     "check": "Read programs and report what cannot be read or makes no sense.",
     "translate": "Write programs in another controller's language.",
     "run": "Run a program on an emulated robot.",
+    "fit": "Adjust the motion parameters of a controller to a recorded log.",
     "prove": "Decide by running both whether two programs mean the same.",
     "fk": "Forward kinematics: joints to a pose in a dialect's notation.",
     "ik": "Inverse kinematics: a pose to all joint solutions.",

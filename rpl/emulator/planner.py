@@ -312,7 +312,8 @@ def _plan_joint(model: RobotModel, start: FloatArray, request: MoveRequest) -> P
     way = np.abs(end - start)
     with np.errstate(divide="ignore"):
         speed = float(np.min(model.speeds * request.joint_speed / way))
-        acceleration = float(np.min(model.accelerations * request.joint_acc / way))
+        strength = request.controller.joint_acceleration_share
+        acceleration = float(np.min(model.accelerations * strength * request.joint_acc / way))
     length = float(geometry.travelled[-1])
     if request.tcp_speed_for_joint_move is not None and length > 1e-6:
         speed = min(speed, request.tcp_speed_for_joint_move / length)

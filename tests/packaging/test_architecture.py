@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[2]
 LEVELS = [
     ["cli"],
     ["api"],
-    ["proof"],
+    ["proof", "fitting"],
     ["project", "translation", "simulation", "report"],
     ["cell", "emulator", "runtime", "linking", "writing", "reading"],
     ["passes"],
