@@ -110,9 +110,22 @@ def test_a_block_whose_points_are_not_known_is_written_as_straight_moves(known: 
     assert "spline-as-lines" in told and "spline-as-arcs" not in told, what
 
 
-@pytest.mark.parametrize("target", ["rapid", "tp", "urscript", "vplus", "krl"])
+@pytest.mark.parametrize("target", ["rapid", "tp", "urscript", "vplus"])
 def test_points_of_a_spline_in_a_job(target: str) -> None:
     """The way to the first point is straight, the others make a block; each says its own speed."""
     result, told, _ = translated("WAY.JBI", JOB, "inform", target, "motoman_gp7")
     assert result.equal, result.as_text()
     assert "spline-as-arcs" in told
+
+
+@pytest.mark.parametrize("end", [" PL=0", ""])
+def test_points_of_a_spline_stay_a_spline_where_there_are_blocks(end: str) -> None:
+    """The speed of each point is a setting of it; the tool is set in front of the block."""
+    job = JOB.replace("MOVS C00001 V=100.0 PL=0", f"MOVS C00001 V=100.0{end}")
+    result, told, text = translated("WAY.JBI", job, "inform", "krl", "motoman_gp7")
+    assert result.equal, result.as_text()
+    assert "spline-as-arcs" not in told and "spline-as-lines" not in told
+    lines = [line.strip() for line in text.splitlines()]
+    at = lines.index("SPLINE")
+    wanted = ["SPLINE", "SPL C00002 WITH $VEL.CP=0.1", "SPL C00003 WITH $VEL.CP=0.05", "ENDSPLINE"]
+    assert lines[at : at + 4] == wanted

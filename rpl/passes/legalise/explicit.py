@@ -235,6 +235,8 @@ class Modal:
             case ir.CallRoutine() | ir.Do():
                 self.passed(statement, known)
                 return [statement]
+            case ir.Spline():
+                return self.spline(statement, known)
             case ir.If() | ir.Switch():
                 choice = rewrite_parts(statement, lambda e: e, lambda inner: self.body(inner, dict(known)))
                 self.passed(statement, known)
@@ -306,6 +308,24 @@ class Modal:
             before[0] = replace(before[0], origin=origin)
             done = replace(done, origin=replace(origin, comments=()))
         return [*before, done]
+
+    def spline(self, spline: ir.Spline, known: Environment) -> list[ir.Statement]:
+        """A block: what its first point needs, and its corner, is set in front of it."""
+        before: list[ir.Statement] = []
+        body: list[ir.Statement] = []
+        moves = [item for item in spline.body if isinstance(item, ir.Move)]
+        for item in spline.body:
+            new: list[ir.Statement] = self.move(item, known) if isinstance(item, ir.Move) else [item]
+            if moves and item is moves[0]:
+                before, new = new[:-1], new[-1:]
+            body += new
+        wanted: dict[str, ir.Expression] = {}
+        blend = self.blend(replace(moves[-1], blend=spline.blend), wanted) if moves and spline.blend else spline.blend
+        for name, value in wanted.items():
+            if known.get(name) != value:
+                known[name] = value
+                before.extend(_set(name, value, replace(spline.origin, comments=())))
+        return [*before, rewrite_parts(replace(spline, blend=blend), lambda e: e, None, {"body": tuple(body)})]
 
     def frame_of_tool(self, tool: ir.Expression, move: ir.Move) -> ir.Expression:
         if not isinstance(self.type(tool), ir.ToolType):

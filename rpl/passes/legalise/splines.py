@@ -8,6 +8,7 @@ stop at each point: each such block is named, since its path bends between the p
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from rpl import ir
@@ -42,7 +43,9 @@ def straight_splines(program: ir.Program, context: Context) -> ir.Program:
             done: list[ir.Statement] = []
             for at, statement in enumerate(body):
                 match statement:
-                    case ir.Spline() if not blocks or _has_settings(statement):
+                    case ir.Spline() if blocks and (said := _by_settings(statement, body[:at])) is not None:
+                        done.append(said)
+                    case ir.Spline():
                         done += arcs.written(statement, body[:at]) or _segments(statement, context)
                     case ir.Move(motion_class="spline") if not blocks:
                         done.append(replace(statement, motion_class="classic"))
@@ -60,10 +63,26 @@ def _is_spline(node: object) -> bool:
     return isinstance(node, ir.Spline) or (isinstance(node, ir.Move) and node.motion_class == "spline")
 
 
-def _has_settings(spline: ir.Spline) -> bool:
-    """Do its points say what is modal or said by the block elsewhere?"""
+def _by_settings(spline: ir.Spline, before: Sequence[ir.Statement]) -> ir.Spline | None:
+    """The block as a target has it whose points say their speed as a setting, and whose tool and frame are those in
+    force; None where that is not enough."""
     moves = [item for item in spline.body if isinstance(item, ir.Move)]
-    return any((one.tool, one.frame, one.speed, one.acceleration) != (None,) * 4 for one in moves)
+    if all((one.tool, one.frame, one.speed, one.acceleration) == (None,) * 4 for one in moves):
+        return spline
+    last = next((one for one in reversed(before) if not isinstance(one, ir.Nothing)), None)
+    if not isinstance(last, ir.Move) or any((one.tool, one.frame) != (last.tool, last.frame) for one in moves):
+        return None
+    plain = [one.speed for one in moves if one.speed is not None]
+    if any(one.acceleration is not None for one in moves) or any(one != ir.Speed(path=one.path) for one in plain):
+        return None
+    return replace(spline, body=tuple(_with_settings(one) if isinstance(one, ir.Move) else one for one in spline.body))
+
+
+def _with_settings(move: ir.Move) -> ir.Move:
+    speed = move.speed.path if move.speed is not None else None
+    settings = ((ir.System("path_speed"), speed),) if speed is not None else ()
+    more = (*settings, *move.settings)
+    return replace(move, speed=None, settings=more, blend=None, motion_class="spline")
 
 
 def _segments(spline: ir.Spline, context: Context) -> ir.Body:
