@@ -57,6 +57,7 @@ class Options:
     incremental: bool = False
     orientation: str | None = None
     vendor: list[tuple[str, str]] = field(default_factory=list)
+    coordinated: bool = False
 
 
 class Motion(Statements):
@@ -194,7 +195,7 @@ class Motion(Statements):
         options.vendor.append((self.written(r"(?:\bInd\.)?\bEV\s*[^%]*%"), "tuning"))
 
     def part_coordinated(self, tree: SyntaxTree, options: Options) -> None:
-        options.vendor.append(("COORD", "unknown"))
+        options.coordinated = True
 
     def part_flag_option(self, tree: SyntaxTree, options: Options) -> None:
         word = str(tree.children[0])
@@ -275,6 +276,7 @@ class Motion(Statements):
             frame=self.fixed_frame("UFRAME"),
             triggers=tuple(options.triggers),
             search=self.search(options),
+            settings=((ir.System("coordinated"), ir.TextLiteral(tables.LEADER)),) if options.coordinated else (),
             origin=self.origin,
         )
 

@@ -154,3 +154,7 @@ def instruction_effect(text: str) -> str:
 NUMBER = ir.RealType()
 TARGET = ir.TargetType("tp")
 JOINTS = ir.JointsType()
+
+# M: COORD goes with the first coordinated pair, whose leader is the second motion group; a cell file says where it
+# stands by a [[mechanism]] of this name. Positions count in the user frame in the room, the way is straight on it.
+LEADER = "GP2"

@@ -34,7 +34,18 @@ CAPABILITIES = Capabilities(
     ),
     procedures=frozenset(),
     system_variables=frozenset(
-        ("tool", "base", "override", "actual_pose", "actual_joints", "timer", "timer_stopped", "null_frame", "world")
+        (
+            "tool",
+            "base",
+            "coordinated",
+            "override",
+            "actual_pose",
+            "actual_joints",
+            "timer",
+            "timer_stopped",
+            "null_frame",
+            "world",
+        )
     ),
     joined_texts=tables.LONGEST_PLAIN + 1,
     operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary, "-", "+", "&")),

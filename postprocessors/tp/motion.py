@@ -205,7 +205,7 @@ class Motion:
     def refuse(self, move: ir.Move) -> None:
         for what, found in (
             ("a circle by its angle", move.swept),
-            ("settings of system variables", move.settings),
+            ("settings of system variables", move.settings and move.settings != tables.COORDINATED),
             ("a load", move.load),
             ("a motion group of its own", move.group != 1),
         ):
@@ -402,6 +402,8 @@ class Motion:
             shown += f" ACC{percent}" if percent.isdigit() else f" ACC {percent}"
         if move.orientation == "wrist":
             shown += " Wjnt"
+        if move.settings:  # others are refused
+            shown += " COORD"
         if move.relative in ("base", "joints"):
             shown += " INC"
         elif move.relative not in (None, "tool"):

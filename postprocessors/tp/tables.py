@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Final
 
+from rpl import ir
 from rpl.passes.capabilities import Bank
 from rpl.writing.precedence import Operator, OperatorTable
 from rpl.writing.text import NumberStyle
@@ -118,3 +119,6 @@ ACCELERATION: Final = (20, 150)
 LARGEST_CORNER_MM: Final = 1000
 MM_PER_CNT: Final = 4.0  # a blend distance at a joint move as CNT; the same measure as for other joint blends
 RESERVED: Final = frozenset(("all", "end", "abort", "pause", "call", "run", "wait", "for", "if", "else", "select"))
+
+# What COORD says: the first coordinated pair is led by the second motion group.
+COORDINATED = ((ir.System("coordinated"), ir.TextLiteral("GP2")),)

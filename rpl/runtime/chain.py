@@ -110,11 +110,22 @@ class Frames:
 
     def at(self, external: External) -> Frames:
         """The same frames at other external axes."""
-        root = self.root if self.rides is None else place_of(self.rides, external).then(self.root)
+        root = self.root_at(external)
         if self.mount is None:
             return replace(self, base=root.inverse.then(self.frame))
         place = place_of(self.mount, external).then(self.frame)
         return replace(self, base=place if self.mount.on_robot else root.inverse.then(place))
+
+    def led_by(self, leader: Mechanism, external: External) -> Frames:
+        """The same frames, standing in the room, as parts of the leader's moving frame when it is at its end."""
+        place = place_of(leader, external)
+        if leader.on_robot:
+            place = self.root_at(external).then(place)
+        return replace(self, frame=place.inverse.then(self.frame), mount=leader).at(external)
+
+    def root_at(self, external: External) -> rigid.Pose:
+        """The robot's base in the world."""
+        return self.root if self.rides is None else place_of(self.rides, external).then(self.root)
 
     def target_in_work(self, goal: rigid.Pose) -> rigid.Pose:
         """The tool's pose in the work that a carrier plans in (see rpl.emulator.mechanisms)."""
@@ -299,11 +310,11 @@ def request_of(order: Order, plan: Planning) -> tuple[MoveRequest, rigid.Pose, r
     """The request, the moving point in the flange, the goal in the move's frame, the external axes after it."""
     import numpy as np
 
-    frames = frames_of(order.tool, order.frame, plan.modal, order.modal, plan.scene, plan.external)
+    frames = frames_in_room = frames_of(order.tool, order.frame, plan.modal, order.modal, plan.scene, plan.external)
     before = frames.goal_of(pose_of_array(plan.model.forward(plan.joints)))
     relative = order.relative is not None
     external = external_of(order.target, plan.external, relative)
-    frames = frames.at(external)
+    frames = _led(frames, order, plan, external)
     carrier = None if order.velocity else frames.carrier()
     options = _common(order, plan, external) | {"carrier": carrier}
     if order.external_only:
@@ -322,10 +333,21 @@ def request_of(order: Order, plan: Planning) -> tuple[MoveRequest, rigid.Pose, r
     options |= {"tool": matrix_of(frames.tool if carrier is not None and not frames.stationary else moving)}
     if order.kind == "circular":
         via = filled(order.via, before) if order.relative is None else shifted(order.via, before, order.relative)
-        options |= {"via_pose": matrix_of(_planned(frames, carrier, via)), "swept_deg": order.swept}
+        along = frames
+        if order.relative is None and isinstance(order.via, TargetValue):
+            along = _led(frames_in_room, order, plan, external_of(order.via, external, False))
+        options |= {"via_pose": matrix_of(_planned(along, carrier, via)), "swept_deg": order.swept}
         if is_joints(order.target):
             options |= {"target_pose": matrix_of(_planned(frames, carrier, goal))}
     return _request(options), moving, goal, external
+
+
+def _led(frames: Frames, order: Order, plan: Planning, external: External) -> Frames:
+    """Frames at given external axes; of a coordinated path move in the moving frame of what leads it."""
+    leader = None if order.kind == "joint" else setting(plan.modal, order.modal, "coordinated")
+    if not leader or frames.stationary:
+        return frames.at(external)
+    return frames.at(external).led_by(plan.scene.called(str(leader)), external)
 
 
 def _planned(frames: Frames, carrier: Carrier | None, goal: rigid.Pose) -> rigid.Pose:

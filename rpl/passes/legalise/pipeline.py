@@ -29,6 +29,7 @@ from rpl.passes.legalise.composition import compositions
 from rpl.passes.legalise.configurations import configurations
 from rpl.passes.legalise.constantorientations import constant_orientations
 from rpl.passes.legalise.context import Context, Pass, names_in
+from rpl.passes.legalise.coordinatedmoves import coordinated_moves
 from rpl.passes.legalise.copiedflags import copied_flags
 from rpl.passes.legalise.cornercalls import corner_calls
 from rpl.passes.legalise.cornerleads import corner_leads
@@ -364,6 +365,7 @@ PASSES: tuple[Pass, ...] = (
     references_as_copies,
     fit_loops,
     enums_to_constants,
+    coordinated_moves,
     usual_accelerations,
     fit_speeds,
     corners,
