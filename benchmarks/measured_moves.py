@@ -1,7 +1,7 @@
 """Moves that others timed on virtual controllers, driven here by programs in the vendors' languages.
 
-python benchmarks/measured_moves.py        prints the tables of docs/fidelity.md
-python benchmarks/measured_moves.py --write puts them into it
+python benchmarks/measured_moves.py          prints the tables of docs/fidelity.md
+python benchmarks/measured_moves.py --write  puts them into it
 
 Source of the measured numbers: the public probe results of the project CrossArm by LeroyDu56 (ROBOGUIDE with three
 FANUC arms; RobotStudio, RobotWare 8.1, with an IRB 6700-140/2.85): zero tool, tool straight down, clocks of the
@@ -306,8 +306,21 @@ def _corner_table(
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.parse_args()
-    print("\n\n".join([*joint_tables(), linear_table(), *corner_tables()]))
+    parser.add_argument("--write", action="store_true")
+    text = "\n\n".join([*joint_tables(), linear_table(), *corner_tables()])
+    if parser.parse_args().write:
+        put("measured moves", text)
+    else:
+        print(text)
+
+
+def put(name: str, text: str) -> None:
+    """Replace what stands in docs/fidelity.md between the two marks of that name."""
+    path = Path(__file__).parents[1] / "docs" / "fidelity.md"
+    page = path.read_text(encoding="utf-8")
+    begin, end = f"<!-- {name}: generated -->\n", f"\n<!-- {name}: end -->"
+    before, _, rest = page.partition(begin)
+    path.write_text(before + begin + "\n" + text + "\n" + end + rest.partition(end)[2], encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -179,7 +179,7 @@ class _Compared:
         """Times, values and motions of a run, at the step of the log."""
         result = self.drive(model)
         step = float(np.median(np.diff(self.log.times)))
-        times = np.arange(-5, int(result.time_s / step) + 6) * step
+        times: FloatArray = np.arange(-5.0, result.time_s / step + 6.0) * step
         values = run_at(result, times, self.log.joints)
         return times, values, motions(times, values)
 
