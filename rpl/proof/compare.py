@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,6 +20,9 @@ from rpl.proof.difference import Difference, Side
 from rpl.proof.messages import as_lines, same_message
 from rpl.proof.paths import gap
 from rpl.proof.record import Happening, Record, Stretch, Value
+
+if TYPE_CHECKING:
+    from rpl.emulator.rotations import FloatArray
 
 LEVELS = ("none", "events", "geometry", "time")
 # Moves of two programs whose goals are that near to each other head for one point.
@@ -334,9 +338,12 @@ def _motion(
     second = _rejoined([stretch for stretch in theirs if not _stands(stretch)])
     groups = _aligned(first, second)
     loose = set() if same_language else _at_measured_corners(groups) | _at_cuts(groups)
+    entered = set() if same_language else _into_curves(groups)
     found: Difference | None = None
     for number, (a, b) in enumerate(groups):
-        if number in loose and a and b:
+        if number - 1 in entered:
+            a, b = _behind_corner(groups[number - 1], a, b)
+        if (number in loose or number in entered) and a and b:
             difference = _goals(task, a[-1], b[-1], tolerance, verdict)
         else:
             difference = _group(task, a, b, same_arm, tolerance, verdict)
@@ -378,6 +385,48 @@ def _at_measured_corners(groups: Sequence[Group]) -> set[int]:
         if measured and a[0].goal is not None and b[0].goal is not None:
             found |= {number, number + 1}
     return found
+
+
+def _into_curves(groups: Sequence[Group]) -> set[int]:
+    """Groups of one move each whose corner leads into a spline in one program and into its arcs in the other: how large
+    that corner may be depends on how long the first segment, or the first arc, is."""
+    found: set[int] = set()
+    for number, (a, b) in enumerate(groups[:-1]):
+        later = groups[number + 1]
+        curved = [any(stretch.motion == "spline" for stretch in one) for one in later]
+        if len(a) != 1 or len(b) != 1 or not all(later) or curved[0] == curved[1]:
+            continue
+        if not a[0].stops and not b[0].stops and a[0].goal is not None and b[0].goal is not None:
+            found.add(number)
+    return found
+
+
+def _behind_corner(corner: Group, a: Sequence[Stretch], b: Sequence[Stretch]) -> Group:
+    """Both groups without their beginnings, as far from the corner's point as the longer of its two ways leads."""
+    goal = corner[0][0].goal
+    assert goal is not None  # `_into_curves` has seen to it
+    far = max(float(np.linalg.norm(one[0].poses[0, :3, 3] - goal[:3])) for one in (a, b))
+    return _beyond(a, goal[:3], far), _beyond(b, goal[:3], far)
+
+
+def _beyond(group: Sequence[Stretch], point: FloatArray, far: float) -> Sequence[Stretch]:
+    """A group from where it is that far (mm) from a point for the first time."""
+    whole = [*group]
+    while whole:
+        poses = whole[0].poses
+        away = np.linalg.norm(poses[:, :3, 3] - point, axis=1)
+        outside = np.flatnonzero(away >= far)
+        if len(outside):
+            at = int(outside[0])
+            if at > 0:
+                share = (far - away[at - 1]) / max(float(away[at] - away[at - 1]), 1e-9)
+                first = poses[at - 1] + share * (poses[at] - poses[at - 1])
+                poses = np.concatenate([first[None], poses[at:]])
+            return [replace(whole[0], poses=poses), *whole[1:]]
+        if len(whole) == 1:
+            break
+        whole = whole[1:]
+    return group
 
 
 def _at_cuts(groups: Sequence[Group]) -> set[int]:

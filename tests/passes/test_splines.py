@@ -129,3 +129,12 @@ def test_points_of_a_spline_stay_a_spline_where_there_are_blocks(end: str) -> No
     at = lines.index("SPLINE")
     wanted = ["SPLINE", "SPL C00002 WITH $VEL.CP=0.1", "SPL C00003 WITH $VEL.CP=0.05", "ENDSPLINE"]
     assert lines[at : at + 4] == wanted
+
+
+@pytest.mark.parametrize("target", ["rapid", "tp", "urscript"])
+def test_a_corner_into_a_block_is_as_large_as_the_first_arc_allows(target: str) -> None:
+    """It is told; behind the corner the way is the curve."""
+    job = JOB.replace("MOVS C00001 V=100.0 PL=0", "MOVS C00001 V=100.0 PL=3")
+    result, told, _ = translated("WAY.JBI", job, "inform", target, "motoman_gp7")
+    assert result.equal, result.as_text()
+    assert "spline-corner-smaller" in told

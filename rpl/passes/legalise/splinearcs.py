@@ -31,6 +31,12 @@ AS_ARCS = code(
     " leave by at most {deviation:.3f} mm; the controller's own curve is not published",
     "look on the robot that the path goes where it should between the points",
 )
+SMALLER_CORNER = code(
+    "spline-corner-smaller",
+    Severity.WARNING,
+    "the corner into the block takes at most half of its first arc, {size:.1f} mm",
+    "where that corner matters, end the move before the block with a stop",
+)
 # How far arcs may be from the curve, and their turning from its; a middle that near to the chord makes a line.
 CLOSE_MM, CLOSE_DEG, FLAT_MM = 0.006, 0.005, 0.001
 # Corners between arcs, at most this share of the shorter one.
@@ -88,6 +94,8 @@ class SplineArcs:
         if triggers is None:
             return None
         self.context.diagnostics.report(AS_ARCS, spline.origin, count=len(pieces), deviation=max(deviation, 0.001))
+        if _blends(before):
+            self.context.diagnostics.report(SMALLER_CORNER, spline.origin, size=0.5 * pieces[0].length)
         return self._body(spline, moves, pieces, triggers)
 
     # ---- what is known
@@ -304,6 +312,12 @@ def _is_plain(move: ir.Move, spline: ir.Spline) -> bool:
     own = (move.relative, move.search, move.load, move.speed and move.speed.duration)
     frames = frames_set(move.settings)
     return all(one is None for one in own) and not move.triggers and frames <= frames_set(spline.settings)
+
+
+def _blends(before: Sequence[ir.Statement]) -> bool:
+    """Does the move before go on without a stop?"""
+    last = next((one for one in reversed(before) if isinstance(one, ir.Move)), None)
+    return last is not None and last.blend is not None and not isinstance(last.blend, ir.BlendStop)
 
 
 def frames_set(settings: Sequence[tuple[ir.Expression, ir.Expression]]) -> frozenset[object]:
