@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rpl.emulator.arms import Branch, Branches
+from rpl.emulator.inertias import ArmInertias, Body
 from rpl.emulator.recognise import OpwFit, fit_opw
 from rpl.emulator.robotfile import RobotError, RobotFile
 from rpl.emulator.rotations import FloatArray
@@ -153,6 +154,26 @@ def exact_opw(arm: "ChainArm") -> OpwFit | None:
     q = np.random.default_rng(0).uniform(-np.pi, np.pi, (20, 6))
     difference = np.abs(fit.arm.forward(q * fit.signs - fit.offsets) - arm.forward(q))
     return fit if difference[:, :3, 3].max() < 1e-5 and difference[:, :3, :3].max() < 1e-8 else None
+
+
+def urdf_inertias(chain: UrdfChain, zero: FloatArray) -> ArmInertias | None:
+    """What the URDF says of masses and efforts, its joints (radians, mm) standing at `zero`; None without masses.
+    Links that hang beside the chain count to the link that carries them."""
+    import pinocchio as pin
+
+    model, data, _ = _pinocchio(chain)
+    scale = np.array([1.0 if kind == "revolute" else 1e-3 for kind in chain.kinds])
+    pin.forwardKinematics(model, data, zero * scale)
+    bodies = []
+    for number in range(1, model.njoints):
+        inertia, pose = model.inertias[number], data.oMi[number].homogeneous.copy()
+        pose[:3, 3] *= 1000.0
+        bodies.append(Body(inertia.mass, inertia.lever * 1000.0, np.array(inertia.inertia)).seen_from(pose))
+    if not any(body.mass > 0.0 for body in bodies):
+        return None
+    efforts = np.array(model.effortLimit, dtype=np.float64)
+    known = np.isfinite(efforts) & (efforts > 0.0)
+    return ArmInertias(tuple(bodies), np.where(known, efforts, 0.0) if known.any() else None, None, "URDF")
 
 
 @lru_cache(maxsize=16)

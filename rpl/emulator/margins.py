@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from rpl.emulator.arms import OpwArm, ScaraArm, UrArm
 from rpl.emulator.model import RobotModel
+from rpl.emulator.recognise import PlacedArm
 from rpl.emulator.rotations import FloatArray
 
 __all__ = ["conditioning", "limit_margins", "manipulability", "singular_factors"]
@@ -22,6 +23,8 @@ def singular_factors(model: RobotModel, joints: ArrayLike) -> dict[str, FloatArr
     by the length of the stretched arm. Empty for an arm without a closed form.
     """
     theta, arm = model.theta(joints), model.arm
+    if isinstance(arm, PlacedArm):
+        arm = arm.arm
     if isinstance(arm, OpwArm):
         reach, _ = arm.in_plane(theta)
         stretched = arm.c2 + float(np.hypot(arm.a2, arm.c3))

@@ -8,7 +8,7 @@ so no caller ever converts signs. The closed-form families need NumPy only; arms
 
 import itertools
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rpl.emulator.arms import Arm, BoolArray, Branch, OpwArm, ScaraArm, UrArm
-from rpl.emulator.chains import ChainArm, described, exact_opw, read_urdf
+from rpl.emulator.chains import ChainArm, described, exact_opw, read_urdf, urdf_inertias
 from rpl.emulator.closedforms import ClosedForm, closed_form
 from rpl.emulator.inertias import ArmInertias, arm_inertias
 from rpl.emulator.mechanismfile import Mechanism
@@ -405,7 +405,11 @@ def _from_urdf(path: Path, file: RobotFile | None = None) -> RobotModel:
     except ImportError as error:
         raise RobotError(f"reading {path.name} needs Pinocchio (pip install 'robot-rpl[kinematics]')") from error
     signs, offsets = np.array(facts.signs), np.array(facts.offsets)
+    zero = np.zeros(count) if fit is None else fit.signs * fit.offsets  # where the family's own variables are zero
+    inertias = urdf_inertias(chain, zero) if facts.weights is None else arm_inertias(facts.weights)
     if fit is None:
-        return _assembled(facts, "chain", chain.kinds, arm, np.diag(signs), offsets)
-    offsets = fit.signs * offsets + np.rad2deg(fit.offsets)
-    return _assembled(facts, "opw", chain.kinds, fit.arm, np.diag(fit.signs * signs), offsets)
+        model = _assembled(facts, "chain", chain.kinds, arm, np.diag(signs), offsets)
+    else:
+        offsets = fit.signs * offsets + np.rad2deg(fit.offsets)
+        model = _assembled(facts, "opw", chain.kinds, fit.arm, np.diag(fit.signs * signs), offsets)
+    return replace(model, inertias=inertias)

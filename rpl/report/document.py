@@ -50,13 +50,15 @@ class Heading:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunDocument:
-    """What a page shows: `data` for its drawings, `moves` and `labels` for its table, `notes` for people."""
+    """What a page shows: `data` for its drawings, `moves` and `labels` for its table, `notes` for people.
+    `limits_known`: the axes' accelerations are facts, so that more than those is a warning."""
 
     heading: Heading
     data: Row
     moves: tuple[MoveRow, ...]
     labels: Labels
     notes: tuple[str, ...]
+    limits_known: bool = True
 
 
 def run_document(
@@ -114,7 +116,8 @@ def run_document(
         if len(rows) > MOST_ROWS:
             notes.append(f"The table has the first {MOST_ROWS} of {len(rows)} moves; --trace writes them all.")
         notes += model.notes
-    return RunDocument(heading, data, rows, labels, tuple(notes))
+    known = model is None or not model.uncertain_axes
+    return RunDocument(heading, data, rows, labels, tuple(notes), known)
 
 
 def _measures(samples: RunSamples, model: RobotModel, tool_speeds: FloatArray) -> tuple[FloatArray, ...]:

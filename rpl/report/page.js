@@ -189,7 +189,7 @@
     const groups = new Map();
     run.layers.forEach((layer) => groups.set(layer.unit, (groups.get(layer.unit) || []).concat([layer])));
     groups.forEach((members, unit) => {
-      const axis = rows.add(members.length > 1 ? members[0].name.replace(/ J\d+$/, "s") + ", " + unit : members[0].name + ", " + unit, 150, {});
+      const axis = rows.add([...new Set(members.map((layer) => layer.name.replace(/ J\d+$/, "s")))].join("; ") + ", " + unit, 150, {});
       members.forEach((layer) => {
         const joint = /J(\d+)$/.exec(layer.name), colour = joint ? COLOURS[(joint[1] - 1) % COLOURS.length] : "#1d2733";
         const text = samples ? layer.t.map((t) => lines[rowAt(t)]) : undefined;

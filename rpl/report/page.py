@@ -80,5 +80,6 @@ def _cells(number: int, row: MoveRow, document: RunDocument) -> dict[str, object
         "speed": f"{100.0 * row.speed.share:.0f} % J{row.speed.axis + 1}",
         "acceleration": f"{100.0 * row.acceleration.share:.0f} % J{row.acceleration.axis + 1}",
         "margin": f"{100.0 * row.margin.share:.0f} % J{row.margin.axis + 1}",
-        "exceeds": max(row.speed.share, row.acceleration.share) > 1.005 or row.margin.share < 0.0,
+        "exceeds": max(row.speed.share, row.acceleration.share * document.limits_known) > 1.005
+        or row.margin.share < 0.0,
     }

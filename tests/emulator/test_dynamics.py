@@ -228,6 +228,91 @@ def test_a_turned_body_keeps_its_principal_inertias() -> None:
     assert seen.centre == pytest.approx(np.array([1.0, 2.0, 3.0]) + 10.0 * turn[:, 0])
 
 
+URDF = """<robot name="pendulum"><link name="base"/>
+<link name="upper"><inertial><origin xyz="0.25 0 0"/><mass value="10"/>
+  <inertia ixx="0" iyy="0.3" izz="0.3" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<link name="lower"><inertial><origin xyz="0.2 0 0"/><mass value="6"/>
+  <inertia ixx="0" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<link name="hook"><inertial><origin xyz="0 0 0"/><mass value="1"/>
+  <inertia ixx="0" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<link name="tool0"/>
+<joint name="a" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 -1 0"/>
+  <limit lower="-3" upper="3" velocity="1" effort="90"/></joint>
+<joint name="b" type="revolute"><parent link="upper"/><child link="lower"/><origin xyz="0.5 0 0"/><axis xyz="0 -1 0"/>
+  <limit lower="-3" upper="3" velocity="1" effort="0"/></joint>
+<joint name="c" type="fixed"><parent link="lower"/><child link="hook"/><origin xyz="0.4 0 0"/></joint>
+<joint name="d" type="fixed"><parent link="lower"/><child link="tool0"/><origin xyz="0.4 0 0"/></joint>
+</robot>"""
+
+
+@pytest.mark.parametrize("masses", [True, False])
+def test_a_urdf_brings_its_masses(tmp_path: Path, masses: bool) -> None:
+    """Level from rest: m g x at each axis, the hook a part of the link that carries it; 0 is no known effort."""
+    import re
+
+    path = tmp_path / "pendulum.urdf"
+    path.write_text(URDF if masses else re.sub("<inertial>.*?</inertial>", "", URDF, flags=re.S))
+    model = load_robot(str(path))
+    if not masses:
+        assert model.inertias is None
+        return
+    assert model.inertias is not None
+    assert model.inertias.torques is not None
+    assert model.inertias.torques.tolist() == [90.0, 0.0]
+    joints, still = np.array([[0.0, 0.0], [90.0, 0.0], [60.0, -60.0]]), np.zeros((3, 2))
+    found = ArmDynamics(model).torques(joints, still, still)
+    lower = G * (6 * 0.2 + 1 * 0.4)
+    assert found[0] == pytest.approx([G * (10 * 0.25 + 7 * 0.5) + lower, lower])
+    assert found[1] == pytest.approx([0.0, 0.0], abs=1e-9)
+    assert found[2] == pytest.approx([0.5 * G * (10 * 0.25 + 7 * 0.5) + lower, lower])
+
+
+SIX = [
+    ("0 0 0", "0 0 1"),
+    ("0.1 0 0.3", "0 1 0"),
+    ("0 0 0.5", "0 -1 0"),
+    ("0.4 0 0.05", "-1 0 0"),
+    ("0 0 0", "0 1 0"),
+    ("0 0 0", "1 0 0"),
+]
+
+
+def six_axis_urdf() -> str:
+    """A bent arm at zero, with signs of its own, every link with a mass beside its axis."""
+    parts = ['<robot name="six"><link name="l0"/>']
+    for n, (origin, axis) in enumerate(SIX, start=1):
+        parts.append(
+            f'<link name="l{n}"><inertial><origin xyz="0.0{n} 0.02 0.1"/><mass value="{7 - n}"/>'
+            f'<inertia ixx="0.0{n}" iyy="0.02" izz="0.03" ixy="0.001" ixz="0" iyz="0"/></inertial></link>'
+            f'<joint name="j{n}" type="revolute"><parent link="l{n - 1}"/><child link="l{n}"/>'
+            f'<origin xyz="{origin}"/><axis xyz="{axis}"/>'
+            '<limit lower="-3" upper="3" velocity="2" effort="10"/></joint>'
+        )
+    parts.append(
+        '<link name="tool0"/><joint name="t" type="fixed"><parent link="l6"/><child link="tool0"/>'
+        '<origin xyz="0.1 0 0" rpy="0 1.5707963267948966 0"/></joint></robot>'
+    )
+    return "".join(parts)
+
+
+def test_torques_of_a_recognised_urdf_arm_are_those_of_the_urdf(tmp_path: Path) -> None:
+    """Its closed form has other zeros and signs than the URDF, on which Pinocchio itself is asked."""
+    import pinocchio as pin
+
+    path = tmp_path / "six.urdf"
+    path.write_text(six_axis_urdf())
+    model = load_robot(str(path))
+    assert model.kind == "opw"
+    urdf = pin.buildModelFromXML(path.read_text())
+    random = np.random.default_rng(5)
+    joints, speeds, accelerations = random.uniform(-120.0, 120.0, (3, 10, 6))
+    found = ArmDynamics(model).torques(joints, speeds, accelerations)
+    data = urdf.createData()
+    for row in range(len(joints)):
+        asked = (np.deg2rad(values[row]) for values in (joints, speeds, accelerations))
+        assert found[row] == pytest.approx(pin.rnea(urdf, data, *asked), rel=1e-5, abs=1e-5)
+
+
 def test_an_arm_without_inertias_is_refused() -> None:
     with pytest.raises(RobotError, match="no inertias in the robot file"):
         ArmDynamics(load_robot("kuka_kr6r900sixx"))
