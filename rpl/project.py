@@ -19,6 +19,7 @@ from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.errors import RplError, UsageError
 from rpl.passes.collector import paused_cycle_collector
 from rpl.passes.hiddentypes import hidden_types
+from rpl.passes.motionvalues import motion_values
 from rpl.passes.typing import normalise
 from rpl.reading.ledger import FileReport
 from rpl.source import Origin, Source, source_from_bytes
@@ -105,6 +106,7 @@ def _read(groups: dict[str, list[Source]], diagnostics: Diagnostics) -> ReadProg
         files.extend(result.files)
     program = normalise(raw, diagnostics, as_read=True)
     hidden_types(program, diagnostics)
+    motion_values(program, diagnostics)
     every = tuple(source for sources in groups.values() for source in sources)
     return ReadProgram(program, raw, every, tuple(files), tuple(groups))
 

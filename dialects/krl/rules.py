@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rpl.ir.rules import AdvanceRules, LoadVariables, Rules, TriggerRules
+from rpl.ir.rules import AdvanceRules, InputRules, LoadVariables, Rules, TriggerRules
 
 from . import tables
 
@@ -32,6 +32,13 @@ TRIGGERS = TriggerRules(
 # $LOAD is the load at the flange; the inline forms and BAS take it from LOAD_DATA with the number of the tool.
 LOADS = LoadVariables(
     "$LOAD", "LOAD_DATA", "$ACT_TOOL", {"mass": "m", "frame": "cm", "ix": "j.x", "iy": "j.y", "iz": "j.z"}
+)
+
+# Expert programming 3.5.2 (at most half of the shorter block); 3.1.4: $TOOL and $BASE have no valid value before they are
+# set, and moves to poses need both. M: the emulator takes them as zero.
+INPUTS = InputRules(
+    large_corner="begins it {half:g} mm before the point, at half of that",
+    without_tool="after power-on $TOOL is not valid and the controller refuses the move (here it counts as zero)",
 )
 
 RULES = Rules(
@@ -70,5 +77,6 @@ RULES = Rules(
     type_names=tables.BASIC_TYPES,
     triggers=TRIGGERS,
     load_variables=LOADS,
+    inputs=INPUTS,
     pulse_step_s=0.1,  # expert programming, 5.4: rounded to the nearest tenth of a second
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rpl.ir.rules import AdvanceRules, Rules, TriggerRules
+from rpl.ir.rules import AdvanceRules, InputRules, Rules, TriggerRules
 
 from .prelude import ERRORS
 from .types import TYPES
@@ -92,6 +92,16 @@ FUNCTIONS: dict[str, tuple[str, ...]] = {
     .splitlines()
 }
 
+# Reference manual: NOrient (a quaternion off by at most 0.00001 is normalised, by at most 0.1 slightly off, beyond that
+# unusable); zonedata and motion principles 2.3 (zones become half the distance where they overlap).
+# M: a load without a mass (-1 of a tool that the pendant made) is refused when the robot moves with it.
+INPUTS = InputRules(
+    rotation_limits=(1e-5, 0.1),
+    large_corner="makes it {half:g} mm, half of that",
+    least_mass=1e-6,
+    without_mass="the controller refuses to move with it",
+)
+
 RULES = Rules(
     "rapid",
     _ADVANCE,
@@ -107,6 +117,7 @@ RULES = Rules(
     # the total load of the move, the load of its tooldata is not looked at then.
     loads_of_tools=True,
     functions=FUNCTIONS,
+    inputs=INPUTS,
     pulse_step_s=0.001,  # PulseDO, limitations (0.01 s before RobotWare 5)
     triggers=TriggerRules(early_while_braking=True),  # TriggIO, limitations: not earlier than the braking begins
 )

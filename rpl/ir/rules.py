@@ -67,6 +67,22 @@ class LoadVariables:
 
 
 @dataclass(frozen=True, slots=True)
+class InputRules:
+    """What a controller makes of motion values that are no good (rpl.passes.motionvalues).
+
+    rotation_limits: by how much the squares of a quaternion may miss 1 without and with being normalised; beyond, it
+        cannot be used. large_corner: what happens to a corner larger than half of a move beside it (`half`: in mm).
+    least_mass: kg of a load that is none below, and what happens then. without_tool: what happens before a tool is set.
+    """
+
+    rotation_limits: tuple[float, float] | None = None
+    large_corner: str = ""
+    least_mass: float | None = None
+    without_mass: str = ""
+    without_tool: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Rules:
     """What differs between languages that share the IR.
 
@@ -94,6 +110,7 @@ class Rules:
     functions: neutral function -> how the language spells it
     and its parameters' types in the language's words (`word.part`: the reader takes that component of the argument).
     triggers: where actions on the path happen. pulse_step_s: a pulse's length is rounded to this.
+    inputs: what the controller makes of motion values that are no good.
     """
 
     name: str
@@ -127,3 +144,4 @@ class Rules:
     functions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     triggers: TriggerRules = TriggerRules()
     pulse_step_s: float = 0.0
+    inputs: InputRules = InputRules()

@@ -457,8 +457,11 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
     mode = order.orientation or str(value("orientation_mode"))
     if value("singularity_mode") == "wrist" and order.kind != "joint":
         mode = "wrist"
+    governs = order.kind != "joint" or speed.profile is not None or (speed.path is not None and speed.joint is None)
+    governs = governs and not order.external_only and not speed.duration
     options |= {
-        "path_speed_mm_s": path if path > 0.0 else 1e-3,
+        # A joint move without a speed of the tool is not governed by it.
+        "path_speed_mm_s": path if path > 0.0 or governs else max(path, 1e-3),
         "path_acc_mm_s2": float(acceleration) * effort,
         "ori_speed_deg_s": rotation if rotation > 0.0 else 1e-3,
         "ori_acc_deg_s2": float(value("swivel_acceleration")) * effort,

@@ -1,0 +1,262 @@
+"""Values with which no controller moves, or moves otherwise than is written, where they are constant: told when read.
+
+Speeds of zero and below, orientations that are no rotation, circles through points in a line, corners larger than the
+moves that they join, loads without a mass, a tool that nothing sets. What a controller does then is data of its
+language (`InputRules`); a value that is worked out in the run is a fault of the run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.walk import walk
+from rpl.passes import rigid
+from rpl.passes.fold import constant, constant_number
+from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.values import Record, pose_of
+from rpl.source import Origin
+
+SPEED = code(
+    "speed-not-positive",
+    Severity.WARNING,
+    "the {what} is {value:g}: it must be more than zero, the controller stops at this move",
+)
+ROTATION = code(
+    "orientation-unusable",
+    Severity.WARNING,
+    "the squares of this orientation add up to {sum:.6g}, not to 1: the controller cannot use it",
+    "write a unit quaternion (NOrient makes one of a quaternion that is off by less)",
+)
+ROTATIONS = code(
+    "orientation-not-normalised",
+    Severity.INFO,
+    "{count} orientations of this module are not quite unit quaternions, here {sum:.6g}; they are normalised",
+)
+CIRCLE = code(
+    "circle-of-points-in-line",
+    Severity.WARNING,
+    "start, auxiliary and end point lie on a line or coincide: they fix no circle, the controller stops at this move",
+)
+CORNER = code(
+    "corner-larger-than-move",
+    Severity.WARNING,
+    "a corner of {size:g} mm where the shorter move beside it is {way:g} mm: the controller {does}",
+)
+MASS = code(
+    "load-without-mass",
+    Severity.WARNING,
+    "{name} has a mass of {mass:g} kg: {does}",
+)
+NO_TOOL = code(
+    "tool-not-set",
+    Severity.INFO,
+    "nothing that was read sets the tool before this move; {does}",
+)
+
+FLAT = 1e-6  # sine of the angle between two sides below which three points lie on a line (as in rpl.emulator.paths)
+_SPEEDS = {"path_speed": "path speed", "joint_speed": "axis speed"}
+_LEAST_WAY = 1e-3
+
+
+def motion_values(program: ir.Program, diagnostics: Diagnostics) -> None:
+    """Reports what stands in constants, each with its place."""
+    scopes = ProgramScope(program)
+    for module in program.modules:
+        scope = scopes.module(module)
+        checked = _Module(module, scope, diagnostics)
+        for declaration in module.declarations:
+            checked.declaration(declaration, scope)
+        for routine in module.routines:
+            inner = scopes.routine(module, routine)
+            for declaration in routine.declarations:
+                checked.declaration(declaration, inner)
+            checked.body(routine.body, inner)
+        checked.ended()
+    _tool_set(program, scopes, diagnostics)
+
+
+@dataclass(slots=True)
+class _Last:
+    """The move before, as far as it is constant."""
+
+    place: rigid.Vector | None = None
+    before: rigid.Vector | None = None
+    frames: tuple[object, object] = (None, None)
+    corner: float = 0.0
+    origin: Origin | None = None
+    kind: str = ""
+
+
+class _Module:
+    def __init__(self, module: ir.Module, scope: Scope, diagnostics: Diagnostics) -> None:
+        self.module, self.diagnostics, self.rules = module, diagnostics, scope.rules.inputs
+        self.off: list[tuple[float, Origin]] = []
+
+    # ---- data
+
+    def declaration(self, declaration: ir.Declaration, scope: Scope) -> None:
+        if not isinstance(declaration, ir.Variable) or declaration.initial is None:
+            return
+        self.rotations(declaration.initial, declaration.origin, scope)
+        if self.rules.least_mass is not None and isinstance(declaration.type, ir.ToolType | ir.LoadType):
+            self.mass(declaration, declaration.initial, scope)
+
+    def rotations(self, root: ir.Expression, origin: Origin, scope: Scope) -> None:
+        """Quaternions that are no rotation. Without a documented limit there is nothing to say."""
+        if self.rules.rotation_limits is None:
+            return
+        good, usable = self.rules.rotation_limits
+        for node in walk(root):
+            if not isinstance(node, ir.Aggregate) or node.type_name != "rotation" or len(node.entries) != 4:
+                continue
+            parts = [constant_number(entry, scope) for _, entry in node.entries]
+            squares = sum(part * part for part in parts if part is not None)
+            if None in parts or abs(squares - 1.0) <= good:
+                continue
+            if abs(squares - 1.0) > usable:
+                self.diagnostics.report(ROTATION, origin, sum=squares)
+            else:
+                self.off.append((squares, origin))
+
+    def mass(self, declaration: ir.Variable, initial: ir.Expression, scope: Scope) -> None:
+        if not isinstance(initial, ir.Aggregate):
+            return
+        load: ir.Expression = initial
+        if isinstance(declaration.type, ir.ToolType):
+            load = next((value for name, value in initial.entries[2:3]), initial)
+        entries = load.entries if isinstance(load, ir.Aggregate) else ()
+        mass = constant_number(entries[0][1], scope) if entries else None
+        if mass is not None and self.rules.least_mass is not None and mass < self.rules.least_mass:
+            self.diagnostics.report(
+                MASS, declaration.origin, name=declaration.name, mass=mass, does=self.rules.without_mass
+            )
+
+    def ended(self) -> None:
+        if self.off:
+            worst, origin = max(self.off, key=lambda item: abs(item[0] - 1.0))
+            self.diagnostics.report(ROTATIONS, origin, count=len(self.off), sum=worst)
+
+    # ---- statements
+
+    def body(self, body: ir.Body, scope: Scope) -> None:
+        last = _Last()
+        for statement in body:
+            match statement:
+                case ir.Move():
+                    last = self.move(statement, scope, last)
+                case ir.Assign(target=ir.System(name=name), value=value) if name in _SPEEDS:
+                    self.speed(_SPEEDS[name], value, statement.origin, scope)
+                case ir.Assign(value=value):
+                    self.rotations(value, statement.origin, scope)
+                case ir.Nothing() | ir.Trigger() | ir.LookAhead():
+                    continue
+                case _:
+                    last = _Last()
+                    for inner in _bodies(statement):
+                        self.body(inner, scope)
+
+    def speed(self, what: str, value: ir.Expression | None, origin: Origin, scope: Scope) -> None:
+        number = None if value is None else constant_number(value, scope)
+        if number is not None and number <= 0.0:
+            self.diagnostics.report(SPEED, origin, what=what, value=number)
+
+    def move(self, move: ir.Move, scope: Scope, last: _Last) -> _Last:
+        speed = move.speed
+        if speed is not None and move.motion_class != "velocity":
+            self.speed("path speed", speed.path, move.origin, scope)
+            self.speed("axis speed", speed.joint if speed.joint is not None else speed.axis, move.origin, scope)
+            profile = constant(speed.profile, scope) if speed.profile is not None and speed.path is None else None
+            path = profile.part("path") if isinstance(profile, Record) else None
+            if isinstance(path, int | float) and path <= 0.0 and speed.duration is None:
+                self.diagnostics.report(SPEED, move.origin, what="path speed", value=float(path))
+        for expression in (move.target, move.via, move.tool, move.frame):
+            if expression is not None:
+                self.rotations(expression, move.origin, scope)
+        place = _place(move.target, scope) if move.relative is None and not move.settings else None
+        frames = (move.tool, move.frame)
+        known = last if last.frames == frames else _Last()
+        if move.kind == "circular" and move.swept is None and move.via is not None:
+            self.circle(known.place, _place(move.via, scope), place, move.origin)
+        if move.kind != "joint" and known.origin is not None:
+            self.corner(known, place)
+        corner = self.size(move.blend, scope) if move.kind == "linear" else 0.0
+        before = known.place if move.kind == "linear" else None
+        return _Last(place, before, frames, corner, move.origin, move.kind)
+
+    def circle(
+        self, start: rigid.Vector | None, via: rigid.Vector | None, end: rigid.Vector | None, origin: Origin
+    ) -> None:
+        if via is None or end is None or start is None:
+            return
+        one, other = via.plus(start, -1.0), end.plus(start, -1.0)
+        turn = (
+            one.y * other.z - one.z * other.y,
+            one.z * other.x - one.x * other.z,
+            one.x * other.y - one.y * other.x,
+        )
+        area = sum(part * part for part in turn) ** 0.5
+        if area <= FLAT * one.length * other.length or area < 1e-9:
+            self.diagnostics.report(CIRCLE, origin)
+
+    def corner(self, last: _Last, place: rigid.Vector | None) -> None:
+        """The corner at the end of the move before, now that the next one is known."""
+        ways = [
+            other.plus(last.place, -1.0).length
+            for other in (last.before, place)
+            if other is not None and last.place is not None
+        ]
+        ways = [way for way in ways if way > _LEAST_WAY]
+        if not ways or last.corner <= 0.5 * min(ways) or not self.rules.large_corner or last.origin is None:
+            return
+        does = self.rules.large_corner.format(half=0.5 * min(ways))
+        self.diagnostics.report(CORNER, last.origin, size=last.corner, way=round(min(ways), 3), does=does)
+
+    def size(self, blend: ir.Blend | None, scope: Scope) -> float:
+        """Millimetres before the point at which the corner begins; 0 where that is not known."""
+        match blend:
+            case ir.BlendDistance(distance=distance) if distance is not None:
+                return constant_number(distance, scope) or 0.0
+            case ir.BlendZone(distance=distance) if distance is not None:
+                return constant_number(distance, scope) or 0.0
+            case ir.BlendZone(zone=zone):
+                value = constant(zone, scope)
+                path = value.part("path") if isinstance(value, Record) and not value.part("stop") else None
+                return float(path) if isinstance(path, int | float) else 0.0
+        return 0.0
+
+
+def _place(expression: ir.Expression, scope: Scope) -> rigid.Vector | None:
+    pose = pose_of(constant(expression, scope))
+    return None if pose is None else pose.position
+
+
+def _bodies(statement: ir.Statement) -> Iterator[ir.Body]:
+    match statement:
+        case ir.If(branches=branches, otherwise=otherwise):
+            yield from (body for _, body in branches)
+            yield otherwise
+        case ir.Switch(cases=cases, default=default):
+            yield from (case.body for case in cases)
+            yield default or ()
+        case ir.For(body=body) | ir.While(body=body) | ir.Repeat(body=body) | ir.Loop(body=body):
+            yield body
+
+
+def _tool_set(program: ir.Program, scopes: ProgramScope, diagnostics: Diagnostics) -> None:
+    """The first move to a pose, where the controller has no tool after power-on and nothing read sets one."""
+    modules = [module for module in program.modules if scopes.module(module).rules.inputs.without_tool]
+    routines = [routine for module in modules for routine in module.routines]
+    first: ir.Move | None = None
+    for routine in routines:
+        for node in walk(routine.body):
+            match node:
+                case ir.Assign(target=ir.System(name="tool")) | ir.CallRoutine() | ir.Vendor():
+                    return  # set here, or perhaps in what is called
+                case ir.Move(kind="linear" | "circular") if first is None:
+                    first = node
+    if first is not None:
+        does = scopes.module(modules[0]).rules.inputs.without_tool
+        diagnostics.report(NO_TOOL, first.origin, does=does)
