@@ -195,7 +195,7 @@ def trigger(tree: SyntaxTree, at: Reading) -> ir.Trigger:
 
 def _trigger(reference: str, given: dict[str, ir.Expression], done: SyntaxTree, at: Reading) -> ir.Trigger:
     return ir.Trigger(
-        reference,
+        reference.lower(),
         action(done, at),
         given.get("distance"),
         given.get("delay"),
