@@ -21,7 +21,12 @@ RULES = Rules(
     name="inform",
     case_sensitive=True,  # M: jobs and labels are kept as they are written; controllers use capitals
     # Instructions behind a move wait until the robot has come to its point, within its positioning level.
-    advance=AdvanceRules(moves=5, runs_ahead_of="fly_by", lead_s=0.0),
+    advance=AdvanceRules(
+        moves=5,
+        runs_ahead_of="fly_by",
+        lead_s=0.0,
+        source="M: not published; 5 to 7 moves by a parameter; NWAIT runs what follows with the move",
+    ),
     real_to_int="trunc",  # M: the decimals are dropped
     components=COMPONENTS,
     undefined=False,

@@ -34,8 +34,8 @@ LOADS = LoadVariables(
     "$LOAD", "LOAD_DATA", "$ACT_TOOL", {"mass": "m", "frame": "cm", "ix": "j.x", "iy": "j.y", "iz": "j.z"}
 )
 
-# Expert programming 3.5.2 (at most half of the shorter block); 3.1.4: $TOOL and $BASE have no valid value before they are
-# set, and moves to poses need both. M: the emulator takes them as zero.
+# Expert programming 3.5.2 (at most half of the shorter block); 3.1.4: $TOOL and $BASE have no valid value until they
+# are set, and moves to poses need both. M: the emulator takes them as zero.
 INPUTS = InputRules(
     large_corner="begins it {half:g} mm before the point, at half of that",
     without_tool="after power-on $TOOL is not valid and the controller refuses the move (here it counts as zero)",
@@ -43,7 +43,14 @@ INPUTS = InputRules(
 
 RULES = Rules(
     name="krl",
-    advance=AdvanceRules(moves=3, runs_ahead_of="all", stop_statements=STOPS, signals_stop=True),
+    advance=AdvanceRules(
+        moves=3,
+        runs_ahead_of="all",
+        stop_statements=STOPS,
+        signals_stop=True,
+        most=5,
+        source="KUKA Expert Programming KSS 5.2, 3.4: $ADVANCE is 0 in the system, 3 by BAS(#INITMOV,0), 5 at most",
+    ),
     real_to_int="round_half_away",
     char_numbers=True,
     components=COMPONENTS,

@@ -43,7 +43,12 @@ COMPONENTS: dict[str, dict[str, str]] = {
 
 # A fly-by move lets the program go on about 0.1 s before the corner path (overview manual, motion and logic); a stop
 # point holds it until the robot stands.
-_ADVANCE = AdvanceRules(moves=4, runs_ahead_of="fly_by", lead_s=0.1)
+_ADVANCE = AdvanceRules(
+    moves=4,
+    runs_ahead_of="fly_by",
+    lead_s=0.1,
+    source="ABB RAPID Reference Manual, overview 5, 3.1 to 3.3: planning takes approx. 0.1 s, the servo's lag 0",
+)
 
 _DEFAULTS: dict[str, float | bool | str] = {
     "speed_percent": 100.0,

@@ -36,7 +36,12 @@ _FIRST_ERROR = 1001
 
 RULES = Rules(
     name=NATIVE,
-    advance=AdvanceRules(moves=1, runs_ahead_of="fly_by", stop_statements=frozenset(("Halt",))),
+    advance=AdvanceRules(
+        moves=1,
+        runs_ahead_of="fly_by",
+        stop_statements=frozenset(("Halt",)),
+        source="docs/rpl.md: a move with a blend lets the program go on where the corner begins",
+    ),
     undefined=True,
     last_tool=False,
     system_defaults={

@@ -19,7 +19,12 @@ RULES = Rules(
     name="tp",
     # Behind FINE the program goes on when the robot is in position, behind CNT as soon as the move slows down (M: at
     # the beginning of the corner).
-    advance=AdvanceRules(moves=4, runs_ahead_of="fly_by", lead_s=0.0),
+    advance=AdvanceRules(
+        moves=4,
+        runs_ahead_of="fly_by",
+        lead_s=0.0,
+        source="M: not published; logic behind CNT runs where the next move takes over",
+    ),
     real_to_int="trunc",  # M: a register written to a group output or used as a number is cut
     text_plus=True,
     leading_numbers=True,  # M: a text that goes on behind its number gives the number, one without gives 0

@@ -15,7 +15,12 @@ from rpl.ir.rules import AdvanceRules, Rules
 
 # A move without blend has ended before the next statement begins; behind one with a blend the program goes on when the
 # robot enters the blend (M: it does not matter to the path what the program does then).
-_ADVANCE = AdvanceRules(moves=1, runs_ahead_of="fly_by", stop_statements=frozenset(("Halt",)))
+_ADVANCE = AdvanceRules(
+    moves=1,
+    runs_ahead_of="fly_by",
+    stop_statements=frozenset(("Halt",)),
+    source="URScript Manual 5.2, movel: a move blocks; with a blend radius up to where the blend begins",
+)
 
 # One cycle of an e-Series controller, s (script manual 5.2, threads); CB3 controllers have 0.008.
 STEP_TIME_S: Final = 0.002

@@ -15,6 +15,7 @@ ADVANCE = AdvanceRules(
     moves=1,
     runs_ahead_of="begun",
     stop_statements=frozenset(("Halt",)),
+    source="V+ Language User's Guide, motion control: one motion is executed, one is waited for",
     waits_queue=True,  # M: DELAY is a move without a way: it begins when the move before has ended, the program goes on
 )
 

@@ -19,6 +19,7 @@ class AdvanceRules:
     stop_statements: names of IR statement classes before which the controller waits for the motion to end.
     signals_stop: reading or writing a signal or an actual position waits for the motion to end.
     waits_queue: a time waited at rest is a move without a way: the robot keeps still, the program goes on.
+    most: what the program may set `moves` to at most; 0: it cannot set it. source: where the numbers are from.
     """
 
     moves: int
@@ -27,6 +28,8 @@ class AdvanceRules:
     stop_statements: frozenset[str] = frozenset()
     signals_stop: bool = False
     waits_queue: bool = False
+    most: int = 0
+    source: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -457,11 +457,8 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
     mode = order.orientation or str(value("orientation_mode"))
     if value("singularity_mode") == "wrist" and order.kind != "joint":
         mode = "wrist"
-    governs = order.kind != "joint" or speed.profile is not None or (speed.path is not None and speed.joint is None)
-    governs = governs and not order.external_only and not speed.duration
     options |= {
-        # A joint move without a speed of the tool is not governed by it.
-        "path_speed_mm_s": path if path > 0.0 or governs else max(path, 1e-3),
+        "path_speed_mm_s": path if path > 0.0 or _has_path_speed(order) else 1e-3,
         "path_acc_mm_s2": float(acceleration) * effort,
         "ori_speed_deg_s": rotation if rotation > 0.0 else 1e-3,
         "ori_acc_deg_s2": float(value("swivel_acceleration")) * effort,
@@ -484,6 +481,13 @@ def _path_acceleration(order: Order, plan: Planning) -> float:
     said = order.modal.get("path_acceleration", plan.modal.get("path_acceleration"))
     own = plan.controller.path_acceleration_mm_s2
     return float(said if said is not None else own if own is not None else DEFAULTS["path_acceleration"])
+
+
+def _has_path_speed(order: Order) -> bool:
+    """Does the speed of the tool govern the move? Not that of a joint move without one, nor with a time of its own."""
+    speed = order.speed
+    on_path = order.kind != "joint" or speed.profile is not None or (speed.path is not None and speed.joint is None)
+    return on_path and not order.external_only and not speed.duration
 
 
 def _by_time(options: dict[str, Value], over: float) -> dict[str, Value]:

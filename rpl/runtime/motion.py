@@ -156,7 +156,9 @@ class MotionQueue(RobotState):
         """How many moves the program pointer may be ahead."""
         rules = self.task.frame.code.rules.advance
         set_by_program = self.task.modal.get("advance")
-        return rules.moves if set_by_program is None else int(set_by_program)
+        if set_by_program is None:
+            return rules.moves
+        return min(int(set_by_program), rules.most) if rules.most else int(set_by_program)
 
     def pending(self) -> int:
         """Moves commanded and not yet done."""

@@ -414,3 +414,16 @@ def test_rapid_stopmove_and_startmove() -> None:
     assert 30.0 < spot(result)[1] < 60.0
     assert tool_at(result, time_of(result, "do1") + 1.9) == pytest.approx(tool_at(result, time_of(result, "do1")))
     assert spot(result, "do2") == pytest.approx([0.0, 100.0, 0.0], abs=NEAR)
+
+
+def test_krl_advance_is_five_at_most() -> None:
+    """EP 3.4: a maximum of 5 advance run steps is possible."""
+    steps = "\n".join("LIN_REL {Y 10}" for _ in range(8))
+    declared = "INTERRUPT DECL 10 WHEN $FLAG[1] DO HIT( )\nINTERRUPT ON 10\n"
+    passed = {}
+    for advance in (5, 9):
+        body = f"$ADVANCE={advance}\nWAIT SEC 0\n{declared}{steps}\n$FLAG[1]=TRUE\nWAIT SEC 0\n"
+        result = run_krl(body, 'DEF HIT( )\nMsgNotify("here")\nEND')
+        when = next(event.t for event in result.trace if event.kind == "message")
+        passed[advance] = sum(event.t <= when + 1e-9 for event in moves(result)[2:])
+    assert passed == {5: 2, 9: 2}  # the third is driven, five are ahead of it

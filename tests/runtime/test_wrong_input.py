@@ -1,4 +1,4 @@
-"""Wrong input: what `rpl check` tells of constants, with the line, and the fault of the run where a value is worked out.
+"""Wrong input: what `rpl check` tells of constants, with the line, and the fault where the run works a value out.
 
 Sources: ABB RAPID Reference Manual (NOrient: limits of a quaternion; zonedata, motion principles 2.3: half the
 distance), KUKA Expert Programming KSS 5.2 (3.5.2: half of the block), URScript manual (movej: overlapping blends).
@@ -119,8 +119,9 @@ def test_urscript_overlapping_blends_are_told() -> None:
 # ---- in the run
 
 RUNS: list[tuple[str, str, str, str, int]] = [
-    ("krl", KUKA, krl_text("REAL V".replace("REAL V", ""), "V=0.0", "$VEL.CP=V", "PTP {A1 0,A2 -90,A3 90,A4 0,A5 45,A6 0}",
-                           "LIN {X 550,Y 0,Z 400,A 0,B 135,C 0}").replace("DEF P( )", "DEF P( )\nREAL V"), "bad-speed", 10),
+    ("krl", KUKA, krl_text("", "V=0.0", "$VEL.CP=V", "PTP {A1 0,A2 -90,A3 90,A4 0,A5 45,A6 0}",
+                           "LIN {X 550,Y 0,Z 400,A 0,B 135,C 0}").replace("DEF P( )", "DEF P( )\nREAL V"),
+     "bad-speed", 10),
     ("rapid", ABB, module("v:=-3;", "MoveL p1,v100\\V:=v,fine,tPen;", data=("VAR num v;",)), "bad-speed", 9),
     ("rapid", ABB, module("t:=p1;", "t.rot.q3:=0.8;", "MoveL t,v100,fine,tPen;", data=("VAR robtarget t;",)),
      "bad-rotation", 10),
