@@ -108,7 +108,8 @@ class Rules:
     by tool and frame of the last move that named some (else by none). task_instances: starting a task that runs begins
     another one of its routine (else nothing happens). exact_types: built-in types with components
     have to be equal too where a value is stored or passed. loads_of_tools: a tool has its own load; a load set for all
-    moves is the part's, given in the tool, and that of one move is all of it (else there is one load, in the flange). load_variables: where it is kept, if not
+    moves is the part's, given in the tool, and that of one move is all of it (else there is one load, in the
+    flange). load_variables: where it is kept, if not
     in the neutral system variable.
     functions: neutral function -> how the language spells it
     and its parameters' types in the language's words (`word.part`: the reader takes that component of the argument).
