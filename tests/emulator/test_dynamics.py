@@ -200,7 +200,8 @@ def test_frames_of_the_links_are_those_of_the_dh_parameters(name: str) -> None:
     for d, a, twist, link in rows:
         frame = frame @ pose_matrix(np.array([a, 0.0, d]), rotation_x(np.deg2rad(twist)))
         assert link["origin"] == pytest.approx(frame[:3, 3].tolist(), abs=1e-6)
-        assert np.array(link["axes"]).T == pytest.approx(frame[:3, :3], abs=1e-9)
+        turn = np.array(link["axes"]).T
+        assert turn == pytest.approx(frame[:3, :3], abs=1e-9)
 
 
 def test_gravity_of_a_stretched_arm_by_hand() -> None:
@@ -392,4 +393,5 @@ def test_being_late_is_not_being_off_the_path() -> None:
 
 def test_the_assumed_lag_is_a_position_loop_of_50() -> None:
     """M: drives are tuned between 20 and 100 1/s."""
-    assert 1.0 / LAG_S == pytest.approx(50.0)
+    gain = 1.0 / LAG_S
+    assert gain == pytest.approx(50.0)
