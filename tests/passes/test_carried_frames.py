@@ -106,3 +106,10 @@ def test_external_kinematics_of_krl_are_not_lost_silently(target: str) -> None:
     result, told, _ = translated(KRL, "krl", target, KUKA)
     assert any(one.endswith("guarded-stop") for one in told)
     assert not result.equal
+
+
+def test_a_place_seen_from_another_frame_is_not_composed_with_a_frame_that_moves() -> None:
+    asks = "SetDO do1,1;\n  here:=CRobT(\\Tool:=pin\\WObj:=wobj0);"
+    text = RAPID.replace("SetDO do1,1;", asks).replace("PROC main()", "VAR robtarget here;\nPROC main()")
+    assert "carried-place-lost" in translated(text, "rapid", "krl", ABB)[1]
+    assert "carried-place-lost" not in translated(text, "rapid", "rpl", ABB)[1]

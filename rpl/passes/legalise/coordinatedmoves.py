@@ -1,4 +1,5 @@
-"""Moves that are coordinated with a mechanism, for targets that cannot say so: reported by name, and guarded.
+"""Moves that are coordinated with a mechanism, and places seen from frames while one of them is on a mechanism, for
+targets that cannot say so: reported by name, and guarded.
 
 The path of such a move is straight (or round) in the moving frame of the mechanism. Driven beside it, the tool would go
 another way over the part, so the program stops in front of the move.
@@ -7,10 +8,15 @@ another way over the part, so the program stops in front of the move.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TypeGuard
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.types import POSITIONAL
+from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.tooldata import PLACES
+from rpl.passes.legalise.usage import each_expression
 from rpl.passes.legalise.walk import Rewriter
 
 COORDINATED = code(
@@ -19,14 +25,54 @@ COORDINATED = code(
     "the target has no move that is coordinated with the mechanism {unit}",
     "the program stops there; write the move by hand",
 )
+SEEN = code(
+    "carried-place-lost",
+    Severity.LOSS,
+    "where the tool is in a frame of its own cannot be composed while frames stand on mechanisms",
+    "the program stops there; ask in the frame of the moves",
+)
 SETTING = "coordinated"
+_UNIT = "base_unit"
 
 
 def coordinated_moves(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the setting."""
-    if SETTING in context.capabilities.system_variables:
-        return program
-    return _Guarded(program, context).program()
+    can = context.capabilities
+    if "WorkObjectType" not in can.types and any(_is_carried(node) for node in walk(*program.modules)):
+        program = _Composed(program, context).program()
+    return program if SETTING in can.system_variables else _Guarded(program, context).program()
+
+
+def _is_carried(node: object) -> bool:
+    """Does it put a frame on a mechanism?"""
+    match node:
+        case ir.Assign(target=ir.System(name=name)):
+            return name == _UNIT
+        case ir.Variable(type=ir.WorkObjectType(), initial=ir.Aggregate(entries=entries)):
+            names = POSITIONAL[ir.WorkObjectType]
+            given = {name or names[place]: value for place, (name, value) in enumerate(entries)}
+            fixed, unit = given.get("fixed"), given.get("unit")
+            return fixed == ir.BoolLiteral(False) and isinstance(unit, ir.TextLiteral) and bool(unit.value.strip())
+    return False
+
+
+class _Composed(Rewriter):
+    """Stops in front of what asks for a place in a frame that it names."""
+
+    def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+        asked: list[ir.Builtin] = []
+        each_expression(statement, lambda node: asked.append(node) if _names_frame(node) else None)
+        done = super().statement(statement)
+        if not asked:
+            return done
+        self.context.diagnostics.report(SEEN, statement.origin)
+        return [ir.Halt(origin=replace(statement.origin, comments=())), *done]
+
+
+def _names_frame(node: object) -> TypeGuard[ir.Builtin]:
+    if not isinstance(node, ir.Builtin) or node.function not in PLACES:
+        return False
+    return len(node.arguments) > PLACES[node.function][1]
 
 
 class _Guarded(Rewriter):
