@@ -318,9 +318,12 @@ def put(name: str, text: str) -> None:
     """Replace what stands in docs/fidelity.md between the two marks of that name."""
     path = Path(__file__).parents[1] / "docs" / "fidelity.md"
     page = path.read_text(encoding="utf-8")
-    begin, end = f"<!-- {name}: generated -->\n", f"\n<!-- {name}: end -->"
-    before, _, rest = page.partition(begin)
-    path.write_text(before + begin + "\n" + text + "\n" + end + rest.partition(end)[2], encoding="utf-8")
+    begin, end = f"<!-- {name}: generated -->", f"<!-- {name}: end -->"
+    before, found, rest = page.partition(begin)
+    _, ended, after = rest.partition(end)
+    if not found or not ended:
+        raise SystemExit(f"{path.name} has no place marked {begin} ... {end}")
+    path.write_text(f"{before}{begin}\n\n{text}\n\n{end}{after}", encoding="utf-8")
 
 
 if __name__ == "__main__":
