@@ -31,11 +31,11 @@ demo: $(VENV)/.demo-ready
 	@ls -l demo-out
 
 test: $(VENV)/.test-ready
-	$(BIN)/python -m pytest -n $(WORKERS) -m "not slow"
+	$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal -m "not slow"
 
 # The long generated runs; as many minutes as you have.
 test-long: $(VENV)/.test-ready
-	$(BIN)/python -m pytest -n $(WORKERS) -m slow
+	$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal -m slow
 
 lint: $(VENV)/.test-ready
 	$(BIN)/ruff check .

@@ -27,7 +27,7 @@ def pairs_in_turn() -> Iterator[object]:
             yield pytest.param(name, target, marks=() if quick else pytest.mark.slow)
 
 
-@pytest.mark.parametrize(("name", "target"), pairs_in_turn())
+@pytest.mark.parametrize(("name", "target"), list(pairs_in_turn()))
 def test_what_is_left_after_translation(name: str, target: str) -> None:
     pair = pair_of(name, target)
     assert pair.losses or not pair.missed, f"missed {pair.missed} although nothing was refused: {pair.end}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -127,10 +128,21 @@ def handlers() -> st.SearchStrategy[str]:
     )
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+def _programs_with_handlers_on_a_plain_target(inner: str, caught: str, main: str, last: str) -> None:
+    same_run(read("rapid", _RAPID % (inner, caught, main, last)), PLAIN, *PASSES)
+
+
+@settings(max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 @given(bodies(), handlers(), st.lists(bodies(), min_size=1, max_size=4).map(" ".join), handlers())
 def test_programs_with_handlers_on_a_plain_target(inner: str, caught: str, main: str, last: str) -> None:
-    same_run(read("rapid", _RAPID % (inner, caught, main, last)), PLAIN, *PASSES)
+    _programs_with_handlers_on_a_plain_target(inner, caught, main, last)
+
+
+@pytest.mark.slow
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+@given(bodies(), handlers(), st.lists(bodies(), min_size=1, max_size=4).map(" ".join), handlers())
+def test_many_programs_with_handlers_on_a_plain_target(inner: str, caught: str, main: str, last: str) -> None:
+    _programs_with_handlers_on_a_plain_target(inner, caught, main, last)
 
 
 # ---- KRL
@@ -229,7 +241,18 @@ def krl_bodies() -> st.SearchStrategy[str]:
     return st.recursive(small, deeper, max_leaves=5)
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+def _programs_with_loops_on_a_rich_target(body: str) -> None:
+    same_run(read("krl", _KRL % f"i = 0\nk = 0\n{body}"), RICH, *PASSES)
+
+
+@settings(max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 @given(st.lists(krl_bodies(), min_size=1, max_size=4).map("\n".join))
 def test_programs_with_loops_on_a_rich_target(body: str) -> None:
-    same_run(read("krl", _KRL % f"i = 0\nk = 0\n{body}"), RICH, *PASSES)
+    _programs_with_loops_on_a_rich_target(body)
+
+
+@pytest.mark.slow
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+@given(st.lists(krl_bodies(), min_size=1, max_size=4).map("\n".join))
+def test_many_programs_with_loops_on_a_rich_target(body: str) -> None:
+    _programs_with_loops_on_a_rich_target(body)

@@ -135,9 +135,7 @@ def _untidy(after: ir.Program) -> list[str]:
     return found
 
 
-@settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck))
-@given(bodies())
-def test_generated_blocks(body: ir.Body) -> None:
+def _generated_blocks(body: ir.Body) -> None:
     for name, capabilities in TARGETS.items():
         after = same(program(*body, step(ir.Name("i"))), capabilities, *PASSES)
         assert not _untidy(after), name
@@ -148,11 +146,35 @@ def test_generated_blocks(body: ir.Body) -> None:
                 assert isinstance(one.branches[0][1][0], ir.Goto) and len(one.branches) == 1 and not one.otherwise
 
 
+@settings(max_examples=33, deadline=None, suppress_health_check=list(HealthCheck))
+@given(bodies())
+def test_generated_blocks(body: ir.Body) -> None:
+    _generated_blocks(body)
+
+
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck))
-@given(jumping())
-def test_generated_jumps(body: ir.Body) -> None:
+@given(bodies())
+def test_many_generated_blocks(body: ir.Body) -> None:
+    _generated_blocks(body)
+
+
+def _generated_jumps(body: ir.Body) -> None:
     for capabilities in TARGETS.values():
         same(program(*body, step(ir.Name("i"))), capabilities, *PASSES)
+
+
+@settings(max_examples=33, deadline=None, suppress_health_check=list(HealthCheck))
+@given(jumping())
+def test_generated_jumps(body: ir.Body) -> None:
+    _generated_jumps(body)
+
+
+@pytest.mark.slow
+@settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck))
+@given(jumping())
+def test_many_generated_jumps(body: ir.Body) -> None:
+    _generated_jumps(body)
 
 
 def test_nothing_to_do_is_nothing_done() -> None:

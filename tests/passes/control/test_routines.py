@@ -160,20 +160,42 @@ def test_numbered_arguments_are_read_by_number() -> None:
     )
 
 
-@settings(max_examples=80, deadline=None, suppress_health_check=list(HealthCheck))
-@given(st.lists(krl_bodies(), min_size=1, max_size=3).map("\n".join))
-def test_generated_calls(body: str) -> None:
+def _generated_calls(body: str) -> None:
     for capabilities in (NO_FUNCTIONS, NUMBERED, WEAK, WEAKEST):
         after = same_run(read("krl", _KRL % f"i = 0\nk = 0\n{body}"), capabilities, *ROUTINES, fit_loops, named_again)
         _checked(after, capabilities)
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
-@given(bodies(), handlers(), st.lists(bodies(), min_size=1, max_size=3).map(" ".join))
-def test_generated_calls_with_handlers(inner: str, caught: str, main: str) -> None:
+@settings(max_examples=26, deadline=None, suppress_health_check=list(HealthCheck))
+@given(st.lists(krl_bodies(), min_size=1, max_size=3).map("\n".join))
+def test_generated_calls(body: str) -> None:
+    _generated_calls(body)
+
+
+@pytest.mark.slow
+@settings(max_examples=80, deadline=None, suppress_health_check=list(HealthCheck))
+@given(st.lists(krl_bodies(), min_size=1, max_size=3).map("\n".join))
+def test_many_generated_calls(body: str) -> None:
+    _generated_calls(body)
+
+
+def _generated_calls_with_handlers(inner: str, caught: str, main: str) -> None:
     del caught
     with_loops = replace(RICH, function_routines=False, statements=RICH.statements | {"Loop", "ExitLoop"})
     same_run(read("rapid", _RAPID % (inner, "", main, "")), with_loops, functions_to_procedures)
+
+
+@settings(max_examples=13, deadline=None, suppress_health_check=list(HealthCheck))
+@given(bodies(), handlers(), st.lists(bodies(), min_size=1, max_size=3).map(" ".join))
+def test_generated_calls_with_handlers(inner: str, caught: str, main: str) -> None:
+    _generated_calls_with_handlers(inner, caught, main)
+
+
+@pytest.mark.slow
+@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
+@given(bodies(), handlers(), st.lists(bodies(), min_size=1, max_size=3).map(" ".join))
+def test_many_generated_calls_with_handlers(inner: str, caught: str, main: str) -> None:
+    _generated_calls_with_handlers(inner, caught, main)
 
 
 # ---- recursion

@@ -138,17 +138,26 @@ def _without_jumps(after: ir.Program, name: str) -> None:
     assert name != "no next pass" or not count(after, ir.NextPass)
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
-@given(jumping(4, 2))
-def test_generated_jumps_in_blocks(body: ir.Body) -> None:
+def _generated_jumps_in_blocks(body: ir.Body) -> None:
     for name, capabilities in TARGETS.items():
         after = same(program(*body, step(ir.Name("i"))), capabilities, *PASSES)
         _without_jumps(after, name)
 
 
-@settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck))
-@given(bodies())
-def test_there_and_back(body: ir.Body) -> None:
+@settings(max_examples=50, deadline=None, suppress_health_check=list(HealthCheck))
+@given(jumping(4, 2))
+def test_generated_jumps_in_blocks(body: ir.Body) -> None:
+    _generated_jumps_in_blocks(body)
+
+
+@pytest.mark.slow
+@settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
+@given(jumping(4, 2))
+def test_many_generated_jumps_in_blocks(body: ir.Body) -> None:
+    _generated_jumps_in_blocks(body)
+
+
+def _there_and_back(body: ir.Body) -> None:
     from .test_labels import TARGETS as OTHERS
 
     given = program(*body, step(ir.Name("i")))
@@ -160,3 +169,16 @@ def test_there_and_back(body: ir.Body) -> None:
             isinstance(one, ir.Variable) and one.name.startswith("state")
             for one in after.modules[0].routines[0].declarations
         )
+
+
+@settings(max_examples=33, deadline=None, suppress_health_check=list(HealthCheck))
+@given(bodies())
+def test_there_and_back(body: ir.Body) -> None:
+    _there_and_back(body)
+
+
+@pytest.mark.slow
+@settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck))
+@given(bodies())
+def test_many_there_and_back(body: ir.Body) -> None:
+    _there_and_back(body)

@@ -50,16 +50,38 @@ def compare(program: ir.Program, source: str, target: str, inputs: Any = None) -
 _SLOW = [HealthCheck.too_slow, HealthCheck.data_too_large]
 
 
-@settings(max_examples=20, deadline=None, suppress_health_check=_SLOW)
-@given(bodies(), handlers(), st.lists(bodies(), min_size=1, max_size=3).map(" ".join), handlers())
-def test_from_rapid_to_krl(inner: str, caught: str, main: str, last: str) -> None:
+def _from_rapid_to_krl(inner: str, caught: str, main: str, last: str) -> None:
     compare(read("rapid", _RAPID % (inner, caught, main, last)), "rapid", "krl")
 
 
+@settings(max_examples=7, deadline=None, suppress_health_check=_SLOW)
+@given(bodies(), handlers(), st.lists(bodies(), min_size=1, max_size=3).map(" ".join), handlers())
+def test_from_rapid_to_krl(inner: str, caught: str, main: str, last: str) -> None:
+    _from_rapid_to_krl(inner, caught, main, last)
+
+
+@pytest.mark.slow
 @settings(max_examples=20, deadline=None, suppress_health_check=_SLOW)
+@given(bodies(), handlers(), st.lists(bodies(), min_size=1, max_size=3).map(" ".join), handlers())
+def test_many_from_rapid_to_krl(inner: str, caught: str, main: str, last: str) -> None:
+    _from_rapid_to_krl(inner, caught, main, last)
+
+
+def _from_krl_to_rapid(body: str) -> None:
+    compare(read("krl", _KRL % f"i = 0\nk = 0\n{body}"), "krl", "rapid")
+
+
+@settings(max_examples=7, deadline=None, suppress_health_check=_SLOW)
 @given(st.lists(krl_bodies(), min_size=1, max_size=3).map("\n".join))
 def test_from_krl_to_rapid(body: str) -> None:
-    compare(read("krl", _KRL % f"i = 0\nk = 0\n{body}"), "krl", "rapid")
+    _from_krl_to_rapid(body)
+
+
+@pytest.mark.slow
+@settings(max_examples=20, deadline=None, suppress_health_check=_SLOW)
+@given(st.lists(krl_bodies(), min_size=1, max_size=3).map("\n".join))
+def test_many_from_krl_to_rapid(body: str) -> None:
+    _from_krl_to_rapid(body)
 
 
 @pytest.mark.parametrize(
