@@ -79,6 +79,7 @@ from rpl.passes.legalise.keptsettings import kept_settings
 from rpl.passes.legalise.knownjoints import known_joints
 from rpl.passes.legalise.labelled import labels_as_remarks
 from rpl.passes.legalise.labels import structure_to_labels
+from rpl.passes.legalise.latedelays import without_late_delays
 from rpl.passes.legalise.leadingnumbers import leading_numbers
 from rpl.passes.legalise.levels import levels_to_distances
 from rpl.passes.legalise.lists import lists_in_variables
@@ -255,6 +256,7 @@ PASSES: tuple[Pass, ...] = (
     reaction_searches,
     search_parts,
     at_rest,
+    without_late_delays,
     without_empty_reactions,
     interrupt_places,
     unreachable_moves,

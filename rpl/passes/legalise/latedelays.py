@@ -1,0 +1,69 @@
+"""Times behind the end of a move that stops, for sources whose controller shifts an action no further than that end.
+
+The action happens at the end itself there (KRL TRIGGER WHEN DISTANCE=1 with a DELAY above 0), so it is written without
+its time: other controllers would let the time pass after the robot has come to rest.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.ir.walk import walk
+from rpl.passes.fold import constant_number
+from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.editing import edit_bodies
+from rpl.passes.legalise.jumps import inside
+from rpl.passes.legalise.movesettings import plain
+from rpl.passes.scope import ProgramScope, Scope
+
+
+def without_late_delays(program: ir.Program, context: Context) -> ir.Program:
+    """The program with such actions at the ends of their moves."""
+    bound = rules_of(context.source).triggers.delays_within_move and context.foreign
+    if not bound or not any(isinstance(node, ir.Trigger) for node in walk(*program.modules)):
+        return program
+    scopes, modules = ProgramScope(program), []
+    for module in program.modules:
+        workers = [(routine, _Late(scopes.routine(module, routine))) for routine in module.routines]
+        modules.append(replace(module, routines=tuple(edit_bodies(each, worker.body) for each, worker in workers)))
+    return replace(program, modules=tuple(modules))
+
+
+class _Late:
+    def __init__(self, scope: Scope) -> None:
+        self.scope = scope
+
+    def body(self, body: ir.Body) -> ir.Body:
+        done: list[ir.Statement] = []
+        same = True
+        for place, statement in enumerate(body):
+            new = self.statement(statement, body[place + 1 :])
+            same = same and new is statement
+            done.append(new)
+        return body if same else tuple(done)
+
+    def statement(self, statement: ir.Statement, behind: ir.Body) -> ir.Statement:
+        if isinstance(statement, ir.Trigger):
+            following = next((one for one in behind if not isinstance(one, ir.Trigger | ir.Nothing)), None)
+            return self.bounded(statement) if isinstance(following, ir.Move) and _stops(following) else statement
+        if isinstance(statement, ir.Move) and statement.triggers and _stops(statement):
+            own = tuple(self.bounded(one) if isinstance(one, ir.Trigger) else one for one in statement.triggers)
+            unchanged = all(new is old for new, old in zip(own, statement.triggers, strict=True))
+            return statement if unchanged else replace(statement, triggers=own)
+        return inside(statement, self.body)
+
+    def bounded(self, trigger: ir.Trigger) -> ir.Trigger:
+        """Without its time, where that is a constant one behind the end."""
+        if trigger.reference == "start" or trigger.delay is None:
+            return trigger
+        distance = 0 if trigger.distance is None else constant_number(plain(trigger.distance), self.scope)
+        delay = constant_number(plain(trigger.delay), self.scope)
+        return replace(trigger, delay=None) if distance == 0 and delay is not None and delay > 0 else trigger
+
+
+def _stops(move: ir.Move) -> bool:
+    return isinstance(move.blend, ir.BlendStop | None)
+
+
+__all__ = ["without_late_delays"]
