@@ -54,7 +54,7 @@ def test_an_output_before_the_end_elsewhere(target: str) -> None:
     done = translate_program(ours, target, ARM, None, diagnostics)
     assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
     back = read_sources([source_from_bytes(f.path, f.data) for f in done.files], target, Diagnostics())
-    result = run_program(back.program, ARM, None, done.renamed.get("TEST", "TEST"))
+    result = run_program(back.program, ARM, None, done.renamed.get("TEST", "TEST"), controller="plain")
     times = [t for t, _, _ in result.outputs]
     assert len(times) == 2 and times[1] - times[0] == pytest.approx(0.9, abs=0.08)
 

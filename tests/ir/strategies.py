@@ -332,7 +332,7 @@ def routines(draw: st.DrawFn) -> ir.Routine:
     return ir.Routine(
         draw(names),
         draw(st.sampled_from(("procedure", "function", "trap"))),
-        tuple(draw(st.lists(parameters, max_size=2))),
+        tuple(draw(st.lists(parameters, max_size=2, unique_by=lambda one: one.name.lower()))),
         draw(st.one_of(st.none(), types)),
         tuple(draw(st.lists(declarations, max_size=2))),
         draw(bodies),

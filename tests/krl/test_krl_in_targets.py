@@ -141,7 +141,7 @@ def on_at_the_end(result: RunResult, program: ir.Program) -> set[int]:
 
 def missed(text: str | dict[str, str], count: int, cell: Cell | None = None) -> set[int]:
     program = read(text)
-    result = run_program(program.program, KUKA, cell, "CHECKS", 60.0)
+    result = run_program(program.program, KUKA, cell, "CHECKS", 60.0, controller="plain")
     assert result.status == "finished", (result.status, result.fault)
     return set(range(1, count + 1)) - on_at_the_end(result, program.program)
 
@@ -159,7 +159,7 @@ def missed_in(
     named = with_signal_names(back.program, translation.program)
     theirs = in_words_of(cell, program.program, named) if cell is not None else None
     entry = entry_name(program.program, "CHECKS")
-    result = run_program(named, KUKA, theirs, translation.renamed.get(entry, entry), 60.0)
+    result = run_program(named, KUKA, theirs, translation.renamed.get(entry, entry), 60.0, controller="plain")
     losses = {item.code.name for item in diagnostics.of(Severity.LOSS)}
     return set(range(1, count + 1)) - on_at_the_end(result, named), losses
 
@@ -193,7 +193,7 @@ def test_cyclic_flags_that_cannot_stand_elsewhere_are_refused_by_name(case: str)
 
 def test_a_flag_defined_by_itself_stops_the_run() -> None:
     text = "DEF CHECKS( )\n$CYCFLAG[1]=$CYCFLAG[1] OR $IN[1]\nIF $CYCFLAG[1] THEN\n$OUT[1]=TRUE\nENDIF\nEND\n"
-    result = run_program(read(text).program, KUKA, None, "CHECKS")
+    result = run_program(read(text).program, KUKA, None, "CHECKS", controller="plain")
     assert result.fault is not None and "its own value" in result.fault.message
 
 

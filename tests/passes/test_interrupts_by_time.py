@@ -53,13 +53,13 @@ def test_beats_go_on_behind_a_long_trap(target: str) -> None:
     assert target in registry.target_names()
     diagnostics = Diagnostics()
     read = read_sources([source_from_text("beats.rpl", PROGRAM)], "rpl", diagnostics)
-    assert met(run_program(read.program, ARM, parse_cell(CELL))) == 2
+    assert met(run_program(read.program, ARM, parse_cell(CELL), controller="plain")) == 2
     written = translate_program(read, target, ARM, None, diagnostics)
     assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
     again = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, diagnostics)
     named = with_signal_names(again.program, written.program)
     cell = in_words_of(parse_cell(CELL), read.program, named)
-    run = run_program(named, ARM, cell, written.renamed.get("main", "main"))
+    run = run_program(named, ARM, cell, written.renamed.get("main", "main"), controller="plain")
     assert run.status == "finished", run.fault
     assert met(run) == 2, run.outputs
 
@@ -100,11 +100,11 @@ ENDMODULE
 def test_once_and_the_robot_is_held(target: str) -> None:
     diagnostics = Diagnostics()
     read = read_sources([source_from_text("a.mod", HELD)], "rapid", diagnostics)
-    assert met(run_program(read.program, ARM)) == 2
+    assert met(run_program(read.program, ARM, controller="plain")) == 2
     written = translate_program(read, target, ARM, None, diagnostics)
     assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
     again = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, diagnostics)
     named = with_signal_names(again.program, written.program)
-    run = run_program(named, ARM, None, again.program.entry or written.renamed.get("main", "main"))
+    run = run_program(named, ARM, None, again.program.entry or written.renamed.get("main", "main"), controller="plain")
     assert run.status == "finished", run.fault
     assert met(run) == 2, run.outputs

@@ -48,8 +48,8 @@ def test_a_move_takes_its_time(setting: str, target: str) -> None:
     translation = translate_program(source, target, ARM, None, found)
     back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, Diagnostics())
     runs = [
-        run_program(source.program, ARM, None, "main"),
-        run_program(back.program, ARM, None, translation.renamed.get("main", "main")),
+        run_program(source.program, ARM, None, "main", controller="plain"),
+        run_program(back.program, ARM, None, translation.renamed.get("main", "main"), controller="plain"),
     ]
     assert [run.status for run in runs] == ["finished"] * 2
     assert [len(run.outputs) for run in runs] == [2, 2]
@@ -105,8 +105,10 @@ def test_the_time_of_one_move(target: str) -> None:
     found = Diagnostics()
     translation = translate_program(source, target, "abb_irb1200_5_90", None, found)
     back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, Diagnostics())
-    own = run_program(source.program, "abb_irb1200_5_90", None, "main")
-    theirs = run_program(back.program, "abb_irb1200_5_90", None, translation.renamed.get("main", "main"))
+    own = run_program(source.program, "abb_irb1200_5_90", None, "main", controller="plain")
+    theirs = run_program(
+        back.program, "abb_irb1200_5_90", None, translation.renamed.get("main", "main"), controller="plain"
+    )
     assert [run.status for run in (own, theirs)] == ["finished"] * 2
     assert [len(run.outputs) for run in (own, theirs)] == [3, 3]
     assert "approximated-move-time" not in [item.code.name for item in found]
@@ -187,7 +189,7 @@ c 300 150 200 0 180 30
 
 def driven(program: ir.Program, arm: str, entry: str) -> list[float]:
     """Seconds of each move that goes anywhere, but for the first one."""
-    result = run_program(program, arm, None, entry)
+    result = run_program(program, arm, None, entry, controller="plain")
     assert result.status == "finished", result.fault
     times = [float(str(event.data["duration"])) for event in result.trace if event.kind == "move"]
     return [time for time in times if time > 0.1][1:]
@@ -250,5 +252,5 @@ def test_a_timed_move_to_where_the_arm_is_has_a_speed(target: str) -> None:
     read = read_sources([source_from_text("p.script", program)], "urscript", diagnostics)
     translation = translate_program(read, target, "ur5e", None, diagnostics)
     files = [source_from_bytes(one.path, one.data) for one in translation.files]
-    result = run_program(read_sources(files, target, Diagnostics()).program, "ur5e")
+    result = run_program(read_sources(files, target, Diagnostics()).program, "ur5e", controller="plain")
     assert result.fault is None and result.outputs

@@ -86,7 +86,7 @@ def test_the_robot_pauses_and_the_program_goes_on(what: str, target: str) -> Non
         if target != "vplus":
             assert "pause-first" not in {item.code.name for item in diagnostics}
         program = read_sources([source_from_bytes(one.path, one.data) for one in files], target, Diagnostics()).program
-    result = run_program(program, ARM)
+    result = run_program(program, ARM, controller="plain")
     assert result.status == "finished", result.fault
     assert len(_on(result.outputs)) == 2, result.outputs
 
@@ -110,7 +110,7 @@ def test_a_step_that_would_come_later_is_told(main: str, others: str, code: str 
 
 def test_a_brake_ends_it() -> None:
     main = f"{HEAD}DELAY 5\nSIGNAL 2\nBRAKE\nBREAK\nIF TIMER(1) < 0.1 THEN\nSIGNAL 1\nEND"
-    assert len(_on(run_program(_read(main).program, ARM).outputs)) == 2
+    assert len(_on(run_program(_read(main).program, ARM, controller="plain").outputs)) == 2
 
 
 def test_it_is_one_rule_of_the_language() -> None:

@@ -57,7 +57,7 @@ def switched(text: str, language: str) -> list[str]:
     assert not diagnostics.of(Severity.LOSS)
     written = [source_from_bytes(one.path, one.data) for one in translation.files]
     back = with_signal_names(read_sources(written, language, Diagnostics()).program, translation.program)
-    result = run_program(back, ARM, None, translation.renamed.get("main", "main"), 60)
+    result = run_program(back, ARM, None, translation.renamed.get("main", "main"), 60, controller="plain")
     assert result.fault is None
     happenings = [one for task in record_of(result, back).tasks.values() for one in task]
     return [name for one in happenings if one.kind == "output" and one.value for name in one.names if ":" in name]

@@ -44,7 +44,7 @@ def _durations(target: str) -> list[float]:
     assert not translation.losses
     back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, diagnostics)
     assert not diagnostics.has_errors
-    result = run_program(back.program, ROBOT, None, entry_name(back.program), 60.0)
+    result = run_program(back.program, ROBOT, None, entry_name(back.program), 60.0, controller="plain")
     assert result.status == "finished"
     return [float(event.data["duration"]) for event in result.trace if event.kind == "move"]
 

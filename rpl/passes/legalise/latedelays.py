@@ -1,7 +1,8 @@
-"""Times behind the end of a move that stops, for sources whose controller shifts an action no further than that end.
+"""Times behind the end of a move that stops, where a controller shifts an action no further than that end.
 
-The action happens at the end itself there (KRL TRIGGER WHEN DISTANCE=1 with a DELAY above 0), so it is written without
-its time: other controllers would let the time pass after the robot has come to rest.
+The action happens at the end itself there (KRL TRIGGER WHEN DISTANCE=1 with a DELAY above 0). From such a source it is
+written without its time, which other controllers would let pass after the robot has come to rest; for such a target the
+time is lost, which is reported.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, rules_of
@@ -18,21 +20,29 @@ from rpl.passes.legalise.movesettings import plain
 from rpl.passes.scope import ProgramScope, Scope
 
 
+AT_THE_END = code(
+    "late-action-at-end",
+    Severity.WARNING,
+    "this action comes {seconds} s behind the end of its move; the target's controller does it at the end",
+    "let the target's program wait and act in statements of its own",
+)
+
+
 def without_late_delays(program: ir.Program, context: Context) -> ir.Program:
     """The program with such actions at the ends of their moves."""
-    bound = rules_of(context.source).triggers.delays_within_move and context.foreign
-    if not bound or not any(isinstance(node, ir.Trigger) for node in walk(*program.modules)):
+    bound = [rules_of(name).triggers.delays_within_move for name in (context.source, context.target)]
+    if bound[0] == bound[1] or not any(isinstance(node, ir.Trigger) for node in walk(*program.modules)):
         return program
     scopes, modules = ProgramScope(program), []
     for module in program.modules:
-        workers = [(routine, _Late(scopes.routine(module, routine))) for routine in module.routines]
+        workers = [(routine, _Late(scopes.routine(module, routine), context, bound[1])) for routine in module.routines]
         modules.append(replace(module, routines=tuple(edit_bodies(each, worker.body) for each, worker in workers)))
     return replace(program, modules=tuple(modules))
 
 
 class _Late:
-    def __init__(self, scope: Scope) -> None:
-        self.scope = scope
+    def __init__(self, scope: Scope, context: Context, lost: bool) -> None:
+        self.scope, self.context, self.lost = scope, context, lost
 
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
@@ -59,7 +69,11 @@ class _Late:
             return trigger
         distance = 0 if trigger.distance is None else constant_number(plain(trigger.distance), self.scope)
         delay = constant_number(plain(trigger.delay), self.scope)
-        return replace(trigger, delay=None) if distance == 0 and delay is not None and delay > 0 else trigger
+        if distance != 0 or delay is None or delay <= 0:
+            return trigger
+        if self.lost:
+            self.context.diagnostics.report(AT_THE_END, trigger.origin, seconds=f"{delay:g}")
+        return replace(trigger, delay=None)
 
 
 def _stops(move: ir.Move) -> bool:

@@ -10,7 +10,9 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
-from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.earlyways import by_way
+from rpl.passes.legalise.movesettings import plain
 from rpl.passes.legalise.storedevents import events_before_moves
 from rpl.passes.legalise.usage import usage_of
 from rpl.passes.rewrite import rewrite_parts
@@ -90,7 +92,7 @@ class _Stored:
                     name = self.context.fresh("rpl_trigger")
                     self.declarations.append(ir.Variable(name, ir.TriggerType(), scope="module"))
                     names.append(ir.Name(name))
-                    done.extend(self.stored(trigger, ir.Name(name)))
+                    done.extend(self.stored(self.placed(trigger, statement), ir.Name(name)))
                 waiting = []
                 done.append(replace(statement, triggers=(*statement.triggers, *names)))
                 continue
@@ -103,6 +105,19 @@ class _Stored:
             done.append(rewrite_parts(statement, lambda expression: expression, self.body))
         done.extend(waiting)
         return tuple(done)
+
+    def placed(self, trigger: ir.Trigger, move: ir.Move) -> ir.Trigger:
+        """A routine that begins a constant time before the end of a straight move begins at the place where the tool is
+        then, where the target counts such a time only while the robot brakes."""
+        speed = move.speed.path if move.speed is not None and move.speed.duration is None else None
+        rules = rules_of(self.context.target).triggers
+        if not rules.early_while_braking or speed is None or move.kind != "linear" or self.scope is None:
+            return trigger
+        delay = None if trigger.delay is None else constant_number(plain(trigger.delay), self.scope)
+        switches = isinstance(trigger.action, ir.Assign) and not self.by_a_trap(trigger.action)
+        if switches or trigger.reference != "end" or delay is None or delay >= 0.0:
+            return trigger
+        return by_way(trigger, move, plain(speed), self.context)
 
     def stored(self, trigger: ir.Trigger, variable: ir.Expression) -> list[ir.Statement]:
         """The statements that put the event into the variable."""

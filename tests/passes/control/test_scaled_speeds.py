@@ -25,7 +25,7 @@ TAIL = "END\nDEF SLOW()\n$OV_PRO=40\n" + WAY + "END\n"
 
 
 def durations(program: object) -> tuple[list[float], list[object]]:
-    result = run_program(program, ARM, None, "T")  # type: ignore[arg-type]
+    result = run_program(program, ARM, None, "T", controller="plain")  # type: ignore[arg-type]
     assert result.status == "finished", result.fault
     moves = [event.data["duration"] for event in result.trace if event.kind == "move"]
     return [float(str(one)) for one in moves], [value for _, _, value in result.outputs]
