@@ -19,7 +19,6 @@ from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.movesettings import plain
 from rpl.passes.scope import ProgramScope, Scope
 
-
 AT_THE_END = code(
     "late-action-at-end",
     Severity.WARNING,
