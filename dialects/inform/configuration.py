@@ -16,7 +16,7 @@ from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel
 from rpl.emulator.postures import sides
 from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
-from rpl.emulator.selection import Candidates, Chosen, Rule, choose
+from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
 
 from .rules import FIELDS
@@ -96,7 +96,7 @@ class InformNotation:
         self, model: RobotModel, flanges: FloatArray, flags: FloatArray, reference: FloatArray | None
     ) -> Chosen:
         """As `select`, for flange poses (k, 4, 4) and flags (k, 6)."""
-        near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
+        near = joints_before(model, reference, len(flanges))
         wanted = flags.copy()
         if reference is not None and np.isnan(wanted[:, :3]).any():
             wanted[:, :3] = np.where(np.isnan(wanted[:, :3]), self.encode_all(model, near)[:, :3], wanted[:, :3])

@@ -16,7 +16,7 @@ from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel, Solution
 from rpl.emulator.postures import sides
 from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
-from rpl.emulator.selection import Candidates, Chosen, Rule, choose
+from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
 
 # The branch bits of S; bit 3 is unused, bit 4 (absolute accuracy) and above have no branch meaning.
@@ -81,7 +81,7 @@ class KrlNotation:
         self, model: RobotModel, flanges: FloatArray, flags: FloatArray, reference: FloatArray | None
     ) -> Chosen:
         """As `select`, for flange poses (k, 4, 4) and flags (k, 2); a point not taught is not reachable."""
-        near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
+        near = joints_before(model, reference, len(flanges))
         status, turn = flags.T
         if reference is not None and np.isnan(status).any():
             kept = self.encode_all(model, near)[:, 0]

@@ -16,7 +16,7 @@ from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel, Solution
 from rpl.emulator.postures import sides
 from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_quaternion, pose_matrix, quaternion_to_matrix
-from rpl.emulator.selection import Candidates, Chosen, Rule, choose
+from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
 
 # With ConfJ \On an axis may lie this far outside its quarter turn and still counts as being in it, degrees.
@@ -74,7 +74,7 @@ class RapidNotation:
         self, model: RobotModel, flanges: FloatArray, flags: FloatArray, reference: FloatArray | None
     ) -> Chosen:
         """As `select`, for flange poses (k, 4, 4) and flags (k, 4)."""
-        near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
+        near = joints_before(model, reference, len(flanges))
         wanted = flags[:, 3]
 
         def fits(found: Candidates) -> BoolArray:

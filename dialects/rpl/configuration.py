@@ -17,7 +17,7 @@ from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel
 from rpl.emulator.postures import sides
 from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
-from rpl.emulator.selection import Candidates, Chosen, Rule, choose
+from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
 
 from .words import POSTURE_FLAGS
@@ -65,7 +65,7 @@ class RplNotation:
         self, model: RobotModel, flanges: FloatArray, flags: FloatArray, reference: FloatArray | None
     ) -> Chosen:
         """As `select`, for flange poses (k, 4, 4) and flags (k, 6)."""
-        near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
+        near = joints_before(model, reference, len(flanges))
 
         def fits(found: Candidates) -> BoolArray:
             asked = flags[:, None, :3]

@@ -19,7 +19,7 @@ from rpl.emulator.rotations import (
     pose_matrix,
     rotation_vector_to_matrix,
 )
-from rpl.emulator.selection import Chosen, Rule, choose
+from rpl.emulator.selection import Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
 
 _POSE = re.compile(r"p?\s*\[([^\[\]]*)\]")
@@ -44,7 +44,7 @@ class UrscriptNotation:
         self, model: RobotModel, flanges: FloatArray, flags: FloatArray, reference: FloatArray | None
     ) -> Chosen:
         """As `select`, for flange poses (k, 4, 4)."""
-        near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
+        near = joints_before(model, reference, len(flanges))
         return choose(model, flanges, near, Rule(lambda found: found.valid, lambda axis, values: None, near, "time"))
 
     def select(self, model: RobotModel, flange: FloatArray, flags: Flags, reference: FloatArray | None) -> Selection:

@@ -18,7 +18,7 @@ from rpl.emulator.model import RobotModel
 from rpl.emulator.postures import sides
 from rpl.emulator.rotations import FloatArray, IntArray, pose_matrix, zyx_to_matrix, zyz_to_matrix
 from rpl.emulator.rotations import matrix_to_zyz as all_zyz
-from rpl.emulator.selection import Candidates, Chosen, Rule, choose
+from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
 
 WORDS: Final = {"shoulder": ("RIGHTY", "LEFTY"), "elbow": ("ABOVE", "BELOW"), "wrist": ("NOFLIP", "FLIP")}
@@ -71,7 +71,7 @@ class VplusNotation:
         self, model: RobotModel, flanges: FloatArray, flags: FloatArray, reference: FloatArray | None
     ) -> Chosen:
         """As `select`, for flange poses (k, 4, 4) and flags (k, 3)."""
-        near = np.broadcast_to(model.home if reference is None else reference, (len(flanges), model.axes))
+        near = joints_before(model, reference, len(flanges))
         wanted = flags
         if reference is not None and np.isnan(flags).any():
             wanted = np.where(np.isnan(flags), self.encode_all(model, near), flags)

@@ -75,6 +75,11 @@ class Rule:
     half_turned: bool = True
 
 
+def joints_before(model: RobotModel, reference: FloatArray | None, count: int) -> FloatArray:
+    """The joints (count, n) that the arm comes from: one reference for all, one each, or the home position."""
+    return np.broadcast_to(model.home if reference is None else reference, (count, model.axes))
+
+
 def candidates(model: RobotModel, flanges: FloatArray, free: FloatArray) -> Candidates:
     """Every solution for flange poses (k, 4, 4); free joints of singular postures as in `free` (n,) or (k, n)."""
     found = _within_rounding(model, flanges, np.broadcast_to(free, (len(flanges), model.axes)))

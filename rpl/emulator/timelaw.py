@@ -182,16 +182,6 @@ def of_constant_time(speed: float, ramp_s: float) -> float:
     return 4.0 / (1.0 / speed + ramp_s) ** 2
 
 
-def delayed(law: TimeLaw, seconds: float) -> TimeLaw:
-    """The law after a rest."""
-    return TimeLaw(
-        np.insert(law.times + seconds, 0, 0.0),
-        np.insert(law.fractions, 0, law.fractions[0]),
-        np.insert(law.speeds, 0, 0.0),
-        law.smoothing_s,
-    )
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Profile:
     """How fast a move may go along its whole path: top speed 1/s, acceleration 1/s², in fractions of the path.

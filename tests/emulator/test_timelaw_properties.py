@@ -13,7 +13,7 @@ from rpl.emulator.blending import Corner, blend
 from rpl.emulator.model import load_robot
 from rpl.emulator.planner import MoveRequest, PlannedMove, plan
 from rpl.emulator.rotations import pose_matrix
-from rpl.emulator.timelaw import Profile, delayed, of_constant_time, travel
+from rpl.emulator.timelaw import Profile, of_constant_time, travel
 
 SPEEDS = st.floats(0.05, 20.0)
 ACCELERATIONS = st.floats(0.05, 200.0)
@@ -77,16 +77,6 @@ def test_slowing_down_may_differ_from_speeding_up(speed: float, up: float, down:
     assert law.fractions[-1] == pytest.approx(1.0, abs=1e-9)
     assert np.diff(law.fractions) == pytest.approx(0.5 * (law.speeds[1:] + law.speeds[:-1]) * np.diff(law.times))
     assert -down * (1.0 + 1e-6) - 1e-6 <= steps.min() and steps.max() <= up * (1.0 + 1e-6) + 1e-6
-
-
-@given(SPEEDS, ACCELERATIONS, SMOOTHINGS, st.floats(0.01, 3.0))
-def test_a_delayed_law_rests_first(speed: float, acceleration: float, smoothing: float, rest: float) -> None:
-    law = Profile(speed, acceleration, smoothing_s=smoothing).law()
-    late = delayed(law, rest)
-    times = np.linspace(0.0, law.duration, 50)
-    assert late.duration == pytest.approx(law.duration + rest)
-    assert late.at(times + rest) == pytest.approx(law.at(times), abs=1e-9)
-    assert late.at(0.5 * rest) == pytest.approx(0.0, abs=1e-9)
 
 
 def line(start: np.ndarray, goal: tuple[float, float, float], speed: float, controller: MotionModel) -> PlannedMove:
