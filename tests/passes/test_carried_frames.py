@@ -22,7 +22,7 @@ axes = [{ number = 1, limits = [-180, 180], speed = 90 }]
 KRL = """DEF a( )
 $TOOL={X 0.0,Y 0.0,Z 100.0,A 0.0,B 0.0,C 0.0}
 $VEL.CP=0.2
-PTP {A1 0,A2 -90,A3 90,A4 0,A5 90,A6 0}
+PTP {A1 0,A2 -90,A3 90,A4 0,A5 90,A6 0,E1 0}
 $BASE=EK(MACHINE_DEF[2].ROOT,#EASYS,{X 0.0,Y 0.0,Z 50.0,A 0.0,B 0.0,C 0.0})
 LIN {X 60,Y 0,Z 100,A 180,B 0,C 180,E1 0}
 LIN {X 60,Y 0,Z 100,A 180,B 0,C 180,E1 40}

@@ -54,6 +54,7 @@ from rpl.passes.legalise.errorroutines import error_routines
 from rpl.passes.legalise.errors import check_errors
 from rpl.passes.legalise.errortexts import error_texts
 from rpl.passes.legalise.explicit import explicit_to_modal
+from rpl.passes.legalise.externalplaces import external_places
 from rpl.passes.legalise.fewaxes import axes_of_arm
 from rpl.passes.legalise.flagdata import flags_as_data, named_flags
 from rpl.passes.legalise.flagreadings import flag_readings
@@ -287,6 +288,7 @@ PASSES: tuple[Pass, ...] = (
     asked_postures,
     joint_goals,
     partial_places,
+    external_places,
     whole_arc_points,
     three_point_arcs,
     circle_rules,
