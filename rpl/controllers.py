@@ -22,6 +22,8 @@ from rpl.errors import UsageError
 # A right angle's corner is missed by this share of the zone where the corner is a parabola: sqrt(2) / 4.
 PARABOLA = math.sqrt(0.125)
 PLAIN_NAME = "plain"
+# A corner's cubic is tangent to the paths over at least this share of the blend distance: it leaves them there.
+LEAST_TANGENT = 0.2
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,8 +39,9 @@ class MotionModel:
     joint_smoothing_s, path_smoothing_s: width of the moving average over the speed (S-curve).
     path_acceleration_mm_s2: at 100 percent, where the program gives none.
     corner_cut: by what share of the blend distance the path misses a right-angled corner (a parabola: 0.354).
-    corner_lag_s: more than that by this time at the speed of the corner, as filters behind the path planner make it.
-    corner_acceleration_mm_s2: what holds the speed of a corner down, where that is not the path's acceleration.
+    corner_filter_s: width of the moving average behind the path planner, which cuts off more than that (see `cut`).
+    corner_acceleration_mm_s2: what holds the speed of a corner down, where that is not the path's acceleration: the
+    mean acceleration that turns one even speed into the other on a parabola. Where moves overlap: of a ramp beside it.
     corner_even: the tool keeps its speed through a corner between path moves (1: yes; 0: it dips, as a parabola driven
     in even time does).
     corner_whole: a corner may take up more than half of a move at whose other end the robot stands, if the move is
@@ -61,7 +64,7 @@ class MotionModel:
     path_ramp_s: float = 0.0
     path_smoothing_s: float = 0.0
     corner_cut: float = PARABOLA
-    corner_lag_s: float = 0.0
+    corner_filter_s: float = 0.0
     corner_acceleration_mm_s2: float | None = None
     corner_even: float = 0.0
     corner_whole: float = 0.0
@@ -88,6 +91,7 @@ class MotionModel:
         ramp_s = max(self.path_ramp_s / effort, speed_mm_s / most)
         if self.corner_ramp_s > 0.0:
             ramp_s *= self.corner_ramp_s / self.path_ramp_s if self.path_ramp_s > 0.0 else 1.0
+        ramp_s = max(ramp_s, speed_mm_s / ((self.corner_acceleration_mm_s2 or math.inf) * effort))
         return 0.5 * speed_mm_s * ramp_s * self.overlap_at(percent) ** 2
 
     def with_ramp(self, percent: float) -> MotionModel:
@@ -100,11 +104,34 @@ class MotionModel:
             self, joint_smoothing_s=self.joint_smoothing_s * wider, path_smoothing_s=self.path_smoothing_s * wider
         )
 
-    def tangent_share(self, distance_mm: float, speed_mm_s: float) -> float:
+    def corner_speed(self, distance_mm: float, turn: float, share: float = 1.0) -> float:
+        """The highest speed (mm/s) through a corner of that size. `turn`: the difference of the two directions (unit
+        vectors; a right angle: 1.414), which the speed's change of `turn` times itself in 2 distance / speed follows;
+        `share`: of the acceleration."""
+        most = self.corner_acceleration_mm_s2
+        return math.inf if most is None or turn <= 1e-9 else math.sqrt(2.0 * distance_mm * most * share / turn)
+
+    def cut(self, distance_mm: float, speed_mm_s: float, turn: float) -> float:
+        """By how much a corner is missed, as a share of the blend distance times `turn` (as for `corner_speed`).
+
+        `corner_cut` and what a moving average over the speed adds. A speed that turns evenly in the time T goes by
+        speed * turn / 2 times the mean of |x| past the corner, where x is spread evenly over T; behind an average of
+        width F, x is the sum of two such numbers: the larger of both widths / 4 + its smaller one squared / (12 times
+        the larger one). Long corners are shifted by F squared / 24 times the acceleration, which the speed of the
+        corner limits; in short ones the average itself draws the curve.
+        """
+        cut, width = self.corner_cut / math.sqrt(2.0), self.corner_filter_s
+        speed = min(speed_mm_s, self.corner_speed(distance_mm, turn))
+        if width <= 0.0 or speed <= 0.0 or distance_mm <= 0.0:
+            return cut
+        lasts = 2.0 * distance_mm / speed
+        low, high = min(lasts, width), max(lasts, width)
+        return cut + (high / 4.0 + low * low / (12.0 * high) - lasts / 4.0) / lasts
+
+    def tangent_share(self, distance_mm: float, speed_mm_s: float, turn: float = math.sqrt(2.0)) -> float:
         """How far towards the corner point the inner control points of a corner's cubic lie, as a share (0.2..1) of the
-        blend distance, so that a right angle is missed by `corner_cut` and the filter's part of the speed."""
-        cut = self.corner_cut + self.corner_lag_s * speed_mm_s / max(distance_mm, 1e-9)
-        return min(max((4.0 - 8.0 * cut / math.sqrt(2.0)) / 3.0, 0.2), 1.0)
+        blend distance, so that the corner is missed by `cut`."""
+        return min(max((4.0 - 8.0 * self.cut(distance_mm, speed_mm_s, turn)) / 3.0, LEAST_TANGENT), 1.0)
 
 
 PLAIN = MotionModel()

@@ -34,6 +34,8 @@ MOST = 0.5
 SAMPLES = 33
 # In how many places the way along a corner is measured.
 WAYS = 32
+# A shorter way of the tool (mm) is none: such a move turns it, or moves axes that it hides.
+SHORTEST_MM = 1e-3
 # A corner that would take longer than the inverse of this (1/s) is none: it turns on the spot into a way.
 SLOWEST = 1e-4
 
@@ -101,10 +103,14 @@ def overlapping_s(first: PlannedMove, second: PlannedMove, share: float) -> floa
 def corner_acceleration(move: PlannedMove) -> float:
     """The acceleration (1/s²) of a move's ramp beside a corner that is made by overlapping moves."""
     controller, acceleration = move.controller, move.profile.acceleration
-    if controller.corner_ramp_s <= 0.0 or move.kind == "joint":
+    if move.kind == "joint":
         return acceleration
-    ramp_s = controller.path_ramp_s or move.profile.peak / acceleration
-    return acceleration * ramp_s / controller.corner_ramp_s
+    if controller.corner_ramp_s > 0.0:
+        acceleration *= (controller.path_ramp_s or move.profile.peak / acceleration) / controller.corner_ramp_s
+    whole = float(move.geometry.distance(np.array([1.0]))[0])
+    if controller.corner_acceleration_mm_s2 is not None and whole > SHORTEST_MM:
+        acceleration = min(acceleration, controller.corner_acceleration_mm_s2 / whole)
+    return acceleration
 
 
 def open_end(move: PlannedMove, share: float) -> tuple[float, float, Profile]:
@@ -266,7 +272,19 @@ def _tangent_share(first: PlannedMove, second: PlannedMove, leave: float) -> flo
     wholes = [float(move.geometry.distance(np.array([1.0]))[0]) for move in (first, second)]
     tops = [move.profile.speed * whole for move, whole in zip((first, second), wholes, strict=True)]
     speed = min(top for top in (*tops, np.inf) if top > 0.0)
-    return first.controller.tangent_share((1.0 - leave) * wholes[0], speed if np.isfinite(speed) else 0.0)
+    speed = speed if np.isfinite(speed) else 0.0
+    return first.controller.tangent_share((1.0 - leave) * wholes[0], speed, _turned(first.geometry, second.geometry))
+
+
+def _turned(first: Geometry, second: Geometry) -> float:
+    """The difference of the directions in which two paths meet at their corner point: 0 straight on, 2 back again."""
+    if not (isinstance(first, PathGeometry) and isinstance(second, PathGeometry)):
+        return 0.0
+    ways = first.path.tangent(1.0), second.path.tangent(0.0)
+    lengths = [float(np.linalg.norm(way)) for way in ways]
+    if min(lengths) <= 1e-9:
+        return 0.0
+    return float(np.linalg.norm(ways[1] / lengths[1] - ways[0] / lengths[0]))
 
 
 def _path_corner(first: Path, second: Path, leave: float, meet: float, share: float) -> BezierPath:
@@ -351,7 +369,7 @@ def _driven(
         float(np.sqrt(arriving * arriving + room)) / tail,
         _ceiling(second.profile, meet) / head,
         stopping / head,
-        _corner_rate(model, first, second, geometry, seconds),
+        _corner_rate(model, first, second, geometry, leave, seconds),
     )
     if rate < SLOWEST:
         return NoBlend("the corner allows no speed")
@@ -403,7 +421,12 @@ def _ceiling(profile: Profile, fraction: float) -> float:
 
 
 def _corner_rate(
-    model: RobotModel, first: PlannedMove, second: PlannedMove, geometry: Geometry, seconds: float | None
+    model: RobotModel,
+    first: PlannedMove,
+    second: PlannedMove,
+    geometry: Geometry,
+    leave: float,
+    seconds: float | None,
 ) -> float:
     """The fastest even rate (1/s) through the corner that keeps path acceleration and the axes within their limits;
     where two moves overlap, their ramps decide in place of the path acceleration."""
@@ -415,7 +438,7 @@ def _corner_rate(
     if seconds is not None:
         return min(rate, 1.0 / seconds)
     moves = (first, second)
-    if isinstance(geometry, JointCorner):
+    if not isinstance(geometry, PathGeometry):
         strongest = np.abs(np.diff(joints, n=2, axis=0)).max(axis=0) / step**2
         available = model.accelerations * min(_acceleration_share(model, move) for move in moves)
         return min(rate, float(np.sqrt(np.min(available / np.maximum(strongest, 1e-9)))))
@@ -423,8 +446,17 @@ def _corner_rate(
     bend = float(np.linalg.norm(np.diff(points, n=2, axis=0), axis=1).max()) / step**2
     wholes = [float(move.geometry.distance(np.array([1.0]))[0]) for move in moves]
     limit = min(move.profile.acceleration * whole for move, whole in zip(moves, wholes, strict=True))
-    limit = min(limit, first.controller.corner_acceleration_mm_s2 or limit)
-    return min(rate, float(np.sqrt(limit / max(bend, 1e-9))))
+    controller = first.controller
+    if controller.corner_acceleration_mm_s2 is None:
+        return min(rate, float(np.sqrt(limit / max(bend, 1e-9))))
+    share = min(1.0, limit / (controller.path_acceleration_mm_s2 or limit))
+    size = float(first.geometry.distance(np.array([1.0]))[0]) * (1.0 - leave)
+    speed = controller.corner_speed(size, _turned(first.geometry, second.geometry), share)
+    even = (
+        isinstance(geometry, PathGeometry) and isinstance(geometry.path, BezierPath) and geometry.path.ways is not None
+    )
+    way = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum()) if even else 2.0 * size
+    return min(rate, speed / max(way, 1e-9))
 
 
 def _acceleration_share(model: RobotModel, move: PlannedMove) -> float:

@@ -33,7 +33,7 @@ PARAMETERS = (
     Parameter("path_acceleration_mm_s2", 50.0, 2e5, 5000.0),
     Parameter("path_smoothing_s", 0.0, 1.0, 0.1),
     Parameter("corner_cut", 0.12, 0.6, 0.3),
-    Parameter("corner_lag_s", 0.0, 0.05, 0.005),
+    Parameter("corner_filter_s", 0.0, 0.5, 0.05),
     Parameter("corner_acceleration_mm_s2", 50.0, 2e5, 5000.0),
     Parameter("corner_ramp_s", 0.01, 3.0, 0.2),
     Parameter("restart_s", 0.0, 1.0, 0.1),
@@ -82,7 +82,7 @@ def _usual(model: MotionModel, name: str) -> bool:
         "path_ramp_s": path_ramps,
         "path_smoothing_s": not path_ramps or model.path_smoothing_s > 0.0,
         "corner_cut": not overlaps,
-        "corner_lag_s": model.corner_lag_s > 0.0,
+        "corner_filter_s": model.corner_filter_s > 0.0,
         "corner_acceleration_mm_s2": model.corner_acceleration_mm_s2 is not None,
         "corner_ramp_s": overlaps and model.corner_ramp_s > 0.0,
     }.get(name, True)

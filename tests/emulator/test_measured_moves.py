@@ -68,14 +68,28 @@ def test_cnt_corners_agree_within_10_percent_and_30_ms(speed: int) -> None:
         assert one.time_s == pytest.approx(time_s, abs=0.035), size
 
 
+def test_an_arm_whose_corners_are_held_down_by_their_acceleration() -> None:
+    """At 1000 mm/s the R-1000iA rounds corners by up to two thirds more than the speed alone would do."""
+    robot = "fanuc_r1000ia80f"
+    for speed, within in ((200, 0.06), (500, 0.04), (1000, 0.13)):
+        _, times, cuts = moves.CNT_CORNERS[robot][speed]
+        found = moves.timed(robot, [moves.corner("L", speed, size) for size in moves.CNT])
+        for size, time_s, cut, one in zip(moves.CNT[1:], times[1:], cuts[1:], found[1:], strict=True):
+            assert one.cut_mm == pytest.approx(cut, rel=within), (speed, size)
+            assert one.time_s == pytest.approx(time_s, abs=0.09), (speed, size)
+
+
 @pytest.mark.parametrize("speed", [200, 500, 1000])
-def test_zones_from_z20_on_agree_within_10_percent(speed: int) -> None:
-    """Smaller zones miss: filters behind the planner cut 2 to 2.5 mm however small the zone is."""
+def test_zones_from_z20_on_agree_within_3_percent_and_z10_within_11(speed: int) -> None:
+    """Smaller zones miss: filters behind the planner cut 2 to 2.5 mm however small the zone is, and the emulated path
+    leaves the programmed one at the zone and not before."""
     _, times, cuts = moves.ZONE_CORNERS[speed]
     found = moves.timed(moves.ABB, [moves.corner("L", speed, size) for size in moves.ZONES])
     for size, time_s, cut, one in zip(moves.ZONES, times, cuts, found, strict=True):
-        if size >= 20 and (size, speed) != (20, 500):
-            assert one.cut_mm == pytest.approx(cut, rel=0.11 if speed == 500 else 0.1), size
+        if size >= 10:
+            assert one.cut_mm == pytest.approx(cut, rel=0.03 if size >= 20 else 0.11), size
+        elif size == 5:
+            assert one.cut_mm == pytest.approx(cut, rel=0.21)
         assert one.time_s == pytest.approx(time_s, rel=0.05), size
     assert found[0].cut_mm < 0.5 * cuts[0]
 
