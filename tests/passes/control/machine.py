@@ -338,7 +338,10 @@ class Machine:
             self.tick()
             if self.one_pass(s.body, frame):
                 break
-            place[0] = place[0] + step
+            further = place[0] + step
+            if s.keeps_last and (further > last if step > 0 else further < last):
+                break
+            place[0] = further
         if s.scoped:
             frame.routine = scope_routine
             frame.values.pop(key)

@@ -147,6 +147,8 @@ def test_many_programs_with_handlers_on_a_plain_target(inner: str, caught: str, 
 
 # ---- KRL
 
+# What ends a program that would loop for ever.
+GUARD = "steps=steps+1\nIF steps>12 THEN\nRETURN\nENDIF\n"
 _KRL = """DEF main()
 DECL INT a, b, i, k, n, steps
 a = 0
@@ -219,20 +221,19 @@ def krl_bodies() -> st.SearchStrategy[str]:
 
     def deeper(inner: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
         block = st.lists(inner, min_size=1, max_size=3).map("\n".join)
-        guard = "steps=steps+1\nIF steps>12 THEN\nRETURN\nENDIF\n"
         leave = krl_conditions().map(lambda c: f"IF {c} THEN\nEXIT\nENDIF")
         return st.one_of(
             st.tuples(krl_conditions(), block, block).map(lambda t: f"IF {t[0]} THEN\n{t[1]}\nELSE\n{t[2]}\nENDIF"),
             st.tuples(st.sampled_from("ik"), st.integers(-1, 3), krl_numbers(), st.sampled_from((1, -1, 2)), block).map(
-                lambda t: f"FOR {t[0]}={t[1]} TO {t[2]} STEP {t[3]}\n{guard}show({t[0]})\n{t[4]}\nENDFOR"
+                lambda t: f"FOR {t[0]}={t[1]} TO {t[2]} STEP {t[3]}\n{GUARD}show({t[0]})\n{t[4]}\nENDFOR"
             ),
             st.tuples(st.sampled_from("ik"), st.integers(0, 3), block).map(
-                lambda t: f"FOR {t[0]}=1 TO {t[1]}\n{guard}show({t[0]})\n{t[2]}\nENDFOR"
+                lambda t: f"FOR {t[0]}=1 TO {t[1]}\n{GUARD}show({t[0]})\n{t[2]}\nENDFOR"
             ),
-            st.tuples(krl_conditions(), block).map(lambda t: f"WHILE {t[0]}\n{guard}{t[1]}\nENDWHILE"),
-            st.tuples(block, krl_conditions()).map(lambda t: f"REPEAT\n{guard}{t[0]}\nUNTIL {t[1]}"),
-            st.tuples(block, leave, block).map(lambda t: f"LOOP\n{guard}{t[0]}\n{t[1]}\n{t[2]}\nENDLOOP"),
-            st.tuples(leave, block).map(lambda t: f"LOOP\n{t[0]}\n{guard}{t[1]}\nENDLOOP"),
+            st.tuples(krl_conditions(), block).map(lambda t: f"WHILE {t[0]}\n{GUARD}{t[1]}\nENDWHILE"),
+            st.tuples(block, krl_conditions()).map(lambda t: f"REPEAT\n{GUARD}{t[0]}\nUNTIL {t[1]}"),
+            st.tuples(block, leave, block).map(lambda t: f"LOOP\n{GUARD}{t[0]}\n{t[1]}\n{t[2]}\nENDLOOP"),
+            st.tuples(leave, block).map(lambda t: f"LOOP\n{t[0]}\n{GUARD}{t[1]}\nENDLOOP"),
             st.tuples(krl_numbers(), block, block).map(
                 lambda t: f"SWITCH {t[0]}\nCASE 1,2\n{t[1]}\nDEFAULT\n{t[2]}\nENDSWITCH"
             ),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from rpl import ir
@@ -15,7 +15,7 @@ from rpl.passes.legalise.loops import fit_loops
 
 from .common import COMMON, PLAIN, count, nodes, same_run
 from .shaped import ALL, assign, less, number, program, rewritten, same, step, target, when
-from .test_generated import _KRL, _RAPID, bodies, handlers, krl_bodies, read
+from .test_generated import _KRL, _RAPID, GUARD, bodies, handlers, krl_bodies, read
 
 BLOCKS = frozenset(("If", "Switch", "For", "While", "Repeat", "Loop", "ExitLoop", "NextPass"))
 JUMPS = frozenset(("Goto", "Label"))
@@ -53,6 +53,7 @@ def _said(after: ir.Program, capabilities: Capabilities) -> None:
 
 @settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.lists(krl_bodies(), min_size=1, max_size=3).map("\n".join))
+@example(f"FOR i=1 TO 1\n{GUARD}show(i)\na=0\nENDFOR\na=i")  # the counter is looked at behind the loop
 def test_programs_with_loops_and_calls(body: str) -> None:
     for capabilities in TARGETS.values():
         after = same_run(read("krl", _KRL % f"i = 0\nk = 0\n{body}"), capabilities, legalise)
