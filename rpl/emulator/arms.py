@@ -22,10 +22,15 @@ BoolArray = NDArray[np.bool_]
 
 # A cosine may exceed 1 by this much through rounding and still count as the stretched arm.
 COSINE_SLACK = 1e-9
+# An arm as good as stretched is stretched: rounding alone would bend it by 1e-7 rad, which the pose does not show, but
+# which turns the hand about where the wrist is straight too.
+ROUNDING_COSINE = 4e-15
 # A joint is free, and the reference decides, where turning it moves the flange by less than this. So small, because the
 # pose is missed by as much; rounding stays a hundred times below.
 STILL_MM = 5e-10
 STILL_RAD = 1e-9
+# Arms whose axis 4 passes beside axis 1: front and back are one posture where the wrist centre is as near as it can come.
+SAME_MM = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +129,7 @@ def _two_links(square: FloatArray, first: float, second: float) -> tuple[FloatAr
     share = (square - (first - second) ** 2) * (0.25 / (first * second))
     ok = (share >= -0.5 * COSINE_SLACK) & (share <= 1.0 + 0.5 * COSINE_SLACK)
     straight = (share <= 0.5 * COSINE_SLACK) | (share >= 1.0 - 0.5 * COSINE_SLACK)
-    share = np.minimum(np.maximum(share, 0.0), 1.0)
+    share = np.where(share >= 1.0 - ROUNDING_COSINE, 1.0, np.maximum(share, 0.0))
     across, along = np.sqrt(1.0 - share), np.sqrt(share)
     ahead = np.arctan2(2.0 * second * across * along, first - second + 2.0 * second * share)
     return 2.0 * np.arctan2(across, along), ahead, ok, straight
@@ -231,7 +236,8 @@ class OpwArm:
         square = radius_squared - self.b**2
         reachable = square >= -COSINE_SLACK * max(self.c2 + self.c3, 1.0) ** 2
         root = np.sqrt(np.maximum(square, 0.0))
-        over_axis = radius_squared <= STILL_MM**2
+        # Turned about, the wrist centre is off by twice its distance from the axis.
+        over_axis = radius_squared <= (0.5 * STILL_MM) ** 2
         t1 = np.empty((2, len(root)))
         t1[:] = np.arctan2(centre[1], centre[0])
         # atan2(b, -root) is half a turn less atan2(b, root).
@@ -241,7 +247,7 @@ class OpwArm:
         if over_axis.any():
             t1[0, over_axis] = near[0, over_axis]
             t1[1, over_axis] = near[0, over_axis] + np.pi
-        return t1, _signed(root) - self.a1, reachable, over_axis
+        return t1, _signed(root) - self.a1, reachable, over_axis | (root <= SAME_MM) if self.b else over_axis
 
     def _elbow(
         self, reach: FloatArray, height: FloatArray, near: FloatArray
@@ -363,7 +369,8 @@ class UrArm:
         centre = rows[:, 3] - self.d6 * rows[:, 2]
         square = centre[0] * centre[0] + centre[1] * centre[1] - self.d4**2
         reachable = square >= -COSINE_SLACK * self.d4**2
-        t1 = np.arctan2(centre[1], centre[0]) + np.arctan2(self.d4, _signed(np.sqrt(np.maximum(square, 0.0))))
+        root = np.sqrt(np.maximum(square, 0.0))
+        t1 = np.arctan2(centre[1], centre[0]) + np.arctan2(self.d4, _signed(root))
         c1, s1 = np.cos(t1), np.sin(t1)
         theta = np.empty((6, 2, 2, 2, len(flange)))
         theta[0] = t1[:, None, None]
@@ -378,7 +385,7 @@ class UrArm:
             turned = lean - side * ahead
             theta[1, :, elbow], theta[2, :, elbow] = turned, side * bend
             theta[3, :, elbow] = total - turned - side * bend
-        singular = free[:, None] | straight
+        singular = free[:, None] | straight | (root <= SAME_MM)
         flags = (2, 2, 2, len(flange))
         valid = np.broadcast_to((ok & reachable)[:, None], flags).reshape(8, -1)
         return _solutions(theta, valid, np.broadcast_to(singular[:, None], flags).reshape(8, -1))

@@ -3,6 +3,8 @@
 Exactly: each solution reaches the pose within 1e-9 mm, and 1e-9 in every entry of the rotation.
 """
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -111,6 +113,31 @@ def test_solutions_are_exact_in_every_singular_family(name: str) -> None:
     model = load_robot(name)
     for family, theta in families(model, 1).items():
         assert worst(model, model.arm.forward(theta), model.home)[0] <= allowed(model, family), family
+
+
+@pytest.mark.parametrize("name", [n for n in NAMES if load_robot(n).kind == "opw"])
+def test_an_arm_that_is_singular_twice_is_found_where_it_stands(name: str) -> None:
+    """Stretched with a straight wrist: rounding of the elbow must not turn the hand about."""
+    model = load_robot(name)
+    assert isinstance(model.arm, OpwArm)
+    theta = drawn(500, 6, 12)
+    theta[:, 2], theta[:, 4] = -model.arm.elbow_angle, 0.0
+    joints = model.pendant(theta)
+    found = model.inverse_batch(model.forward(joints), joints)
+    off = np.abs(found.joints - joints[:, None]) % 360.0
+    assert np.nanmin(np.minimum(off, 360.0 - off).max(axis=-1), axis=-1).max() < 1e-5
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_branches_differ_where_no_joint_is_free(name: str) -> None:
+    model = load_robot(name)
+    for family, theta in families(model, 3).items():
+        found = model.inverse_batch(model.arm.forward(theta), model.home)
+        for one, other in itertools.combinations(range(found.joints.shape[1]), 2):
+            free = found.singular[:, one] | found.singular[:, other]
+            both = found.valid[:, one] & found.valid[:, other] & ~free
+            off = np.abs(found.joints[both, one] - found.joints[both, other]) % 360.0
+            assert (np.minimum(off, 360.0 - off).max(axis=-1) > 1e-7).all(), family
 
 
 def searched(model: RobotModel, flange: FloatArray, seeds: int) -> list[FloatArray]:
