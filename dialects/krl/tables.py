@@ -56,6 +56,8 @@ SCALARS: dict[str, tuple[str, str]] = {
     "$pos_back": ("start_pose", ""),
     "$pos_int": ("interrupt_pose", ""),
     "$axis_int": ("interrupt_joints", ""),
+    "$pos_ret": ("return_pose", ""),
+    "$axis_ret": ("return_joints", ""),
     "$dist_next": ("remaining_distance", ""),
     "$vel_act": ("path_speed_actual", "m/s"),
     "$rob_timer": ("time", "ms"),
@@ -95,8 +97,6 @@ MEASURED: dict[str, ir.Type] = {
     **dict.fromkeys(("$softn_end", "$softp_end", "$vel_axis_act", "$torque_axis_act", "$curr_act"), ir.RealType()),
     **dict.fromkeys(("$vel_ma", "$acc_ma", "$vel_axis_ma", "$distance", "$pathtime", "$mot_temp"), ir.RealType()),
     **dict.fromkeys(("$robruntime", "$date", "$interpreter"), ir.IntType()),
-    **dict.fromkeys(("$axis_ret",), ir.JointsType()),
-    **dict.fromkeys(("$pos_ret",), ir.TargetType("krl")),
     **dict.fromkeys(("$in_home1", "$in_home2", "$in_home3", "$in_home4", "$in_home5"), ir.BoolType()),
 }
 SIGNALS = {

@@ -75,6 +75,8 @@ SYSTEM: dict[str, tuple[str, str]] = {
     "start_pose": ("$POS_BACK", ""),
     "interrupt_pose": ("$POS_INT", ""),
     "interrupt_joints": ("$AXIS_INT", ""),
+    "return_pose": ("$POS_RET", ""),
+    "return_joints": ("$AXIS_RET", ""),
     "remaining_distance": ("$DIST_NEXT", ""),
     "path_speed_actual": ("$VEL_ACT", "m/s"),
     "path_speed": ("$VEL.CP", "m/s"),

@@ -224,6 +224,8 @@ SYSTEM_VARIABLES: dict[str, SystemVariable] = _system(
     end_pose        | P | r  | - |       | s | end of the current move
     interrupt_pose  | P | r  | - |       | s | where the robot was when the interrupt came
     interrupt_joints | J | r | - |       | s | joints when the interrupt came
+    return_pose     | P | r  | - |       | s | where the robot was stopped on its path (now, while it is on one)
+    return_joints   | J | r  | - |       | s | joints where the robot was stopped on its path
     remaining_distance | n | r | - | mm  | s | distance to the end of the current move
     path_speed_actual | n | r | - | mm/s | s | speed now
     timer           | n | rw | i | s     | - | a timer that runs unless stopped

@@ -67,7 +67,7 @@ def _control(statement: ir.Statement, linker: RoutineLinker) -> Make | None:
         case ir.StoreMotion(restore=restore):
             return _robot("restore" if restore else "store")
         case ir.ResumeLevel():
-            return lambda here, next: lambda f: f[0].resume_level()
+            return lambda here, next: lambda f: f[0].resume_level(here)
         case ir.Raise(code=code):
             return _raise(linker.compiler.value(code) if code is not None else None)
         case ir.Retry():

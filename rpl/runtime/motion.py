@@ -22,6 +22,7 @@ from rpl.runtime.orders import Drive, Order, TriggerOrder
 from rpl.runtime.payloads import payloads_of
 from rpl.runtime.pieces import Piece
 from rpl.runtime.robotstate import RobotState
+from rpl.runtime.scene import External
 from rpl.runtime.trace import Leg
 from rpl.runtime.values import Value
 
@@ -66,6 +67,7 @@ class MotionQueue(RobotState):
         self.asked = False
         self.late: dict[int, TriggerOrder] = {}
         self.stood_s = -1.0  # when a move ended at rest last
+        self.left: tuple[FloatArray, External] | None = None  # where it stopped on a path
 
     # ---- what the program asks
 

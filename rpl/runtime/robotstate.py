@@ -66,14 +66,17 @@ class RobotState:
             return tuple(self.imagined.joints) if self.imagined.joints is not None else None
         return tuple(float(joint) for joint in self.joints_array())
 
-    def joints_as_value(self, rules: Rules, joints: FloatArray | None = None) -> JointsValue:
+    def joints_as_value(
+        self, rules: Rules, joints: FloatArray | None = None, external: External | None = None
+    ) -> JointsValue:
         """The joints as the language shows them."""
         if self.model is None:
             if self.imagined.joints is None:
                 raise ProgramError("motion", "the joints are asked for, but the run has no robot")
             return joints_value(self.imagined.joints, self.external, rules)
         here = self.joints_array() if joints is None else joints
-        return joints_value([float(joint) for joint in here], self.external_now(), rules)
+        there = self.external_now() if external is None else external
+        return joints_value([float(joint) for joint in here], there, rules)
 
     def external_now(self) -> External:
         """External axes at this moment."""

@@ -29,6 +29,8 @@ def halt(queue: MotionQueue, hard: bool, ends_move: bool) -> None:
     resting.ended(queue)
     piece, now = queue.piece, queue.machine.now
     if piece is None:
+        if queue.joints is not None:
+            queue.left = (queue.joints, queue.external)
         return
     place, speed = pieces.place_of(piece, now)
     how = Halting(hard, ends_move)
@@ -94,6 +96,7 @@ def _in_corner(drive: Drive, corner: Corner, stretch: Stretch, how: Halting | No
 def _stands(queue: MotionQueue, piece: Piece, how: Halting) -> None:
     queue.joints, queue.external = piece.plan.end_joints, external_of(piece, queue.machine.now, queue.external)
     queue.piece = None
+    queue.left = (queue.joints, queue.external)
     if how.ends_move:
         _drop(queue, piece)
     else:

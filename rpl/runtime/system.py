@@ -8,10 +8,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from rpl import ir
+from rpl.runtime import presentmove
 from rpl.runtime.chain import DEFAULTS
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.functions import identity
-from rpl.runtime.robotstate import external_of
 from rpl.runtime.tasks import robot_of
 from rpl.runtime.values import Member, Record, StopWatch, Value, copied, whole
 from rpl.runtime.waits import CYCLE_S
@@ -43,18 +43,24 @@ def _actual_joint(task: Task, index: int) -> Value:
 
 def _end_pose(task: Task, index: int) -> Value:
     robot = _robot(task)
-    if robot.piece is None:
-        return robot.target_now(None, None, _rules(task))
-    return robot.target_now(None, None, _rules(task), robot.planned_joints, robot.planned_external)
+    found = presentmove.ends(robot)
+    return robot.target_now(None, None, _rules(task), *(found[1] if found is not None else ()))
 
 
 def _start_pose(task: Task, index: int) -> Value:
     robot = _robot(task)
-    piece = robot.piece
-    if piece is None:
-        return robot.target_now(None, None, _rules(task))
-    begun = external_of(piece, piece.start_s, robot.external)
-    return robot.target_now(None, None, _rules(task), piece.plan.start_joints, begun)
+    found = presentmove.ends(robot)
+    return robot.target_now(None, None, _rules(task), *(found[0] if found is not None else ()))
+
+
+def _return_pose(task: Task, index: int) -> Value:
+    robot = _robot(task)
+    return robot.target_now(None, None, _rules(task), *(presentmove.left_at(robot) or ()))
+
+
+def _return_joints(task: Task, index: int) -> Value:
+    robot = _robot(task)
+    return robot.joints_as_value(_rules(task), *(presentmove.left_at(robot) or ()))
 
 
 def _interrupt_pose(task: Task, index: int) -> Value:
@@ -194,6 +200,8 @@ _SPECIAL: dict[str, Read] = {
     "end_pose": _end_pose,
     "interrupt_pose": _interrupt_pose,
     "interrupt_joints": _interrupt_joints,
+    "return_pose": _return_pose,
+    "return_joints": _return_joints,
     "remaining_distance": _remaining,
     "path_speed_actual": _speed,
     "timer": _read_timer,
@@ -221,7 +229,7 @@ SPECIAL_WRITE: dict[str, Write] = {
 TIME_DEPENDENT = frozenset(
     (
         *("actual_pose", "actual_joints", "actual_joint", "remaining_distance", "path_speed_actual", "moving"),
-        *("timer", "timer_positive", "time", "date", "start_pose", "end_pose"),
+        *("timer", "timer_positive", "time", "date", "start_pose", "end_pose", "return_pose", "return_joints"),
     )
 )
 

@@ -342,11 +342,14 @@ class Task:
         elif interrupt.polls:
             self.machine.schedule_interrupt(self, interrupt, CYCLE_S)
 
-    def resume_level(self) -> int:
-        """Leave the interrupt and every routine down to the one that declared it; its motion is dropped."""
+    def resume_level(self, at: int) -> int:
+        """Leave the interrupt and every routine down to the one that declared it; its motion is dropped. One that was
+        not braked is driven to its end first: it stops the advance run (expert programming, table of stops)."""
         level = next((frame.level for frame in reversed(self.frames) if frame.kind == "interrupt"), None)
         if level is None or level not in self.frames:
             raise ProgramError("bad_call", "RESUME outside an interrupt routine")
+        if self.robot is not None and not Wait("idle", at, at, 0, 0.0).is_over(self):
+            return self.wait_for("idle", at, at)
         while self.frames[-1] is not level:
             frame = self.frames.pop()
             self.aside -= frame.kind != "call"

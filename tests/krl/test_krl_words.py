@@ -51,8 +51,6 @@ MEASURED = {
     "$SOFTN_END[1]": ir.RealType(),
     "$VEL_MA.CP": ir.RealType(),
     "$DATE.YEAR": ir.IntType(),
-    "$AXIS_RET": ir.JointsType(),
-    "$AXIS_RET.A1": ir.RealType(),
     "$IN_HOME2": ir.BoolType(),
 }
 

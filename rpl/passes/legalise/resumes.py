@@ -10,12 +10,20 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.armedcalls import ArmedElsewhere, armed_calls
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.usage import each_expression, each_statement
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import Origin
+
+NOT_BRAKED = code(
+    "resume-not-braked",
+    Severity.WARNING,
+    "{routine} resumes without a brake, which lets the robot finish its motion first; here it is dropped at once",
+    "brake in the interrupt's routine before it resumes",
+)
 
 
 def resumes(program: ir.Program, context: Context) -> ir.Program:
@@ -29,7 +37,7 @@ def resumes(program: ir.Program, context: Context) -> ir.Program:
     resuming = facts.resuming()
     if not resuming:
         return program
-    worker = _Resumes(context.fresh("rpl_resumed"), facts, resuming, drops)
+    worker = _Resumes(context.fresh("rpl_resumed"), facts, resuming, drops, context.diagnostics)
     modules = [
         replace(module, routines=tuple(worker.routine(routine) for routine in module.routines))
         for module in program.modules
@@ -130,8 +138,8 @@ class _Facts:
 
 
 class _Resumes:
-    def __init__(self, flag: str, facts: _Facts, resuming: set[str], drops: bool) -> None:
-        self.flag, self.drops = flag, drops
+    def __init__(self, flag: str, facts: _Facts, resuming: set[str], drops: bool, diagnostics: Diagnostics) -> None:
+        self.flag, self.drops, self.diagnostics = flag, drops, diagnostics
         self.handlers = resuming
         self.declaring = {name for name, declared in facts.declares.items() if declared & resuming}
         self.watched = facts.left_by(resuming)
@@ -140,6 +148,9 @@ class _Resumes:
         key = routine.name.lower()
         if key in self.handlers:
             body = _dropped_at_once(routine.body, self.drops)
+            at_once = next((one for one in walk(*body) if isinstance(one, ir.ResumeLevel)), None)
+            if at_once is not None and not any(isinstance(one, ir.StopMotion) for one in walk(*body)):
+                self.diagnostics.report(NOT_BRAKED, at_once.origin, routine=routine.name)
             return replace(routine, body=self.handler(body))
         if key in self.declaring:
             return replace(routine, body=self.level(routine.body))
