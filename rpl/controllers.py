@@ -71,7 +71,7 @@ class MotionModel:
     corner_ramp_s: float = 0.0
     overlap: tuple[tuple[float, float], ...] = ()
     restart_s: float = 0.0
-    uncertainty: Mapping[str, float] = field(default_factory=dict)
+    uncertainty: Mapping[str, float] = field(default_factory=dict, hash=False)
 
     def overlap_at(self, percent: float) -> float:
         """The share of a ramp by which two moves overlap, linear between the given percents."""

@@ -11,7 +11,7 @@ Controllers that let two moves overlap in time (the next one speeds up while the
 curves: the sum of two even ramps is a parabola whose size grows with the speed.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,6 +25,7 @@ from rpl.emulator.rotations import (
     matrix_to_rotation_vector,
     pose_matrix,
     rotation_vector_to_matrix,
+    turned,
 )
 from rpl.emulator.timelaw import Profile, TimeLaw
 from rpl.emulator.tracking import MotionFault, track_flanges
@@ -84,10 +85,12 @@ def blend(
     leave, meet = ends
     if leave < first.span[0]:
         return NoBlend("the corner before takes up the first move")
-    geometry = _corner_geometry(model, first, second, leave, meet, seconds is None)
+    # Both moves up to and from the corner; their laws follow when its speed is known.
+    trimmed, rest = first.part((first.span[0], leave), first.law), second.part((meet, 1.0), second.law)
+    geometry = _corner_geometry(model, first, second, trimmed, rest, seconds is None)
     if isinstance(geometry, NoBlend):
         return geometry
-    return _driven(model, first, second, geometry, leave, meet, seconds)
+    return _driven(model, first, second, geometry, (trimmed, rest), seconds)
 
 
 def overlapping_s(first: PlannedMove, second: PlannedMove, share: float) -> float:
@@ -150,10 +153,10 @@ def _ends(
 
 
 def _corner_geometry(
-    model: RobotModel, first: PlannedMove, second: PlannedMove, leave: float, meet: float, sized: bool
+    model: RobotModel, first: PlannedMove, second: PlannedMove, trimmed: PlannedMove, rest: PlannedMove, sized: bool
 ) -> Geometry | NoBlend:
-    before = first.geometry.joints(np.array([leave]))[0]
-    after = second.geometry.joints(np.array([meet]))[0]
+    before, leave = trimmed.end_joints, trimmed.span[1]
+    after, meet = rest.start_joints, rest.span[0]
     a, b = first.geometry, second.geometry
     carried = _carried_corner(first, second, leave, meet)
     if not (isinstance(a, PathGeometry) and isinstance(b, PathGeometry) and _one_work(a, b)):
@@ -206,6 +209,11 @@ class BezierPath:
     rotations: FloatArray
     share: float = 2.0 / 3.0
     ways: FloatArray | None = None
+    turns: FloatArray = field(init=False)  # rotation vectors (2, 3) between the three rotations, radians
+
+    def __post_init__(self) -> None:
+        between = np.swapaxes(self.rotations[:-1], 1, 2) @ self.rotations[1:]
+        object.__setattr__(self, "turns", matrix_to_rotation_vector(between))
 
     def evenly(self) -> "BezierPath":
         """The same curve, its fraction in proportion to the way of the tool centre point."""
@@ -248,9 +256,11 @@ class BezierPath:
 
     def _turns(self, u: FloatArray) -> FloatArray:
         """De Casteljau on rotations: tangent to the first turn at 0 and to the second at 1."""
-        r, share = self.rotations, u[..., None]
-        one = r[0] @ rotation_vector_to_matrix(share * matrix_to_rotation_vector(r[0].T @ r[1]))
-        two = r[1] @ rotation_vector_to_matrix(share * matrix_to_rotation_vector(r[1].T @ r[2]))
+        if not self.turns.any():
+            return np.broadcast_to(self.rotations[0], (*np.shape(u), 3, 3))
+        share = u[..., None]
+        one = turned(self.rotations[0], self.turns[0], u)
+        two = turned(self.rotations[1], self.turns[1], u)
         between = matrix_to_rotation_vector(np.swapaxes(one, -1, -2) @ two)
         return np.asarray(one @ rotation_vector_to_matrix(share * between))
 
@@ -348,8 +358,7 @@ def _driven(
     first: PlannedMove,
     second: PlannedMove,
     geometry: Geometry,
-    leave: float,
-    meet: float,
+    parts: tuple[PlannedMove, PlannedMove],
     seconds: float | None,
 ) -> Corner | NoBlend:
     """Time the three parts: one speed through the corner where the moves have room to reach it, else accelerating.
@@ -357,11 +366,12 @@ def _driven(
     Speeds are of fractions: a parabola at rate w leaves the first move at 2 (1 - leave) w and meets the second at
     2 meet w, since the corner's tangents are the rest and the beginning of the two moves; a cubic in proportion.
     """
+    (begin, leave), (meet, _) = (part.span for part in parts)
     tail, head = _steepness(geometry, first, second, leave, meet)
     if seconds is not None:
         first = replace(first, profile=replace(first.profile, braking=corner_acceleration(first)))
         second = replace(second, profile=replace(second.profile, rising=corner_acceleration(second)))
-    begin, arriving = first.span[0], float(first.law.speeds[0]) * (first.span[1] - first.span[0])
+    arriving = float(first.law.speeds[0]) * (first.span[1] - first.span[0])
     room = 2.0 * first.profile.acceleration * (leave - begin)
     stopping = float(np.sqrt(2.0 * second.profile.acceleration * (1.0 - meet)))
     rate = min(
@@ -375,8 +385,8 @@ def _driven(
         return NoBlend("the corner allows no speed")
     entry = max(rate, float(np.sqrt(max(arriving * arriving - room, 0.0))) / tail)
     law = TimeLaw(np.array([0.0, 2.0 / (entry + rate)]), np.array([0.0, 1.0]), np.array([entry, rate]))
-    trimmed = _part(first, (begin, leave), first.profile.law(begin, leave, arriving, tail * entry))
-    rest = _part(second, (meet, 1.0), second.profile.law(meet, 1.0, head * rate, 0.0))
+    trimmed = _timed(parts[0], first.profile, arriving, tail * entry)
+    rest = _timed(parts[1], second.profile, head * rate, 0.0)
     ends = np.array([0.0, 1.0])
     joints, poses = geometry.joints(ends), geometry.tcp(ends)
     corner = PlannedMove(
@@ -397,6 +407,11 @@ def _driven(
         external_middle=_external_middle(first, second),
     )
     return Corner(trimmed, corner, rest, float(law.time_of(0.5)))
+
+
+def _timed(part: PlannedMove, profile: Profile, start_speed: float, end_speed: float) -> PlannedMove:
+    """A part of a move with the law between two speeds, 1/s of the whole move."""
+    return replace(part, profile=profile).part(part.span, profile.law(*part.span, start_speed, end_speed))
 
 
 def _steepness(
@@ -432,7 +447,8 @@ def _corner_rate(
     where two moves overlap, their ramps decide in place of the path acceleration."""
     knots = np.linspace(0.0, 1.0, SAMPLES)
     step = knots[1]
-    joints = geometry.joints(knots)
+    # A track from these knots on has the joints there already.
+    joints = geometry.track.at(knots) if isinstance(geometry, PathGeometry) else geometry.joints(knots)
     fastest = np.abs(np.diff(joints, axis=0)).max(axis=0) / step
     rate = float(np.min(model.speeds / np.maximum(fastest, 1e-9)))
     if seconds is not None:
@@ -465,23 +481,6 @@ def _acceleration_share(model: RobotModel, move: PlannedMove) -> float:
         return 1.0
     way = np.abs(move.geometry.end - move.geometry.start)
     return min(1.0, float(np.max(way / model.accelerations)) * move.profile.acceleration)
-
-
-def _part(move: PlannedMove, span: tuple[float, float], law: TimeLaw) -> PlannedMove:
-    """A piece of a move, with its own law."""
-    ends = np.array(span)
-    joints, poses, distances = move.geometry.joints(ends), move.geometry.tcp(ends), move.geometry.distance(ends)
-    return replace(
-        move,
-        start_joints=joints[0],
-        end_joints=joints[1],
-        start_pose=poses[0],
-        end_pose=poses[1],
-        duration_s=law.duration,
-        length_mm=float(distances[1] - distances[0]),
-        law=law,
-        span=span,
-    )
 
 
 def _external(move: PlannedMove, fraction: float) -> FloatArray:

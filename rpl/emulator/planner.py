@@ -143,6 +143,9 @@ class PathGeometry:
 
     def joints(self, fraction: FloatArray) -> FloatArray:
         near = self.track.at(fraction)
+        ends = (fraction <= 0.0) | (fraction >= 1.0)
+        if ends.all():
+            return near
         found = self.model.inverse_batch(flanges_of(self.path, self.tool, self.carried, fraction), near)
         # Axis by axis, as the inverse lays its results out: (n, branch, k).
         off = found.joints.T - near.T[:, None]
@@ -152,9 +155,7 @@ class PathGeometry:
         best, rows = largest.argmin(axis=0), np.arange(len(near))
         joints = found.joints[rows, best]
         joints += np.where(self.model.revolute, 360.0 * np.rint((near - joints) / 360.0), 0.0)
-        exact = np.where((largest[best, rows] < 5.0)[:, None], joints, near)
-        ends = ((fraction <= 0.0) | (fraction >= 1.0))[:, None]
-        return np.where(ends, near, exact)
+        return np.where(((largest[best, rows] < 5.0) & ~ends)[:, None], joints, near)
 
     def tcp(self, fraction: FloatArray) -> FloatArray:
         return self.path.poses(fraction)
@@ -263,6 +264,31 @@ class PlannedMove:
     def time_at_distance_from_end(self, distance_mm: float) -> float:
         """The time at which the tool centre point still has that far to travel; at least 0."""
         return self._time_at(max(self.length_mm - distance_mm, 0.0))
+
+    def part(self, span: tuple[float, float], law: TimeLaw) -> "PlannedMove":
+        """A part `span` of the geometry with its own law. What is known of the ends stays as it is, bit for bit."""
+        known = {
+            self.span[0]: (self.start_joints, self.start_pose),
+            self.span[1]: (self.end_joints, self.end_pose),
+        }
+        asked = [fraction for fraction in span if fraction not in known]
+        if asked:
+            places = np.array(asked)
+            found = zip(self.geometry.joints(places), self.geometry.tcp(places), strict=True)
+            known.update(zip(asked, found, strict=True))
+        (start_joints, start_pose), (end_joints, end_pose) = known[span[0]], known[span[1]]
+        distances = self.geometry.distance(np.array(span))
+        return replace(
+            self,
+            start_joints=start_joints,
+            end_joints=end_joints,
+            start_pose=start_pose,
+            end_pose=end_pose,
+            duration_s=law.duration,
+            length_mm=float(distances[1] - distances[0]),
+            law=law,
+            span=span,
+        )
 
     def sample(self, count: int) -> MoveSamples:
         """The move at `count` even moments from its start to its end."""

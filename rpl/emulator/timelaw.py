@@ -43,7 +43,8 @@ class TimeLaw:
         return float(self.times[-1])
 
     def _piece(self, knots: FloatArray, value: FloatArray) -> np.ndarray[tuple[int, ...], np.dtype[np.intp]]:
-        return np.clip(np.searchsorted(knots, value, side="right") - 1, 0, len(knots) - 2)
+        # The inner knots alone: what lies outside of all belongs to the first or the last piece.
+        return np.searchsorted(knots[1:-1], value, side="right")
 
     def _accelerations(self) -> FloatArray:
         return np.diff(self.speeds) / np.maximum(np.diff(self.times), 1e-300)
@@ -61,11 +62,12 @@ class TimeLaw:
         """The integral of `_knot_fraction` from 0 to times t."""
         steps, accelerations = np.diff(self.times), self._accelerations()
         pieces = steps * (self.fractions[:-1] + steps * (self.speeds[:-1] / 2.0 + steps * accelerations / 6.0))
-        sums = np.insert(np.cumsum(pieces), 0, 0.0)
+        sums = np.cumsum(pieces) - pieces
         i = self._piece(self.times, t)
-        inside = np.clip(t, 0.0, self.duration)
+        inside = np.minimum(np.maximum(t, 0.0), self.times[-1])
         local = inside - self.times[i]
-        whole = sums[i] + local * (self.fractions[i] + local * (self.speeds[i] / 2.0 + local * accelerations[i] / 6.0))
+        halves, sixths = self.speeds / 2.0, accelerations / 6.0
+        whole = sums[i] + local * (self.fractions[i] + local * (halves[i] + local * sixths[i]))
         out = t - inside
         edge = np.where(out < 0.0, self.fractions[0], self.fractions[-1])
         return np.asarray(whole + out * (edge + out * np.where(out < 0.0, self.speeds[0], self.speeds[-1]) / 2.0))
@@ -75,7 +77,8 @@ class TimeLaw:
         t = np.clip(np.asarray(time_s, dtype=np.float64), 0.0, self.duration)
         half = 0.5 * self.smoothing_s
         if half > 0.0:
-            inside = (self._integral(t + half) - self._integral(t - half)) / self.smoothing_s
+            ahead, behind = self._integral(np.stack([t + half, t - half]))
+            inside = (ahead - behind) / self.smoothing_s
         else:
             inside = self._knot_fraction(t)
         return np.asarray(np.where(t >= self.duration, 1.0, np.clip(inside, 0.0, 1.0)))

@@ -378,8 +378,8 @@ def _configuration(order: Order, plan: Planning) -> dict[str, Value]:
             flags = {}
         posture = {name: str(setting(plan.modal, order.modal, name) or "") for name in ASKED_POSTURES}
         if any(posture.values()) and not any(value is not None for value in flags.values()):
-            return {"select": lambda flange, near: _in_posture(model, flange, near, posture)}
-        return {"select": lambda flange, near: notation.select(model, flange, flags, near)}
+            return {"select": InPosture(model, tuple(posture.items()))}
+        return {"select": ByFlags(model, notation, tuple(flags.items()))}
     checks = setting(plan.modal, order.modal, "path_configuration_check") is True
     if (
         order.configuration == "nearest"
@@ -387,15 +387,46 @@ def _configuration(order: Order, plan: Planning) -> dict[str, Value]:
         or not any(value is not None for value in flags.values())
     ):
         return {}
-    return {"check_end": lambda joints: _mismatch(model, notation, flags, joints)}
+    return {"check_end": ArrivesWith(model, notation, tuple(flags.items()))}
 
 
-def _in_posture(model: RobotModel, flange: FloatArray, near: FloatArray, asked: dict[str, str]) -> Selection:
-    from rpl.emulator.configuration import Selection
+@dataclass(frozen=True, slots=True)
+class InPosture:
+    """Chooses the joints for a flange pose by words for the posture; equal ones choose alike."""
 
-    joints = model.in_posture(flange, near, asked)
-    words = ", ".join(word for word in asked.values() if word)
-    return Selection(joints, f"the target cannot be reached with the posture asked for ({words})")
+    model: RobotModel
+    asked: tuple[tuple[str, str], ...]
+
+    def __call__(self, flange: FloatArray, near: FloatArray) -> Selection:
+        from rpl.emulator.configuration import Selection
+
+        joints = self.model.in_posture(flange, near, dict(self.asked))
+        words = ", ".join(word for _, word in self.asked if word)
+        return Selection(joints, f"the target cannot be reached with the posture asked for ({words})")
+
+
+@dataclass(frozen=True, slots=True)
+class ByFlags:
+    """Chooses the joints for a flange pose by a controller's configuration flags; equal ones choose alike."""
+
+    model: RobotModel
+    notation: Notation
+    flags: tuple[tuple[str, int | None], ...]
+
+    def __call__(self, flange: FloatArray, near: FloatArray) -> Selection:
+        return self.notation.select(self.model, flange, dict(self.flags), near)
+
+
+@dataclass(frozen=True, slots=True)
+class ArrivesWith:
+    """Tells whether a path arrives with a controller's configuration flags, or why not."""
+
+    model: RobotModel
+    notation: Notation
+    flags: tuple[tuple[str, int | None], ...]
+
+    def __call__(self, joints: FloatArray) -> str | None:
+        return _mismatch(self.model, self.notation, dict(self.flags), joints)
 
 
 def _mismatch(model: RobotModel, notation: Notation, flags: dict[str, int | None], joints: FloatArray) -> str | None:

@@ -6,11 +6,10 @@ starts at the same place with the same speed is how a plan changes while the rob
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeGuard
 
 from rpl.passes import rigid
-from rpl.runtime import pathevents
 from rpl.runtime.orders import BlendOrder, Drive
 from rpl.runtime.values import Value
 
@@ -18,7 +17,6 @@ if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
     from rpl.emulator.planner import MotionFault, MoveRequest, PlannedMove
     from rpl.emulator.rotations import FloatArray
-    from rpl.emulator.timelaw import TimeLaw
 
 # A joint blend of 100 percent begins this far before the target, measured on the axis that has the longest way.
 JOINT_BLEND_DEG = 90.0
@@ -99,9 +97,9 @@ class Piece:
 
 def plan(model: RobotModel, joints: FloatArray, request: MoveRequest) -> PlannedMove | MotionFault:
     """Plan one move (the emulator is imported when the first move is made)."""
-    from rpl.emulator import planner
+    from rpl.runtime import repeats
 
-    return planner.plan(model, joints, request)
+    return repeats.plan(model, joints, request)
 
 
 def is_planned(planned: PlannedMove | MotionFault) -> TypeGuard[PlannedMove]:
@@ -136,32 +134,13 @@ def place_of(piece: Piece, now: float) -> tuple[float, float]:
     return begin + (end - begin) * law.fraction_at(t), (end - begin) * float(law.speed_at(t))
 
 
-def part(move: PlannedMove, span: tuple[float, float], law: TimeLaw) -> PlannedMove:
-    """A part of a move with its own law."""
-    import numpy as np
-
-    ends = np.array(span)
-    joints, poses, distances = move.geometry.joints(ends), move.geometry.tcp(ends), move.geometry.distance(ends)
-    whole_start = move.start_joints if span[0] <= 0.0 and move.span[0] <= 0.0 else joints[0]
-    whole_end = move.end_joints if span[1] >= 1.0 and move.span[1] >= 1.0 else joints[1]
-    return replace(
-        move,
-        start_joints=whole_start,
-        end_joints=whole_end,
-        start_pose=poses[0],
-        end_pose=poses[1],
-        duration_s=law.duration,
-        length_mm=float(distances[1] - distances[0]),
-        law=law,
-        span=span,
-    )
-
-
 def rest_of(piece: Piece, now: float, end: float = 1.0, end_speed: float = 0.0) -> PlannedMove:
     """From where the robot is now, with its speed, to a place further on."""
     place, speed = place_of(piece, now)
     place = min(place, end)
-    return part(piece.plan, (place, end), piece.plan.profile.law(place, end, speed, end_speed))
+    if place == piece.plan.span[0] and end == piece.plan.span[1] and end_speed == piece.plan.law.speeds[-1] == 0.0:
+        return piece.plan  # nothing of it is driven yet
+    return piece.plan.part((place, end), piece.plan.profile.law(place, end, speed, end_speed))
 
 
 def to_the_end(piece: Piece, now: float) -> Piece:
@@ -180,7 +159,7 @@ def open_ended(piece: Piece, now: float) -> Piece:
         return piece
     profile = piece.plan.profile
     end_speed = min(profile.speed, (speed * speed + 2.0 * profile.acceleration * (leave - place)) ** 0.5)
-    opened = part(piece.plan, (place, leave), profile.law(place, leave, speed, end_speed))
+    opened = piece.plan.part((place, leave), profile.law(place, leave, speed, end_speed))
     return Piece(piece.drive, opened, now, open_end=True)
 
 
@@ -192,7 +171,7 @@ def _overlap_ended(piece: Piece, now: float, share: float) -> Piece:
     place, speed = place_of(piece, now)
     if leave - ROUNDING <= place + 1e-9:
         return piece
-    opened = part(piece.plan, (place, leave - ROUNDING), profile.law(place, leave - ROUNDING, speed, end_speed))
+    opened = piece.plan.part((place, leave - ROUNDING), profile.law(place, leave - ROUNDING, speed, end_speed))
     return Piece(piece.drive, opened, now, open_end=True)
 
 
@@ -216,11 +195,7 @@ def way_back(model: RobotModel, joints: FloatArray, piece: Piece, now: float) ->
 
 def joined(model: RobotModel, piece: Piece, following: Drive, now: float) -> Piece | None:
     """The piece up to the corner with the next move, from where the robot is; None when there can be no corner."""
-    import numpy as np
-
-    from rpl.emulator.blending import Corner as Blended
-    from rpl.emulator.blending import blend
-    from rpl.emulator.cornerlaws import ratios
+    from rpl.runtime import repeats
 
     first, second = piece.drive.plan, following.plan
     assert first is not None and second is not None
@@ -230,15 +205,12 @@ def joined(model: RobotModel, piece: Piece, following: Drive, now: float) -> Pie
     distance, fraction = _in_segments(piece.drive, following, *size)
     overlap = overlap_of(piece.drive.order.blend, first)
     alone = first.span[0] <= 0.0 and piece.plan.span[0] <= 0.0, following.order.blend.stops
-    made = blend(
-        model, rest_of(piece, now), second, distance_mm=distance, fraction=fraction, overlap=overlap, alone=alone
-    )
-    if not isinstance(made, Blended):
+    made = repeats.joining(model, rest_of(piece, now), second, distance, fraction, overlap, alone)
+    if made is None:
         return None
-    points = made.corner.geometry.tcp(np.linspace(0.0, 1.0, pathevents.SAMPLES))[:, :3, 3]
-    rates, leave = ratios(made.first, made.corner, made.second), made.first.span[1]
-    corner = Corner(made.corner, made.second, following, rates, leave, pathevents.corner_ways(points))
-    return Piece(piece.drive, made.first, now, ahead=corner)
+    parts = made.parts
+    corner = Corner(parts.corner, parts.second, following, made.rates, parts.first.span[1], made.ways)
+    return Piece(piece.drive, parts.first, now, ahead=corner)
 
 
 def corner_piece(piece: Piece, now: float) -> Piece:

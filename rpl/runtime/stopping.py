@@ -71,7 +71,7 @@ def _braking(piece: Piece, place: float, speed: float, how: Halting, now: float)
     if piece.ahead is not None and needed > furthest:
         left = max(speed * speed - 2.0 * strength * (furthest - place), 0.0) ** 0.5
     law = replace(profile, acceleration=strength, smoothing_s=0.0).law(place, end, speed, left)
-    driven = pieces.part(piece.plan, (place, end), law)
+    driven = piece.plan.part((place, end), law)
     return Piece(piece.drive, driven, now, ahead=piece.ahead, halting=replace(how, onward=left))
 
 
@@ -86,7 +86,7 @@ def _braking_in_corner(drive: Drive, corner: Corner, place: float, speed: float,
 
 
 def _in_corner(drive: Drive, corner: Corner, stretch: Stretch, how: Halting | None, now: float) -> Piece:
-    driven = pieces.part(corner.plan, (stretch.begin, stretch.end), stretch.law)
+    driven = corner.plan.part((stretch.begin, stretch.end), stretch.law)
     return Piece(drive, driven, now, corner=corner, halting=how)
 
 
@@ -159,7 +159,7 @@ def take_up(queue: MotionQueue, piece: Piece) -> None:
         queue._drive(_rest_of_corner(piece, piece.corner, place, now))
         return
     law = piece.plan.profile.law(place, 1.0, 0.0, 0.0)
-    queue._drive(Piece(piece.drive, pieces.part(piece.plan, (place, 1.0), law), now))
+    queue._drive(Piece(piece.drive, piece.plan.part((place, 1.0), law), now))
     queue._after_corner(piece.drive)
 
 
@@ -171,5 +171,5 @@ def _rest_of_corner(piece: Piece, corner: Corner, place: float, now: float) -> P
     stretch = cornerlaws.taken_up(corner.plan, place, corner.rates[0], piece.drive.plan)
     meet = corner.rest.span[0]
     speed = stretch.speed * corner.rates[1]
-    rest = pieces.part(corner.rest, (meet, 1.0), corner.rest.profile.law(meet, 1.0, speed, 0.0))
+    rest = corner.rest.part((meet, 1.0), corner.rest.profile.law(meet, 1.0, speed, 0.0))
     return _in_corner(piece.drive, replace(corner, rest=rest), stretch, None, now)

@@ -160,7 +160,7 @@ def _stretch(
         profile = made.profile
         last = min(profile.speed, (begin * begin + 2.0 * profile.acceleration * end) ** 0.5)
         law = profile.law(0.0, end, begin, last)
-        return pieces.part(made, (0.0, end), law), replace(rate, stretch_s=whole)
+        return made.part((0.0, end), law), replace(rate, stretch_s=whole)
     assert fault is not None  # there are stretches
     return fault
 
