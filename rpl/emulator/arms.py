@@ -29,7 +29,7 @@ ROUNDING_COSINE = 4e-15
 # pose is missed by as much; rounding stays a hundred times below.
 STILL_MM = 5e-10
 STILL_RAD = 1e-9
-# Arms whose axis 4 passes beside axis 1: front and back are one posture where the wrist centre is as near as it can come.
+# Where axis 4 passes beside axis 1, front and back are one posture with the wrist centre as near as it can come.
 SAME_MM = 1e-6
 
 

@@ -314,7 +314,7 @@ def load_robot(name_or_path: str) -> RobotModel:
     return _from_toml(name_or_path) if name_or_path.endswith(".toml") else _packaged(name_or_path)
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=256)
 def _packaged(name: str) -> RobotModel:
     """An arm of the package's own, which nothing changes."""
     return _from_toml(name)

@@ -208,11 +208,14 @@ def test_every_robot_is_in_the_documentation() -> None:
         assert row + (", ".join(file.assumed) or "-") in page
 
 
+# Makers of arms whose pulses per degree are published.
+COUNTING = {load_robot(name).maker for name in robot_names() if load_robot(name).pulses_per_degree is not None}
+
+
 @pytest.mark.parametrize("name", robot_names())
 def test_a_scale_of_pulses_is_never_guessed_for_an_arm_whose_controller_counts(name: str) -> None:
     model = load_robot(name)
-    published = {load_robot(each).maker for each in robot_names() if load_robot(each).pulses_per_degree is not None}
-    if model.maker in published:
+    if model.maker in COUNTING:
         assert model.counts_pulses and model.pulse_scale is model.pulses_per_degree
     elif not model.counts_pulses:
         assert model.pulse_scale is not None and set(model.pulse_scale) == {10000.0}
