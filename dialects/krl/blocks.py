@@ -23,7 +23,7 @@ NOT_IN_SWITCH = code(
     "krl-before-first-case", Severity.WARNING, "instructions between SWITCH and the first CASE are never executed"
 )
 
-_InSpline = ir.Move | ir.Trigger | ir.Assign | ir.CallRoutine | ir.Vendor | ir.Nothing | ir.Opaque
+_InSpline = ir.Move | ir.Trigger | ir.PathRule | ir.Assign | ir.CallRoutine | ir.Vendor | ir.Nothing | ir.Opaque
 _DECLARATIONS = get_args(ir.Declaration)
 _STATEMENTS = get_args(ir.Statement)
 
@@ -97,12 +97,25 @@ class Builder:
             words = words + block.close.data
         kept: list[_InSpline] = []
         for statement in body:
+            self.check_in_spline(kind, statement)
             if isinstance(statement, _InSpline):
                 kept.append(statement)
             else:
                 self.diagnostics.report(MISPLACED, statement.origin, what="this statement in a spline block")
                 kept.append(ir.Opaque(statement.origin.text, origin=statement.origin))
         return ir.Spline(kind, tuple(kept), blend_of(words, origin), settings, origin=origin)
+
+    def check_in_spline(self, kind: str, statement: ir.Statement) -> None:
+        """KSS, spline chapters: a CP block has SPL, SLIN and SCIRC, and constant speeds; a PTP block has SPTP."""
+        match statement:
+            case ir.Move(kind="joint", motion_class="spline") if kind == "path":
+                self.diagnostics.report(MISPLACED, statement.origin, what="SPTP in a SPLINE block")
+            case ir.Move(kind=other, motion_class="spline") if kind == "joint" and other != "joint":
+                self.diagnostics.report(MISPLACED, statement.origin, what="a path motion in a PTP_SPLINE block")
+            case ir.Move(motion_class="classic"):
+                self.diagnostics.report(MISPLACED, statement.origin, what="PTP, LIN or CIRC in a spline block")
+            case ir.PathRule(rule="constant_start" | "constant_end") if kind == "joint":
+                self.diagnostics.report(MISPLACED, statement.origin, what="CONST_VEL in a PTP_SPLINE block")
 
     def body(self, items: Iterable[Item]) -> ir.Body:
         """The statements of a section. Declarations inside of a block are executed by no controller: reported."""

@@ -156,6 +156,27 @@ class Motion(Statements):
         tail = self.tail(_tree(tree.children[0]))
         return lambda pieces, origin: Close("spline", tail.blends, origin)
 
+    def on_time_block(self, tree: SyntaxTree) -> Build:
+        """TIME_BLOCK START, PART=share, END=seconds."""
+        edge = str(tree.children[0]).split()[-1].lower()
+        value = self.expression(_tree(tree.children[1])) if len(tree.children) > 1 else None
+        if (value is None) != (edge == "start"):
+            raise StatementError(f"TIME_BLOCK {edge.upper()} {'takes no' if value else 'needs a'} value", 0)
+
+        def make(pieces: Pieces, origin: Origin) -> Lowered:
+            given = value(pieces, origin) if value is not None else None
+            if given is not None and edge == "end":
+                given = ir.Quantity(given, "s", origin=origin)
+            return ir.PathRule(f"time_{edge}", given, origin=origin)
+
+        return make
+
+    def on_const_vel(self, tree: SyntaxTree) -> Build:
+        """CONST_VEL START=mm, END=mm, from the end of the next segment or its start (ONSTART)."""
+        edge, value = str(tree.children[0]).split()[-1].lower(), self.expression(_tree(tree.children[1]))
+        reference = "start" if len(tree.children) > 2 else "end"
+        return lambda pieces, origin: ir.PathRule(f"constant_{edge}", value(pieces, origin), reference, origin=origin)
+
     def on_trigger(self, tree: SyntaxTree) -> Build:
         kind = str(tree.children[0]).upper()
         place = self.expression(_tree(tree.children[1]))

@@ -17,7 +17,7 @@ from rpl.source import Source
 # Whatever is not matched stays in the shape: names without digits need no match.
 SHAPE = re.compile(
     r"\A[ \t]*(?:&|(?i:EXT|EXTP|EXTERNAL|EXTERNALP|EXTFCT|EXTFCTP|EXTERNALFCT|EXTERNALFCTP|IMPORT|CHANNEL)\b"
-    r"|(?i:STOP|TIME_BLOCK|CONST_VEL|CONFIRM|ASYPTP|ASYCONT|ASYSTOP|ASYCANCEL)[ \t]+(?![=\[(.])).*"
+    r"|(?i:STOP|CONFIRM|ASYPTP|ASYCONT|ASYSTOP|ASYCANCEL)[ \t]+(?![=\[(.])).*"
     r'|(?P<text>"[^"\n]*")'
     r"|'[^'\n]*'|#[ \t]*[A-Za-z_$][\w$]*"
     r"|(?<![\w$])(?:(?P<name>(?!(?i:E6(?:POS|AXIS)|[AE]\d|ORI\d)\b)[A-Za-z_]++\d[\w$]*+(?!\s*\())"

@@ -316,10 +316,9 @@ class Statements(Declarations):
         )
 
     def on_controller_only(self, tree: SyntaxTree) -> Build:
-        """Conditions, times and constant speeds of spline blocks, asynchronous axes."""
+        """Conditions of spline motions, asynchronous axes."""
         text = str(tree.children[0]).rstrip()
-        effect = "tuning" if text.lower().startswith(tables.TUNING_STATEMENTS) else "unknown"
-        return lambda pieces, origin: ir.Vendor("krl", text, effect, origin=origin)
+        return lambda pieces, origin: ir.Vendor("krl", text, "unknown", origin=origin)
 
     def on_cyclic(self, tree: SyntaxTree) -> Build:
         """Cyclic analog signals: only the controller's own cycle can follow the value."""

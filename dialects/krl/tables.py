@@ -149,8 +149,6 @@ USUAL_COMPONENTS: dict[str, dict[str, str]] = {"ldat": {"circ_typ": "BASE"}, "pd
 TEXT_LENGTHS = {"text_append": "text_append_length"}
 MESSAGES = {"msgnotify": "notify", "msgstate": "state", "msgquit": "quit", "msgloop": "quit"}  # MsgLoop: M
 
-# M: a controller moves a constant-velocity part as fast as the arm can; where it moves to does not change.
-TUNING_STATEMENTS = ("const_vel",)
 # Calls into technology packages, by how the routine's name begins. Effect: what a run must know of it.
 VENDOR_CALLS: tuple[tuple[str, str], ...] = (
     ("on_error_proceed", "none"),

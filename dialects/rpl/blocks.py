@@ -211,8 +211,10 @@ class Builder:
 
     def _spline_body(
         self, body: ir.Body
-    ) -> tuple[ir.Move | ir.Trigger | ir.Assign | ir.CallRoutine | ir.Vendor | ir.Nothing | ir.Opaque, ...]:
-        allowed = (ir.Move, ir.Trigger, ir.Assign, ir.CallRoutine, ir.Vendor, ir.Nothing, ir.Opaque)
+    ) -> tuple[
+        ir.Move | ir.Trigger | ir.PathRule | ir.Assign | ir.CallRoutine | ir.Vendor | ir.Nothing | ir.Opaque, ...
+    ]:
+        allowed = (ir.Move, ir.Trigger, ir.PathRule, ir.Assign, ir.CallRoutine, ir.Vendor, ir.Nothing, ir.Opaque)
         return tuple(item if isinstance(item, allowed) else self._misplaced(item) for item in body)
 
     def _routine(self, block: Block) -> Item | tuple[Item, ...]:

@@ -214,6 +214,13 @@ def _trigger_settings(parts: list[SyntaxTree], at: Reading) -> dict[str, ir.Expr
     return given
 
 
+def _path_rule(tree: SyntaxTree, at: Reading) -> ir.PathRule:
+    """How a spline block is driven from a place on."""
+    value = next((expression(part, at) for part in trees(tree)), None)
+    reference = "start" if next(tokens(tree, "BEHIND_START"), None) is not None else "end"
+    return ir.PathRule(names(tree)[0].lower(), value, reference, origin=at.origin)
+
+
 def _define_trigger(tree: SyntaxTree, at: Reading) -> ir.Statement:
     target, *rest, done = trees(tree)
     given = _trigger_settings(rest, at)
@@ -299,6 +306,7 @@ MOTION: dict[str, Lowering] = {
     "move": _move,
     "move_external": _move_external,
     "trigger": trigger,
+    "path_rule": _path_rule,
     "define_trigger": _define_trigger,
 }
 ALL_STATEMENTS: dict[str, Lowering] = {**STATEMENTS, **MOTION}

@@ -13,7 +13,7 @@ CAPABILITIES = Capabilities(
             *("Assign", "CallRoutine", "If", "Switch", "For", "While", "Repeat", "Loop", "ExitLoop", "Label", "Goto"),
             *("Return", "Halt", "Wait", "WaitUntil", "WaitForMotion", "LookAhead", "Pulse", "DeclareInterrupt"),
             *("ControlInterrupt", "StopMotion", "ResumeLevel", "Message", "Dialog", "Do", "Nothing", "Move", "Spline"),
-            *("Trigger", "Vendor", "Opaque"),
+            *("Trigger", "PathRule", "Vendor", "Opaque"),
         )
     ),
     functions=frozenset((*tables.FUNCTIONS, "text_equal", "text_find", "is_uninitialised", "message_text", "compose")),

@@ -107,6 +107,17 @@ class Motion:
                 shown.append(assignment(ir.Assign(target, value), self.expressions))
         return " WITH " + ",".join(shown)
 
+    def path_rule(self, rule: ir.PathRule) -> str:
+        """A line of a spline block about its speeds."""
+        what, _, edge = rule.rule.partition("_")
+        if rule.value is None:
+            return f"TIME_BLOCK {edge.upper()}"
+        if what == "constant":
+            value = self.expressions.measured(rule.value, "mm")
+            return f"CONST_VEL {edge.upper()}={value}{' ONSTART' if rule.reference == 'start' else ''}"
+        value = self.expressions.measured(rule.value, "s") if edge == "end" else self.expressions.text(rule.value)
+        return f"TIME_BLOCK {edge.upper()}={value}"
+
     def spline(self, spline: ir.Spline) -> tuple[str, str]:
         """First and last line of a spline block."""
         word = "PTP_SPLINE" if spline.kind == "joint" else "SPLINE"

@@ -252,6 +252,8 @@ class Printer(StatementPrinter[str]):
                 return self.motion.move(statement)
             case ir.Trigger():
                 return self.trigger(statement)
+            case ir.PathRule():
+                return self.motion.path_rule(statement)
         raise CannotSayError(f"KRL has no {statement.__class__.__name__}")
 
     def interrupt(self, statement: ir.DeclareInterrupt | ir.ControlInterrupt) -> str:

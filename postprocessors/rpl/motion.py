@@ -120,6 +120,11 @@ def trigger_text(trigger: ir.Trigger, action: ActionText) -> str:
     return f"TRIGGER {_trigger(trigger, None, action)}"
 
 
+def path_rule_text(rule: ir.PathRule) -> str:
+    value = f" AT {expression_text(rule.value)}" if rule.value is not None else ""
+    return f"PATH RULE {name_text(rule.rule)}{value}{' BEHIND START' if rule.reference == 'start' else ''}"
+
+
 def define_trigger_text(statement: ir.DefineTrigger, action: ActionText) -> str:
     inner = _trigger(statement.trigger, statement.interrupt, action)
     return f"DEFINE TRIGGER {place_text(statement.target)} {inner}"

@@ -19,7 +19,7 @@ from .expressions import (
     text_literal,
     value_text,
 )
-from .motion import define_trigger_text, move_external_text, move_text, spline_head_text, trigger_text
+from .motion import define_trigger_text, move_external_text, move_text, path_rule_text, spline_head_text, trigger_text
 
 INDENT = "    "
 _HALTS = {kind: f"HALT {word.upper()}".strip() for word, kind in words.HALT_WORDS.items()}
@@ -167,6 +167,8 @@ def line_text(statement: ir.Statement) -> str:
             return move_external_text(statement)
         case ir.Trigger():
             return trigger_text(statement, line_text)
+        case ir.PathRule():
+            return path_rule_text(statement)
         case ir.DefineTrigger():
             return define_trigger_text(statement, line_text)
         case ir.Nothing():

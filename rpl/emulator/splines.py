@@ -29,6 +29,7 @@ from rpl.emulator.planner import (
     within_axis_speeds,
 )
 from rpl.emulator.rotations import FloatArray, pose_matrix, rotation_angle, rotation_vector_to_matrix
+from rpl.emulator.splinerules import BlockRule, ruled
 from rpl.emulator.timelaw import Profile, of_constant_time
 from rpl.emulator.tracking import MotionFault
 from rpl.passes.curves import SAME_MM, Leg, Segment, block, smooth_numbers
@@ -201,10 +202,21 @@ def spline_path(segments: Sequence[Segment]) -> SplinePath:
 
 
 def plan_block(
-    model: RobotModel, start_joints: ArrayLike, requests: Sequence[MoveRequest], kinds: Sequence[Kind]
+    model: RobotModel,
+    start_joints: ArrayLike,
+    requests: Sequence[MoveRequest],
+    kinds: Sequence[Kind],
+    rules: Sequence[BlockRule] = (),
 ) -> list[Run] | BlockFault:
     """Plan a block from joints (n,) in pendant units: its requests (poses in the robot's base, mm) and their kinds, the
-    points of a curve being `spline`. Runs begin and end at rest."""
+    points of a curve being `spline`; `rules` say more of its speeds. Runs begin and end at rest."""
+    found = _planned_runs(model, start_joints, requests, kinds)
+    return found if isinstance(found, BlockFault) or not rules else ruled(found, rules)
+
+
+def _planned_runs(
+    model: RobotModel, start_joints: ArrayLike, requests: Sequence[MoveRequest], kinds: Sequence[Kind]
+) -> list[Run] | BlockFault:
     start = np.asarray(start_joints, dtype=np.float64)
     for number, request in enumerate(requests):
         fault = bad_request(request)

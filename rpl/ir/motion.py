@@ -103,6 +103,21 @@ class DefineTrigger:
 
 
 @dataclass(frozen=True, slots=True)
+class PathRule:
+    """How the path of a spline block is driven from or up to a place (KRL TIME_BLOCK, CONST_VEL).
+
+    rule: `time_start`, `time_part` (`value`: share of the time), `time_end` (`value`: s for the whole): at the point
+    before it. `constant_start`, `constant_end`: between them the speed does not change; `value`: mm along the path
+    from the `reference` of the next segment, `start` or `end`.
+    """
+
+    rule: str
+    value: Expression | None = None
+    reference: str = "end"
+    origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
+@dataclass(frozen=True, slots=True)
 class Search:
     """Watch a condition while moving. `stop`: none, stop (quick), path (on the path), soft (ramp down). `found`: lvalue
     that receives the target where it became true. `edge`: rising, falling, either. `hit`: BOOL lvalue that says whether
@@ -173,7 +188,7 @@ class Spline:
     """A spline block: its moves and triggers form one path. kind: path (SPLINE) or joint (PTP_SPLINE)."""
 
     kind: str
-    body: tuple[Move | Trigger | Assign | CallRoutine | Vendor | Nothing | Opaque, ...]
+    body: tuple[Move | Trigger | PathRule | Assign | CallRoutine | Vendor | Nothing | Opaque, ...]
     blend: Blend | None = None
     settings: tuple[tuple[Expression, Expression], ...] = ()
     origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)

@@ -10,6 +10,7 @@ from rpl.ir.motion import (
     DefineTrigger,
     Move,
     MoveExternal,
+    PathRule,
     Spline,
     Trigger,
 )
@@ -421,6 +422,7 @@ Statement = (
     | MoveExternal
     | Spline
     | Trigger
+    | PathRule
     | DefineTrigger
 )
 Body = tuple[Statement, ...]

@@ -29,7 +29,7 @@ from rpl.ir.expressions import (
     Unary,
 )
 from rpl.ir.modules import SCOPES, EnumDeclaration, Module, Parameter, Program, RecordDeclaration, Routine, Variable
-from rpl.ir.motion import Move, Search, Spline, Trigger
+from rpl.ir.motion import Move, PathRule, Search, Spline, Trigger
 from rpl.ir.statements import (
     Body,
     Clock,
@@ -91,6 +91,10 @@ _WORDS: dict[type, dict[str, tuple[str, ...]]] = {
     OrderInterrupt: {"event": ("edge", "timer", "change", "error")},
     ControlInterrupt: {"op": ("on", "off", "enable", "disable", "delete", "mask")},
     Trigger: {"reference": ("start", "end", "middle")},
+    PathRule: {
+        "rule": ("time_start", "time_part", "time_end", "constant_start", "constant_end"),
+        "reference": ("start", "end"),
+    },
     Search: {"stop": ("none", "stop", "path", "soft"), "edge": ("rising", "falling", "either")},
     Spline: {"kind": ("path", "joint")},
     Move: {

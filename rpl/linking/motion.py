@@ -13,7 +13,7 @@ from rpl.linking.stops import looks_outside
 from rpl.runtime.code import Instruction, Read, Values
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.limits import MOST_WAITING
-from rpl.runtime.orders import BlendOrder, Order, SearchOrder, SpeedOrder, TriggerOrder
+from rpl.runtime.orders import BlendOrder, Order, PathRuleOrder, SearchOrder, SpeedOrder, TriggerOrder
 from rpl.runtime.system import modal_key
 from rpl.runtime.tasks import take_robot
 from rpl.runtime.values import JointsValue, PoseValue, Record, TargetValue, Value, whole
@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 MakeTrigger = Callable[[Values], TriggerOrder]
 Overlay = Callable[[Values], dict[str, Value]]
 Submit = Callable[[Any, Order, int, int], int]
-SplineItem = ir.Move | ir.Trigger | ir.Assign | ir.CallRoutine | ir.Vendor | ir.Nothing | ir.Opaque
+PathRules = Callable[[Values], tuple[PathRuleOrder, ...]]
+SplineItem = ir.Move | ir.Trigger | ir.PathRule | ir.Assign | ir.CallRoutine | ir.Vendor | ir.Nothing | ir.Opaque
 
 
 class MotionStatements:
@@ -57,6 +58,8 @@ class MotionStatements:
                 self.spline(statement)
             case ir.Trigger():
                 emit(self.path_trigger(statement))
+            case ir.PathRule():
+                emit(lambda here, next: _alone)
             case ir.DefineTrigger():
                 emit(self.define(statement))
 
@@ -67,8 +70,9 @@ class MotionStatements:
         move: ir.Move,
         more: tuple[tuple[ir.Expression, ir.Expression], ...] = (),
         submit: Submit | None = None,
+        path_rules: PathRules | None = None,
     ) -> Make:
-        """One move; `submit` hands it over (in a spline block, not one by one)."""
+        """One move; `submit` hands it over (in a spline block, not one by one), the last one with its `path_rules`."""
         target, via = self.target(move.target), self.target(move.via) if move.via is not None else None
         options: dict[str, Read | None] = {
             "swept": self.optional(move.swept),
@@ -88,8 +92,7 @@ class MotionStatements:
             "concurrent": move.concurrent,
             "velocity": move.motion_class == "velocity",
         }
-        kind = move.kind
-        rules = self.linker.compiler.scope.rules
+        kind, rules = move.kind, self.linker.compiler.scope.rules
         load = self.optional(move.load)
         hand_over = submit or _submit
 
@@ -112,6 +115,7 @@ class MotionStatements:
                     with_overlay.restore()
                 order.triggers = [trigger(f) for trigger in triggers] + task.take_triggers()
                 order.search = search(f) if search is not None else None
+                order.path_rules = path_rules(f) if path_rules is not None else ()
                 if load is not None:
                     order.load = load(f)
                     if not rules.loads_of_tools:
@@ -221,9 +225,14 @@ class MotionStatements:
         ends = next((item for item in reversed(spline.body) if isinstance(item, ir.Move)), None)
         for part in self._paths(spline.body):
             moves = [at for at, item in enumerate(part) if isinstance(item, ir.Move)]
+            rules = self.path_rules(part)
             for at, item in enumerate(part):
-                if isinstance(item, ir.Move):
-                    self._segment(item, spline, at == moves[0], at == moves[-1], item is ends)
+                if isinstance(item, ir.PathRule):
+                    if not moves:
+                        self.statement(item)
+                elif isinstance(item, ir.Move):
+                    last = at == moves[-1]
+                    self._segment(item, spline, at == moves[0], last, item is ends, rules if last else None)
                 elif isinstance(item, ir.Assign) and moves and moves[0] < at < moves[-1] and self._switches(item):
                     self.statement(ir.Trigger("start", item, origin=item.origin))
                 else:
@@ -241,7 +250,7 @@ class MotionStatements:
 
     def _on_the_way(self, item: SplineItem) -> bool:
         match item:
-            case ir.Move() | ir.Trigger() | ir.Nothing():
+            case ir.Move() | ir.Trigger() | ir.PathRule() | ir.Nothing():
                 return True
             case ir.Vendor(effect=effect):
                 return effect in ("none", "tuning")
@@ -254,12 +263,27 @@ class MotionStatements:
         inside = looks_outside(item.value, self.linker) or has_call(item.value)
         return not inside and looks_outside(item.target, self.linker)
 
-    def _segment(self, move: ir.Move, spline: ir.Spline, first: bool, last: bool, ends: bool) -> None:
+    def path_rules(self, part: tuple[SplineItem, ...]) -> PathRules:
+        """The rules about speeds in a block, each with the number of segments before it."""
+        made: list[tuple[int, ir.PathRule, Read | None]] = []
+        before = 0
+        for item in part:
+            before += isinstance(item, ir.Move)
+            if isinstance(item, ir.PathRule):
+                made.append((before, item, self.optional(item.value)))
+        return lambda f: tuple(
+            PathRuleOrder(at, rule.rule, float(read(f)) if read is not None else 0.0, rule.reference)
+            for at, rule, read in made
+        )
+
+    def _segment(
+        self, move: ir.Move, spline: ir.Spline, first: bool, last: bool, ends: bool, rules: PathRules | None
+    ) -> None:
         kind = "joint" if spline.kind == "joint" else move.kind
         blend = spline.blend if ends else ir.BlendStop()
         segment = replace(move, kind=kind, blend=blend, motion_class="spline")
         outer = self.linker.assembler.begin(move.origin)
-        self.linker.assembler.emit(self.move(segment, spline.settings, _gathering(first, last)))
+        self.linker.assembler.emit(self.move(segment, spline.settings, _gathering(first, last), rules))
         self.linker.assembler.end(outer)
 
     # ---- triggers
@@ -393,6 +417,10 @@ def _zone(zone: Value, distance: float | None) -> BlendOrder:
     if not isinstance(zone, Record):
         raise ProgramError("wrong_kind", "a zone is needed")
     return BlendOrder("zone", distance, zone=zone)
+
+
+def _alone(f: Values) -> int:
+    raise ProgramError("motion", "a rule about a spline block stands where no block with motions is")
 
 
 def _gathering(first: bool, last: bool) -> Submit:

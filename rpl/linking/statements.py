@@ -131,7 +131,7 @@ class Statements:
                 self.emit(
                     _run(procedure(self.linker.compiler, name, arguments), _may_wake(flat_statement, self.linker))
                 )
-            case ir.Move() | ir.MoveExternal() | ir.Spline() | ir.Trigger() | ir.DefineTrigger():
+            case ir.Move() | ir.MoveExternal() | ir.Spline() | ir.Trigger() | ir.DefineTrigger() | ir.PathRule():
                 self.motion.statement(flat_statement)
             case _:
                 make = actions.action(flat_statement, self.linker)

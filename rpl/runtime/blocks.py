@@ -13,13 +13,14 @@ from typing import TYPE_CHECKING
 
 from rpl.passes import rigid
 from rpl.runtime.chain import Planning, request_of
-from rpl.runtime.orders import BlendOrder, Drive, Order, TriggerOrder
+from rpl.runtime.orders import BlendOrder, Drive, Order, PathRuleOrder, TriggerOrder
 from rpl.runtime.pieces import Piece
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
     from rpl.emulator.planner import MotionFault, MoveRequest, PlannedMove
     from rpl.emulator.rotations import FloatArray
+    from rpl.emulator.splinerules import BlockRule
     from rpl.emulator.splines import Kind, Run
     from rpl.runtime.motion import MotionQueue
 
@@ -52,7 +53,7 @@ class _Asked:
 def planned(queue: MotionQueue, order: Order, old: Drive | None = None) -> list[Drive] | Refused:
     """What is driven for a move, or for the block that ends with it, from where everything commanded before ends.
     `old`: a drive that is planned anew and keeps its number."""
-    if order.block:
+    if order.block or order.path_rules:
         for one in order.block:
             one.payloads = order.payloads
         asked = [*_asked(queue, (*order.block, order))]
@@ -123,7 +124,7 @@ def _runs(queue: MotionQueue, asked: Sequence[_Asked]) -> list[Drive] | Refused:
 
     kinds = [_KINDS.get(one.order.kind, "spline") for one in asked]
     assert queue.model is not None and queue.planned_joints is not None  # with a model there are joints
-    found = plan_block(queue.model, queue.planned_joints, [one.request for one in asked], kinds)
+    found = plan_block(queue.model, queue.planned_joints, [one.request for one in asked], kinds, _rules(asked))
     if isinstance(found, BlockFault):
         return Refused(found.fault, asked[found.segment].order)
     done: list[Drive] = []
@@ -131,14 +132,30 @@ def _runs(queue: MotionQueue, asked: Sequence[_Asked]) -> list[Drive] | Refused:
     for run in found:
         part = asked[before : before + len(run.marks)]
         before += len(run.marks)
-        done.append(_drive(queue, run, part, before == len(asked)))
+        rules = _within(asked[-1].order.path_rules, before - len(part), before)
+        done.append(_drive(queue, run, part, before == len(asked), rules))
     queue.planned_joints = found[-1].move.end_joints
     return done
 
 
-def _drive(queue: MotionQueue, run: Run, asked: Sequence[_Asked], last: bool) -> Drive:
-    """One run of a block: a single move with the triggers of all its segments."""
-    orders, end = tuple(replace(one.order, block=()) for one in asked), asked[-1]
+def _rules(asked: Sequence[_Asked]) -> list[BlockRule]:
+    """What the program says of the speeds in a block, as the emulator takes it."""
+    from rpl.emulator.splinerules import BlockRule
+
+    return [BlockRule(one.at, one.rule, one.value, one.reference) for one in asked[-1].order.path_rules]
+
+
+def _within(rules: Sequence[PathRuleOrder], first: int, last: int) -> tuple[PathRuleOrder, ...]:
+    """Those of a block that stand in one of its runs, counted from there."""
+    return tuple(replace(one, at=one.at - first) for one in rules if first <= one.at <= last)
+
+
+def _drive(
+    queue: MotionQueue, run: Run, asked: Sequence[_Asked], last: bool, rules: tuple[PathRuleOrder, ...]
+) -> Drive:
+    """One run of a block: a single move with the triggers of all its segments, and the rules about its speeds."""
+    orders, end = tuple(replace(one.order, block=(), path_rules=()) for one in asked), asked[-1]
+    orders = (*orders[:-1], replace(orders[-1], path_rules=rules))
     blend = end.order.blend if last else _STOP
     order = replace(orders[-1], blend=blend, triggers=_triggers(run.move, run.marks, orders))
     drive = Drive(_number(queue), order, run.move, end.moving, end.goal, end.external)

@@ -71,6 +71,16 @@ class TriggerOrder:
         return replace(self, due=None, fired=False)
 
 
+@dataclass(frozen=True, slots=True)
+class PathRuleOrder:
+    """A rule about the speeds of a block, behind `at` of its segments: see `ir.PathRule`. `value`: a share, s or mm."""
+
+    at: int
+    rule: str
+    value: float
+    reference: str
+
+
 @dataclass(slots=True, eq=False)
 class SearchOrder:
     """`write` takes the target where it came, `hit` whether it came before the move's end. `last`: the condition's
@@ -90,7 +100,8 @@ class SearchOrder:
 @dataclass(slots=True, eq=False)
 class Order:
     """One move as the program asks for it. `modal` overlays the task's system variables for this move; `once` is what
-    of it statements before the move have set. `block`: of the last move of a spline block those before it."""
+    of it statements before the move have set. `block`: of the last move of a spline block those before it, and
+    `path_rules`: how the block is driven."""
 
     kind: str
     target: Value
@@ -118,6 +129,7 @@ class Order:
     external_only: bool = False
     velocity: bool = False
     block: tuple[Order, ...] = ()
+    path_rules: tuple[PathRuleOrder, ...] = ()
 
 
 @dataclass(slots=True, eq=False)

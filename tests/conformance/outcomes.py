@@ -147,6 +147,7 @@ _CALLED = {
     ir.Critical: "critical section",
     ir.SetForNextMove: "setting for one move",
     ir.Trigger: "output or call on the path",
+    ir.PathRule: "spline",
     ir.DefineTrigger: "output or call on the path",
     ir.MoveExternal: "move of external axes",
     ir.Spline: "spline",

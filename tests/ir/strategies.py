@@ -195,7 +195,13 @@ BARE: tuple[ir.Statement, ...] = (
     ir.TryNext(),
     ir.Nothing(),
 )
-IN_SPLINE = (ir.Nothing(), ir.Vendor("krl", "TIME_BLOCK START", "time"), ir.Opaque("?"))
+IN_SPLINE = (
+    ir.Nothing(),
+    ir.PathRule("time_start"),
+    ir.PathRule("constant_end", ir.RealLiteral(-5.0), "start"),
+    ir.Vendor("krl", "TIME_BLOCK START", "time"),
+    ir.Opaque("?"),
+)
 simple: st.SearchStrategy[ir.Statement] = st.one_of(
     assignments,
     calls,

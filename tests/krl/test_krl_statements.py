@@ -6,6 +6,7 @@ import pytest
 from krl_helpers import body, read, shown, statement
 
 from rpl import ir
+from rpl.diagnostics import Severity
 
 _MODAL_DISTANCE = ir.BlendDistance(ir.System("blend_distance"))
 _MODAL_JOINT = ir.BlendPercent(ir.System("blend_joint"))
@@ -106,8 +107,8 @@ STATEMENTS = [
     ("ANOUT ON X = 3.5 * $VEL.CP DELAY = 0.1 MAXIMUM=1.0", ir.Vendor),
     ("PTP !", ir.Vendor),
     ("STOP WHEN PATH = 50 IF $IN[10]==FALSE", ir.Vendor),
-    ("TIME_BLOCK PART = 12.5", ir.Vendor),
-    ("CONST_VEL START = 50 ONSTART", ir.Vendor),
+    ("TIME_BLOCK PART = 12.5", ir.PathRule),
+    ("CONST_VEL START = 50 ONSTART", ir.PathRule),
     ("ASYPTP {E1 10}", ir.Vendor),
     ("STOP = 3", ir.Assign),
     ("UNKNOWN_ROUTINE(1,2)", ir.CallRoutine),
@@ -189,3 +190,18 @@ def test_blocks() -> None:
     assert isinstance(switch, ir.Switch) and len(switch.cases[0].values) == 2 and switch.default
     assert isinstance(loop, ir.For) and loop.counter == "I" and shown(loop.step or ir.Name("")) == "(- 1)"
     assert isinstance(spline, ir.Spline) and len(spline.body) == 3 and spline.blend == _MODAL_DISTANCE
+
+
+@pytest.mark.parametrize(
+    ("lines", "what"),
+    [
+        ("SPLINE\nSPTP P1\nENDSPLINE", "SPTP"),
+        ("PTP_SPLINE\nSLIN P1\nENDSPLINE", "a path motion"),
+        ("SPLINE\nLIN P1\nENDSPLINE", "PTP, LIN or CIRC"),
+        ("PTP_SPLINE\nCONST_VEL START=0\nSPTP P1\nENDSPLINE", "CONST_VEL"),
+        ("SPLINE\nSPL P1\nTIME_BLOCK END\nENDSPLINE", "TIME_BLOCK END needs a value"),
+    ],
+)
+def test_what_a_spline_block_has_none_of_is_told(lines: str, what: str) -> None:
+    (report,) = body(lines)[1]
+    assert report.severity == Severity.ERROR and what in report.as_text()

@@ -138,3 +138,27 @@ def test_a_corner_into_a_block_is_as_large_as_the_first_arc_allows(target: str) 
     result, told, _ = translated("WAY.JBI", job, "inform", target, "motoman_gp7")
     assert result.equal, result.as_text()
     assert "spline-corner-smaller" in told
+
+
+RULED = SPLINES.replace("    TRIGGER", "    CONST_VEL START=+5 ONSTART\n    TIME_BLOCK START\n    TRIGGER").replace(
+    "  ENDSPLINE", "    TIME_BLOCK PART=2\n    TIME_BLOCK END=1.5\n    CONST_VEL END=-5.5\n  ENDSPLINE"
+)
+
+
+@pytest.mark.parametrize("target", ["rapid", "tp", "urscript"])
+def test_rules_about_speeds_are_told_and_the_path_stays(target: str) -> None:
+    result, told, _ = translated("way.src", RULED, "krl", target, ARM)
+    assert result.equal and result.max_path_mm < 0.01, result.as_text()
+    assert told.count("spline-speed-rule") == 2 and "spline-as-arcs" in told
+
+
+@pytest.mark.parametrize("target", ["krl", "rpl"])
+def test_rules_about_speeds_stay_where_there_are_such(target: str) -> None:
+    result, told, text = translated("way.src", RULED, "krl", target, ARM)
+    assert result.equal and "spline-speed-rule" not in told, result.as_text()
+    wanted = {
+        "krl": ["CONST_VEL START=5 ONSTART", "TIME_BLOCK START", "TIME_BLOCK PART=2", "TIME_BLOCK END=1.5"],
+        "rpl": ["PATH RULE constant_start AT 5 BEHIND START", "PATH RULE time_start", "PATH RULE time_part AT 2"],
+    }[target]
+    lines = [line.strip().replace("+", "") for line in text.splitlines()]
+    assert [line for line in lines if line in wanted] == wanted

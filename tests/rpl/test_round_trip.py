@@ -118,6 +118,7 @@ _FULL: tuple[ir.Statement, ...] = (
         motion_class="spline",
     ),
     ir.Spline("joint", (ir.Move("spline", _ONE), ir.Vendor("krl", "t", "time")), ir.BlendStop(), ((_ONE, _ONE),)),
+    *(ir.PathRule(*rule) for rule in (("time_start",), ("time_part", _ONE), ("constant_start", _ONE, "start"))),
     _TRIGGER,
     ir.DefineTrigger(_ONE, _TRIGGER, _ONE),
     ir.If(((ir.BoolLiteral(True), ()),), (ir.Opaque("?"),)),

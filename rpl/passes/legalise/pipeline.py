@@ -158,7 +158,7 @@ from rpl.passes.legalise.sourcelayout import source_layout
 from rpl.passes.legalise.speeds import fit_speeds
 from rpl.passes.legalise.speedshares import speed_shares
 from rpl.passes.legalise.spelling import one_spelling
-from rpl.passes.legalise.splines import straight_splines
+from rpl.passes.legalise.splines import straight_splines, without_path_rules
 from rpl.passes.legalise.standing import stand_first
 from rpl.passes.legalise.startedtasks import started_tasks
 from rpl.passes.legalise.statics import static_variables
@@ -231,6 +231,7 @@ PASSES: tuple[Pass, ...] = (
     task_names,
     started_tasks,
     task_states,
+    without_path_rules,
     straight_splines,
     home_positions,
     fold_pulses,

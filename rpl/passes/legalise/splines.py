@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.jumps import inside
@@ -27,6 +27,31 @@ AS_LINES = code(
     "the target has no such splines: the block is written as {count} moves, {how} from point to point, with stops",
     "teach more points where the path has to bend, or give the points corners",
 )
+LEFT_OUT = code(
+    "spline-speed-rule",
+    Severity.WARNING,
+    "the target has no {what} in a path: left out, the path stays and its speeds are those of its moves",
+    "give the moves the speeds that make the time",
+)
+_RULES = {"time": "times of parts (TIME_BLOCK)", "constant": "parts of constant speed (CONST_VEL)"}
+
+
+def without_path_rules(program: ir.Program, context: Context) -> ir.Program:
+    """For targets whose blocks say nothing of times and constant speeds: told once for each part, where it begins."""
+    if "PathRule" in context.capabilities.statements:
+        return program
+
+    def change(node: object) -> object:
+        if not isinstance(node, ir.PathRule):
+            return node
+        what, _, edge = node.rule.partition("_")
+        if edge == "start":
+            context.diagnostics.report(LEFT_OUT, node.origin, what=_RULES[what])
+        return ir.Nothing(origin=node.origin)
+
+    if not any(isinstance(node, ir.PathRule) for node in walk(*program.modules)):
+        return program
+    return replace(program, modules=tuple(rewrite(module, change) for module in program.modules))
 
 
 def straight_splines(program: ir.Program, context: Context) -> ir.Program:
@@ -106,4 +131,4 @@ def _segments(spline: ir.Spline, context: Context) -> ir.Body:
     return with_comments(tuple(done), spline)
 
 
-__all__ = ["straight_splines"]
+__all__ = ["straight_splines", "without_path_rules"]
