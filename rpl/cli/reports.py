@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -16,6 +16,7 @@ from rpl.errors import UsageError
 if TYPE_CHECKING:
     from rpl.controllers import MotionModel
     from rpl.emulator.inertias import Body
+    from rpl.emulator.mechanismfile import Mechanism
     from rpl.emulator.model import RobotModel
     from rpl.project import ReadProgram
     from rpl.report.dynamics import Moment, RunDynamics
@@ -62,8 +63,9 @@ class Reports:
         read: ReadProgram,
         model: RobotModel | None,
         dynamics: RunDynamics | None = None,
+        mechanisms: Sequence[Mechanism] = (),
     ) -> None:
-        """Write the page, if one is asked for."""
+        """Write the page, if one is asked for. `mechanisms`: those of the cell; the robot's own are known."""
         if self.plot is None:
             return
         from rpl import registry
@@ -82,7 +84,9 @@ class Reports:
             fault=f"{place}{fault.code}: {fault.message}" if fault is not None else "",
         )
         layers = dynamics.layers() if dynamics is not None else ()
-        document = run_document(result, model, heading, layers=layers)
+        known = (*(model.mechanisms if model is not None else ()), *mechanisms)
+        external = {axis.number: axis for mechanism in known for axis in mechanism.axes}
+        document = run_document(result, model, heading, layers=layers, external=external)
         write_file(self.plot, page(document, self.library).encode("utf-8"))
 
 
@@ -192,9 +196,8 @@ def show_times(found: RunTimes) -> None:
     ):
         share = 100.0 * seconds / found.total_s if found.total_s > 0.0 else 0.0
         click.echo(f"{seconds:9.3f} s {share:5.1f} %  {name}")
-    click.echo(
-        f"{found.total_s:9.3f} s in all, between {found.low_s:.3f} and {found.high_s:.3f} s ({found.controller})"
-    )
+    by = f" ({found.controller})" if found.controller else ""
+    click.echo(f"{found.total_s:9.3f} s in all, between {found.low_s:.3f} and {found.high_s:.3f} s{by}")
     for name, early, late in found.effects:
         click.echo(f"          {name}: -{early:.3f} +{late:.3f} s")
 

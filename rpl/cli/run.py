@@ -92,15 +92,16 @@ def command(
     print_diagnostics(assumptions, Severity.WARNING)
     with waiting("running"):
         result = run_program(read.program, model, surroundings, entry, limits=limits, controller=reports.controller)
-    write_trace(trace, result)
     layers, times = reports.layers(result, model), reports.times(result, model)
-    reports.write(result, read, model, layers)
     if as_json:
         more = {"dynamics": layers, "times": times}
         print_json(result.as_json() | {name: made.as_json() for name, made in more.items() if made is not None})
     else:
         show(result)
         show_reports(layers, times)
+    # Last, so that a file that cannot be written does not cost the result.
+    write_trace(trace, result)
+    reports.write(result, read, model, layers, surroundings.mechanisms if surroundings else ())
     return 0 if result.status in ("finished", "stopped") else 1
 
 

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import starmap
 from pathlib import PurePath
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rpl.emulator.margins import conditioning, limit_margins, singular_factors
 from rpl.emulator.rotations import FloatArray
+from rpl.report.external import curves_as_layers, external_curves
 from rpl.report.labels import NO_LABEL, Labels
 from rpl.report.motion import MoveRow, move_rows, tool_rates, waiting_places
 from rpl.report.sampling import STANDING, STEP_S, RunSamples, driven_moves, sample_run, thinned
 from rpl.report.signals import signal_rows
 
 if TYPE_CHECKING:
+    from rpl.emulator.mechanismfile import MechanismAxis
     from rpl.emulator.model import RobotModel
     from rpl.runtime.trace import Event, RunResult
 
@@ -68,9 +72,10 @@ def run_document(
     step_s: float = STEP_S,
     most_samples: int = MOST_SAMPLES,
     layers: Sequence[tuple[str, str, FloatArray]] = (),
+    external: Mapping[int, MechanismAxis] = MappingProxyType({}),
 ) -> RunDocument:
     """The document of a run. Without a robot it has signals and messages only. `layers` are further curves over time,
-    each a name, a unit and rows (k, 2) of s and value."""
+    each a name, a unit and rows (k, 2) of s and value. `external`: what is known of external axes, by their number."""
     labels = Labels(event.origin for event in result.trace)
     signals, left_out = signal_rows(result)
     notes = [f"{left_out} later changes of signals are not shown; --trace writes them all."] if left_out else []
@@ -89,7 +94,8 @@ def run_document(
             for row in signals
         ],
         "marks": _marks(result, labels),
-        "layers": [_layer(*layer) for layer in layers],
+        "layers": curves_as_layers(external_curves(result, external, step_s, most_samples))
+        + [*starmap(_layer, layers)],
     }
     rows: tuple[MoveRow, ...] = ()
     moves = driven_moves(result)
@@ -215,4 +221,5 @@ def _marks(result: RunResult, labels: Labels) -> list[Row]:
 
 
 def _layer(name: str, unit: str, rows: FloatArray) -> Row:
-    return {"name": name, "unit": unit, "t": numbers(rows[:, 0], 5), "values": numbers(rows[:, 1], 4)}
+    times, values = numbers(rows[:, 0], 5), numbers(rows[:, 1], 4)
+    return {"name": name, "title": "", "unit": unit, "t": times, "values": values, "limits": []}

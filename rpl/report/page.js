@@ -187,13 +187,16 @@
 
   function layers(rows, data, shapes) {
     const groups = new Map();
-    run.layers.forEach((layer) => groups.set(layer.unit, (groups.get(layer.unit) || []).concat([layer])));
-    groups.forEach((members, unit) => {
-      const axis = rows.add([...new Set(members.map((layer) => layer.name.replace(/ J\d+$/, "s")))].join("; ") + ", " + unit, 150, {});
-      members.forEach((layer) => {
-        const joint = /J(\d+)$/.exec(layer.name), colour = joint ? COLOURS[(joint[1] - 1) % COLOURS.length] : "#1d2733";
+    const group = (layer) => layer.title + "\n" + layer.unit;
+    run.layers.forEach((layer) => groups.set(group(layer), (groups.get(group(layer)) || []).concat([layer])));
+    groups.forEach((members) => {
+      const { unit, title } = members[0], names = [...new Set(members.map((layer) => layer.name.replace(/ J\d+$/, "s")))].join("; ");
+      const axis = rows.add((title ? title + ": " : "") + names + ", " + unit, 150, {});
+      members.forEach((layer, n) => {
+        const joint = /J(\d+)$/.exec(layer.name), colour = COLOURS[(joint ? joint[1] - 1 : n) % COLOURS.length];
+        layer.limits.forEach((limit) => data.push({ type: "scatter", mode: "lines", showlegend: false, hoverinfo: "skip", x: [0, run.time_s], y: [limit, limit], yaxis: axis, line: { color: colour, width: 1, dash: "dot" } }));
         const text = samples ? layer.t.map((t) => lines[rowAt(t)]) : undefined;
-        data.push({ type: "scattergl", mode: "lines", name: layer.name, legendgroup: joint ? joint[0] : layer.name, showlegend: !joint, x: layer.t, y: layer.values, yaxis: axis, text, line: { color: colour, width: 1.3 }, hovertemplate: "%{text}<br>" + escaped(layer.name) + " %{y:.3f} " + escaped(unit) + " at %{x:.3f} s<extra></extra>" });
+        data.push({ type: "scattergl", mode: "lines", name: layer.name, legendgroup: joint ? joint[0] : layer.name, showlegend: !joint && !/speeds/i.test(title), x: layer.t, y: layer.values, yaxis: axis, text, line: { color: colour, width: 1.3 }, hovertemplate: "%{text}<br>" + escaped(layer.name) + " %{y:.3f} " + escaped(unit) + " at %{x:.3f} s<extra></extra>" });
       });
       if (unit === "% of limit") [-100, 100].forEach((y) => shapes.push(limitLine(axis, y)));
     });

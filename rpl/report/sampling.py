@@ -7,7 +7,7 @@ across a leg: at its borders it moves inwards.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Sized
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -142,7 +142,7 @@ def _joined(parts: Sequence[RunSamples]) -> RunSamples:
     )
 
 
-def thinned(samples: RunSamples, most: int, *measures: FloatArray) -> NDArray[np.int64]:
+def thinned(samples: Sized, most: int, *measures: FloatArray) -> NDArray[np.int64]:
     """Rows to keep, in order, at most about `most`: both ends and, from each window of rows, the one with the largest
     and the smallest of each measure (k,). All rows when they are few enough."""
     count = len(samples)
