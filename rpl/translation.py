@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity
+from rpl.emulator.mechanismfile import Mechanism
 from rpl.emulator.model import RobotModel, load_robot
 from rpl.passes.given import with_given
 from rpl.passes.legalise import Context, legalise
@@ -37,6 +38,7 @@ def translate_program(
     registers: Mapping[tuple[str, int], str] | None = None,
     options: Mapping[str, str] | None = None,
     given: Mapping[str, object] | None = None,
+    mechanisms: tuple[Mechanism, ...] = (),
 ) -> Translation:
     """Write a program that was read in another language (or anew in its own).
 
@@ -44,12 +46,13 @@ def translate_program(
     UsageError for unknown names. `registers`: numbers that an earlier translation gave (Translation.registers).
     `options`: the target's own, by name (Target.options). `given`: values of data that the controller keeps and the
     program does not set, by name (the variables of a cell file); what is written for another controller sets them.
+    `mechanisms`: those of the cell, beside those of the robot's file.
     What the target cannot say is written as a guarded stop and listed in `losses`.
     """
     collector = diagnostics if diagnostics is not None else Diagnostics()
     target = registry.target(target_name)
-    first = _load(robot)
-    second = _load(to_robot) if to_robot and to_robot != robot else first
+    first = _load(robot, mechanisms)
+    second = _load(to_robot, mechanisms) if to_robot and to_robot != robot else first
     source = read.dialects[0] if read.dialects else target_name
     capabilities = target.capabilities_under(options or {})
     context = Context(source, target_name, capabilities, collector, first, second)
@@ -87,5 +90,5 @@ def _with_signals(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=(*program.modules, home))
 
 
-def _load(name: str | None) -> RobotModel | None:
-    return load_robot(name) if name else None
+def _load(name: str | None, mechanisms: tuple[Mechanism, ...]) -> RobotModel | None:
+    return load_robot(name).among(mechanisms, "cell") if name else None

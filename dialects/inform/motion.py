@@ -15,7 +15,7 @@ from rpl.reading.shapes import StatementError
 from . import tables
 from .data import Data, Statements
 from .early import Early, before
-from .jobs import Frame, Job
+from .jobs import PULSE, Frame, Job
 from .kinds import JOINTS, SHIFTED, TARGET, Flow, Kind, frame_of
 from .operands import Shared, plain_bank, tags_of
 from .points import Points
@@ -24,7 +24,7 @@ from .syntax import Command, Joined, LabelName, Numbered, Operand, Relation, Wor
 COORDINATED = code(
     "inform-coordinated",
     Severity.WARNING,
-    "a move coordinated with a station is taken as if the station stood: its kinematics are not known here",
+    "no station goes with {text}, so that nothing says what it is coordinated with; its path is taken in the room",
 )
 SECOND_ROBOT = code(
     "inform-second-robot", Severity.WARNING, "{text} moves a second robot at the same time; a run stops there"
@@ -36,6 +36,10 @@ OVERRUN = code(
     "{limits} at {word} is left out: it ends at the taught point and keeps the place of the signal",
     "teach the point so far that the signal comes before it",
 )
+
+
+Settings = tuple[tuple[ir.Expression, ir.Expression], ...]
+FIRST_STATION = "ST1"
 
 
 @dataclass(slots=True)
@@ -79,8 +83,6 @@ class Motion(Data):
     def on_move(self, command: Command) -> Statements:
         main, *joined = self.segments(command)
         word = main.word.removeprefix("S")
-        if main.word != word:
-            self.report_once(COORDINATED, "coordinated")
         further = [position for segment in joined for position in segment.positions]
         if any(_bank(position) in ("C", "P") for position in further):
             text = " ".join(self.origin.text.split())
@@ -93,7 +95,33 @@ class Motion(Data):
         if not arms:
             return self.external_move(axes, main)
         target, kind = self.goal(arms[0], axes)
-        return self.move(word, target, kind, main)
+        beside = self.beside(joined)
+        if main.word != word:
+            beside = (*beside, *self.coordinated(axes))
+        return self.move(word, target, kind, main, beside)
+
+    def beside(self, joined: list[_Segment]) -> Settings:
+        """What the parts behind a `+` say of their axes: VJ, the station's own speed in percent."""
+        found: list[tuple[ir.Expression, ir.Expression]] = []
+        for segment in joined:
+            for tag, relation in tags_of(tuple(segment.others)):
+                if tag in ("VJ", "VE"):
+                    found.append((ir.System("external_speed", origin=self.origin), self.tagged(tag, relation.right)))
+                else:
+                    self.report_once(UNKNOWN_TAG, f"tag +{tag}", tag=f"{tag}= behind +{segment.word}")
+        return tuple(found)
+
+    def coordinated(self, axes: list[ir.Index]) -> Settings:
+        """The path is straight (round) on the station that moves along. M: positions count in the room, as all others;
+        the speed is that on the station; of several stations the first leads."""
+        stations = [name for group in self.job.groups for name in group.split(",") if name.strip().startswith("ST")]
+        leads = any(_bank(each) in ("EC", "EX") for each in axes)
+        if not leads:
+            text = " ".join(self.origin.text.split())
+            self.report_once(COORDINATED, "coordinated", text=text)
+            return ()
+        leader = ir.TextLiteral(stations[0].strip() if stations else FIRST_STATION)
+        return ((ir.System("coordinated", origin=self.origin), leader),)
 
     def goal(self, arm: ir.Index, axes: list[ir.Index]) -> tuple[ir.Expression, Kind]:
         """The target of a move with the base axes and station that go with it."""
@@ -117,11 +145,13 @@ class Motion(Data):
             if found is None:
                 raise StatementError("the point is not taught", 0)
             return found
-        return self.variable(position)
+        variable, number = self.variable(position), position.indices[0]
+        saved = self.job.points.get((_bank(position), number.value)) if isinstance(number, ir.IntLiteral) else None
+        return variable if saved is not None and saved.form != PULSE else self.call("external_from_pulses", variable)
 
     # ---- moves
 
-    def move(self, word: str, target: ir.Expression, kind: Kind, main: _Segment) -> Statements:
+    def move(self, word: str, target: ir.Expression, kind: Kind, main: _Segment, beside: Settings = ()) -> Statements:
         relative: str | None = None
         frame: ir.Expression | None = None
         if word == "IMOV":
@@ -143,7 +173,7 @@ class Motion(Data):
             acceleration=acceleration,
             blend=ir.BlendStop() if search is not None and search.stop != "none" else blend,
             search=search,
-            settings=settings,
+            settings=(*settings, *beside),
             concurrent=Word("NWAIT") in main.others,
             group=self.group(),
             origin=self.origin,

@@ -1,12 +1,13 @@
 """Taught points of a job as constants, and saved values of position variables as first values.
 
 A taught point of the arm is named as in the job (C00001). Positions of base axes and stations taught at the same step
-(BC00001, EC00001) become its external axes: e1 ... for the base, then the station.
+(BC00001, EC00001) become its external axes: e1 ... for the base, then the station. Their pulses stay pulses
+(`external_from_pulses`) until a mechanism says how many make a degree or mm.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
@@ -16,11 +17,6 @@ from .jobs import ANGLE, POSE, PULSE, Job, Point
 from .kinds import Kind, kind_of_point
 from .rules import FIELDS
 
-STATION_PULSES = code(
-    "inform-station-pulses",
-    Severity.WARNING,
-    "positions of base axes and stations are given in pulses, whose length is not known here; they are kept as numbers",
-)
 NOT_TAUGHT = code("inform-no-point", Severity.ERROR, "{name} is not among the points of this job")
 
 _POSE_FIELDS = ("x", "y", "z", "c", "b", "a")
@@ -35,10 +31,47 @@ def real(literal: Literal) -> ir.Expression:
     return ir.RealLiteral(float(literal.value), origin=literal.origin)
 
 
-def value_of_point(point: Point, external: tuple[Literal, ...] = ()) -> ir.Expression:
-    """A point as an expression: a target, joints, or joints from pulses."""
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """The value of one base axis or of one axis of a station."""
+
+    value: Literal
+    pulses: bool = False
+
+
+Entries = tuple[tuple[str, ir.Expression], ...]
+
+
+def value_of_point(point: Point, external: tuple[Axis, ...] = ()) -> ir.Expression:
+    """A point as an expression: a target, joints, or joints from pulses; with external axes where it has some."""
+    axes = (*(Axis(value) for value in point.line.values[6:]), *external)
+    beyond, counted = _entries(axes)
+    value = _of_arm(point, beyond)
+    return value if not counted else _with(value, _from_pulses(counted, point.line.origin))
+
+
+def _entries(axes: tuple[Axis, ...]) -> tuple[Entries, Entries]:
+    """Axes in degrees or mm, and those in pulses, by their names."""
+    named = [(f"e{number}", axis) for number, axis in enumerate(axes[:6], 1)]
+    plain = tuple((name, real(axis.value)) for name, axis in named if not axis.pulses)
+    return plain, tuple((name, real(axis.value)) for name, axis in named if axis.pulses)
+
+
+def _with(value: ir.Expression, external: ir.Expression) -> ir.Expression:
+    """The type of an argument does not follow from its place: it says its own."""
+    if isinstance(value, ir.Aggregate) and value.type_name is None:
+        names = {name for name, _ in value.entries}
+        word = "target inform" if "x" in names else "joints" if "j1" in names else "external"
+        value = replace(value, type_name=word)
+    return ir.Builtin("with_external", (value, external), origin=value.origin)
+
+
+def _from_pulses(counted: Entries, origin: Origin) -> ir.Expression:
+    return ir.Builtin("external_from_pulses", (ir.Aggregate(counted, "external", origin=origin),), origin=origin)
+
+
+def _of_arm(point: Point, beyond: Entries) -> ir.Expression:
     values, origin = point.line.values, point.line.origin
-    beyond = tuple((f"e{n}", real(value)) for n, value in enumerate((*values[6:], *external)[:6], 1))
     if point.form == POSE:
         entries: list[tuple[str | None, ir.Expression]] = [
             (name, real(value)) for name, value in zip(_POSE_FIELDS, values, strict=False)
@@ -49,9 +82,7 @@ def value_of_point(point: Point, external: tuple[Literal, ...] = ()) -> ir.Expre
         joints = tuple((name, real(value)) for name, value in zip(_JOINT_FIELDS, values, strict=False))
         return ir.Aggregate((*joints, *beyond), origin=origin)
     pulses: ir.Expression = ir.Builtin("joints_from_pulses", (*values, *_missing(values))[:6], origin=origin)
-    if beyond:
-        pulses = ir.Builtin("with_external", (pulses, ir.Aggregate(beyond, "external", origin=origin)), origin=origin)
-    return pulses
+    return _with(pulses, ir.Aggregate(beyond, "external", origin=origin)) if beyond else pulses
 
 
 def _missing(values: tuple[Literal, ...]) -> tuple[Literal, ...]:
@@ -59,9 +90,24 @@ def _missing(values: tuple[Literal, ...]) -> tuple[Literal, ...]:
     return (ir.IntLiteral(0),) * max(0, 6 - len(values))
 
 
-def external_value(values: tuple[Literal, ...], origin: Origin) -> ir.Expression:
-    entries = tuple((f"e{n}", real(value)) for n, value in enumerate(values[:6], 1))
-    return ir.Aggregate(entries, origin=origin)
+def external_value(axes: tuple[Axis, ...], origin: Origin) -> ir.Expression:
+    """A position of base axes or a station alone."""
+    plain, counted = _entries(axes)
+    value: ir.Expression = ir.Aggregate(plain, "external", origin=origin)
+    if not counted:
+        return value
+    return _with(value, _from_pulses(counted, origin)) if plain else _from_pulses(counted, origin)
+
+
+def external_variable(point: Point) -> ir.Expression:
+    """The saved value of a variable for base axes or a station: as it counts, pulses too, for instructions change it in
+    its own units."""
+    return external_value(tuple(Axis(value) for value in point.line.values), point.line.origin)
+
+
+def axes_of(point: Point) -> tuple[Axis, ...]:
+    """The axes of a base or station point."""
+    return tuple(Axis(value, point.form == PULSE) for value in point.line.values)
 
 
 def type_of_point(point: Point) -> ir.Type:
@@ -79,7 +125,6 @@ class Points:
     made: dict[str, ir.Variable] = field(default_factory=dict)
     used: set[tuple[str, int]] = field(default_factory=set)
     first: dict[int, tuple[int | None, int | None]] = field(default_factory=dict)
-    warned: bool = False
 
     def taught(
         self, number: int, base: int | None, station: int | None, origin: Origin
@@ -92,11 +137,11 @@ class Points:
         name = f"C{number:05d}"
         if self.first.setdefault(number, with_axes) != with_axes:
             name += "".join(f"_{bank}{n:05d}" for bank, n in (("BC", base), ("EC", station)) if n is not None)
-        external: tuple[Literal, ...] = ()
+        external: tuple[Axis, ...] = ()
         for bank, each in (("BC", base), ("EC", station)):
             further = self.find(bank, each, origin) if each is not None else None
             if further is not None:
-                external += self.axes(further)
+                external += axes_of(further)
         if name not in self.made:
             self.declare(name, point, value_of_point(point, external))
         return ir.Name(name, origin=origin), kind_of_point(point.form, point.frame, point.tool, origin)
@@ -108,14 +153,8 @@ class Points:
             return None
         name = f"{bank}{number:05d}"
         if name not in self.made:
-            self.declare(name, point, external_value(self.axes(point), point.line.origin))
+            self.declare(name, point, external_value(axes_of(point), point.line.origin))
         return ir.Name(name, origin=origin)
-
-    def axes(self, point: Point) -> tuple[Literal, ...]:
-        if point.form == PULSE and any(value.value for value in point.line.values) and not self.warned:
-            self.warned = True
-            self.diagnostics.report(STATION_PULSES, point.line.origin)
-        return point.line.values
 
     def find(self, bank: str, number: int, origin: Origin) -> Point | None:
         point = self.job.points.get((bank, number))
@@ -136,5 +175,5 @@ class Points:
                 if bank == "C":
                     self.declare(f"C{number:05d}", point, value_of_point(point))
                 else:
-                    self.declare(f"{bank}{number:05d}", point, external_value(self.axes(point), point.line.origin))
+                    self.declare(f"{bank}{number:05d}", point, external_value(axes_of(point), point.line.origin))
         return tuple(sorted(self.made.values(), key=lambda made: made.origin.start))

@@ -20,7 +20,7 @@ from .control import START, Control
 from .jobs import Frame, Job, JobReader, Point, commands
 from .kinds import JOINTS, Kind, Project, frame_of, kind_of_point, settle
 from .operands import TYPES, Shared, Used, plain_bank
-from .points import external_value, value_of_point
+from .points import external_variable, value_of_point
 from .pulsebanks import without_pulse_banks
 from .signals import DIRECT_INPUTS
 from .split import SHAPE, SLOTS, split
@@ -228,7 +228,7 @@ class _Lowering:
             name = f"{bank}{number:03d}"
             if bank != "P":
                 type: ir.Type = ir.ExternalType()
-                value = external_value(point.line.values, point.line.origin)
+                value = external_variable(point)
             else:
                 name, type, value = *self.typed(name, bank, number, point), value_of_point(point)
             found[name] = (type, value)
@@ -256,7 +256,7 @@ class _Lowering:
                 continue
             origin = point.line.origin
             name = bank
-            value = external_value(point.line.values, origin)
+            value = external_variable(point)
             if bank == "P":
                 name, type = self.typed(bank, bank, None, point)
                 value = value_of_point(point)

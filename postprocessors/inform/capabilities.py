@@ -16,7 +16,7 @@ CAPABILITIES = Capabilities(
     ),
     functions=frozenset((*tables.FUNCTIONS, *tables.TEXT_FUNCTIONS, *tables.POSITION_FUNCTIONS, "abs", "number_text")),
     procedures=frozenset(),
-    system_variables=frozenset(("actual_pose", "actual_joints", "actual_joint", "null_frame", "world")),
+    system_variables=frozenset(("actual_pose", "actual_joints", "actual_joint", "null_frame", "world", "coordinated")),
     operators=frozenset((*tables.COMPARISONS, *tables.ARITHMETIC, "mod", "and", "or", "&", ":")),
     types=frozenset(
         (

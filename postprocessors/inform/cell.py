@@ -29,7 +29,8 @@ class Kept:
 
 @dataclass(slots=True)
 class Cell:
-    """Shared data of a program."""
+    """Shared data of a program. `external`: how many external axes it moves; the first `bases` of them carry the
+    robot (base axes), the others are those of the station."""
 
     registers: Registers
     tool_of_variables: int = 0
@@ -39,6 +40,8 @@ class Cell:
     frames: dict[Values, int] = field(default_factory=dict)
     by_variable: dict[str, int] = field(default_factory=dict)
     last_tool: int = 0
+    external: int = 0
+    bases: int = 0
 
     def keep(self, what: Kept) -> int:
         """The number of the position variable that holds a constant."""

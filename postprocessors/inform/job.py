@@ -5,8 +5,9 @@ Points without a posture stand first, before any RCONF, because nothing takes an
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -102,8 +103,7 @@ class Job:
     def sayable(self, position: Position, tool: int, taught: bool = False) -> Position:
         """The position as a controller can keep it: joints as pulses where they can be counted, else as a pose. Taught
         points are poses as well where pulses would be counted by a neutral scale, and a posture says enough."""
-        if any(position.external):
-            raise CannotSayError("positions of external axes are in pulses, which are not known here")
+        position = self.with_counts(position, taught)
         if position.kind != "joints":
             return position
         if self.robot is None:
@@ -112,7 +112,27 @@ class Job:
             raise CannotSayError(f"{self.robot.name} has {self.robot.axes} axes")
         if (self.taught_scale if taught else self.scale) is not None:
             return position
-        return pose_of_joints(position, self.robot, self.cell.value_of_tool(tool))
+        pose = pose_of_joints(position, self.robot, self.cell.value_of_tool(tool))
+        return replace(pose, external=position.external, counted=True)
+
+    def with_counts(self, position: Position, taught: bool) -> Position:
+        """The position with its external axes in pulses; taught points alone have places for them."""
+        count = self.cell.external if taught else 0
+        if not taught and any(position.external):
+            raise CannotSayError("a position variable with external axes")
+        given = position.external[:count]
+        if len(given) < count or any(math.isnan(one) for one in given):
+            raise CannotSayError("a point that does not say where the external axes go")
+        if not position.counted:
+            given = tuple(self.counts(number, value) for number, value in enumerate(given, 1))
+        return replace(position, external=given, counted=True)
+
+    def counts(self, number: int, value: float) -> float:
+        """Pulses of an external axis."""
+        each = None if self.robot is None else self.robot.external_pulses(number)
+        if each is None and value != 0.0:
+            raise CannotSayError("positions of external axes are in pulses, which are not known here")
+        return 0.0 if each is None else float(round(value * each))
 
     def pulses(self, axis: int) -> float:
         """Pulses per degree of an axis (1-based)."""
@@ -130,11 +150,19 @@ class Job:
             head.append(f"///COMM {ascii_text(self.comment)[:32].strip()}")
         head.append("///ATTR SC,RW")
         if self.moves:
-            head.append("///GROUP1 RB1")
+            bases, stations = self.cell.bases, self.cell.external - self.cell.bases
+            head.append("///GROUP1 RB1,BS1" if bases else "///GROUP1 RB1")
+            if stations > 0:
+                head.append("///GROUP2 ST1")
         return "\r\n".join((*head, "NOP", *self.lines, "END", ""))
 
     def header(self) -> list[str]:
         rows = [("C", number, kept) for kept, number in self.points.items()]
+        for kept, number in self.points.items():
+            axes, bases = kept.position.external, self.cell.bases
+            for bank, values in (("BC", axes[:bases]), ("EC", axes[bases:])):
+                if values:
+                    rows.append((bank, number, Kept(Position("external", values))))
         rows += [("P", number, kept) for kept, number in self.cell.kept.items() if number in self.positions]
         rows.sort(key=lambda row: (bool(row[2].position.flags), row[0], row[2].position.kind, row[2].frame, row[1]))
         counts = [sum(bank == kind for bank, _, _ in rows) for kind in ("C", "BC", "EC", "P", "BP", "EX")]
@@ -154,6 +182,8 @@ class Job:
 
     def wanted(self, kept: Kept) -> dict[str, str]:
         """The header lines that a point needs."""
+        if kept.position.kind == "external":
+            return {"POSTYPE": "PULSE", "PULSE": ""}
         found = {"TOOL": str(kept.tool)}
         if kept.position.kind == "joints":
             return {**found, "POSTYPE": "PULSE", "PULSE": ""}
@@ -166,6 +196,8 @@ class Job:
         return found
 
     def values(self, position: Position) -> str:
+        if position.kind == "external":
+            return ",".join(str(round(value)) for value in position.values)
         if position.kind == "joints":
             counts = self.scale
             assert counts is not None  # `sayable` has made poses of the others

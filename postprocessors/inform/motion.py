@@ -39,6 +39,11 @@ COMPUTED_CORNER = code(
     Severity.WARNING,
     "a joint move has positioning levels, no corner distance: the job chooses the largest level that is not wider",
 )
+LEADER = code(
+    "inform-station-name",
+    Severity.WARNING,
+    "the move is coordinated with '{unit}'; a job says station {station}, which must be that mechanism",
+)
 LEFT_OUT = code("inform-left-out", Severity.WARNING, "INFORM has no place for {what} at a move; it is left out")
 NO_SPEED = code("inform-no-speed", Severity.WARNING, "the move says no speed; it is written without one")
 
@@ -64,6 +69,15 @@ class Goal:
     position: Position | None
     seen: Seen | None = None
     arc: bool = False  # it was the end of an arc
+
+
+_STATION = "ST1"
+_KNOWN_SETTINGS = ("coordinated", "external_speed")
+
+
+def _named(move: ir.Move) -> list[tuple[str, ir.Expression]]:
+    """The settings of a move by the names of their system variables."""
+    return [(place.name if isinstance(place, ir.System) else "", value) for place, value in move.settings]
 
 
 # Instructions that calculate a point: they do not part the points of an arc.
@@ -118,10 +132,12 @@ class Motion:
         else:
             raise CannotSayError(f"there is no {move.kind} move")
         speed, blend = self.speed(move), self.blend(move)
-        ending = self.ending(move)
+        ending, beside = self.ending(move), self.station_speed(move)
+        led = self.led(move)
         if move.kind == "circular" and move.relative is None:
-            self.arc(move, tool, speed, done)
-        self.lines.append(" ".join(part for part in (shown, *speed, *blend, *ending) if part))
+            self.arc(move, tool, speed, done, led, beside)
+        line = " ".join(part for part in (led + shown, *speed, *blend, *ending) if part)
+        self.lines.append(line if move.relative is not None else self.with_axes(line, goal.place, beside))
         self.before = self.last if self.last is not None and self.last.arc else None
         goal.arc = move.kind == "circular"
         self.last, self.stands, self.running = goal, blend == ["PL=0"] and not move.concurrent, move.concurrent
@@ -141,7 +157,7 @@ class Motion:
             if found:
                 raise CannotSayError(f"a move has no place for {what}")
         left = {
-            "settings of its own": bool(move.settings),
+            "settings of its own": any(name not in _KNOWN_SETTINGS for name, _ in _named(move)),
             "an orientation rule": move.orientation not in (None, "variable"),
             "a circle's orientation rule": move.circle_orientation not in (None, "base"),
             "an acceleration in mm/s2": move.speed is not None and move.speed.path_acceleration is not None,
@@ -150,6 +166,37 @@ class Motion:
         for what, found in left.items():
             if found:
                 self.report_once(LEFT_OUT, move.origin, what, what=what)
+
+    # ---- base axes and stations
+
+    def led(self, move: ir.Move) -> str:
+        """`S` in front of the word of a path move that is straight (round) on the station."""
+        unit = next((value for name, value in _named(move) if name == "coordinated"), None)
+        if unit is None or move.kind == "joint":
+            return ""
+        if self.positions.job.cell.external <= self.positions.job.cell.bases:
+            raise CannotSayError("a move that is coordinated with a station that the program does not move")
+        if unit != ir.TextLiteral(_STATION):
+            shown = unit.value if isinstance(unit, ir.TextLiteral) else "what the program chooses"
+            self.report_once(LEADER, move.origin, shown, unit=shown, station=_STATION)
+        return "S"
+
+    def station_speed(self, move: ir.Move) -> str:
+        """VJ= behind the `+` of the station."""
+        speed = next((value for name, value in _named(move) if name == "external_speed"), None)
+        return "" if speed is None else f" {self.tag('VJ', speed, move.origin)}"
+
+    def with_axes(self, line: str, place: str, beside: str = "") -> str:
+        """The line of a move with the base axes and the station, which go with the taught point."""
+        cell = self.positions.job.cell
+        if not cell.external:
+            return line
+        if not place.startswith("C"):
+            raise CannotSayError("a computed place in a program that moves external axes")
+        number = place[1:]
+        if cell.bases:
+            line = line.replace(place, f"{place} BC{number}", 1)
+        return f"{line}  +MOVJ EC{number}{beside}" if cell.external > cell.bases else line
 
     # ---- points
 
@@ -294,7 +341,7 @@ class Motion:
         place = job.point_of(position, tool, last.frame, None) if move.kind == "joint" else ""
         return Goal(place, tool, last.frame, position)
 
-    def arc(self, move: ir.Move, tool: int, speed: list[str], done: list[str]) -> None:
+    def arc(self, move: ir.Move, tool: int, speed: list[str], done: list[str], led: str = "", beside: str = "") -> None:
         """The start of the arc and the point on the way. The start is the end of the move before, where that is linear
         or an arc; else it is taught once more."""
         if move.via is None:
@@ -305,13 +352,14 @@ class Motion:
         if self.line_of_last is not None and not any(line.startswith(_PARTING) for line in between_them):
             line = done[self.line_of_last]
             kept = all(one.startswith(_PLACE_WORDS) and line.split()[1] not in one.split()[:2] for one in self.lines)
-            if line.startswith("MOVC "):
-                done[self.line_of_last] = f"{line} FPT"
+            if line.startswith(f"{led}MOVC "):
+                own, plus, rest = line.partition("  +")
+                done[self.line_of_last] = f"{own} FPT{plus}{rest}"
                 retaught = False
-            elif kept and line.startswith("MOVL "):
+            elif kept and line.startswith(f"{led}MOVL "):
                 between = self.between_arcs(tool, speed) if self.before is not None else []
                 if between is not None:
-                    done[self.line_of_last : self.line_of_last + 1] = [*between, f"MOVC {line[5:]}"]
+                    done[self.line_of_last : self.line_of_last + 1] = [*between, f"{led}MOVC {line.partition(' ')[2]}"]
                     retaught = False
         if retaught:
             if self.last is not None and self.last.place and self.last.position is not None:
@@ -320,9 +368,9 @@ class Motion:
                 start = self.positions.registers.helper("P", "pulses")
                 self.lines.append(f"GETS {start} $PX000")
             if self.last is not None and self.last.arc:  # its points would go on as those of the arc before
-                self.lines.append(" ".join(("MOVL", start, *speed, "PL=0")))
-            self.lines.append(" ".join(("MOVC", start, *speed, "PL=0")))
-        self.lines.append(" ".join(("MOVC", via.place, *speed)))
+                self.lines.append(self.with_axes(" ".join((f"{led}MOVL", start, *speed, "PL=0")), start, beside))
+            self.lines.append(self.with_axes(" ".join((f"{led}MOVC", start, *speed, "PL=0")), start, beside))
+        self.lines.append(self.with_axes(" ".join((f"{led}MOVC", via.place, *speed)), via.place, beside))
 
     def between_arcs(self, tool: int, speed: list[str]) -> list[str] | None:
         """A point in the middle of the straight way between two arcs. Without it the start of the second would be one
@@ -339,7 +387,8 @@ class Motion:
         if known is None:
             return None
         place = self.positions.job.point_of(target, tool, self.positions.job.cell.frame(known.values), None)
-        return [" ".join(("MOVL", place, *speed, f"CR={tables.TAGS['CR'][0]:.1f}"))]
+        line = " ".join(("MOVL", place, *speed, f"CR={tables.TAGS['CR'][0]:.1f}"))
+        return [self.with_axes(line, place)]
 
     # ---- tags
 

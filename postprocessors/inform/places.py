@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -29,12 +30,14 @@ WORLD: Values = (0.0,) * 6
 
 @dataclass(frozen=True, slots=True)
 class Position:
-    """kind: pose (x y z a b c; mm, deg) or joints (deg). `flags` of a pose with a posture; external axes e1 ..."""
+    """kind: pose (x y z a b c; mm, deg) or joints (deg), or external (base axes or a station alone). `flags` of a
+    pose with a posture; external axes e1 ... in their units or, `counted`, in pulses; NaN where one is left out."""
 
     kind: str
     values: Values
     flags: tuple[tuple[str, int], ...] = ()
     external: Values = ()
+    counted: bool = False
 
     def with_flags(self, flags: Mapping[str, int]) -> Position:
         return replace(self, flags=tuple(flags.items()))
@@ -43,6 +46,9 @@ class Position:
 def position_of(value: ir.Expression) -> Position | None:
     """The position that is written out; None when it is computed or lacks components. Joints that are left out belong
     to the way of a relative move, where they are zero."""
+    match value:
+        case ir.Builtin(function="with_external", arguments=(inner, axes)):
+            return _beside(position_of(inner), axes)
     parts = flat(value)
     given = [at for at, name in enumerate(tables.JOINT_ELEMENTS, 1) if name in parts]
     if given:
@@ -92,12 +98,21 @@ def _numbers(parts: Mapping[str, ir.Expression], names: Sequence[str]) -> Values
 
 
 def _external(parts: Mapping[str, ir.Expression]) -> Values:
-    """Positions of external axes, without those that are not there and zeros behind the last other one."""
-    values = [constant(parts[name]) for name in tables.EXTERNAL if name in parts]
-    found = [float(one) for one in values if one is not None and abs(one) < _UNSET]
-    while found and found[-1] == 0:
+    """Positions of external axes up to the last that is there; NaN for one before it that is not, or is computed."""
+    values = [constant(parts.get(name)) for name in tables.EXTERNAL]
+    found = [math.nan if one is None or abs(one) >= _UNSET else float(one) for one in values]
+    while found and math.isnan(found[-1]):
         found.pop()
     return tuple(found)
+
+
+def _beside(position: Position | None, axes: ir.Expression) -> Position | None:
+    """The position with external axes that are given beside it, in their units or in pulses."""
+    counted = isinstance(axes, ir.Builtin) and axes.function == "external_from_pulses"
+    given = axes.arguments[0] if isinstance(axes, ir.Builtin) and counted else axes
+    if position is None or not isinstance(given, ir.Aggregate) or any(not math.isnan(one) for one in position.external):
+        return None
+    return replace(position, external=_external(flat(given)), counted=counted)
 
 
 def _turned(degrees: float) -> float:
@@ -216,7 +231,7 @@ class Constants:
         match expression:
             case ir.System(name="null_frame" | "world"):
                 return Position("pose", WORLD)
-            case ir.Aggregate():
+            case ir.Aggregate() | ir.Builtin(function="with_external"):
                 return position_of(expression)
             case ir.Name(id=name) if name in self.points:
                 return self.points[name]

@@ -9,6 +9,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.beside import closure
+from rpl.passes.legalise.externalaxes import leading, used_externals
 from rpl.passes.legalise.pulses import assumed
 from rpl.source import NOWHERE
 from rpl.writing.ledger import EmissionLedger
@@ -70,6 +71,7 @@ class _Writer:
         self.diagnostics = context.diagnostics
         self.registers = Registers.of(program, context.register_names)
         self.cell = Cell(self.registers)
+        self.choose_axes()
         self.entries = _entries(program)
         self.constants = Constants.of(program, self.entries)
         self.tasks = _sub_tasks(program)
@@ -91,6 +93,14 @@ class _Writer:
         robot = context.robot
         self.counting = _counts_joints(program) or (winding(robot) and _goes_to_joints(program, self.constants))
         if self.counting and robot is not None and robot.pulses_per_degree is None and robot.pulse_scale is not None:
+            assumed(robot, self.diagnostics)
+
+    def choose_axes(self) -> None:
+        """How many external axes there are, and how many of them carry the robot: these come first in a job."""
+        robot, count = self.context.robot, used_externals(self.program)
+        self.cell.external = count
+        self.cell.bases = leading(robot.carrying_axes, count) if robot is not None else 0
+        if robot is not None and not robot.counts_pulses and count:
             assumed(robot, self.diagnostics)
 
     def choose_tools(self) -> None:

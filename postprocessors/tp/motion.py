@@ -31,6 +31,11 @@ JOINT_CORNER = code(
     Severity.WARNING,
     "a joint move has no corner distance; it is written as CNT ({factor:g} mm each)",
 )
+LEADER = code(
+    "tp-leader",
+    Severity.WARNING,
+    "the move is coordinated with '{unit}'; COORD says {leader}, which must be that mechanism",
+)
 LEFT_OUT = code("tp-left-out", Severity.WARNING, "TP has no place for {what} at a move; it is left out")
 NO_SPEED = code("tp-no-speed", Severity.WARNING, "the move says no speed; it is written with {speed}")
 
@@ -65,6 +70,14 @@ class State(NamedTuple):
     place: str
     stands: bool
     handed: frozenset[str]
+
+
+_SETTINGS = ("coordinated", "external_speed")
+
+
+def _named(move: ir.Move) -> list[tuple[str, ir.Expression]]:
+    """The settings of a move by the names of their system variables."""
+    return [(place.name if isinstance(place, ir.System) else "", value) for place, value in move.settings]
 
 
 @dataclass(slots=True)
@@ -205,13 +218,18 @@ class Motion:
     def refuse(self, move: ir.Move) -> None:
         for what, found in (
             ("a circle by its angle", move.swept),
-            ("settings of system variables", move.settings and move.settings != tables.COORDINATED),
+            ("settings of system variables", any(name not in _SETTINGS for name, _ in _named(move))),
             ("a load", move.load),
             ("a motion group of its own", move.group != 1),
         ):
             if found:
                 raise CannotSayError(f"a move has no place for {what}")
+        led = next((value for name, value in _named(move) if name == "coordinated"), None)
+        if led not in (None, ir.TextLiteral(tables.LEADER)):
+            unit = led.value if isinstance(led, ir.TextLiteral) else "what the program chooses"
+            self.report_once(LEADER, move.origin, unit, unit=unit, leader=tables.LEADER)
         left = {
+            "a speed of the external axes": any(name == "external_speed" for name, _ in _named(move)),
             "an orientation rule": move.orientation not in (None, "variable", "wrist"),
             "a circle's orientation rule": move.circle_orientation not in (None, "base", "path"),
             "an acceleration in mm/s2": move.speed is not None and move.speed.path_acceleration is not None,
@@ -402,7 +420,7 @@ class Motion:
             shown += f" ACC{percent}" if percent.isdigit() else f" ACC {percent}"
         if move.orientation == "wrist":
             shown += " Wjnt"
-        if move.settings:  # others are refused
+        if any(name == "coordinated" for name, _ in _named(move)):
             shown += " COORD"
         if move.relative in ("base", "joints"):
             shown += " INC"

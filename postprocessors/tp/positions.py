@@ -79,7 +79,8 @@ class Reached(NamedTuple):
 
 @dataclass(slots=True)
 class Points:
-    """The positions of one program by number."""
+    """The positions of one program by number. `axes`: how many external axes the program moves; the first `extended` of
+    them are the arm's extended axes, the others are those of the second motion group."""
 
     found: dict[int, Position] = field(default_factory=dict)
     labels: dict[int, str] = field(default_factory=dict)
@@ -87,6 +88,8 @@ class Points:
     anonymous: dict[Position, int] = field(default_factory=dict)
     recorded: dict[int, Recorded] = field(default_factory=dict)
     order: list[Reached] = field(default_factory=list)
+    axes: int = 0
+    extended: int = 0
 
     def declare(self, variable: ir.Variable, scope: Scope, step: bool = False) -> int:
         """A variable that is a point: by the number in its name. `step`: it is the way of relative moves, where what is
@@ -138,8 +141,10 @@ class Points:
             if known is not None:
                 frame, tool, groups = known.frame, known.tool, known.groups
                 position = replace(position, external=position.external[: known.externals])
-            elif not any(position.external):
-                position = replace(position, external=())
+            else:
+                beyond = position.external[self.extended : self.axes]
+                position = replace(position, external=position.external[: min(self.extended, self.axes)])
+                groups = "\n".join(_second_group(beyond, frame, tool)) if beyond else ""
             label = self.labels.get(number, "")
             head = f"P[{number}{f':{chr(34)}{label}{chr(34)}' if label else ''}]{{"
             further = [
@@ -182,14 +187,14 @@ def position_of(value: ir.Expression, scope: Scope) -> Position:
         x, y, z = pose.position.x, pose.position.y, pose.position.z
         a, b, c = pose.rotation.zyx
         flags = folded.flags if isinstance(folded, Target) else ()
-        more = tuple(v for _, v in folded.external if abs(v) < _UNSET) if isinstance(folded, Target) else ()
+        more = _in_order(dict(folded.external)) if isinstance(folded, Target) else ()
         return Position("pose", (x, y, z, a, b, c), flags, more)
     if isinstance(folded, Record) and isinstance(folded.type, ir.JointsType):
         axes = folded.part("robax")
         source = axes if isinstance(axes, Record) else folded
         given = [source.part(name) for name in _JOINTS]
         values = tuple(float(one) for one in given if isinstance(one, int | float))
-        return Position("joints", values)
+        return Position("joints", values, (), _further(folded))
     raise CannotSayError("a position with computed or missing components")
 
 
@@ -217,8 +222,32 @@ def numbers(parts: Mapping[str, ir.Expression], names: tuple[str, ...]) -> list[
 
 def external(parts: Mapping[str, ir.Expression]) -> tuple[float, ...]:
     """Positions of external axes; those that are not there are left out."""
-    values = [number_of(parts[name]) for name in _EXTERNAL if name in parts]
-    return tuple(float(one) for one in values if one is not None and abs(one) < _UNSET)
+    return _in_order({name: number_of(parts[name]) for name in _EXTERNAL if name in parts})
+
+
+def _further(joints: Record) -> tuple[float, ...]:
+    """External axes of joint data."""
+    inner = joints.part("ext")
+    source = inner if isinstance(inner, Record) else joints
+    given = {name: source.part(name) for name in _EXTERNAL}
+    return _in_order({name: one if isinstance(one, int | float) else None for name, one in given.items()})
+
+
+def _in_order(given: Mapping[str, float | None]) -> tuple[float, ...]:
+    """Values up to the last axis that is there; one before it that is not has no place in a position."""
+    values = {name: float(one) for name, one in given.items() if one is not None and abs(one) < _UNSET}
+    last = max((_EXTERNAL.index(name) + 1 for name in values), default=0)
+    for name in _EXTERNAL[:last]:
+        if name not in values:
+            raise CannotSayError(f"external axis {last} without external axis {name[1:]}")
+    return tuple(values[name] for name in _EXTERNAL[:last])
+
+
+def _second_group(axes: tuple[float, ...], frame: str, tool: str) -> Iterator[str]:
+    """M: axes of a positioner are written as turning ones."""
+    yield "   GP2:"
+    yield f"\tUF : {frame}, UT : {tool},"
+    yield "\t" + ",\t".join(f"J{number}= {_number(value)} deg" for number, value in enumerate(axes, 1))
 
 
 def _flags(parts: Mapping[str, ir.Expression]) -> tuple[tuple[str, int], ...]:

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Final
 
-from rpl import ir
 from rpl.passes.capabilities import Bank
 from rpl.writing.precedence import Operator, OperatorTable
 from rpl.writing.text import NumberStyle
@@ -121,4 +120,4 @@ MM_PER_CNT: Final = 4.0  # a blend distance at a joint move as CNT; the same mea
 RESERVED: Final = frozenset(("all", "end", "abort", "pause", "call", "run", "wait", "for", "if", "else", "select"))
 
 # What COORD says: the first coordinated pair is led by the second motion group.
-COORDINATED = ((ir.System("coordinated"), ir.TextLiteral("GP2")),)
+LEADER: Final = "GP2"

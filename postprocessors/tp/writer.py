@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
+from rpl.passes.legalise.externalaxes import leading, used_externals
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.source import NOWHERE
 from rpl.writing.ledger import EmissionLedger
@@ -96,6 +98,10 @@ class _Writer:
         self.taken: set[str] = set()
         self.start: list[tuple[ir.Assign, Scope]] = []  # values of data before the program
         self.from_listings: set[str] = set()  # their points have postures of their own
+        self.axes = self.extended = used_externals(program)
+        around = context.robot.mechanisms if context.robot is not None else ()
+        if any(not one.carries_robot for one in around) or _coordinates(program):
+            self.extended = leading(context.robot.carrying_axes if context.robot is not None else (), self.axes)
 
     def module(self, module: ir.Module) -> list[Listing]:
         self.ledger.written(module)
@@ -133,7 +139,7 @@ class _Writer:
             self.diagnostics.report(SAME_NAME, routine.origin, name=name)
         self.taken.add(name)
         scope = self.scopes.routine(module, routine)
-        points = Points()
+        points = Points(axes=self.axes, extended=self.extended)
         expressions = Expressions(scope, self.names, limited="PROG" not in dict(module.attributes))
         printer = Printer(expressions, points, self.frames, Labels.of(routine.body), self.ledger, self.diagnostics)
         printer.monitors, printer.quiet, printer.steady = self.monitors, self.quiet, self.steady
@@ -357,12 +363,23 @@ def _file(listing: Listing, frames: Frames, beside: bool) -> OutputFile:
             lines=listing.lines,
             created=header.get("CREATE", _NO_DATE),
             modified=header.get("MODIFIED", _NO_DATE),
-            groups=header.get("DEFAULT_GROUP", "1,*,*,*,*" if moves else "*,*,*,*,*"),
+            groups=header.get("DEFAULT_GROUP", _mask(listing.points) if moves else "*,*,*,*,*"),
             application=[part.strip() for part in header.get("APPL", "").split(";") if part.strip()],
             positions=list(listing.points.text()),
         )
     )
     return OutputFile(f"{listing.name}.LS", ("\r\n".join(text.splitlines()) + "\r\n").encode("ascii"))
+
+
+def _coordinates(program: ir.Program) -> bool:
+    """Is any move led by the second motion group?"""
+    moves = (node for node in walk(*program.modules) if isinstance(node, ir.Move))
+    return any(place == ir.System("coordinated") for move in moves for place, _ in move.settings)
+
+
+def _mask(points: Points) -> str:
+    """The motion groups that a program asks for."""
+    return "1,1,*,*,*" if points.axes > points.extended else "1,*,*,*,*"
 
 
 def _settle(points: Points, frames: Frames) -> None:

@@ -27,7 +27,7 @@ from rpl.cli.output import (
 from rpl.cli.reports import report_options, reports_of, show_reports
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.errors import UsageError
-from rpl.passes.legalise.pulses import report_assumed
+from rpl.passes.legalise.pulses import report_assumed, report_stations
 
 if TYPE_CHECKING:
     from rpl.simulation import RunResult
@@ -82,12 +82,11 @@ def command(
         raise UsageError("no robot program was found; name the language with --from if there is one")
     if diagnostics.has_errors and not despite_errors:
         return _not_started(diagnostics, as_json)
-    model = robot_named(robot)
+    model, surroundings, assumptions = robot_named(robot), load_cell(cell), collector()
     if model is not None:
-        assumptions = collector()
+        model = model.among(surroundings.mechanisms, surroundings.path) if surroundings is not None else model
         report_assumed(read.program, model, assumptions)
-        print_diagnostics(assumptions, Severity.WARNING)
-    surroundings, assumptions = load_cell(cell), collector()
+        report_stations(read.program, model, assumptions)
     report_unknown_signals(read.program, surroundings, assumptions)
     print_diagnostics(assumptions, Severity.WARNING)
     with waiting("running"):

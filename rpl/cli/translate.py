@@ -99,7 +99,8 @@ def command(
         around = read_cell(cell) if cell is not None else None
         report_unknown_signals(read.program, around, diagnostics)
         given = around.variables if around is not None else None
-        translation = translate_program(read, target, robot, to_robot, diagnostics, kept, own, given)
+        beside = around.mechanisms if around is not None else ()
+        translation = translate_program(read, target, robot, to_robot, diagnostics, kept, own, given, beside)
     if strict:
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:

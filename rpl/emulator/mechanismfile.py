@@ -10,7 +10,8 @@
 
 Of an axis: `number` of the external axis that moves it, `direction` (x, -x .. or three numbers) along or about which,
 `place` of it from the axis before, `pitch` (mm or degrees of movement per unit of the external axis), limits, speed and
-acceleration in units of the external axis. Only reading and checking; the poses are in `rpl.emulator.mechanisms`.
+acceleration in units of the external axis, `pulses` per unit for controllers that count them. Only reading and
+checking; the poses are in `rpl.emulator.mechanisms`.
 """
 
 from __future__ import annotations
@@ -25,14 +26,19 @@ MOST_EXTERNAL = 6
 _DIRECTIONS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 _NOWHERE = (0.0,) * 6
 _KEYS = ("name", "also", "kind", "carries", "on", "root", "flange", "axes")
-_AXIS_KEYS = ("number", "direction", "place", "pitch", "limits", "speed", "acceleration")
+_AXIS_KEYS = ("number", "direction", "place", "pitch", "limits", "speed", "acceleration", "pulses")
+
+# Pulses per degree (or mm) of arms whose own controller counts none, for programs of controllers that do. Neutral: one
+# count is 0.0001 degrees, as in other angles of such programs.
+NEUTRAL_PULSES = 10000.0
 
 Six = tuple[float, float, float, float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
 class MechanismAxis:
-    """One axis. `direction` is a unit vector; `speed` and `acceleration` None: those of an axis without data."""
+    """One axis. `direction` is a unit vector; `speed` and `acceleration` None: those of an axis without data. `pulses`:
+    motor pulses per unit of the external axis, where a controller counts in them."""
 
     number: int
     sliding: bool
@@ -42,6 +48,7 @@ class MechanismAxis:
     limits: tuple[float, float] | None = None
     speed: float | None = None
     acceleration: float | None = None
+    pulses: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +94,15 @@ def checked_together(found: tuple[Mechanism, ...], file: str) -> tuple[Mechanism
     if sum(one.carries_robot for one in found) > 1:
         raise UsageError(f"{file}: mechanism: only one can carry the robot")
     return found
+
+
+def pulses_of(mechanisms: tuple[Mechanism, ...], number: int, neutral: bool) -> float | None:
+    """Motor pulses per unit of an external axis; the `neutral` scale where nobody counts; None: not known."""
+    for one in mechanisms:
+        for axis in one.axes:
+            if axis.number == number and axis.pulses is not None:
+                return axis.pulses
+    return NEUTRAL_PULSES if neutral else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,9 +160,9 @@ class _Reader:
         pitch = self.number("pitch", 1.0)
         if pitch == 0.0:
             raise self.wrong("pitch", "must not be zero: the axis would not move")
-        speed, acceleration = (self.above_zero(key) for key in ("speed", "acceleration"))
+        speed, acceleration, pulses = (self.above_zero(key) for key in ("speed", "acceleration", "pulses"))
         return MechanismAxis(
-            number, sliding, self.direction(), self.six("place"), pitch, self.limits(), speed, acceleration
+            number, sliding, self.direction(), self.six("place"), pitch, self.limits(), speed, acceleration, pulses
         )
 
     def direction(self) -> tuple[float, float, float]:

@@ -19,7 +19,7 @@ from rpl.emulator.arms import Arm, BoolArray, Branch, OpwArm, ScaraArm, UrArm
 from rpl.emulator.chains import ChainArm, described, exact_opw, read_urdf, urdf_inertias
 from rpl.emulator.closedforms import ClosedForm, closed_form
 from rpl.emulator.inertias import ArmInertias, arm_inertias
-from rpl.emulator.mechanismfile import Mechanism
+from rpl.emulator.mechanismfile import NEUTRAL_PULSES, Mechanism, checked_together, pulses_of
 from rpl.emulator.postures import Fact, in_posture, posture_facts, same_posture
 from rpl.emulator.robotfile import (
     Kind,
@@ -53,9 +53,6 @@ LIMIT_SLACK = 1e-6
 EQUAL_TRAVEL = 1e-9
 # Time to full axis speed where no acceleration is published; a model, not a fact (see docs/robots.md).
 RAMP_S = 0.3
-# Pulses per degree (or mm) of arms whose own controller counts none, for programs of controllers that do. Neutral: one
-# count is 0.0001 degrees, as in other angles of such programs.
-NEUTRAL_PULSES = 10000.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -148,6 +145,20 @@ class RobotModel:
         if self.pulses_per_degree is not None or self.counts_pulses:
             return self.pulses_per_degree
         return _fixed([NEUTRAL_PULSES] * self.axes)
+
+    def external_pulses(self, number: int) -> float | None:
+        """Pulses per degree or mm of an external axis (1 ...), as `pulse_scale` for the arm's own."""
+        return pulses_of(self.mechanisms, number, not self.counts_pulses)
+
+    @property
+    def carrying_axes(self) -> tuple[int, ...]:
+        """Numbers of the external axes that carry the robot."""
+        return tuple(axis.number for one in self.mechanisms for axis in one.axes if one.carries_robot)
+
+    def among(self, mechanisms: tuple[Mechanism, ...], file: str) -> "RobotModel":
+        """The arm with the mechanisms of its own file and those of a cell (`file`)."""
+        more = tuple(one for one in mechanisms if one not in self.mechanisms)
+        return replace(self, mechanisms=checked_together((*self.mechanisms, *more), file)) if more else self
 
     def theta(self, joints: ArrayLike) -> FloatArray:
         """The arm's own joint variables (radians, mm) of pendant joints (..., n); `ValueError` for a bad shape."""

@@ -123,6 +123,7 @@ FUNCTIONS: dict[str, Function] = _table(
     aligned        | p        | p | turned by the least angle so that z lies along an axis of the frame
     joints_from_pulses | nnnnnnn? | j | joints of motor pulses, by the arm's pulses per degree
     joint_pulses   | ji       | i | motor pulses of one axis (1 ...)
+    external_from_pulses | x  | 0 | external axes of motor pulses, by the pulses per unit of the mechanisms
     with_external  | xx       | 0 | a target or joints with the given external axes
     element_product | xn      | 0 | each component times a number, like element_sum
     arc_middle     | ppp      | 2 | halfway from second to third on the circle through all three, where first is not

@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from rpl.emulator.mechanismfile import pulses_of
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.values import (
     AxesValue,
@@ -63,6 +64,21 @@ def _joint_pulses(task: Task, joints: Value, number: Value) -> int:
     return math.floor(degrees * each[place] + 0.5) if place < len(each) else 0
 
 
+def _external_from_pulses(task: Task, axes: Value) -> ExternalValue:
+    """External axes in their own units, of counts of motor pulses; an axis whose pulses nobody has given keeps its
+    number, which a run says beforehand."""
+    given = axes.ext if isinstance(axes, TargetValue | JointsValue) else axes
+    if not isinstance(given, ExternalValue):
+        raise ProgramError("wrong_kind", "external axes are needed here")
+    model, scene = task.machine.model, task.machine.scene
+    neutral = model is not None and not model.counts_pulses
+    done: list[float | None] = []
+    for number, count in enumerate(used_axes(given.values), 1):
+        each = pulses_of(scene.mechanisms, number, neutral)
+        done.append(count if count is None or each is None else count / each)
+    return ExternalValue(tuple(done))
+
+
 def _with_external(position: Value, axes: Value) -> Value:
     """A target or joints with external axes; those that `axes` leaves out stay."""
     if not isinstance(position, TargetValue | JointsValue):
@@ -78,4 +94,5 @@ PURE: dict[str, Callable[..., Value]] = {"with_external": _with_external}
 OF_TASK: dict[str, Callable[..., Value]] = {
     "joints_from_pulses": _joints_from_pulses,
     "joint_pulses": _joint_pulses,
+    "external_from_pulses": _external_from_pulses,
 }

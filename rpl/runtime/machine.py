@@ -12,7 +12,6 @@ from collections.abc import Callable
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
-from rpl.emulator.mechanismfile import checked_together
 from rpl.runtime import searching, tasks
 from rpl.runtime.code import Code, Read, Values
 from rpl.runtime.faults import ProgramError
@@ -55,8 +54,7 @@ class Machine:
         self.model = model
         self.controller = controller
         self.cell = cell
-        of_robot = model.mechanisms if model is not None else ()
-        self.scene = Scene(checked_together((*of_robot, *cell.mechanisms), cell.path))
+        self.scene = Scene(model.among(cell.mechanisms, cell.path).mechanisms if model is not None else cell.mechanisms)
         self.limits = limits
         self.on_event = on_event
         self.now = 0.0

@@ -68,7 +68,8 @@ def outcome_of(
     """Write the program in the target, read it back, run both, and say what came of it."""
     diagnostics = Diagnostics()
     given = cell.variables if cell is not None else None
-    translation = translate_program(read, target, robot, None, diagnostics, given=given)
+    around = cell.mechanisms if cell is not None else ()
+    translation = translate_program(read, target, robot, None, diagnostics, given=given, mechanisms=around)
     again = Diagnostics()
     sources = [source_from_bytes(file.path, file.data) for file in translation.files]
     back = read_sources(sources, target, again)

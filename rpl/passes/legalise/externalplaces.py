@@ -14,6 +14,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.externalaxes import AXES, is_nothing
 from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
@@ -25,7 +26,7 @@ LOST = code(
     "the move leaves {axes} where the last one put it, and the target's places must say where that is",
     "the program stops there; write the value into the place",
 )
-_NAMES = tuple(ir.COMPONENTS[ir.ExternalType])
+_NAMES = AXES
 _NONE = 9e8  # an axis that is not there stands at 9E9
 _BLOCKS = (ir.While, ir.For, ir.Loop, ir.Repeat)
 _TYPES = ("target", "pose", "joints")
@@ -49,14 +50,8 @@ def _used(program: ir.Program) -> tuple[str, ...]:
             case ir.Field(name=name):
                 found |= {name} & set(_NAMES)
             case ir.Aggregate(entries=entries):
-                found |= {name for name, value in entries if name in _NAMES and not _is_nothing(value)}
+                found |= {name for name, value in entries if name in _NAMES and not is_nothing(value)}
     return tuple(name for name in _NAMES if name in found)
-
-
-def _is_nothing(value: ir.Expression) -> bool:
-    if isinstance(value, ir.Unary):
-        return _is_nothing(value.operand)
-    return isinstance(value, ir.IntLiteral | ir.RealLiteral) and (value.value == 0 or abs(value.value) >= _NONE)
 
 
 class _Places:

@@ -14,6 +14,7 @@ from rpl import ir
 from rpl.diagnostics import Code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.coordinatedmoves import SETTING as COORDINATED
 from rpl.passes.legalise.modal import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, ZONE_MM_PER_PERCENT, says
 from rpl.passes.legalise.modalflow import SETTINGS, Flow, State
 from rpl.passes.legalise.saidaccelerations import SAID, Accelerations
@@ -24,6 +25,8 @@ from rpl.passes.rewrite import rewrite_parts
 _WORLD = ir.System("null_frame")
 _TYPES: dict[str, ir.Type] = {"tool": ir.PoseType(), "base": ir.PoseType()}
 # Settings that such a target has no word for, so that they cannot stay modal either.
+# What targets with coordinated moves say at a move.
+_AT_MOVES = (COORDINATED, "external_speed")
 _LEFT_OUT = DROPPED_SETTINGS | {"swivel_speed", "twist_speed", "acceleration_percent"}
 _PARTS = {
     "tool": ("tool",),
@@ -204,9 +207,11 @@ class _Settings:
     def move(self, move: ir.Move) -> ir.Move:
         state = self.flow.at(move)
         own = {place.name: value for place, value in move.settings if isinstance(place, ir.System)}
-        for name in own.keys() - SETTINGS:
+        at_move = _AT_MOVES if COORDINATED in self.context.capabilities.system_variables else ()
+        for name in own.keys() - SETTINGS - set(at_move):
             self.report_once(DROPPED, move, name, name=name.replace("_", " "))
-        done = rewrite_parts(replace(move, settings=(), blend=None), self.expression, self.body)
+        kept = tuple(one for one in move.settings if isinstance(one[0], ir.System) and one[0].name in at_move)
+        done = rewrite_parts(replace(move, settings=kept, blend=None), self.expression, self.body)
         near = move.target
         if isinstance(near, ir.Builtin) and near.function == "target_to_joints_near":
             # a posture beside the move's target: the target stands in the frame of the move

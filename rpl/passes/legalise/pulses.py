@@ -24,6 +24,14 @@ PULSES_ASSUMED = code(
 )
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 _COUNTING = ("joints_from_pulses", "joint_pulses")
+_EXTERNAL = tuple(ir.COMPONENTS[ir.ExternalType])
+STATION_PULSES = code(
+    "station-pulses",
+    Severity.WARNING,
+    "external axis {number} is given in pulses, and nobody has said how many make a degree or mm; it moves by as many "
+    "degrees or mm",
+    "`pulses` of the axis of its [[mechanism]] says it",
+)
 
 
 def fold_pulses(program: ir.Program, context: Context) -> ir.Program:
@@ -32,7 +40,8 @@ def fold_pulses(program: ir.Program, context: Context) -> ir.Program:
     ratios = None if each is None else [float(number) for number in each]
     if context.robot is not None:
         report_assumed(program, context.robot, context.diagnostics)
-    return rewrite(program, lambda node: _folded(node, ratios))
+    arm = context.robot
+    return rewrite(program, lambda node: _folded(node, ratios, arm))
 
 
 def report_assumed(program: ir.Program, arm: Arm, diagnostics: Diagnostics) -> None:
@@ -45,12 +54,27 @@ def report_assumed(program: ir.Program, arm: Arm, diagnostics: Diagnostics) -> N
         assumed(arm, diagnostics, first.origin)
 
 
+def report_stations(program: ir.Program, arm: Arm, diagnostics: Diagnostics) -> None:
+    """Say once which external axes a run takes in pulses as if they were degrees or mm. `arm`: with all mechanisms."""
+    told: set[int] = set()
+    for node in walk(program):
+        if not isinstance(node, ir.Builtin) or node.function != "external_from_pulses":
+            continue
+        given = node.arguments[0]
+        for name, count in given.entries if isinstance(given, ir.Aggregate) else ():
+            number = _EXTERNAL.index(name) + 1 if name in _EXTERNAL else 0
+            known = number and arm.external_pulses(number) is not None
+            if number and number not in told and not known and _number(count) != 0.0:
+                told.add(number)
+                diagnostics.report(STATION_PULSES, count.origin, number=number)
+
+
 def assumed(arm: Arm, diagnostics: Diagnostics, origin: Origin = NOWHERE) -> None:
     """The report of a neutral scale."""
     diagnostics.report(PULSES_ASSUMED, origin, robot=arm.name, scale=float(arm.pulse_scale[0]))
 
 
-def _folded(node: object, ratios: Sequence[float] | None) -> object:
+def _folded(node: object, ratios: Sequence[float] | None, arm: Arm | None) -> object:
     match node:
         case ir.Builtin(function="joints_from_pulses", arguments=pulses):
             return _joints(node, pulses, ratios)
@@ -60,6 +84,8 @@ def _folded(node: object, ratios: Sequence[float] | None) -> object:
             angle = ir.Field(joints, _AXES[number - 1], origin=node.origin)
             count = ir.Binary("*", angle, ir.RealLiteral(ratios[number - 1]), origin=node.origin)
             return ir.Convert("round_half_away", count, origin=node.origin)
+        case ir.Builtin(function="external_from_pulses", arguments=(ir.Aggregate() as counts,)):
+            return _external(node, counts, arm)
         case ir.Builtin(function="with_external", arguments=(ir.Aggregate() as position, ir.Aggregate() as axes)):
             given = {name for name, _ in axes.entries}
             kept = tuple(entry for entry in position.entries if entry[0] not in given)
@@ -85,6 +111,19 @@ def _joints(
             angle = ir.Binary("/", count, ir.RealLiteral(ratio), origin=count.origin)
         entries.append((name, angle))
     return ir.Aggregate(tuple(entries), "joints", origin=node.origin)
+
+
+def _external(node: ir.Builtin, counts: ir.Aggregate, arm: Arm | None) -> ir.Builtin | ir.Aggregate:
+    """External axes in degrees or mm. Their zero is known without any data."""
+    entries: list[tuple[str | None, ir.Expression]] = []
+    for name, count in counts.entries:
+        number = _number(count)
+        each = arm.external_pulses(_EXTERNAL.index(name) + 1) if arm is not None and name in _EXTERNAL else None
+        if number is None or (each is None and number != 0.0):
+            return node
+        value = 0.0 if each is None else rigid.clean(number / each)
+        entries.append((name, ir.RealLiteral(value, origin=count.origin)))
+    return ir.Aggregate(tuple(entries), "external", origin=node.origin)
 
 
 def _number(count: ir.Expression) -> float | None:
