@@ -11,30 +11,29 @@ Controllers that let two moves overlap in time (the next one speeds up while the
 curves: the sum of two even ramps is a parabola whose size grows with the speed.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike
 
+from rpl.emulator.cornerpaths import (
+    BezierPath,
+    CornerPath,
+    handle_of,
+    is_even,
+    path_corner,
+    wide_corner,
+)
 from rpl.emulator.mechanisms import Carried
 from rpl.emulator.model import RobotModel
 from rpl.emulator.paths import Path
 from rpl.emulator.planner import Geometry, JointGeometry, PathGeometry, PlannedMove, flanges_of
-from rpl.emulator.rotations import (
-    FloatArray,
-    matrix_to_rotation_vector,
-    pose_matrix,
-    rotation_vector_to_matrix,
-    turned,
-)
+from rpl.emulator.rotations import FloatArray
 from rpl.emulator.timelaw import Profile, TimeLaw
 from rpl.emulator.tracking import MotionFault, track_flanges
 
 # No corner takes more than this share of a move, so that the corners at its two ends never meet.
 MOST = 0.5
 SAMPLES = 33
-# In how many places the way along a corner is measured.
-WAYS = 32
 # A shorter way of the tool (mm) is none: such a move turns it, or moves axes that it hides.
 SHORTEST_MM = 1e-3
 # A corner that would take longer than the inverse of this (1/s) is none: it turns on the spot into a way.
@@ -58,39 +57,63 @@ class NoBlend:
     reason: str
 
 
+@dataclass(frozen=True, slots=True)
+class Size:
+    """How large a corner is asked for, in one of these ways.
+
+    `distance_mm` is measured along the tool's way and is reduced to half of the shorter move; over `extended_mm`,
+    reduced alike, tool and external axes go over to the second move. `fraction` (0..0.5) is a share of each move, or
+    one of each, as for joint moves. `overlap` (0..1) is the share of the shorter of the two ramps in which both moves
+    go on at once.
+    """
+
+    distance_mm: float | None = None
+    extended_mm: float | None = None
+    fraction: float | tuple[float, float] | None = None
+    overlap: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Ends:
+    """Where a corner leaves the first move and meets the second, as fractions of their whole geometry; `out`, `into`:
+    the same of its curve, which is shorter where the tool begins to turn before its centre point leaves the path."""
+
+    leave: float
+    meet: float
+    out: float
+    into: float
+
+
 def blend(
     model: RobotModel,
     first: PlannedMove,
     second: PlannedMove,
-    *,
-    distance_mm: float | None = None,
-    fraction: float | None = None,
-    overlap: float | None = None,
+    size: Size,
     alone: tuple[bool, bool] = (False, False),
 ) -> Corner | NoBlend:
     """Join two moves, of which the second starts where the first ends, by a corner of the given size.
 
-    `distance_mm` is measured along the tool's way and is reduced to half of the shorter move; `fraction` (0..0.5) is a
-    share of each move, as for joint moves; `overlap` (0..1) is the share of the shorter of the two ramps in which both
-    moves go on at once. `alone`: the robot stands at the other end of the first, of the second move.
-    `first` may itself be the rest of a move that began with a corner.
+    `alone`: the robot stands at the other end of the first, of the second move. `first` may itself be the rest of a
+    move that began with a corner.
     """
     gap = np.abs(first.end_joints - second.start_joints)
     if gap.max() > 1e-4:
         return NoBlend("the second move does not start where the first ends")
-    seconds = overlapping_s(first, second, overlap) if overlap is not None else None
-    ends = _ends(first, second, distance_mm, fraction, seconds, alone)
+    seconds = overlapping_s(first, second, size.overlap) if size.overlap is not None else None
+    ends = _ends(first, second, size, seconds, alone)
     if isinstance(ends, NoBlend):
         return ends
-    leave, meet = ends
-    if leave < first.span[0]:
+    if ends.leave < first.span[0]:
         return NoBlend("the corner before takes up the first move")
+    if size.extended_mm is not None and size.distance_mm is not None:
+        ends = _extended(first, second, ends, size.extended_mm, alone)
     # Both moves up to and from the corner; their laws follow when its speed is known.
-    trimmed, rest = first.part((first.span[0], leave), first.law), second.part((meet, 1.0), second.law)
-    geometry = _corner_geometry(model, first, second, trimmed, rest, seconds is None)
+    trimmed = first.part((first.span[0], ends.leave), first.law)
+    rest = second.part((ends.meet, 1.0), second.law)
+    geometry = _corner_geometry(model, first, second, ends, (trimmed.end_joints, rest.start_joints), seconds is None)
     if isinstance(geometry, NoBlend):
         return geometry
-    return _driven(model, first, second, geometry, (trimmed, rest), seconds)
+    return _driven(model, (first, second), geometry, ends, (trimmed, rest), seconds)
 
 
 def overlapping_s(first: PlannedMove, second: PlannedMove, share: float) -> float:
@@ -110,7 +133,7 @@ def corner_acceleration(move: PlannedMove) -> float:
         return acceleration
     if controller.corner_ramp_s > 0.0:
         acceleration *= (controller.path_ramp_s or move.profile.peak / acceleration) / controller.corner_ramp_s
-    whole = float(move.geometry.distance(np.array([1.0]))[0])
+    whole = whole_mm(move)
     if controller.corner_acceleration_mm_s2 is not None and whole > SHORTEST_MM:
         acceleration = min(acceleration, controller.corner_acceleration_mm_s2 / whole)
     return acceleration
@@ -125,48 +148,76 @@ def open_end(move: PlannedMove, share: float) -> tuple[float, float, Profile]:
 
 
 def _ends(
-    first: PlannedMove,
-    second: PlannedMove,
-    distance_mm: float | None,
-    fraction: float | None,
-    seconds: float | None,
-    alone: tuple[bool, bool],
-) -> tuple[float, float] | NoBlend:
-    """Where to leave the first move and to meet the second, as fractions of their whole geometry."""
+    first: PlannedMove, second: PlannedMove, size: Size, seconds: float | None, alone: tuple[bool, bool]
+) -> Ends | NoBlend:
+    """Where to leave the first move and to meet the second."""
     if seconds is not None:
         shares = [0.5 * corner_acceleration(move) * seconds * seconds for move in (first, second)]
         if min(shares) <= 1e-9 or not np.isfinite(shares).all():
             return NoBlend("the moves do not overlap")
-        return 1.0 - min(shares[0], MOST), min(shares[1], MOST)
-    if fraction is not None:
-        share = min(fraction, MOST)
-        return (1.0 - share, share) if share > 0.0 else NoBlend("the blend distance is zero")
-    whole = [float(move.geometry.distance(np.array([1.0]))[0]) for move in (first, second)]
-    wanted, free = distance_mm or 0.0, first.controller.corner_whole
-    rooms = [
-        each if free and each > wanted and at_rest else MOST * each for each, at_rest in zip(whole, alone, strict=True)
-    ]
-    distance = min(wanted, *rooms)
+        return _plain(1.0 - min(shares[0], MOST), min(shares[1], MOST))
+    if size.fraction is not None:
+        both = size.fraction if isinstance(size.fraction, tuple) else (size.fraction, size.fraction)
+        out, into = (min(each, MOST) for each in both)
+        return _plain(1.0 - out, into) if min(out, into) > 0.0 else NoBlend("the blend distance is zero")
+    whole = [whole_mm(move) for move in (first, second)]
+    distance = _reduced(first, second, size.distance_mm or 0.0, alone)
     if distance < 1e-6:
-        return NoBlend("the blend distance is zero" if not distance_mm else "a move without way has no corner")
-    return first.geometry.fraction_at(whole[0] - distance), second.geometry.fraction_at(distance)
+        return NoBlend("the blend distance is zero" if not size.distance_mm else "a move without way has no corner")
+    return _plain(first.geometry.fraction_at(whole[0] - distance), second.geometry.fraction_at(distance))
+
+
+def _plain(leave: float, meet: float) -> Ends:
+    return Ends(leave, meet, leave, meet)
+
+
+def _reduced(first: PlannedMove, second: PlannedMove, wanted: float, alone: tuple[bool, bool]) -> float:
+    """A blend distance (mm) as the two moves have room for it."""
+    free = first.controller.corner_whole
+    wholes = zip((whole_mm(first), whole_mm(second)), alone, strict=True)
+    return min(wanted, *(each if free and each > wanted and at_rest else MOST * each for each, at_rest in wholes))
+
+
+def _extended(
+    first: PlannedMove, second: PlannedMove, ends: Ends, extended_mm: float, alone: tuple[bool, bool]
+) -> Ends:
+    """The same corner, beginning and ending with its extended zone, as far as the first move still has room for it."""
+    a, b = first.geometry, second.geometry
+    if not (isinstance(a, PathGeometry) and isinstance(b, PathGeometry) and _one_work(a, b)):
+        return ends
+    whole, left = whole_mm(first), first.geometry.distance(np.array([first.span[0]]))[0]
+    distance = min(_reduced(first, second, extended_mm, alone), whole - float(left))
+    if distance <= whole * (1.0 - ends.out) + SHORTEST_MM:
+        return ends
+    leave = max(first.geometry.fraction_at(whole - distance), first.span[0])
+    return replace(ends, leave=leave, meet=second.geometry.fraction_at(distance))
+
+
+def whole_mm(move: PlannedMove) -> float:
+    """The tool's way along the whole geometry of a move."""
+    return float(move.geometry.distance(np.array([1.0]))[0])
 
 
 def _corner_geometry(
-    model: RobotModel, first: PlannedMove, second: PlannedMove, trimmed: PlannedMove, rest: PlannedMove, sized: bool
+    model: RobotModel,
+    first: PlannedMove,
+    second: PlannedMove,
+    ends: Ends,
+    joints: tuple[FloatArray, FloatArray],
+    sized: bool,
 ) -> Geometry | NoBlend:
-    before, leave = trimmed.end_joints, trimmed.span[1]
-    after, meet = rest.start_joints, rest.span[0]
-    a, b = first.geometry, second.geometry
-    carried = _carried_corner(first, second, leave, meet)
+    (before, after), a, b = joints, first.geometry, second.geometry
     if not (isinstance(a, PathGeometry) and isinstance(b, PathGeometry) and _one_work(a, b)):
+        carried = _carried_corner(first, second, ends, None)
         return _joint_corner(model, before, first.end_joints, after, b.tool, carried)
-    share = _tangent_share(first, second, leave) if sized else 2.0 / 3.0
-    curve = _path_corner(a.path, b.path, leave, meet, share)
-    if sized and first.controller.corner_even > 0.0:
-        curve = curve.evenly()
-    if curve.length_mm < 1e-9:
+    share = _tangent_share(first, second, ends.out) if sized else 2.0 / 3.0
+    plain = path_corner(a.path, b.path, ends.out, ends.into, share)
+    if plain.length_mm < 1e-9 and not (a.path.length_mm < SHORTEST_MM and b.path.length_mm < SHORTEST_MM):
         return NoBlend("the path turns back on itself")
+    curve: CornerPath = plain.evenly() if sized and first.controller.corner_even > 0.0 else plain
+    if ends.leave < ends.out:
+        curve = wide_corner(a.path, b.path, (ends.leave, ends.meet), (ends.out, ends.into), share)
+    carried = _carried_corner(first, second, ends, curve)
     track = track_flanges(model, lambda u: flanges_of(curve, b.tool, carried, u), before, SAMPLES)
     if isinstance(track, MotionFault):
         return NoBlend(f"no corner: {track.message}")
@@ -182,104 +233,33 @@ def _one_work(a: PathGeometry, b: PathGeometry) -> bool:
     return a.carried.carrier.same_work(b.carried.carrier)
 
 
-def _carried_corner(first: PlannedMove, second: PlannedMove, leave: float, meet: float) -> Carried | None:
+def _carried_corner(first: PlannedMove, second: PlannedMove, ends: Ends, curve: CornerPath | None) -> Carried | None:
     """The carrier of the second move while external axes round the corner between both moves."""
     geometry = second.geometry
     carried = geometry.carried if isinstance(geometry, PathGeometry | JointGeometry) else None
-    middle = _external_middle(first, second)
+    middle = _external_middle(first, second, ends, curve)
     if carried is None or middle is None:
         return None
-    return Carried(carried.carrier, np.stack([_external(first, leave), middle, _external(second, meet)]))
+    return Carried(carried.carrier, np.vstack([_external(first, ends.leave), middle, _external(second, ends.meet)]))
 
 
-def _external_middle(first: PlannedMove, second: PlannedMove) -> FloatArray | None:
-    """External axes at the corner point; None where the two moves have not the same ones."""
-    return first.external_end if len(first.external_end) == len(second.external_start) else None
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class BezierPath:
-    """Poses on a cubic through four control positions (4, 3), orientation on the curve of three rotations (3, 3, 3).
-
-    `share`: of the way to the corner point, where the inner control positions lie. `ways` (k,): of the whole length at
-    k even places of the curve, where its fraction is the way along it; None: it is the curve's own parameter.
-    """
-
-    positions: FloatArray
-    rotations: FloatArray
-    share: float = 2.0 / 3.0
-    ways: FloatArray | None = None
-    turns: FloatArray = field(init=False)  # rotation vectors (2, 3) between the three rotations, radians
-
-    def __post_init__(self) -> None:
-        between = np.swapaxes(self.rotations[:-1], 1, 2) @ self.rotations[1:]
-        object.__setattr__(self, "turns", matrix_to_rotation_vector(between))
-
-    def evenly(self) -> "BezierPath":
-        """The same curve, its fraction in proportion to the way of the tool centre point."""
-        speeds = np.linalg.norm(self._velocity(np.linspace(0.0, 1.0, 2 * WAYS + 1)), axis=1)
-        steps = (speeds[:-2:2] + 4.0 * speeds[1::2] + speeds[2::2]) / (6.0 * WAYS)
-        ways = np.insert(np.cumsum(steps), 0, 0.0)
-        return replace(self, ways=ways / ways[-1]) if speeds.min() > 1e-9 else self
-
-    def _parameter(self, fraction: FloatArray) -> FloatArray:
-        """The curve's own parameter: a cubic between the measured places, with the slopes of the curve."""
-        if self.ways is None:
-            return fraction
-        i = np.clip(np.searchsorted(self.ways, fraction, side="right") - 1, 0, WAYS - 1)
-        span = self.ways[i + 1] - self.ways[i]
-        t = np.clip((fraction - self.ways[i]) / span, 0.0, 1.0)
-        ends = np.stack([i, i + 1]) / WAYS
-        slopes = span * self._length() / np.linalg.norm(self._velocity(ends), axis=-1)
-        bends = t * (1.0 - t) * ((1.0 - t) * (slopes[0] - 1.0 / WAYS) - t * (slopes[1] - 1.0 / WAYS))
-        return np.asarray((i + t) / WAYS + bends)
-
-    def _length(self) -> float:
-        speeds = np.linalg.norm(self._velocity(np.linspace(0.0, 1.0, 2 * WAYS + 1)), axis=1)
-        return float((speeds[:-2:2] + 4.0 * speeds[1::2] + speeds[2::2]).sum() / (6.0 * WAYS))
-
-    @property
-    def length_mm(self) -> float:
-        points = self._points(np.linspace(0.0, 1.0, 65))
-        return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-
-    @property
-    def turn_rad(self) -> float:
-        steps = self._turns(np.linspace(0.0, 1.0, 9))
-        between = np.swapaxes(steps[:-1], 1, 2) @ steps[1:]
-        return float(np.linalg.norm(matrix_to_rotation_vector(between), axis=1).sum())
-
-    def _points(self, u: FloatArray) -> FloatArray:
-        s, w = u[..., None], 1.0 - u[..., None]
-        p = self.positions
-        return np.asarray(w**3 * p[0] + 3 * w * w * s * p[1] + 3 * w * s * s * p[2] + s**3 * p[3])
-
-    def _turns(self, u: FloatArray) -> FloatArray:
-        """De Casteljau on rotations: tangent to the first turn at 0 and to the second at 1."""
-        if not self.turns.any():
-            return np.broadcast_to(self.rotations[0], (*np.shape(u), 3, 3))
-        share = u[..., None]
-        one = turned(self.rotations[0], self.turns[0], u)
-        two = turned(self.rotations[1], self.turns[1], u)
-        between = matrix_to_rotation_vector(np.swapaxes(one, -1, -2) @ two)
-        return np.asarray(one @ rotation_vector_to_matrix(share * between))
-
-    def poses(self, fraction: ArrayLike) -> FloatArray:
-        u = self._parameter(np.asarray(fraction, dtype=np.float64))
-        return pose_matrix(self._points(u), self._turns(u))
-
-    def tangent(self, fraction: float) -> FloatArray:
-        way = self._velocity(self._parameter(np.array([fraction])))[0]
-        return way if self.ways is None else np.asarray(way * self._length() / np.linalg.norm(way))
-
-    def _velocity(self, u: FloatArray) -> FloatArray:
-        p, s, w = self.positions, u[..., None], 1.0 - u[..., None]
-        return np.asarray(3 * (w * w * (p[1] - p[0]) + 2 * w * s * (p[2] - p[1]) + s * s * (p[3] - p[2])))
+def _external_middle(first: PlannedMove, second: PlannedMove, ends: Ends, curve: Path | None) -> FloatArray | None:
+    """The inner control points (m, e) of the external axes' curve: the corner point, or two where the corner's fraction
+    is the way along it; None where the two moves have not the same axes."""
+    if len(first.external_end) != len(second.external_start):
+        return None
+    corner = first.external_end
+    if curve is None or not is_even(curve):
+        return corner[None]
+    begin, end = _external(first, ends.leave), _external(second, ends.meet)
+    out = handle_of(curve.length_mm, whole_mm(first) * (1.0 - ends.leave))
+    into = handle_of(curve.length_mm, whole_mm(second) * ends.meet)
+    return np.stack([begin + out * (corner - begin), end + into * (corner - end)])
 
 
 def _tangent_share(first: PlannedMove, second: PlannedMove, leave: float) -> float:
     """Where the inner control points lie: by the controller's cut and the speed of the corner."""
-    wholes = [float(move.geometry.distance(np.array([1.0]))[0]) for move in (first, second)]
+    wholes = [whole_mm(move) for move in (first, second)]
     tops = [move.profile.speed * whole for move, whole in zip((first, second), wholes, strict=True)]
     speed = min(top for top in (*tops, np.inf) if top > 0.0)
     speed = speed if np.isfinite(speed) else 0.0
@@ -295,17 +275,6 @@ def _turned(first: Geometry, second: Geometry) -> float:
     if min(lengths) <= 1e-9:
         return 0.0
     return float(np.linalg.norm(ways[1] / lengths[1] - ways[0] / lengths[0]))
-
-
-def _path_corner(first: Path, second: Path, leave: float, meet: float, share: float) -> BezierPath:
-    """The cubic that leaves and meets two paths along their tangents; between straight lines a `share` of two thirds is
-    the parabola."""
-    start, goal = first.poses(np.array([leave, 1.0]))
-    end = second.poses(np.array([meet]))[0]
-    out = first.tangent(leave) * (1.0 - leave) * share
-    into = second.tangent(meet) * meet * share
-    positions = np.stack([start[:3, 3], start[:3, 3] + out, end[:3, 3] - into, end[:3, 3]])
-    return BezierPath(positions, np.stack([start[:3, :3], goal[:3, :3], end[:3, :3]]), share)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -355,9 +324,9 @@ def _joint_corner(
 
 def _driven(
     model: RobotModel,
-    first: PlannedMove,
-    second: PlannedMove,
+    moves: tuple[PlannedMove, PlannedMove],
     geometry: Geometry,
+    corner_ends: Ends,
     parts: tuple[PlannedMove, PlannedMove],
     seconds: float | None,
 ) -> Corner | NoBlend:
@@ -366,7 +335,7 @@ def _driven(
     Speeds are of fractions: a parabola at rate w leaves the first move at 2 (1 - leave) w and meets the second at
     2 meet w, since the corner's tangents are the rest and the beginning of the two moves; a cubic in proportion.
     """
-    (begin, leave), (meet, _) = (part.span for part in parts)
+    (first, second), ((begin, leave), (meet, _)) = moves, (part.span for part in parts)
     tail, head = _steepness(geometry, first, second, leave, meet)
     if seconds is not None:
         first = replace(first, profile=replace(first.profile, braking=corner_acceleration(first)))
@@ -379,7 +348,7 @@ def _driven(
         float(np.sqrt(arriving * arriving + room)) / tail,
         _ceiling(second.profile, meet) / head,
         stopping / head,
-        _corner_rate(model, first, second, geometry, leave, seconds),
+        _corner_rate(model, first, second, geometry, corner_ends, seconds),
     )
     if rate < SLOWEST:
         return NoBlend("the corner allows no speed")
@@ -404,7 +373,9 @@ def _driven(
         span=(0.0, 1.0),
         external_start=_external(first, leave),
         external_end=_external(second, meet),
-        external_middle=_external_middle(first, second),
+        external_middle=_external_middle(
+            first, second, corner_ends, geometry.path if isinstance(geometry, PathGeometry) else None
+        ),
     )
     return Corner(trimmed, corner, rest, float(law.time_of(0.5)))
 
@@ -418,13 +389,13 @@ def _steepness(
     geometry: Geometry, first: PlannedMove, second: PlannedMove, leave: float, meet: float
 ) -> tuple[float, float]:
     """The fractions of the two moves per fraction of the corner, where they meet it."""
-    if not (isinstance(geometry, PathGeometry) and isinstance(geometry.path, BezierPath)):
+    if not isinstance(geometry, PathGeometry):
         return 2.0 * (1.0 - leave), 2.0 * meet
-    if geometry.path.ways is None:
-        return 3.0 * geometry.path.share * (1.0 - leave), 3.0 * geometry.path.share * meet
-    wholes = [float(move.geometry.distance(np.array([1.0]))[0]) for move in (first, second)]
-    length = float(np.linalg.norm(geometry.path.tangent(0.0)))
-    return length / wholes[0], length / wholes[1]
+    if is_even(geometry.path):
+        length = float(np.linalg.norm(geometry.path.tangent(0.0)))
+        return length / whole_mm(first), length / whole_mm(second)
+    share = geometry.path.share if isinstance(geometry.path, BezierPath) else 2.0 / 3.0
+    return 3.0 * share * (1.0 - leave), 3.0 * share * meet
 
 
 def _ceiling(profile: Profile, fraction: float) -> float:
@@ -440,7 +411,7 @@ def _corner_rate(
     first: PlannedMove,
     second: PlannedMove,
     geometry: Geometry,
-    leave: float,
+    ends: Ends,
     seconds: float | None,
 ) -> float:
     """The fastest even rate (1/s) through the corner that keeps path acceleration and the axes within their limits;
@@ -458,15 +429,19 @@ def _corner_rate(
         strongest = np.abs(np.diff(joints, n=2, axis=0)).max(axis=0) / step**2
         available = model.accelerations * min(_acceleration_share(model, move) for move in moves)
         return min(rate, float(np.sqrt(np.min(available / np.maximum(strongest, 1e-9)))))
+    wholes = [whole_mm(move) for move in moves]
+    if max(wholes) < SHORTEST_MM:  # the parabola of what turns: each move goes over with twice its share
+        shares = (1.0 - ends.out, ends.into)
+        strongest = [2.0 * each / move.profile.acceleration for each, move in zip(shares, moves, strict=True)]
+        return min(rate, float(1.0 / np.sqrt(max(strongest))))
     points = geometry.tcp(knots)[:, :3, 3]
     bend = float(np.linalg.norm(np.diff(points, n=2, axis=0), axis=1).max()) / step**2
-    wholes = [float(move.geometry.distance(np.array([1.0]))[0]) for move in moves]
     limit = min(move.profile.acceleration * whole for move, whole in zip(moves, wholes, strict=True))
     controller = first.controller
     if controller.corner_acceleration_mm_s2 is None:
         return min(rate, float(np.sqrt(limit / max(bend, 1e-9))))
     share = min(1.0, limit / (controller.path_acceleration_mm_s2 or limit))
-    size = float(first.geometry.distance(np.array([1.0]))[0]) * (1.0 - leave)
+    size = whole_mm(first) * (1.0 - ends.out)
     speed = controller.corner_speed(size, _turned(first.geometry, second.geometry), share)
     even = (
         isinstance(geometry, PathGeometry) and isinstance(geometry.path, BezierPath) and geometry.path.ways is not None

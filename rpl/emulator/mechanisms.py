@@ -10,6 +10,7 @@ orientation, however the axes below it move.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -93,7 +94,7 @@ class Carrier:
 @dataclass(frozen=True, slots=True, eq=False)
 class Carried:
     """A carrier while external axes go from the first to the last of the `control` points (m, e): evenly with two, on
-    the parabola with three."""
+    the parabola with three, on the cubic with four."""
 
     carrier: Carrier
     control: FloatArray
@@ -112,9 +113,9 @@ class Carried:
 
 
 def along(control: FloatArray, fraction: FloatArray) -> FloatArray:
-    """Points (..., e) at fractions (...) on the line (two control points) or parabola (three)."""
+    """Points (..., e) at fractions (...) on the line (two control points), parabola (three) or cubic (four)."""
     s = np.asarray(fraction, dtype=np.float64)[..., None]
-    if len(control) == 2:
-        return np.asarray(control[0] + s * (control[1] - control[0]))
-    w = 1.0 - s
-    return np.asarray(w * w * control[0] + 2.0 * w * s * control[1] + s * s * control[2])
+    row = list(control)
+    while len(row) > 1:
+        row = [np.asarray(a + s * (b - a)) for a, b in pairwise(row)]
+    return np.asarray(row[0])

@@ -228,7 +228,7 @@ class PlannedMove:
     external_start: FloatArray
     external_end: FloatArray
     controller: MotionModel = PLAIN
-    external_middle: FloatArray | None = None  # of a corner: external axes on the parabola with this control point
+    external_middle: FloatArray | None = None  # of a corner: inner control points (m, e) of the external axes' curve
 
     def _fraction(self, time_s: ArrayLike) -> FloatArray:
         begin, end = self.span
@@ -254,7 +254,7 @@ class PlannedMove:
 
     def external_at(self, time_s: ArrayLike) -> FloatArray:
         """External axes at a time (e,) or at times (k, e)."""
-        middle = () if self.external_middle is None else (self.external_middle,)
+        middle = () if self.external_middle is None else tuple(self.external_middle)
         return along(np.stack([self.external_start, *middle, self.external_end]), self._fraction(time_s))
 
     def time_at_distance_from_start(self, distance_mm: float) -> float:

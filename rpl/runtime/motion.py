@@ -122,6 +122,7 @@ class MotionQueue(RobotState):
         self.planned_joints, self.planned_external = planned.end_joints, external
         drive = Drive(number, order, planned, moving, goal, external)
         drive.blending = not order.blend.stops and order.search is None
+        drive.sliding = self.machine.scene.sliding()
         return drive
 
     def _refuse(self, fault: MotionFault, order: Order, next: int) -> int:

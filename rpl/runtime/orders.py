@@ -137,7 +137,8 @@ class Drive:
     """A planned move in the queue. `legs`: how it was driven so far; `goal`: the programmed target in its frame;
     `rate`: of a move at a given speed, which has no end. `entered`: where a corner at its start ends, in mm of the move
     and in mm driven behind the corner's middle. `orders`: of a smooth run of a spline block its segments; `marks`: the
-    fractions of the run at which all but the last of them end; so many are `passed`."""
+    fractions of the run at which all but the last of them end; so many are `passed`.
+    `sliding`: which external axes slide (mm), for all that is known."""
 
     number: int
     order: Order
@@ -154,6 +155,7 @@ class Drive:
     orders: tuple[Order, ...] = ()
     marks: tuple[float, ...] = ()
     passed: int = 0
+    sliding: tuple[bool, ...] = ()
 
     @property
     def present(self) -> Order:

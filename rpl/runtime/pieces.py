@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, TypeGuard
 from rpl.passes import rigid
 from rpl.runtime.orders import BlendOrder, Drive
 from rpl.runtime.values import Value
+from rpl.runtime.zones import ZoneSize, largest, zone_size
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
@@ -195,17 +196,21 @@ def way_back(model: RobotModel, joints: FloatArray, piece: Piece, now: float) ->
 
 def joined(model: RobotModel, piece: Piece, following: Drive, now: float) -> Piece | None:
     """The piece up to the corner with the next move, from where the robot is; None when there can be no corner."""
+    from rpl.emulator.blending import Size
     from rpl.runtime import repeats
 
     first, second = piece.drive.plan, following.plan
     assert first is not None and second is not None
-    size = blend_size(piece.drive.order.blend, first, second)
-    if size == (None, None):
+    order, sliding = piece.drive.order.blend, piece.drive.sliding
+    asked = blend_size(order, first, second, sliding)
+    if asked == (None, None):
         return None
-    distance, fraction = _in_segments(piece.drive, following, *size)
+    distance, fraction = _in_segments(piece.drive, following, *asked)
+    zone = zone_size(order, first, second, sliding) if order.zone is not None else ZoneSize()
     overlap = overlap_of(piece.drive.order.blend, first)
     alone = first.span[0] <= 0.0 and piece.plan.span[0] <= 0.0, following.order.blend.stops
-    made = repeats.joining(model, rest_of(piece, now), second, distance, fraction, overlap, alone)
+    size = Size(distance, zone.extended, zone.shares or fraction, overlap)
+    made = repeats.joining(model, rest_of(piece, now), second, size, alone)
     if made is None:
         return None
     parts = made.parts
@@ -223,13 +228,14 @@ def leaves_s(piece: Piece) -> float:
     """When the robot comes to the largest zone (of the place, the orientation, external axes) at the piece's end."""
     import numpy as np
 
-    zone, order = piece.drive.order.blend.zone, piece.drive.order.blend
-    if zone is None or order.distance is not None:
+    drive, order = piece.drive, piece.drive.order.blend
+    if order.zone is None:
         return piece.end_s
     whole = float(piece.plan.geometry.distance(np.array([1.0]))[0])
-    largest = max(float(zone.get(name) or 0.0) for name in ("path", "rotation_path", "external_path"))
+    following = piece.ahead.following.plan if piece.ahead is not None else None
+    size = largest(order, piece.plan, following, drive.sliding)
     begin, end = piece.plan.span
-    place = piece.plan.geometry.fraction_at(max(whole - largest, (1.0 - MOST) * whole))
+    place = piece.plan.geometry.fraction_at(max(whole - size, (1.0 - MOST) * whole))
     if whole <= 0.0 or place >= end:
         return piece.end_s
     return piece.start_s + float(piece.plan.law.time_of(max(place - begin, 0.0) / max(end - begin, 1e-12)))
@@ -242,7 +248,9 @@ def overlap_of(order: BlendOrder, first: PlannedMove) -> float | None:
     return first.controller.overlap_at(order.percent)
 
 
-def blend_size(order: BlendOrder, first: PlannedMove, second: PlannedMove | None) -> tuple[float | None, float | None]:
+def blend_size(
+    order: BlendOrder, first: PlannedMove, second: PlannedMove | None, sliding: tuple[bool, ...] = ()
+) -> tuple[float | None, float | None]:
     """Distance in mm or share of the moves, by the measure that the program uses; none: no corner."""
     both_joint = first.kind == "joint" and (second is None or second.kind == "joint")
     match order.kind:
@@ -260,10 +268,8 @@ def blend_size(order: BlendOrder, first: PlannedMove, second: PlannedMove | None
             way: float = (order.percent / 100.0 * top) ** 2 / (2.0 * acceleration) if acceleration > 0.0 else 0.0
             return (way, None) if way > 0.0 else (None, None)
         case "zone" if order.zone is not None:
-            radius = order.distance if order.distance is not None else order.zone.get("path")
-            if first.length_mm < 1e-6:
-                return None, _turn_share(order.zone.get("rotation"), first)
-            return (float(radius), None) if radius else (None, None)
+            zone = zone_size(order, first, second, sliding)
+            return zone.path, zone.shares[0] if zone.shares is not None else None
         case "distance":
             sizes = [] if not order.distance else [order.distance]
             share = _turn_share(order.rotation, first)
@@ -307,7 +313,10 @@ def _leave_alone(move: PlannedMove, drive: Drive) -> float:
         from rpl.emulator.blending import open_end
 
         return open_end(move, overlap)[0]
-    distance, fraction = _in_segments(drive, None, *blend_size(drive.order.blend, move, None))
+    order = drive.order.blend
+    distance, fraction = _in_segments(drive, None, *blend_size(order, move, None, drive.sliding))
+    if distance is not None and order.zone is not None:
+        distance = zone_size(order, move, None, drive.sliding).extended or distance
     if fraction is not None:
         return 1.0 - fraction
     whole = float(move.geometry.distance(np.array([1.0]))[0])

@@ -68,13 +68,11 @@ def joining(
     model: RobotModel,
     first: PlannedMove,
     second: PlannedMove,
-    distance: float | None,
-    fraction: float | None,
-    overlap: float | None,
+    size: blending.Size,
     alone: tuple[bool, bool],
 ) -> Joining | None:
     """What `blending.blend` makes of two moves; None: they have no corner."""
-    made = blending.blend(model, first, second, distance_mm=distance, fraction=fraction, overlap=overlap, alone=alone)
+    made = blending.blend(model, first, second, size, alone)
     if not isinstance(made, blending.Corner):
         return None
     points = made.corner.geometry.tcp(np.linspace(0.0, 1.0, pathevents.SAMPLES))[:, :3, 3]

@@ -59,6 +59,11 @@ class Scene:
         """What is known of an external axis."""
         return next((axis for one in self.mechanisms for axis in one.axes if axis.number == number), None)
 
+    def sliding(self) -> tuple[bool, ...]:
+        """Which of the external axes slide; M: one that nobody describes is taken as a turning one."""
+        known = [self.axis(place + 1) for place in range(_SIX)]
+        return tuple(axis is not None and axis.sliding for axis in known)
+
     def options(self, start: External, goal: External, shares: list[float]) -> dict[str, Value]:
         """External axes from one place to another as a request has them, at shares of their speed; nothing where there
         are none."""

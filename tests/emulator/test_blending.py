@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from rpl.emulator.blending import Corner, NoBlend, blend
+from rpl.emulator.blending import Corner, NoBlend, Size, blend
 from rpl.emulator.model import load_robot
 from rpl.emulator.planner import MoveRequest, PlannedMove, plan
 from rpl.emulator.rotations import FloatArray, rotation_angle, zyx_to_matrix
@@ -40,7 +40,7 @@ def line(pose: FloatArray, speed: float = 1000.0, acceleration: float = 10000.0)
 
 
 def joined(first: PlannedMove, second: PlannedMove, **size: float) -> Corner:
-    corner = blend(ROBOT, first, second, **size)
+    corner = blend(ROBOT, first, second, Size(**size))
     assert isinstance(corner, Corner), corner
     return corner
 
@@ -155,11 +155,11 @@ def test_joint_move_into_a_line() -> None:
 
 def test_moves_that_cannot_be_joined() -> None:
     first, second = moves(line(at(1400, -200, 800)), line(at(1400, 200, 800)))
-    assert isinstance(blend(ROBOT, second, first, distance_mm=10.0), NoBlend)
-    assert isinstance(blend(ROBOT, first, second, distance_mm=0.0), NoBlend)
-    assert isinstance(blend(ROBOT, first, second, fraction=0.0), NoBlend)
+    assert isinstance(blend(ROBOT, second, first, Size(distance_mm=10.0)), NoBlend)
+    assert isinstance(blend(ROBOT, first, second, Size(distance_mm=0.0)), NoBlend)
+    assert isinstance(blend(ROBOT, first, second, Size(fraction=0.0)), NoBlend)
     turning = moves(line(at(1400, -200, 800)), line(at(1400, -200, 800, zyx_to_matrix([30, 0, 0]))))
-    assert isinstance(blend(ROBOT, *turning, distance_mm=10.0), NoBlend)
+    assert isinstance(blend(ROBOT, *turning, Size(distance_mm=10.0)), NoBlend)
 
 
 def test_a_turn_on_the_spot_into_a_way_is_driven_with_a_stop() -> None:
@@ -168,7 +168,7 @@ def test_a_turn_on_the_spot_into_a_way_is_driven_with_a_stop() -> None:
     assert isinstance(turn, PlannedMove)
     way = plan(ROBOT, turn.end_joints, line(at(1400, -200, 820, zyx_to_matrix([0, 10, 0]))))
     assert isinstance(way, PlannedMove)
-    assert isinstance(blend(ROBOT, turn, way, fraction=0.045), NoBlend)
+    assert isinstance(blend(ROBOT, turn, way, Size(fraction=0.045)), NoBlend)
 
 
 def test_straight_on_is_not_slowed_down() -> None:

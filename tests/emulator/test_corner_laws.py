@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from rpl import registry
 from rpl.controllers import PLAIN, MotionModel, controller_named
-from rpl.emulator.blending import Corner, blend
+from rpl.emulator.blending import Corner, Size, blend
 from rpl.emulator.model import load_robot
 from rpl.emulator.planner import MoveRequest, PlannedMove, plan
 from rpl.emulator.rotations import FloatArray
@@ -83,7 +83,7 @@ def test_the_cut_never_falls_with_speed_and_the_acceleration_bounds_it(size: flo
 def test_the_driven_path_misses_the_point_by_the_law(speed: float, turn_deg: float) -> None:
     rapid = controller_named("rapid")
     first, second = two_lines(turn_deg, speed, rapid)
-    made = blend(ROBOT, first, second, distance_mm=40.0)
+    made = blend(ROBOT, first, second, Size(40.0))
     assert isinstance(made, Corner)
     middle = made.corner.geometry.tcp(np.array([0.5]))[0, :3, 3]
     turn = 2.0 * math.sin(math.radians(turn_deg) / 2.0)
@@ -104,7 +104,7 @@ def test_every_controller_leaves_and_meets_at_the_size_and_keeps_its_speed(
 ) -> None:
     controller = controller_named(name)
     first, second = two_lines(turn_deg, speed, controller)
-    made = blend(ROBOT, first, second, distance_mm=size, alone=(True, True))
+    made = blend(ROBOT, first, second, Size(size), (True, True))
     assert isinstance(made, Corner), made
     capped = size if controller.corner_whole else min(size, 75.0)
     assert 150.0 - made.first.length_mm == pytest.approx(capped, abs=0.01)
@@ -123,7 +123,7 @@ def test_every_controller_leaves_and_meets_at_the_size_and_keeps_its_speed(
 def test_overlapping_moves_keep_their_speed_too(name: str, percent: float, turn_deg: float, speed: float) -> None:
     controller = controller_named(name)
     first, second = two_lines(turn_deg, speed, controller)
-    made = blend(ROBOT, first, second, overlap=controller.overlap_at(percent))
+    made = blend(ROBOT, first, second, Size(overlap=controller.overlap_at(percent)))
     assert isinstance(made, Corner), made
     assert made.first.length_mm == pytest.approx(made.second.length_mm, abs=0.01)
     assert made.first.length_mm >= 75.0 - 1e-6

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rpl.emulator.blending import Corner, blend
+from rpl.emulator.blending import Corner, Size, blend
 from rpl.emulator.mechanismfile import Mechanism, read_mechanisms
 from rpl.emulator.mechanisms import Carrier, mechanism_pose
 from rpl.emulator.model import load_robot
@@ -253,7 +253,7 @@ def test_corners_on_a_turning_table_join_both_lines_at_their_distance() -> None:
         ),
         one.end_joints,
     )  # fmt: skip
-    joined = blend(ROBOT, one, two, distance_mm=20.0)
+    joined = blend(ROBOT, one, two, Size(20.0))
     assert isinstance(joined, Corner)
     assert joined.corner.start_pose[:3, 3] - corner[:3, 3] == pytest.approx([-20, 0, 0], abs=1e-6)
     assert joined.corner.end_pose[:3, 3] - corner[:3, 3] == pytest.approx([0, 20, 0], abs=1e-6)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from rpl import registry
 from rpl.controllers import MotionModel, controller_named
-from rpl.emulator.blending import Corner, blend
+from rpl.emulator.blending import Corner, Size, blend
 from rpl.emulator.model import load_robot
 from rpl.emulator.planner import MoveRequest, PlannedMove, plan
 from rpl.emulator.rotations import pose_matrix
@@ -102,7 +102,7 @@ def cornered(
     assert begin is not None
     first = line(begin, (1600.0, -200.0, 900.0), speed, controller)
     after = line(first.end_joints, second, speed, controller)
-    made = blend(ROBOT, first, after, **size)  # type: ignore[arg-type]  # distance or overlap
+    made = blend(ROBOT, first, after, Size(**size))  # type: ignore[arg-type]  # distance or overlap
     assert isinstance(made, Corner), made
     return first, after, made
 
