@@ -94,8 +94,10 @@ def run_document(
             for row in signals
         ],
         "marks": _marks(result, labels),
-        "layers": curves_as_layers(external_curves(result, external, step_s, most_samples))
-        + [*starmap(_layer, layers)],
+        "layers": [
+            *curves_as_layers(external_curves(result, external, step_s, most_samples)),
+            *starmap(_layer, layers),
+        ],
     }
     rows: tuple[MoveRow, ...] = ()
     moves = driven_moves(result)
