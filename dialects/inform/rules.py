@@ -37,6 +37,7 @@ RULES = Rules(
         "path_speed": 100.0,
         "swivel_speed": 180.0,
         "twist_speed": 180.0,
+        "deceleration_percent": 100.0,  # M: DEC is given apart from ACC; without it a move slows down as it can
         "path_limit_rule": "reduce",
     },
     blend_levels=tables.LEVELS,

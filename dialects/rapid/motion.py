@@ -292,8 +292,8 @@ def _acc_set(arguments: Arguments, expressions: Expressions, origin: Origin) -> 
     if set(options) - {"finepointramp"}:
         return None
     made = (_assign("acceleration_percent", percent, origin), _assign("acceleration_ramp", ramp, origin))
-    fine = options.get("finepointramp")
-    return made if fine is None else (*made, _assign("deceleration_percent", fine, origin))
+    fine = options.get("finepointramp") or ir.IntLiteral(100, origin=origin)
+    return (*made, _assign("stop_ramp", fine, origin))
 
 
 def _grip_load(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:

@@ -55,7 +55,7 @@ _DEFAULTS: dict[str, float | bool | str] = {
     "speed_limit": 5000.0,
     "acceleration_percent": 100.0,
     "acceleration_ramp": 100.0,
-    "deceleration_percent": 100.0,
+    "stop_ramp": 100.0,
     "joint_configuration_check": True,
     "path_configuration_check": True,
     "singularity_mode": "off",
@@ -115,6 +115,12 @@ RULES = Rules(
     components=COMPONENTS,
     wait_poll_s=0.1,
     system_defaults=_DEFAULTS,
+    # RAPID Reference Manual, AccSet: less than 20 percent gives 20, a ramp of less than 10 percent gives 10.
+    percent_limits={
+        "acceleration_percent": (20.0, 100.0),
+        "acceleration_ramp": (10.0, 100.0),
+        "stop_ramp": (1.0, 100.0),
+    },
     errors=ERRORS,
     type_names=TYPES,
     exact_types=True,

@@ -43,6 +43,8 @@ RULES = Rules(
         "circle_orientation": "path",
         "held_work": False,
     },
+    # V+ Language Reference Guide, ACCEL: 1 to 100 as a rule (a robot's maker may allow more); else the nearest of both.
+    percent_limits={"acceleration_percent": (1.0, 100.0), "deceleration_percent": (1.0, 100.0)},
     errors=tables.ERRORS,
     errors_looked_for=frozenset(("division_by_zero", "negative_argument")),
 )

@@ -72,7 +72,8 @@ class Goal:
 
 
 _STATION = "ST1"
-_KNOWN_SETTINGS = ("coordinated", "external_speed")
+_DOWN = "deceleration_percent"
+_KNOWN_SETTINGS = ("coordinated", "external_speed", _DOWN)
 
 
 def _named(move: ir.Move) -> list[tuple[str, ir.Expression]]:
@@ -131,7 +132,7 @@ class Motion:
             shown = f"{tables.MOVES[move.kind]} {goal.place}"
         else:
             raise CannotSayError(f"there is no {move.kind} move")
-        speed, blend = self.speed(move), self.blend(move)
+        speed, blend = self.speed(move), [*self.blend(move), *self.strengths(move)]
         ending, beside = self.ending(move), self.station_speed(move)
         led = self.led(move)
         if move.kind == "circular" and move.relative is None:
@@ -140,7 +141,7 @@ class Motion:
         self.lines.append(line if move.relative is not None else self.with_axes(line, goal.place, beside))
         self.before = self.last if self.last is not None and self.last.arc else None
         goal.arc = move.kind == "circular"
-        self.last, self.stands, self.running = goal, blend == ["PL=0"] and not move.concurrent, move.concurrent
+        self.last, self.stands, self.running = goal, blend[:1] == ["PL=0"] and not move.concurrent, move.concurrent
         self.line_of_last = len(done) + len(self.lines) - 1
         self.positions.job.moves = True
         if move.search is not None or move.relative is not None:
@@ -410,7 +411,7 @@ class Motion:
         return f"{tag}={whole}"
 
     def speed(self, move: ir.Move) -> list[str]:
-        """VJ of a joint move, V or VR of another one, ACC."""
+        """VJ of a joint move, V or VR of another one."""
         speed, found = move.speed or ir.Speed(), []
         if move.kind == "joint":
             if speed.joint is not None:
@@ -427,14 +428,20 @@ class Motion:
             found.append(self.tag("VR", speed.rotation, move.origin))
         if speed.duration is not None:
             self.report_once(LEFT_OUT, move.origin, "duration", what="a duration")
-        if move.acceleration is not None:
-            value = constant(move.acceleration)
-            if value is None:
-                self.report_once(LEFT_OUT, move.origin, "acceleration", what="a computed acceleration")
-            elif value < 100:
-                found.append(f"ACC={max(20, round(value))}")
         if not found:
             self.report_once(NO_SPEED, move.origin)
+        return found
+
+    def strengths(self, move: ir.Move) -> list[str]:
+        """ACC= and DEC=, in whole percent; nothing for the full one."""
+        down = dict(_named(move)).get(_DOWN)
+        found = []
+        for tag, percent in (("ACC", move.acceleration), ("DEC", down)):
+            known = None if percent is None else constant(percent)
+            if percent is not None and known is None:
+                self.report_once(LEFT_OUT, move.origin, tag, what="a computed acceleration")
+            elif percent is not None and known is not None and known < tables.TAGS[tag][1]:
+                found.append(self.tag(tag, percent, move.origin))
         return found
 
     def blend(self, move: ir.Move) -> list[str]:

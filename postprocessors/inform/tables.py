@@ -66,6 +66,7 @@ TAGS: Final[Mapping[str, tuple[float, float, int]]] = {
     "CR": (1.0, 500.0, 1),
     "T": (0.01, 655.35, 2),
     "ACC": (20, 100, 0),
+    "DEC": (20, 100, 0),
 }
 # M: distances of PL=0..8 in mm, as a controller is delivered.
 LEVELS: Final = (0.0, 12.5, 25.0, 50.0, 100.0, 200.0, 300.0, 400.0, 500.0)

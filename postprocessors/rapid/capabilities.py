@@ -20,7 +20,7 @@ CAPABILITIES = Capabilities(
     procedures=words("increment decrement clear parse_value parse_number text_append text_copy text_clear"),
     system_variables=frozenset(
         (
-            *("speed_percent", "speed_limit", "acceleration_percent", "acceleration_ramp", "deceleration_percent"),
+            *("speed_percent", "speed_limit", "acceleration_percent", "acceleration_ramp", "stop_ramp"),
             *("joint_configuration_check", "path_configuration_check", "singularity_mode", "load", "override"),
             "displacement",
             *("error_number", "interrupt_number", "circle_orientation", "actual_pose", "actual_joints"),

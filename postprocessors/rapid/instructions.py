@@ -23,14 +23,17 @@ _MODES = {
 # Neighbouring settings that one instruction makes together.
 _TOGETHER = (
     (("speed_percent", "speed_limit"), "VelSet {0},{1};"),
-    (("acceleration_percent", "acceleration_ramp", "deceleration_percent"), "AccSet {0},{1}\\FinePointRamp:={2};"),
+    (("acceleration_percent", "acceleration_ramp", "stop_ramp"), "AccSet {0},{1}\\FinePointRamp:={2};"),
     (("acceleration_percent", "acceleration_ramp"), "AccSet {0},{1};"),
 )
+_FULL_STOPS = "AccSet {0},{1};"
+_FULL = (ir.IntLiteral(100), ir.RealLiteral(100.0))
 _ALONE = {
     "speed_percent": "VelSet {0},5000;",
     "speed_limit": "VelSet 100,{0};",
     "acceleration_percent": "AccSet {0},100;",
     "acceleration_ramp": "AccSet 100,{0};",
+    "stop_ramp": "AccSet 100,100\\FinePointRamp:={0};",
     "load": "GripLoad {0};",
     "override": "SpeedRefresh {0};",
 }
@@ -128,8 +131,10 @@ class Instructions:
                     case ir.Assign(target=ir.System(name=found), value=value) if found == name:
                         values.append(value)
             if len(values) == len(names):
+                if names[-1] == "stop_ramp" and values[-1] in _FULL:
+                    pattern = _FULL_STOPS
                 try:
-                    return len(names), pattern.format(*map(self.print, values))
+                    return len(values), pattern.format(*map(self.print, values))
                 except CannotSayError:
                     return 0, ""
         return 0, ""

@@ -121,14 +121,21 @@ def overlapping_s(first: PlannedMove, second: PlannedMove, share: float) -> floa
     moves = first, second
     if not all(np.isfinite(move.profile.speed) for move in moves):
         return 0.0
-    ramps = [move.profile.peak / corner_acceleration(move) for move in moves]
-    rooms = [float(np.sqrt(2.0 * MOST / corner_acceleration(move))) for move in moves]
+    accelerations = _beside_corner(first, second)
+    ramps = [move.profile.peak / each for move, each in zip(moves, accelerations, strict=True)]
+    rooms = [float(np.sqrt(2.0 * MOST / each)) for each in accelerations]
     return min(share * min(ramps), *rooms)
 
 
-def corner_acceleration(move: PlannedMove) -> float:
-    """The acceleration (1/s²) of a move's ramp beside a corner that is made by overlapping moves."""
-    controller, acceleration = move.controller, move.profile.acceleration
+def _beside_corner(first: PlannedMove, second: PlannedMove) -> tuple[float, float]:
+    """The accelerations (1/s²) with which the first move slows down into a corner and the second leaves it."""
+    return corner_acceleration(first, first.profile.down), corner_acceleration(second, second.profile.acceleration)
+
+
+def corner_acceleration(move: PlannedMove, acceleration: float) -> float:
+    """The acceleration (1/s²) of a move's ramp beside a corner that is made by overlapping moves, where that beside a
+    stop is `acceleration`."""
+    controller = move.controller
     if move.kind == "joint":
         return acceleration
     if controller.corner_ramp_s > 0.0:
@@ -142,7 +149,7 @@ def corner_acceleration(move: PlannedMove) -> float:
 def open_end(move: PlannedMove, share: float) -> tuple[float, float, Profile]:
     """Where a move leaves for a corner by overlap with a move like itself, as a fraction; its speed there, 1/s; the
     profile that slows down to it."""
-    braking = corner_acceleration(move)
+    braking = corner_acceleration(move, move.profile.down)
     seconds = overlapping_s(move, move, share)
     return 1.0 - min(MOST, 0.5 * braking * seconds**2), braking * seconds, replace(move.profile, braking=braking)
 
@@ -152,7 +159,7 @@ def _ends(
 ) -> Ends | NoBlend:
     """Where to leave the first move and to meet the second."""
     if seconds is not None:
-        shares = [0.5 * corner_acceleration(move) * seconds * seconds for move in (first, second)]
+        shares = [0.5 * each * seconds * seconds for each in _beside_corner(first, second)]
         if min(shares) <= 1e-9 or not np.isfinite(shares).all():
             return NoBlend("the moves do not overlap")
         return _plain(1.0 - min(shares[0], MOST), min(shares[1], MOST))
@@ -338,11 +345,13 @@ def _driven(
     (first, second), ((begin, leave), (meet, _)) = moves, (part.span for part in parts)
     tail, head = _steepness(geometry, first, second, leave, meet)
     if seconds is not None:
-        first = replace(first, profile=replace(first.profile, braking=corner_acceleration(first)))
-        second = replace(second, profile=replace(second.profile, rising=corner_acceleration(second)))
+        braking, rising = _beside_corner(first, second)
+        first = replace(first, profile=replace(first.profile, braking=braking))
+        second = replace(second, profile=replace(second.profile, rising=rising))
     arriving = float(first.law.speeds[0]) * (first.span[1] - first.span[0])
     room = 2.0 * first.profile.acceleration * (leave - begin)
-    stopping = float(np.sqrt(2.0 * second.profile.acceleration * (1.0 - meet)))
+    slowing = 2.0 * first.profile.down * (leave - begin)
+    stopping = float(np.sqrt(2.0 * second.profile.down * (1.0 - meet)))
     rate = min(
         _ceiling(first.profile, leave) / tail,
         float(np.sqrt(arriving * arriving + room)) / tail,
@@ -352,7 +361,7 @@ def _driven(
     )
     if rate < SLOWEST:
         return NoBlend("the corner allows no speed")
-    entry = max(rate, float(np.sqrt(max(arriving * arriving - room, 0.0))) / tail)
+    entry = max(rate, float(np.sqrt(max(arriving * arriving - slowing, 0.0))) / tail)
     law = TimeLaw(np.array([0.0, 2.0 / (entry + rate)]), np.array([0.0, 1.0]), np.array([entry, rate]))
     trimmed = _timed(parts[0], first.profile, arriving, tail * entry)
     rest = _timed(parts[1], second.profile, head * rate, 0.0)
@@ -436,7 +445,7 @@ def _corner_rate(
         return min(rate, float(1.0 / np.sqrt(max(strongest))))
     points = geometry.tcp(knots)[:, :3, 3]
     bend = float(np.linalg.norm(np.diff(points, n=2, axis=0), axis=1).max()) / step**2
-    limit = min(move.profile.acceleration * whole for move, whole in zip(moves, wholes, strict=True))
+    limit = min(moves[0].profile.down * wholes[0], moves[1].profile.acceleration * wholes[1])
     controller = first.controller
     if controller.corner_acceleration_mm_s2 is None:
         return min(rate, float(np.sqrt(limit / max(bend, 1e-9))))

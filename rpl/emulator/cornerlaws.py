@@ -69,9 +69,9 @@ def _measured(corner: PlannedMove, at: float, move: PlannedMove, place: float, s
 def braked(
     corner: PlannedMove, begin: float, speed: float, rate: float, first: PlannedMove, strength: float
 ) -> Stretch:
-    """From `begin` of the corner at `speed` (1/s of it) come to rest with `strength` times the acceleration of the move
+    """From `begin` of the corner at `speed` (1/s of it) come to rest with `strength` times the deceleration of the move
     before it; `rate`: that move's fractions per fraction of the corner."""
-    way = _way(corner, begin, first, rate)
+    way = _way(corner, begin, first, rate, first.profile.down)
     pull = way.acceleration * strength
     squared = (speed * way.slopes[0]) ** 2 - 2.0 * pull * way.ways
     last = len(squared) - 1
@@ -90,21 +90,21 @@ def braked(
 
 def taken_up(corner: PlannedMove, begin: float, rate: float, first: PlannedMove) -> Stretch:
     """From rest at `begin` of the corner speed up to the corner's own speed, and go on to its end."""
-    way = _way(corner, begin, first, rate)
+    way = _way(corner, begin, first, rate, first.profile.acceleration)
     fastest = float(corner.law.speeds.max())
     speeds = np.minimum(np.sqrt(2.0 * way.acceleration * way.ways) / way.slopes, fastest)
     return _stretch(way.fractions, speeds)
 
 
-def _way(corner: PlannedMove, begin: float, first: PlannedMove, rate: float) -> _Way:
+def _way(corner: PlannedMove, begin: float, first: PlannedMove, rate: float, acceleration: float) -> _Way:
     fractions = np.linspace(min(begin, 1.0 - 1e-9), 1.0, SAMPLES)
     points = corner.geometry.tcp(fractions)[:, :3, 3]
     ways = np.insert(np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1)), 0, 0.0)
     whole = float(first.geometry.distance(np.array([1.0]))[0])
     if first.kind == "joint" or ways[-1] < SHORTEST_MM * (1.0 - begin) or whole < SHORTEST_MM:
-        return _Way(fractions, fractions - fractions[0], np.ones_like(fractions), first.profile.acceleration / rate)
+        return _Way(fractions, fractions - fractions[0], np.ones_like(fractions), acceleration / rate)
     slopes = np.gradient(ways, fractions, edge_order=2)
-    return _Way(fractions, ways, np.maximum(slopes, 1e-9), first.profile.acceleration * whole)
+    return _Way(fractions, ways, np.maximum(slopes, 1e-9), acceleration * whole)
 
 
 def _stretch(fractions: FloatArray, speeds: FloatArray) -> Stretch:

@@ -19,7 +19,7 @@ from rpl.emulator.mechanisms import Carried, Carrier, along
 from rpl.emulator.model import RobotModel
 from rpl.emulator.paths import Arc, Line, Path, arc_through
 from rpl.emulator.rotations import FloatArray, invert_pose, pose_matrix, rotation_angle
-from rpl.emulator.timelaw import Profile, TimeLaw, of_constant_time, slowed_to
+from rpl.emulator.timelaw import Profile, TimeLaw, mean_acceleration, of_constant_time, slowed_to
 from rpl.emulator.tracking import MotionFault, Track, solve_arm_joints, track_flanges, track_wrist_joints
 
 __all__ = ["MotionFault", "MoveRequest", "MoveSamples", "PlannedMove", "plan"]
@@ -44,7 +44,8 @@ class MoveRequest:
     `external_start` to `external_target` at most at `external_speeds` (deg/s or mm/s), with `external_accs` and within
     `external_limits` where these are known. With a `carrier` poses are of the tool in its work, not in the base.
     `effort` is the acceleration in force as a share, which the accelerations contain already; ramps of a constant time
-    get longer by it.
+    get longer by it. `braking`: the deceleration by the acceleration. `stop_ramp`: how fast the deceleration before a
+    stop changes, as a share of how fast it changes elsewhere.
     """
 
     kind: Literal["joint", "linear", "circular", "spline"]
@@ -71,6 +72,8 @@ class MoveRequest:
     external_speeds: tuple[float, ...] = ()
     controller: MotionModel = PLAIN
     effort: float = 1.0
+    braking: float = 1.0
+    stop_ramp: float = 1.0
     external_accs: tuple[float | None, ...] = ()
     external_limits: tuple[tuple[float, float] | None, ...] = ()
     carrier: Carrier | None = None
@@ -548,7 +551,8 @@ def _profile(request: MoveRequest, speed: float, acceleration: float, ramp_s: fl
         own = request.external_accs[place] if place < len(request.external_accs) else None
         speed = min(speed, _over(top, abs(goal - begin)))
         acceleration = min(acceleration, _over(top / 0.3 if own is None else own, abs(goal - begin)))
-    ramp_s /= request.effort
+    ramp_s *= 0.5 * (1.0 + 1.0 / request.braking) / request.effort
+    acceleration = mean_acceleration(acceleration, acceleration * request.braking)
     if request.duration_s is not None and request.duration_s > 0.0 and np.isfinite(speed):
         moving_s = max(request.duration_s - smoothing_s, 0.5 * request.duration_s)
         if ramp_s > 0.0 and moving_s > ramp_s:
@@ -557,7 +561,7 @@ def _profile(request: MoveRequest, speed: float, acceleration: float, ramp_s: fl
             speed = slowed_to(speed, acceleration, moving_s)
     if ramp_s > 0.0 and np.isfinite(speed):
         acceleration = min(acceleration, of_constant_time(speed, ramp_s))
-    return Profile(speed, acceleration, smoothing_s=smoothing_s)
+    return Profile(speed, acceleration, smoothing_s=smoothing_s).braked(request.braking, request.stop_ramp)
 
 
 def finished(request: MoveRequest, geometry: Geometry, profile: Profile) -> PlannedMove:

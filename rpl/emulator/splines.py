@@ -30,7 +30,7 @@ from rpl.emulator.planner import (
 )
 from rpl.emulator.rotations import FloatArray, pose_matrix, rotation_angle, rotation_vector_to_matrix
 from rpl.emulator.splinerules import BlockRule, ruled
-from rpl.emulator.timelaw import Profile, of_constant_time
+from rpl.emulator.timelaw import Profile, mean_acceleration, of_constant_time
 from rpl.emulator.tracking import MotionFault
 from rpl.passes.curves import SAME_MM, Leg, Segment, block, smooth_numbers
 from rpl.passes.rigid import Pose, pose_of_matrix
@@ -344,11 +344,13 @@ def _driven_by(request: MoveRequest, profile: Profile, joint: bool) -> Profile:
     """The profile with the ramps of the controller."""
     controller = request.controller
     ramp_s = (controller.joint_ramp_s if joint else controller.path_ramp_s) / request.effort
+    ramp_s *= 0.5 * (1.0 + 1.0 / request.braking)
     smoothing_s = controller.joint_smoothing_s if joint else controller.path_smoothing_s
-    acceleration = profile.acceleration
+    acceleration = mean_acceleration(profile.acceleration, profile.acceleration * request.braking)
     if ramp_s > 0.0 and np.isfinite(profile.speed):
         acceleration = min(acceleration, of_constant_time(profile.speed, ramp_s))
-    return replace(profile, acceleration=acceleration, smoothing_s=smoothing_s)
+    own = replace(profile, acceleration=acceleration, smoothing_s=smoothing_s)
+    return own.braked(request.braking, request.stop_ramp)
 
 
 # ---- joints

@@ -8,7 +8,7 @@ accelerating has one place to go to.
 """
 
 from bisect import bisect_right
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -185,13 +185,20 @@ def of_constant_time(speed: float, ramp_s: float) -> float:
     return 4.0 / (1.0 / speed + ramp_s) ** 2
 
 
+def mean_acceleration(up: float, down: float) -> float:
+    """The one acceleration with which a move from rest to rest lasts as long as with two of them (1/s²)."""
+    return up if up == down else 2.0 * up * down / (up + down)
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Profile:
     """How fast a move may go along its whole path: top speed 1/s, acceleration 1/s², in fractions of the path.
 
     `ceilings` (m-1,) in 1/s lower the speed in the intervals between `knots` (m,), where an axis would be too slow.
-    `smoothing_s` is the width of the moving average over the speed. `rising`, `braking`: the accelerations (1/s²) out
-    of the corner before and into the corner behind, where ramps beside corners differ from those beside a stop.
+    `smoothing_s` is the width of the moving average over the speed. `deceleration` (1/s²): where slowing down differs
+    from speeding up. `rising`, `braking`: the accelerations (1/s²) out of the corner before and into the corner behind,
+    where ramps beside corners differ from those beside a stop. `stopping_s`: by how much the average is wider where the
+    move comes to rest; the ramp there lasts longer by it (a model: it keeps its form).
     """
 
     speed: float
@@ -201,16 +208,41 @@ class Profile:
     smoothing_s: float = 0.0
     rising: float | None = None
     braking: float | None = None
+    deceleration: float | None = None
+    stopping_s: float = 0.0
+
+    @property
+    def down(self) -> float:
+        """The acceleration (1/s²) with which it slows down, away from corners."""
+        return self.acceleration if self.deceleration is None else self.deceleration
 
     @property
     def slowest(self) -> float:
         """The lowest of its accelerations, 1/s²."""
-        return min(self.acceleration, self.rising or np.inf, self.braking or np.inf)
+        return min(self.acceleration, self.down, self.rising or np.inf, self.braking or np.inf)
 
     @property
     def peak(self) -> float:
         """The highest speed (1/s) that a move from rest to rest comes to."""
-        return min(self.speed, float(np.sqrt(self.acceleration)))
+        return min(self.speed, float(np.sqrt(mean_acceleration(self.acceleration, self.down))))
+
+    def braked(self, braking: float, stop_ramp: float) -> "Profile":
+        """The profile of one acceleration with another one for slowing down, `braking` times that for speeding up, and
+        the same time from rest to rest; `stop_ramp`: the share of the rate at which its deceleration changes that it
+        has before a stop."""
+        wider = self.smoothing_s * (1.0 / stop_ramp - 1.0) if stop_ramp < 1.0 else 0.0
+        if braking == 1.0:
+            return replace(self, stopping_s=wider) if wider > 0.0 else self
+        rising = self.acceleration * 0.5 * (1.0 + 1.0 / braking)
+        return replace(self, acceleration=rising, deceleration=rising * braking, stopping_s=wider)
+
+    def _into(self, end_speed: float) -> float:
+        """The acceleration (1/s²) towards an end at that speed (1/s)."""
+        if self.braking:
+            return self.braking
+        if end_speed > 0.0 or self.stopping_s <= 0.0 or not np.isfinite(self.speed):
+            return self.down
+        return 1.0 / (1.0 / self.down + self.stopping_s / self.peak)
 
     def law(self, begin: float = 0.0, end: float = 1.0, start_speed: float = 0.0, end_speed: float = 0.0) -> TimeLaw:
         """The law over `begin`..`end` of the path, as fractions of that part; boundary speeds in 1/s of the path.
@@ -240,7 +272,7 @@ class Profile:
         if part <= 1e-12:
             return at_rest()
         speeds = start_speed / part, end_speed / part
-        up, down = (self.rising or self.acceleration) / part, (self.braking or self.acceleration) / part
+        up, down = (self.rising or self.acceleration) / part, self._into(end_speed) / part
         if self.knots is None or self.ceilings is None:
             return travel(self.speed / part, up, *speeds, down)
         inside = (self.knots > begin) & (self.knots < end)

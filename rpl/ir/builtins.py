@@ -212,7 +212,8 @@ SYSTEM_VARIABLES: dict[str, SystemVariable] = _system(
     speed_limit     | n | rw | - | mm/s  | - | RAPID VelSet maximum
     acceleration_percent | n | rw | - | percent | - | RAPID AccSet acceleration
     acceleration_ramp | n | rw | - | percent | - | RAPID AccSet ramp
-    deceleration_percent | n | rw | - | percent | - | AccSet FinePointRamp and the like
+    deceleration_percent | n | rw | - | percent | - | deceleration, where that is not as strong as the acceleration
+    stop_ramp       | n | rw | - | percent | - | RAPID AccSet: how fast the deceleration changes before a stop
     joint_configuration_check | b | rw | - | | - | joint moves go to exactly the programmed configuration
     path_configuration_check | b | rw | - | | - | path moves check the programmed configuration at their end
     singularity_mode | x | rw | - |      | - | wrist: wrist axes interpolated in joints; off; lock_axis_4

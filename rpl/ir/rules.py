@@ -95,7 +95,8 @@ class Rules:
     RAPID `robax.rax_1` maps step by step. undefined: reading a variable without a value is a fault (else zero values).
     whole_targets: a move to a position of which a component has no value is a fault (FANUC), else the component stays.
     implicit_pose: an undeclared name is a pose. call_depth: nested calls the controller allows.
-    system_defaults: modal system variables at the start of a run, in base units. errors: names of error numbers.
+    system_defaults: modal system variables at the start of a run, in base units. percent_limits: least and most that
+    the controller takes of a percentage; a value beyond counts as that. errors: names of error numbers.
     group_bits: bits of a group of signals that has a name only, as its controller has them (URScript's registers: 32).
     blend_levels: distance in mm of each numbered blend level (INFORM PL). array_base: index of the first element of a
     list that is written out. number_marks: what stands before the digits of a number to another base, also in a text
@@ -129,6 +130,7 @@ class Rules:
     wait_poll_s: float = 0.0
     call_depth: int = 100
     system_defaults: Mapping[str, float | bool | str] = field(default_factory=dict)
+    percent_limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     errors: Mapping[str, int] = field(default_factory=dict)
     type_names: Mapping[str, Type] = field(default_factory=dict)
     group_bits: int = 8

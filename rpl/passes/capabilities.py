@@ -133,8 +133,8 @@ class Capabilities:
     look at a truth value, which another task sets, in place of an input.
     functions_alone: a function only as the whole right side of an assignment.
 
-    Motion: move_settings: which of `tool`, `frame`, `speed`, `blend` a move says itself, the rest being modal (System
-    tool, base, and modal_motion set); empty: all or none of them, in data of the types of RAPID or KRL. Only then:
+    Motion: move_settings: which of `tool`, `frame`, `speed`, `blend`, `deceleration` a move says itself, the rest being
+    modal (System tool, base, and modal_motion set); empty: all or none, in data of types of RAPID or KRL. Only then:
     speeds: fields of Speed that the target says (for joint moves `joint`, `axis`; for the others `path`, ...);
     blends: blend classes that it says (BlendStop always). move_functions: functions (and `:`) that a move's target may
     be although nothing else can: a place seen from another one, with simple operands. places_in_base: functions of

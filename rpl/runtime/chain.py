@@ -6,6 +6,7 @@ stationary tool) the roles change:  robot_root · FK(joints) · part · displace
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
@@ -55,6 +56,7 @@ DEFAULTS: Modal = {
     "speed_percent": 100.0,
     "acceleration_percent": 100.0,
     "acceleration_ramp": 100.0,
+    "stop_ramp": 100.0,
     "path_limit_rule": "reduce",
     "orientation_mode": "variable",
     "circle_orientation": "base",
@@ -456,8 +458,8 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
 
     over = max(float(value("override")) / 100.0, 1e-3)
     profile_share = over * float(value("speed_percent")) / 100.0
-    effort = float(order.acceleration if order.acceleration is not None else value("acceleration_percent"))
-    effort = effort_share = max(effort / 100.0, 0.01)
+    own = order.acceleration if order.acceleration is not None else value("acceleration_percent")
+    effort = effort_share = _share(own, "acceleration_percent", order.rules)
     axes = range(1, plan.model.axes + 1)
     options: dict[str, Value] = {}
     if speed.profile is not None:
@@ -499,12 +501,32 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
         "orientation": _ORIENTATIONS.get(mode, "interpolated"),
         "circle_orientation": order.circle_orientation or str(value("circle_orientation")),
         "reduce_speed_near_singularity": value("path_limit_rule") == "reduce",
-        "controller": plan.controller.with_ramp(float(value("acceleration_ramp"))),
-        "effort": effort_share,
     }
+    options |= _ramps(order, plan, effort_share)
     shares = [float(value("external_speed", place + 1)) / 100.0 for place in range(len(external))]
     options |= plan.scene.options(plan.external, external, shares)
     return _by_time(options, over) if speed.duration else options
+
+
+def _ramps(order: Order, plan: Planning, effort: float) -> dict[str, Value]:
+    """How the acceleration changes, and slowing down by `effort`, the share in which the move speeds up."""
+
+    def share(name: str) -> float:
+        return _share(setting(plan.modal, order.modal, name), name, order.rules)
+
+    down = setting(plan.modal, order.modal, "deceleration_percent")
+    return {
+        "controller": plan.controller.with_ramp(100.0 * share("acceleration_ramp")),
+        "effort": effort,
+        "braking": 1.0 if down is None else share("deceleration_percent") / effort,
+        "stop_ramp": share("stop_ramp"),
+    }
+
+
+def _share(percent: Value, name: str, rules: Rules) -> float:
+    """A percentage as a share, within what the controller takes."""
+    least, most = rules.percent_limits.get(name, (1.0, math.inf))
+    return min(max(float(percent), least), most) / 100.0
 
 
 def _path_acceleration(order: Order, plan: Planning) -> float:

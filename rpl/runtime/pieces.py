@@ -264,8 +264,8 @@ def blend_size(
             return None, fraction if fraction > 0.0 else None
         case "speed":
             whole = first.length_mm
-            top, acceleration = first.profile.speed * whole, first.profile.acceleration * whole
-            way: float = (order.percent / 100.0 * top) ** 2 / (2.0 * acceleration) if acceleration > 0.0 else 0.0
+            top, braking = first.profile.speed * whole, first.profile.down * whole
+            way: float = (order.percent / 100.0 * top) ** 2 / (2.0 * braking) if braking > 0.0 else 0.0
             return (way, None) if way > 0.0 else (None, None)
         case "zone" if order.zone is not None:
             zone = zone_size(order, first, second, sliding)

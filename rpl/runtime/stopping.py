@@ -64,14 +64,14 @@ def arrived(queue: MotionQueue, piece: Piece) -> None:
 def _braking(piece: Piece, place: float, speed: float, how: Halting, now: float) -> Piece:
     """Brake from a place of a move at a speed (1/s of it), at most to where its corner begins."""
     profile = piece.plan.profile
-    strength = profile.acceleration * (HARD if how.hard else 1.0)
+    strength = profile.down * (HARD if how.hard else 1.0)
     needed = place + speed * speed / (2.0 * strength) if speed > 0.0 else place
     furthest = piece.plan.span[1] if piece.drive.rate is None and not piece.open_end else 1.0
     end, left = min(needed, furthest), 0.0
     if piece.ahead is not None and needed > furthest:
         left = max(speed * speed - 2.0 * strength * (furthest - place), 0.0) ** 0.5
-    law = replace(profile, acceleration=strength, smoothing_s=0.0).law(place, end, speed, left)
-    driven = piece.plan.part((place, end), law)
+    ramp = replace(profile, deceleration=strength, braking=None, smoothing_s=0.0, stopping_s=0.0)
+    driven = piece.plan.part((place, end), ramp.law(place, end, speed, left))
     return Piece(piece.drive, driven, now, ahead=piece.ahead, halting=replace(how, onward=left))
 
 

@@ -13,7 +13,7 @@ from rpl.emulator.blending import Corner, Size, blend
 from rpl.emulator.model import load_robot
 from rpl.emulator.planner import MoveRequest, PlannedMove, plan
 from rpl.emulator.rotations import pose_matrix
-from rpl.emulator.timelaw import Profile, of_constant_time, travel
+from rpl.emulator.timelaw import Profile, mean_acceleration, of_constant_time, travel
 
 SPEEDS = st.floats(0.05, 20.0)
 ACCELERATIONS = st.floats(0.05, 200.0)
@@ -150,3 +150,27 @@ def test_tool_and_joints_keep_their_speed_where_pieces_meet(
             jump = np.linalg.norm((right[1] - right[0]) - (left[1] - left[0])) / step
             assert jump < (60.0 if ask == "tcp_at" else 6.0), (ask, jump)
             assert np.abs(left[1] - right[0]).max() < 1e-5
+
+
+@given(SPEEDS, ACCELERATIONS, st.floats(0.1, 10.0), SMOOTHINGS)
+def test_two_ramps_last_as_long_as_their_mean(speed: float, up: float, ratio: float, smoothing: float) -> None:
+    """A move from rest to rest with different ramps, also where it is too short for its speed."""
+    both = Profile(speed, up, smoothing_s=smoothing, deceleration=up * ratio)
+    mean = Profile(speed, mean_acceleration(up, up * ratio), smoothing_s=smoothing)
+    assert both.law().duration == pytest.approx(mean.law().duration, rel=1e-9)
+    assert both.peak == pytest.approx(mean.peak, rel=1e-9)
+    times = np.linspace(0.0, both.law().duration, 1001)
+    speeds = both.law().speed_at(times)
+    steps = np.diff(speeds) / times[1]
+    assert steps.max() <= up * (1.0 + 1e-6) + 1e-6 * speed / times[1]
+    assert -steps.min() <= up * ratio * (1.0 + 1e-6) + 1e-6 * speed / times[1]
+
+
+@given(SPEEDS, ACCELERATIONS, SMOOTHINGS, st.floats(0.0, 1.0))
+def test_a_smoother_stop_takes_longer_and_ends_there(speed: float, up: float, smoothing: float, wider: float) -> None:
+    plain = Profile(speed, up, smoothing_s=smoothing).law()
+    smooth = Profile(speed, up, smoothing_s=smoothing, stopping_s=wider).law()
+    assert smooth.duration >= plain.duration * (1.0 - 1e-9)
+    assert float(smooth.at(smooth.duration)) == 1.0
+    if speed * speed * (1.0 / up + 0.5 * wider / speed) <= 1.0:  # room for both ramps
+        assert smooth.duration == pytest.approx(plain.duration + 0.5 * wider, rel=1e-6)

@@ -14,6 +14,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.speeds import scaled
+from rpl.passes.legalise.strengths import has_both, own_deceleration, without_own
 
 Settings = tuple[tuple[str, ir.Expression], ...]
 _USUAL_PATH = 5000.0  # mm/s2, where the target's rules say nothing
@@ -41,7 +42,7 @@ class _Runs:
     """Runs of moves with the same acceleration."""
 
     def __init__(self, context: Context) -> None:
-        self.can = context.capabilities.system_variables
+        self.can, self.both = context.capabilities.system_variables, has_both(context.source)
         self.usual = float(rules_of(context.target).system_defaults.get("path_acceleration", _USUAL_PATH))
 
     def body(self, body: ir.Body) -> ir.Body:
@@ -55,7 +56,7 @@ class _Runs:
                     done.extend(_assigned((*back, *wanted), statement))
                     statement = replace(statement, origin=replace(statement.origin, comments=()))
                 force = wanted
-                done.append(replace(statement, acceleration=None) if statement.acceleration is not None else statement)
+                done.append(without_own(replace(statement, acceleration=None)) if wanted else statement)
                 continue
             if force and not isinstance(statement, _SIMPLE):
                 done.extend(_assigned(self.back(force), statement, first=False))
@@ -68,13 +69,16 @@ class _Runs:
 
     def settings(self, move: ir.Move) -> Settings:
         """What the target has to set for the move."""
-        percent = move.acceleration
-        if percent is None:
+        percent, down = move.acceleration, own_deceleration(move)
+        full = ir.RealLiteral(_FULL)
+        if percent is None and (down is None or "deceleration_percent" not in self.can):
             return ()
         if "acceleration_percent" in self.can:
-            ramp = ("acceleration_ramp", ir.RealLiteral(_FULL))
-            braking = ramp if ramp[0] in self.can else ("deceleration_percent", percent)
-            return (("acceleration_percent", percent), braking)
+            up = full if percent is None else percent
+            down = down or (full if self.both else up)
+            ramp = ("acceleration_ramp", full)
+            return (("acceleration_percent", up), ramp if ramp[0] in self.can else ("deceleration_percent", down))
+        assert percent is not None  # such targets have no deceleration
         if move.kind == "joint":
             return (("joint_acceleration", percent),)
         return (("path_acceleration", scaled(percent, self.usual / _FULL, _MOST)),)

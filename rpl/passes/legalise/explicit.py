@@ -18,6 +18,7 @@ from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.datalists import moving_entries
 from rpl.passes.legalise.helpers import Helpers
 from rpl.passes.legalise.modal import DROPPED, JOINT_BLEND, MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
+from rpl.passes.legalise.strengths import is_usual_ramp
 from rpl.passes.legalise.usage import assigned_below, assigned_in, base_name, doing, each_statement, usage_of
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
@@ -57,7 +58,7 @@ _CHECKS = frozenset(
     {
         *("joint_configuration_check", "path_configuration_check", "singularity_mode", "acceleration_percent"),
         *("acceleration_ramp", "deceleration_percent", "speed_limit", "load", "end_tolerance", "move_duration"),
-        *("posture_shoulder", "posture_elbow", "posture_wrist", "blending"),
+        *("posture_shoulder", "posture_elbow", "posture_wrist", "blending", "stop_ramp"),
     }
 )
 
@@ -213,7 +214,9 @@ class Modal:
         match statement:
             case ir.Assign(target=ir.System(name="acceleration_percent")) if self.context.capabilities.move_settings:
                 return [statement]  # it decides on corners; movesettings leaves it out then
-            case ir.Assign(target=ir.System(name=name)) if name in _CHECKS and name not in self.brakes:
+            case ir.Assign(target=ir.System(name=name), value=value) if name in _CHECKS and name not in self.brakes:
+                if is_usual_ramp(name, value):
+                    return [ir.Nothing(origin=statement.origin)]
                 setting = name.replace("_", " ")
                 self.context.diagnostics.report(DROPPED, statement.origin, name=setting)
                 return [ir.Nothing(origin=statement.origin)]

@@ -29,11 +29,13 @@ BRAKING = {
 _TURNS = "circle_orientation"
 # What all speeds are a share of, and the highest (RAPID VelSet), as a controller has them that says nothing.
 _SHARES = {"speed_percent": 100.0, "speed_limit": 5000.0}
+# Percentage for slowing down, of languages that have one of their own: none where that is as strong as speeding up.
+_DOWN = "deceleration_percent"
 # Whether moves are joined at all (V+ CPON): a truth value.
 _JOINED = "blending"
 # The least time of moves, s; none where nothing is said.
 _TIMES = {"move_duration": 0.0}
-_FOLLOWED = SETTINGS | BRAKING.keys() | _SHARES.keys() | _TIMES.keys() | {"displacement", _TURNS, _JOINED}
+_FOLLOWED = SETTINGS | BRAKING.keys() | _SHARES.keys() | _TIMES.keys() | {"displacement", _TURNS, _JOINED, _DOWN}
 # Setting -> constant; None: it depends on the run. A place that is never reached has no state.
 State = dict[str, "ir.Expression | None"]
 _UNKNOWN: State = dict.fromkeys(_FOLLOWED)
@@ -280,7 +282,7 @@ class _Follower:
                 return dict(_UNKNOWN)
             case ir.Assign(target=ir.System(name=name), value=value) if name in _FOLLOWED:
                 new = self.stable(value) if name not in self.flow.usage.interrupting else None
-                if name not in (_TURNS, _JOINED, *_TIMES):
+                if name not in (_TURNS, _JOINED, _DOWN, *_TIMES):
                     self.note_setting(statement, new is not None and state[name] == new)
                 return {**state, name: new}
         return self.calls(statement, state)

@@ -207,8 +207,10 @@ class _Settings:
     def move(self, move: ir.Move) -> ir.Move:
         state = self.flow.at(move)
         own = {place.name: value for place, value in move.settings if isinstance(place, ir.System)}
-        at_move = _AT_MOVES if COORDINATED in self.context.capabilities.system_variables else ()
-        for name in own.keys() - SETTINGS - set(at_move):
+        can = self.context.capabilities
+        at_move = set(_AT_MOVES) if COORDINATED in can.system_variables else set()
+        at_move |= {"deceleration_percent"} if "deceleration" in can.move_settings else set()
+        for name in own.keys() - SETTINGS - at_move:
             self.report_once(DROPPED, move, name, name=name.replace("_", " "))
         kept = tuple(one for one in move.settings if isinstance(one[0], ir.System) and one[0].name in at_move)
         done = rewrite_parts(replace(move, settings=kept, blend=None), self.expression, self.body)

@@ -166,6 +166,7 @@ from rpl.passes.legalise.steps import steps
 from rpl.passes.legalise.steptimes import step_times
 from rpl.passes.legalise.stoppedtasks import stopped_tasks
 from rpl.passes.legalise.storedpaths import stored_paths
+from rpl.passes.legalise.strengths import strengths
 from rpl.passes.legalise.structure import labels_to_structure
 from rpl.passes.legalise.subscripts import joined_subscripts
 from rpl.passes.legalise.switches import unroll_switches
@@ -371,6 +372,7 @@ PASSES: tuple[Pass, ...] = (
     fit_loops,
     enums_to_constants,
     coordinated_moves,
+    strengths,
     usual_accelerations,
     fit_speeds,
     corners,
