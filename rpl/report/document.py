@@ -13,7 +13,7 @@ import numpy as np
 
 from rpl.emulator.margins import conditioning, limit_margins, singular_factors
 from rpl.emulator.rotations import FloatArray
-from rpl.report.external import curves_as_layers, external_curves
+from rpl.report.external import Curve, curves_as_layers, external_curves
 from rpl.report.labels import NO_LABEL, Labels
 from rpl.report.motion import MoveRow, move_rows, tool_rates, waiting_places
 from rpl.report.sampling import STANDING, STEP_S, RunSamples, driven_moves, sample_run, thinned
@@ -94,10 +94,7 @@ def run_document(
             for row in signals
         ],
         "marks": _marks(result, labels),
-        "layers": [
-            *curves_as_layers(external_curves(result, external, step_s, most_samples)),
-            *starmap(_layer, layers),
-        ],
+        "layers": _layers(external_curves(result, external, step_s, most_samples), layers),
     }
     rows: tuple[MoveRow, ...] = ()
     moves = driven_moves(result)
@@ -220,6 +217,10 @@ def _marks(result: RunResult, labels: Labels) -> list[Row]:
                 {"t": round(event.t, 4), "kind": event.kind, "text": text, "label": labels.number(event.origin)}
             )
     return found
+
+
+def _layers(curves: Sequence[Curve], layers: Sequence[tuple[str, str, FloatArray]]) -> list[Row]:
+    return [*curves_as_layers(curves), *starmap(_layer, layers)]
 
 
 def _layer(name: str, unit: str, rows: FloatArray) -> Row:
