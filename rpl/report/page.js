@@ -5,6 +5,7 @@
   const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#444444", "#7a5195"];
   const KINDS = { joint: "#8da0b3", linear: "#2b8cbe", circular: "#41ab5d", spline: "#9e6bb5" };
   const GRID = "#e9edf1", LIMIT = "#c0392b", FONT = { family: "system-ui, 'Segoe UI', Roboto, Arial, sans-serif", size: 11, color: "#1d2733" };
+  const WHOLE = [-0.004, 1.008].map((share) => share * (run.time_s || 1)); // what happens at the very end is inside
   const SETTINGS = { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["lasso2d", "select2d"] };
 
   // The library reads markup in labels: texts of the program are escaped first.
@@ -77,10 +78,15 @@
       { type: "scatter3d", mode: "lines", name: "chosen move", ...at(picked), hoverinfo: "skip", line: { color: "#e6007a", width: 10 } },
       { type: "scatter3d", mode: "markers", name: "now", x: [], y: [], z: [], hoverinfo: "skip", marker: { size: 7, color: "#e6007a" } },
     ];
-    const axis = (title) => ({ title: { text: title }, gridcolor: GRID, zerolinecolor: "#c5ced8", backgroundcolor: "#fff" });
+    // One scale for all three axes, the longest as wide as the view: a long thin path stays inside, a flat one visible.
+    const bounds = samples.tool.map((axis) => axis.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]));
+    const longest = Math.max(1, ...bounds.map(([low, high]) => high - low));
+    const widths = bounds.map(([low, high]) => 1.06 * Math.max(high - low, 0.2 * longest));
+    const ratios = widths.map((width) => (1.5 * width) / (1.06 * longest));
+    const axis = (title, n) => ({ title: { text: title }, range: [-0.5, 0.5].map((side) => 0.5 * (bounds[n][0] + bounds[n][1]) + side * widths[n]), gridcolor: GRID, zerolinecolor: "#c5ced8", backgroundcolor: "#fff" });
     Plotly.react("path", data, {
       font: FONT, margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: "path", showlegend: true, legend: { orientation: "h", y: 0, x: 0 },
-      scene: { aspectmode: "data", xaxis: axis("X"), yaxis: axis("Y"), zaxis: axis("Z"), camera: { eye: { x: 1.6, y: -1.8, z: 1.0 }, center: { x: 0, y: 0, z: -0.1 } } },
+      scene: { aspectmode: "manual", aspectratio: { x: ratios[0], y: ratios[1], z: ratios[2] }, xaxis: axis("X", 0), yaxis: axis("Y", 1), zaxis: axis("Z", 2), camera: { eye: { x: 1.6, y: -1.8, z: 1.0 }, center: { x: 0, y: 0, z: -0.1 } } },
     }, SETTINGS);
     drawPlanes(values, targets, outputs, picked);
   }
@@ -236,7 +242,7 @@
     if (samples) { jointRows(rows, data, shapes, mode); margins(rows, data, shapes); }
     layers(rows, data, shapes);
     const { last, ...placed } = rows.layout();
-    const old = document.getElementById("time").layout, range = old && old.xaxis && !old.xaxis.autorange ? old.xaxis.range.slice() : [0, run.time_s || 1];
+    const old = document.getElementById("time").layout, range = old && old.xaxis && !old.xaxis.autorange ? old.xaxis.range.slice() : WHOLE;
     Plotly.react("time", data, {
       ...placed, font: FONT, shapes, margin: { l: 90, r: 12, t: 4, b: 40 }, hovermode: "closest", barmode: "overlay", dragmode: "zoom", uirevision: "time",
       legend: { orientation: "h", y: 1, yanchor: "bottom", x: 0 }, plot_bgcolor: "#fff",
@@ -257,9 +263,8 @@
   function choose(move) {
     chosen.move = chosen.move === move ? -1 : move;
     document.querySelectorAll("#moves tbody tr").forEach((row) => row.classList.toggle("chosen", Number(row.dataset.move) === chosen.move));
-    const { start, end } = chosen.move >= 0 ? run.moves[chosen.move] : { start: 0, end: run.time_s };
-    const pad = chosen.move >= 0 ? Math.max(0.05, 0.1 * (end - start)) : 0;
-    Plotly.relayout("time", { "xaxis.range": [start - pad, end + pad] });
+    const { start, end } = run.moves[chosen.move] || { start: 0, end: 0 }, pad = Math.max(0.05, 0.1 * (end - start));
+    Plotly.relayout("time", { "xaxis.range": chosen.move >= 0 ? [start - pad, end + pad] : WHOLE });
     drawPath();
   }
 
