@@ -41,4 +41,7 @@ RULES = Rules(
         "path_limit_rule": "reduce",
     },
     blend_levels=tables.LEVELS,
+    # MOVS is the parabola through three points; where two of them overlap "a composite path" is made (operator's
+    # manuals). M: the composite is their mean, weighted evenly along the way from one to the other.
+    mean_parabolas=True,
 )

@@ -31,6 +31,7 @@ CAPABILITIES = Capabilities(
         further="abcdefghijklmnopqrstuvwxyz0123456789_-",
     ),
     modal_motion=True,
+    curve_points=True,
     concurrent_moves="moves",
     ways_from_here=True,
     wrist_paths=False,

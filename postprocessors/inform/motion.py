@@ -446,6 +446,8 @@ class Motion:
 
     def blend(self, move: ir.Move) -> list[str]:
         match move.blend:
+            case None if move.kind == "spline":
+                return []  # a point on the way
             case None | ir.BlendStop():
                 return ["PL=0"]
             case ir.BlendLevel(level=level):

@@ -72,7 +72,7 @@ TAGS: Final[Mapping[str, tuple[float, float, int]]] = {
 LEVELS: Final = (0.0, 12.5, 25.0, 50.0, 100.0, 200.0, 300.0, 400.0, 500.0)
 STANDARD_LEVEL: Final = 9  # stands for a move without PL
 
-MOVES: Final[Mapping[str, str]] = {"joint": "MOVJ", "linear": "MOVL", "circular": "MOVC"}
+MOVES: Final[Mapping[str, str]] = {"joint": "MOVJ", "linear": "MOVL", "circular": "MOVC", "spline": "MOVS"}
 SIGNALS: Final[Mapping[str, str]] = {
     "digital_in": "IN",
     "digital_out": "OT",

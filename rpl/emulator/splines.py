@@ -207,15 +207,17 @@ def plan_block(
     requests: Sequence[MoveRequest],
     kinds: Sequence[Kind],
     rules: Sequence[BlockRule] = (),
+    mean: bool = False,
 ) -> list[Run] | BlockFault:
     """Plan a block from joints (n,) in pendant units: its requests (poses in the robot's base, mm) and their kinds, the
-    points of a curve being `spline`; `rules` say more of its speeds. Runs begin and end at rest."""
-    found = _planned_runs(model, start_joints, requests, kinds)
+    points of a curve being `spline`; `rules` say more of its speeds, `mean`: its curves are means of parabolas. Runs
+    begin and end at rest."""
+    found = _planned_runs(model, start_joints, requests, kinds, mean)
     return found if isinstance(found, BlockFault) or not rules else ruled(found, rules)
 
 
 def _planned_runs(
-    model: RobotModel, start_joints: ArrayLike, requests: Sequence[MoveRequest], kinds: Sequence[Kind]
+    model: RobotModel, start_joints: ArrayLike, requests: Sequence[MoveRequest], kinds: Sequence[Kind], mean: bool
 ) -> list[Run] | BlockFault:
     start = np.asarray(start_joints, dtype=np.float64)
     for number, request in enumerate(requests):
@@ -226,7 +228,7 @@ def _planned_runs(
         return _plan_joints(model, start, requests)
     legs = [_leg(model, request, kind) for request, kind in zip(requests, kinds, strict=True)]
     tool = requests[0].tool
-    runs = block(pose_of_matrix((model.forward(start) @ tool).tolist()), legs)
+    runs = block(pose_of_matrix((model.forward(start) @ tool).tolist()), legs, mean)
     if isinstance(runs, int):
         flat = "the three points lie on a line or coincide: they fix no circle"
         return BlockFault(runs, MotionFault("degenerate_circle", flat))

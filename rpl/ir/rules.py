@@ -116,6 +116,8 @@ class Rules:
     and its parameters' types in the language's words (`word.part`: the reader takes that component of the argument).
     triggers: where actions on the path happen. pulse_step_s: a pulse's length is rounded to this.
     inputs: what the controller makes of motion values that are no good.
+    mean_parabolas: a curve through points is the mean of the two parabolas that overlap there, weighted along the way
+    (else it bends continuously; see rpl.passes.curves).
     """
 
     name: str
@@ -151,3 +153,4 @@ class Rules:
     triggers: TriggerRules = TriggerRules()
     pulse_step_s: float = 0.0
     inputs: InputRules = InputRules()
+    mean_parabolas: bool = False

@@ -180,6 +180,8 @@ class Capabilities:
     groups of a constant width are written bit by bit.
     numbered_groups: groups have numbers of their own beside those of their bits (GO[2]). write_only: kinds of outputs
     that programs set and cannot read back.
+    curve_points: moves of the kind spline in a row, from a first one at its beginning, are one curve through points
+    (INFORM MOVS); there are no spline blocks.
     """
 
     statements: frozenset[str]
@@ -197,6 +199,7 @@ class Capabilities:
     for_automatic: bool = False
     error_handlers: bool = False
     optional_parameters: bool = False
+    curve_points: bool = False
     short_circuit: bool = False
     enums: bool = False
     conversions: frozenset[str] = frozenset()

@@ -3,8 +3,9 @@
 Makers do not publish their curve. What is published of KRL's is the degree, that position, first and second derivative
 are fixed at each point, that straight and circular segments dictate both to their neighbours, and that moving a point
 changes at most the two segments before and the two behind it. M: at a point between two spline segments both
-derivatives are those of the parabola through the point and its neighbours, the chords being the parameter. (Three
-points alone therefore give the parabola through them, which is what INFORM documents.) Orientation runs through the
+derivatives are those of the parabola through the point and its neighbours, the chords being the parameter. Three
+points alone therefore give the parabola through them. Where a controller takes the mean of overlapping parabolas, that
+is the cubic with the same directions at the points (Overhauser 1968). Orientation runs through the
 points likewise, with a continuous angular speed. Plain Python: passes use it as well as the emulator.
 """
 
@@ -154,6 +155,14 @@ def quintic(
     return tuple(done)
 
 
+def cubic(ends: tuple[Numbers, Numbers], rates: tuple[Numbers, Numbers], h: float) -> tuple[Numbers, ...]:
+    """Coefficients in u = 0..1 of each coordinate, from position and first derivative at both ends."""
+    rows = zip(*ends, *rates, strict=True)
+    return tuple(
+        (p, v * h, 3.0 * (q - p) - (2.0 * v + w) * h, 2.0 * (p - q) + (v + w) * h, 0.0, 0.0) for p, q, v, w in rows
+    )
+
+
 def smooth_numbers(points: Sequence[Numbers], spans: Sequence[float]) -> list[tuple[Numbers, ...]]:
     """The curve through points without fixed segments: coefficients for each of the spans."""
     fixed: list[tuple[Numbers, Numbers] | None] = [None] * len(points)
@@ -220,8 +229,9 @@ class _Raw:
     last: tuple[Vector, Vector, Vector] | None
 
 
-def block(start: Pose, legs: Sequence[Leg]) -> list[list[Segment]] | int:
+def block(start: Pose, legs: Sequence[Leg], mean: bool = False) -> list[list[Segment]] | int:
     """The smooth runs of a block, each a row of segments between two stops; or the number of a leg without a circle.
+    `mean`: curves are the mean of the parabolas that overlap.
 
     The robot stops inside a block where a straight or circular segment meets another one, unless it goes on in the same
     direction, bend and turn, and where two points have the same position (KSS system variables and spline chapters)."""
@@ -238,7 +248,7 @@ def block(start: Pose, legs: Sequence[Leg]) -> list[list[Segment]] | int:
             runs[-1].append(one)
         else:
             runs.append([one])
-    return [_run(run) for run in runs]
+    return [_run(run, mean) for run in runs]
 
 
 def _raw(start: Pose, leg: Leg) -> _Raw | None:
@@ -291,7 +301,7 @@ def _goes_on(one: _Raw, other: _Raw) -> bool:
     return all(a.plus(b, -1.0).length < limit for a, b, limit in pairs)
 
 
-def _run(run: Sequence[_Raw]) -> list[Segment]:
+def _run(run: Sequence[_Raw], mean: bool) -> list[Segment]:
     if run[0].span < SAME_MM:  # alone: it turns on the spot, or stays
         return [_on_the_spot(run[0])]
     free = [one.leg.kind == "spline" for one in run]
@@ -307,7 +317,8 @@ def _run(run: Sequence[_Raw]) -> list[Segment]:
     done = []
     for at, one in enumerate(run):
         (v, a), (w, b) = ends[at]
-        curve = quintic((points[at], points[at + 1]), (v, w), (a, b), one.span)
+        bounds = points[at], points[at + 1]
+        curve = cubic(bounds, (v, w), one.span) if mean else quintic(bounds, (v, w), (a, b), one.span)
         done.append(_segment(one, curve if free[at] else (), turns[at]))
     return done
 

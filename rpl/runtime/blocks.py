@@ -123,8 +123,9 @@ def _runs(queue: MotionQueue, asked: Sequence[_Asked]) -> list[Drive] | Refused:
     from rpl.emulator.splines import BlockFault, plan_block
 
     kinds = [_KINDS.get(one.order.kind, "spline") for one in asked]
+    mean = asked[0].order.rules.mean_parabolas
     assert queue.model is not None and queue.planned_joints is not None  # with a model there are joints
-    found = plan_block(queue.model, queue.planned_joints, [one.request for one in asked], kinds, _rules(asked))
+    found = plan_block(queue.model, queue.planned_joints, [one.request for one in asked], kinds, _rules(asked), mean)
     if isinstance(found, BlockFault):
         return Refused(found.fault, asked[found.segment].order)
     done: list[Drive] = []

@@ -270,3 +270,24 @@ def test_why_a_block_is_refused(requests: list[MoveRequest], kinds: tuple[Kind, 
     found = plan_block(KR6, START, requests, kinds)
     assert isinstance(found, BlockFault) and isinstance(found.fault, MotionFault)
     assert (found.segment, found.fault.kind) == (segment, kind)
+
+
+def test_the_mean_of_two_parabolas_goes_through_its_points_with_their_directions() -> None:
+    """INFORM's composite (M: the mean, weighted evenly): between two inner points it is half of each parabola."""
+    places = [(0.0, 0.0, 0.0), (30.0, 40.0, 0.0), (90.0, 30.0, 10.0), (120.0, 0.0, 0.0)]
+    legs = [spl(*place) for place in places[1:]]
+    found = block(pose(*places[0]), legs, mean=True)
+    assert isinstance(found, list)
+    (run,) = found
+    spans = [float(np.linalg.norm(np.subtract(b, a))) for a, b in pairwise(places)]
+    at = np.cumsum([0.0, *spans])
+    parabolas = [np.polynomial.polynomial.polyfit(at[k : k + 3], np.array(places[k : k + 3]), 2) for k in (0, 1)]
+    for u in (0.0, 0.25, 0.5, 0.9, 1.0):
+        here = at[1] + u * spans[1]
+        one, other = (np.polynomial.polynomial.polyval(here, rows) for rows in parabolas)
+        place = run[1].at(u).position
+        assert [place.x, place.y, place.z] == pytest.approx((1.0 - u) * one + u * other, abs=1e-9)
+    for k, whole in ((0, parabolas[0]), (2, parabolas[1])):  # at both ends one of them is alone
+        place = run[k].at(0.5).position
+        middle = np.polynomial.polynomial.polyval(at[k] + 0.5 * spans[k], whole)
+        assert [place.x, place.y, place.z] == pytest.approx(middle, abs=1e-9)

@@ -162,3 +162,59 @@ def test_rules_about_speeds_stay_where_there_are_such(target: str) -> None:
     }[target]
     lines = [line.strip().replace("+", "") for line in text.splitlines()]
     assert [line for line in lines if line in wanted] == wanted
+
+
+def block_of(*points: tuple[float, float], end: str = "") -> str:
+    """A block from (0, 400) in y and z through further points, with a speed of its own at the second."""
+    lines = [f"    SPL {{X 500.0,Y {y},Z {z},A 180.0,B 0.0,C 180.0}}" for y, z in points]
+    lines[1] += " WITH $VEL.CP=0.1"
+    head = SPLINES[: SPLINES.index("  ; through")]
+    return "\n".join([head + "  SPLINE WITH $VEL.CP=0.2", *lines, f"  ENDSPLINE{end}", "  $OUT[1]=TRUE", "END", ""])
+
+
+DENSE = [(10.0, 402.0), (20.0, 403.5), (30.0, 404.5), (40.0, 405.0), (50.0, 405.0)]
+COARSE = [(40.0, 420.0), (80.0, 405.0), (120.0, 400.0)]
+SOME = [("three points", [(40.0, 420.0), (80.0, 400.0)]), ("many points", DENSE)]
+
+
+@pytest.mark.parametrize(("what", "points"), SOME)
+def test_points_of_a_block_are_those_of_a_curve_in_a_job_where_both_are_the_same(
+    what: str, points: list[tuple[float, float]]
+) -> None:
+    """Three points make one parabola in both; through more, the two curves differ by less than 0.05 mm."""
+    result, told, text = translated("way.src", block_of(*points), "krl", "inform", ARM)
+    assert result.equal and result.max_path_mm < 0.06, result.as_text()
+    assert "spline-as-points" in told and "spline-as-arcs" not in told, what
+    said = [line.split()[2:] for line in text.splitlines() if line.startswith("MOVS ")]
+    speeds = ["V=200.0", "V=200.0", "V=100.0", *["V=200.0"] * (len(points) - 2)]
+    assert [one[0] for one in said] == speeds
+    assert [one[1:] for one in said] == [["PL=0"], *[[]] * (len(points) - 1), ["PL=0"]]
+
+
+def test_points_far_apart_stay_arcs_along_the_curve() -> None:
+    result, told, text = translated("way.src", block_of(*COARSE), "krl", "inform", ARM)
+    assert result.equal and result.max_path_mm < 0.02, result.as_text()
+    assert "spline-as-arcs" in told and "MOVS" not in text
+
+
+def test_two_blocks_in_a_row_are_two_curves() -> None:
+    text = block_of((40.0, 420.0), (80.0, 400.0))
+    second = "  SPLINE\n" + "\n".join(
+        f"    SPL {{X {500.0 + x},Y 80.0,Z {z},A 180.0,B 0.0,C 180.0}}" for x, z in ((20.0, 390.0), (40.0, 400.0))
+    )
+    result, told, _ = translated(
+        "way.src", text.replace("  $OUT", second + "\n  ENDSPLINE\n  $OUT"), "krl", "inform", ARM
+    )
+    assert result.equal and result.max_path_mm < 0.01, result.as_text()
+    assert told.count("spline-as-points") == 2
+
+
+def test_a_job_through_points_far_apart_is_written_as_arcs_along_its_own_curve() -> None:
+    """A KRL block through the same points would bend in another way between them."""
+    job = JOB.replace("NPOS 4", "NPOS 5").replace(
+        "//INST", "C00004=500.000,160.000,410.000,180.0000,0.0000,0.0000\n//INST"
+    )
+    job = job.replace("DOUT", "MOVS C00004 V=100.0 PL=0\nDOUT").replace("C00003 V=50.0 PL=0", "C00003 V=50.0")
+    result, told, _ = translated("WAY.JBI", job, "inform", "krl", "motoman_gp7")
+    assert result.equal and result.max_path_mm < 0.02, result.as_text()
+    assert "spline-as-arcs" in told

@@ -18,6 +18,7 @@ from rpl.ir.walk import walk
 from rpl.passes.curves import SAME_MM, Leg, Segment, block, circle_through, rotation_of_vector, vector_of_rotation
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.curvepoints import AS_POINTS, SAME_CURVE_MM, apart, through_points
 from rpl.passes.legalise.partialplaces import may_move
 from rpl.passes.rigid import Pose, Rotation, Vector
 from rpl.passes.scope import Scope
@@ -38,7 +39,7 @@ SMALLER_CORNER = code(
     "where that corner matters, end the move before the block with a stop",
 )
 # How far arcs may be from the curve, and their turning from its; a middle that near to the chord makes a line.
-CLOSE_MM, CLOSE_DEG, FLAT_MM = 0.006, 0.005, 0.001
+CLOSE_MM, CLOSE_DEG, FLAT_MM = 0.005, 0.005, 0.001
 # Corners between arcs, at most this share of the shorter one.
 CORNER_MM, CORNER_SHARE = 0.3, 0.25
 _MOST_PARTS, _LOOKS, _PLACES = 64, 8, 7
@@ -64,6 +65,9 @@ class _Piece:
         return self.end - self.begin
 
 
+_Curve = tuple[Pose, list[Leg], list[list[Segment]]]
+
+
 class SplineArcs:
     """Writes the blocks of one routine. `moving`: routines that move the robot, folded."""
 
@@ -71,6 +75,7 @@ class SplineArcs:
         self, program: ir.Program, context: Context, scope: Scope, unchanged: Unchanged, moving: set[str]
     ) -> None:
         self.context, self.scope, self.unchanged, self.moving = context, scope, unchanged, moving
+        self.mean = rules_of(context.source).mean_parabolas
         assigned = [node.target for node in walk(*program.modules) if isinstance(node, ir.Assign)]
         self.modes = {one.name for one in assigned if isinstance(one, ir.System) and one.name in _MODES}
 
@@ -79,13 +84,15 @@ class SplineArcs:
         moves = [item for item in spline.body if isinstance(item, ir.Move)]
         if spline.kind != "path" or not moves or not all(_is_plain(move, spline) for move in moves):
             return None
-        start = self._start(before, moves[0], frames_set(spline.settings))
-        legs = [self._leg(move, spline) for move in moves]
-        if start is None or None in legs:
+        curve = self._curve(spline, moves, before)
+        if curve is None:
             return None
-        runs = block(start, [leg for leg in legs if leg is not None])
-        if isinstance(runs, int) or not self._known_modes([start, *(leg.end for leg in legs if leg)], spline):
+        start, legs, runs = curve
+        if not self._known_modes([start, *(leg.end for leg in legs)], spline):
             return None
+        points = self._points(spline, moves, before, curve)
+        if points is not None:
+            return points
         found = _pieces(runs)
         if found is None:
             return None
@@ -98,7 +105,47 @@ class SplineArcs:
             self.context.diagnostics.report(SMALLER_CORNER, spline.origin, size=0.5 * pieces[0].length)
         return self._body(spline, moves, pieces, triggers)
 
+    def apart(self, spline: ir.Spline, before: Sequence[ir.Statement]) -> float:
+        """How far the target's own curve through the points of a block is from the source's, mm, as far as known."""
+        moves = [item for item in spline.body if isinstance(item, ir.Move)]
+        mean = rules_of(self.context.target).mean_parabolas
+        if mean == self.mean or not moves or spline.kind != "path" or not all(_is_plain(one, spline) for one in moves):
+            return 0.0
+        curve = self._curve(spline, moves, before)
+        return self._leaves(curve, mean) if curve is not None else 0.0
+
+    def _leaves(self, curve: _Curve, mean: bool) -> float:
+        start, legs, runs = curve
+        theirs = block(start, legs, mean)
+        assert not isinstance(theirs, int)  # the same legs have the same circles
+        return apart(runs, theirs)
+
+    def _points(
+        self, spline: ir.Spline, moves: Sequence[ir.Move], before: Sequence[ir.Statement], curve: _Curve
+    ) -> ir.Body | None:
+        """The block as points of the target's own curve, where that is the same within a tolerance."""
+        if not self.context.capabilities.curve_points or len(curve[2]) != 1 or _blends(before):
+            return None
+        deviation = self._leaves(curve, rules_of(self.context.target).mean_parabolas)
+        last = next((one for one in reversed(before) if isinstance(one, ir.Move | ir.Spline)), None)
+        parted = isinstance(last, ir.Spline)
+        said = [replace(move, settings=settings_of(move, spline)) for move in moves]
+        done = through_points(spline, self._place(curve[0]), said, parted) if deviation <= SAME_CURVE_MM else None
+        if done is None:
+            return None
+        self.context.diagnostics.report(AS_POINTS, spline.origin, count=len(moves) + 1, deviation=max(deviation, 0.001))
+        return with_comments(done, spline)
+
     # ---- what is known
+
+    def _curve(self, spline: ir.Spline, moves: Sequence[ir.Move], before: Sequence[ir.Statement]) -> _Curve | None:
+        """Where the block begins, its legs and its runs, where all of that is known."""
+        start = self._start(before, moves[0], frames_set(spline.settings))
+        legs = [leg for leg in (self._leg(move, spline) for move in moves) if leg is not None]
+        if start is None or len(legs) < len(moves):
+            return None
+        runs = block(start, legs, self.mean)
+        return None if isinstance(runs, int) else (start, legs, runs)
 
     def _start(self, before: Sequence[ir.Statement], first: ir.Move, frames: frozenset[object]) -> Pose | None:
         """Where the robot comes from, seen from the frame of the block."""

@@ -15,6 +15,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.curvepoints import SAME_CURVE_MM, OTHER_CURVE
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.partialplaces import moving_routines
@@ -69,7 +70,11 @@ def straight_splines(program: ir.Program, context: Context) -> ir.Program:
             for at, statement in enumerate(body):
                 match statement:
                     case ir.Spline() if blocks and (said := _by_settings(statement, body[:at])) is not None:
-                        done.append(said)
+                        deviation = arcs.apart(statement, body[:at])
+                        written = arcs.written(statement, body[:at]) if deviation > SAME_CURVE_MM else None
+                        if deviation > SAME_CURVE_MM and written is None:
+                            context.diagnostics.report(OTHER_CURVE, statement.origin, deviation=deviation)
+                        done += written or (said,)
                     case ir.Spline():
                         done += arcs.written(statement, body[:at]) or _segments(statement, context)
                     case ir.Move(motion_class="spline") if not blocks:
