@@ -14,7 +14,7 @@ import numpy as np
 from rpl.emulator.arms import BoolArray
 from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel
-from rpl.emulator.postures import sides
+from rpl.emulator.postures import UNKNOWN_BUILD, has_flags, sides
 from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
 from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
@@ -81,6 +81,8 @@ class InformNotation:
             return Selection(None, "the position is out of reach")
         if not np.isnan(found.joints[0, 0]):
             return Selection(found.joints[0])
+        if not has_flags(model):
+            return Selection(None, UNKNOWN_BUILD)
         asked = ",".join("-" if flags.get(name) is None else str(flags[name]) for name in self.fields)
         shown = {
             tuple(self.encode(model, joints).values())
@@ -142,6 +144,8 @@ class InformNotation:
         flags: dict[str, int | None] = dict.fromkeys(self.fields)
         if found[2] is not None:
             given = [part.strip() for part in found[2].split(",")]
+            if any(part.strip("0") for part in given[len(self.fields) :]):
+                raise SourceError(f"'RCONF {found[2].strip()}' is of an arm of more than six axes: {UNKNOWN_BUILD}")
             for name, part in zip(self.fields, given, strict=False):
                 flags[name] = int(part) if part else None
         return pose_matrix([x, y, z], zyx_to_matrix([rz, ry, rx])), flags

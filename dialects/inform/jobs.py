@@ -25,7 +25,12 @@ BAD_HEADER = code(
 SEVENTH = code(
     "inform-seventh-axis", Severity.WARNING, "values behind the sixth are read as further axes of the arm (e1 ...)"
 )
-
+MORE_FLAGS = code(
+    "inform-form-of-more-axes",
+    Severity.WARNING,
+    "RCONF {what} sets flags behind the sixth, which only arms of more than six axes have: they are not carried over",
+    "check the posture on the arm",
+)
 CUT_OFF = code(
     "inform-cut-off",
     Severity.INFO,
@@ -175,6 +180,8 @@ class JobReader:
                 if not all(part.isdigit() for part in fields):
                     self.diagnostics.report(BAD_HEADER, origin, what=f"RCONF {line.rest} is no list of flags")
                     return
+                if any(map(int, fields[6:])):
+                    self.diagnostics.report(MORE_FLAGS, origin, what=line.rest)
                 state.flags = tuple(int(part) for part in fields[:6])
 
     def number(self, line: HeaderLine, origin: Origin) -> int:

@@ -14,7 +14,7 @@ import numpy as np
 from rpl.emulator.arms import BoolArray
 from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel, Solution
-from rpl.emulator.postures import sides
+from rpl.emulator.postures import UNKNOWN_BUILD, has_flags, sides
 from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
 from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
@@ -36,6 +36,7 @@ _AGGREGATE = re.compile(r"\{\s*(?:(?P<type>[A-Za-z_]\w*)\s*:)?(?P<body>[^{}]*)\}
 _COMPONENT = re.compile(
     r"\s*(?P<name>[A-Za-z_]\w*)\s+(?P<value>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|'[BbHh][0-9A-Fa-f]+')\s*"
 )
+_EXTERNAL = re.compile(r"E[1-6]")
 _AXES: Final = ("X", "Y", "Z", "A", "B", "C")
 
 
@@ -74,6 +75,8 @@ class KrlNotation:
             return Selection(found.joints[0])
         if status is None and reference is not None:
             status = self.encode(model, reference)["s"]
+        if not has_flags(model):
+            return Selection(None, UNKNOWN_BUILD)
         possible = model.inverse(flange, reference)
         return Selection(None, self._refusal(model, possible, (status or 0) & BRANCH_BITS, turn))
 
@@ -133,6 +136,13 @@ class KrlNotation:
     def values_of(self, poses: FloatArray) -> FloatArray:
         """X, Y, Z, A, B, C (k, 6) of poses (k, 4, 4)."""
         return np.hstack([poses[:, :3, 3], matrix_to_zyx(poses)])
+
+    def external_axes(self, text: str) -> dict[str, float]:
+        """E1 to E6 that are not zero: every E6POS has all six."""
+        found = _AGGREGATE.search(text)
+        parts = map(_COMPONENT.fullmatch, found["body"].split(",")) if found is not None else ()
+        values = {part["name"].upper(): _number(part["value"]) for part in parts if part is not None}
+        return {name: value for name, value in values.items() if _EXTERNAL.fullmatch(name) and value != 0.0}
 
     def parse_pose(self, text: str) -> tuple[FloatArray, dict[str, int | None]]:
         """Pose and flags of a FRAME, POS or E6POS; external axes are read over. `SourceError` when it is none."""

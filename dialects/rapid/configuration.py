@@ -14,7 +14,7 @@ import numpy as np
 from rpl.emulator.arms import BoolArray
 from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel, Solution
-from rpl.emulator.postures import sides
+from rpl.emulator.postures import UNKNOWN_BUILD, has_flags, sides
 from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_quaternion, pose_matrix, quaternion_to_matrix
 from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
@@ -28,6 +28,9 @@ QUARTERS: Final = {"cf1": 0, "cf4": 3, "cf6": 5}
 CFX_WEIGHTS: Final = np.array([4, 2, 1])
 # A quaternion may be off unit length by the rounding of four printed decimals, not more.
 UNIT_SLACK: Final = 0.01
+
+# An external axis with 9E9 is not in use.
+UNUSED: Final = 1e9
 
 _NUMBER = r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*"
 _LIST3 = r"\[" + ",".join([_NUMBER] * 3) + r"\]"
@@ -68,6 +71,8 @@ class RapidNotation:
             return Selection(None, "the position is outside the reach")
         if not np.isnan(found.joints[0, 0]):
             return Selection(found.joints[0])
+        if not has_flags(model):
+            return Selection(None, UNKNOWN_BUILD)
         return Selection(None, self._refusal(model, model.inverse(flange, reference), flags))
 
     def select_all(
@@ -127,6 +132,12 @@ class RapidNotation:
     def values_of(self, poses: FloatArray) -> FloatArray:
         """Positions and quaternions (k, 7) of poses (k, 4, 4)."""
         return np.hstack([poses[:, :3, 3], matrix_to_quaternion(poses)])
+
+    def external_axes(self, text: str) -> dict[str, float]:
+        """eax_a to eax_f that are in use: not 9E9."""
+        found = _POSE.search(text)
+        values = [] if found is None else [float(group) for group in found.groups()[11:] if group is not None]
+        return {f"eax_{letter}": value for letter, value in zip("abcdef", values, strict=False) if value < UNUSED}
 
     def parse_pose(self, text: str) -> tuple[FloatArray, dict[str, int | None]]:
         """Pose and flags of a robtarget, or of a pose (no flags); `SourceError` when it is neither."""

@@ -15,7 +15,7 @@ import numpy as np
 from rpl.emulator.arms import BoolArray
 from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel, Solution
-from rpl.emulator.postures import sides
+from rpl.emulator.postures import UNKNOWN_BUILD, has_flags, sides
 from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
 from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
@@ -34,6 +34,7 @@ _LISTED: Final = 6
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _COMPONENT = re.compile(rf"\bR?([XYZWPR])\s*[:=]\s*({_NUMBER})", re.IGNORECASE)
+_EXTENDED = re.compile(rf"\bE([1-3])\s*=\s*({_NUMBER})", re.IGNORECASE)
 _CONFIG = re.compile(
     r"'?\s*([NF])?\s*([LR])?\s*([UD])?\s*([TB])?\s*,\s*(-?\d+)\s*,\s*(-?\d+)\s*,\s*(-?\d+)\s*'?", re.IGNORECASE
 )
@@ -121,6 +122,8 @@ class TpNotation:
             return Selection(None, "the position is not reachable")
         if not np.isnan(found.joints[0, 0]):
             return Selection(found.joints[0])
+        if not has_flags(model):
+            return Selection(None, UNKNOWN_BUILD)
         wanted = dict(flags)
         if reference is not None:
             kept = self.encode(model, reference)
@@ -183,6 +186,10 @@ class TpNotation:
     def values_of(self, poses: FloatArray) -> FloatArray:
         """X, Y, Z, W, P, R (k, 6) of poses (k, 4, 4)."""
         return np.hstack([poses[:, :3, 3], matrix_to_zyx(poses)[:, ::-1]])
+
+    def external_axes(self, text: str) -> dict[str, float]:
+        """E1 to E3 of a position with an extended axis."""
+        return {f"E{number}": float(value) for number, value in _EXTENDED.findall(text)}
 
     def parse_flags(self, text: str) -> dict[str, int | None] | None:
         """The flags of a CONFIG text."""

@@ -56,10 +56,14 @@ def command(
 
     With --points a file of joints (columns j1, j2, ..) becomes a table of targets, as CSV or as `points` in JSON.
     """
+    from rpl.emulator.postures import UNKNOWN_BUILD, has_flags
+
     model = robot_named(robot)
     if model is None:
         raise UsageError("--robot is needed")
     name, notation = chosen_notation(dialect, model)
+    if notation.fields and not has_flags(model):
+        click.echo(f"rpl: {UNKNOWN_BUILD}: those shown for {model.name} say nothing", err=True)
     if (joints is None) == (points is None):
         raise UsageError("either --joints or --points is needed")
     if points is not None:

@@ -85,7 +85,12 @@ def _one(
     tip: FloatArray | None, as_json: bool,
 ) -> int:  # fmt: skip
     """All solutions of one pose, or the selected one as a target."""
+    from rpl.emulator.configuration import ExternalAxes
+    from rpl.emulator.postures import out_of_reach
+
     target, flags = pose_of(pose, "--pose", notation)
+    if isinstance(notation, ExternalAxes) and (external := notation.external_axes(pose)):
+        click.echo(f"rpl: the external axes {', '.join(external)} are left out", err=True)
     flange = target
     if tip is not None:
         import numpy as np
@@ -97,6 +102,7 @@ def _one(
         selection = notation.select(model, flange, flags, reference)
     rows = solutions(model, notation, flange, reference, selection)
     reason = selection.reason if selection is not None else "" if rows else "the pose is out of reach"
+    reason = reason and (out_of_reach(model, flange) or reason)
     chosen = selection.joints if selection is not None else None
     if goal is not None and chosen is not None:
         chosen = _joints_for(model, goal, flange[None], chosen[None])[0]
@@ -147,8 +153,13 @@ class _Goal:
 def _goal(model: RobotModel, to_dialect: str | None, to_robot: str | None) -> _Goal | None:
     if to_dialect is None and to_robot is None:
         return None
+    from rpl.emulator.postures import UNKNOWN_BUILD, has_flags
+
     other = robot_named(to_robot) or model
-    return _Goal(*chosen_notation(to_dialect, other), other)
+    goal = _Goal(*chosen_notation(to_dialect, other), other)
+    if to_dialect is not None and goal.notation.fields and not has_flags(other):
+        raise UsageError(f"--to-dialect {goal.name}: {UNKNOWN_BUILD}: {other.name}")
+    return goal
 
 
 def _joints_for(model: RobotModel, goal: _Goal, flanges: FloatArray, joints: FloatArray) -> list[FloatArray | None]:

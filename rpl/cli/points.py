@@ -34,6 +34,9 @@ CHUNK = 4096
 PREVIOUS = "previous"
 _TEXT_COLUMNS = ("target", "pose")
 _JOINT = re.compile(r"(?:j|a|joint_?|axis_?)(\d)$")
+# The unit that joints and poses have anyway, behind a column's name: x_mm, x [mm], j1 (deg).
+_UNIT = re.compile(r"(?<=\S)(?:\s*[\[(]\s*(?:mm|deg|°)\s*[\])]|[\s_](?:mm|deg))$")
+_DECIMAL = re.compile(r"^([-+]?\d*),(\d+(?:[eE][-+]?\d+)?)$")
 # A line that begins like a target of some language is no line of columns.
 _TARGET = re.compile(r"\s*(?:[{\[]|p\s*\[|(?:DECL|TRANS|SET|CONFIG|C\d|P\d)\b)", re.IGNORECASE)
 
@@ -68,14 +71,17 @@ class Outcome:
     header: tuple[str, ...]
     rows: list[tuple[int, tuple[object, ...]]] = field(default_factory=list)
     errors: list[tuple[int, str, str]] = field(default_factory=list)
+    external: list[int] = field(default_factory=list)  # lines whose external axes are left out
 
 
 def read_table(path: str) -> Table:
     """The rows of a file, empty ones and those that begin with # left out. Raises UsageError when it cannot be read."""
     try:
         text = sys.stdin.read() if path == "-" else _text_of(path)
-    except (OSError, UnicodeError) as error:
-        raise UsageError(f"--points: {path} cannot be read: {error}") from None
+    except OSError as error:
+        raise UsageError(f"--points: {path} cannot be read: {error.strerror}") from None
+    except UnicodeError:
+        raise UsageError(f"--points: {path} is no text in UTF-8") from None
     name = "<stdin>" if path == "-" else path
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
     lines = [(number, line) for number, line in lines if not line.lstrip().startswith("#")]
@@ -86,7 +92,11 @@ def read_table(path: str) -> Table:
     separator = max(",;\t", key=lines[0][1].count)
     split = [Row(number, _cells(line, separator)) for number, line in lines]
     if any(_number(cell) is None and cell for cell in split[0].cells):
-        return Table(name, tuple(cell.lower() for cell in split[0].cells), tuple(split[1:]))
+        columns = tuple(_UNIT.sub("", cell.lower()) for cell in split[0].cells)
+        twice = next((one for one in columns if one and columns.count(one) > 1), None)
+        if twice is not None:
+            raise UsageError(f"--points: {name} has the column {twice} twice")
+        return Table(name, columns, tuple(split[1:]))
     return Table(name, (), tuple(split))
 
 
@@ -96,7 +106,9 @@ def _text_of(path: str) -> str:
 
 def _cells(line: str, separator: str) -> tuple[str, ...]:
     found = next(csv.reader(io.StringIO(line), delimiter=separator, skipinitialspace=True))
-    return tuple(cell.strip() for cell in found)
+    cells = tuple(cell.strip() for cell in found)
+    # Where commas do not part the cells, they are decimal ones.
+    return cells if separator == "," else tuple(_DECIMAL.sub(r"\1.\2", cell) for cell in cells)
 
 
 def _number(cell: str) -> float | None:
@@ -120,7 +132,11 @@ def matrix_of(
 
     good: list[Row] = []
     values: list[list[float]] = []
+    width = len(table.columns) or len(table.rows[0].cells)
     for row in rows:
+        if len(row.cells) > width and any(row.cells[width:]):
+            outcome.errors.append((row.line, "bad-point", f"{len(row.cells)} cells, the first line has {width}"))
+            continue
         found: list[float] = []
         for place in places:
             cell = row.cells[place] if place < len(row.cells) else ""
@@ -145,8 +161,12 @@ def joint_places(table: Table, axes: int) -> list[int]:
     found = {int(match[1]): place for place, name in enumerate(table.columns) if (match := _JOINT.fullmatch(name))}
     missing = [f"j{axis}" for axis in range(1, axes + 1) if axis not in found]
     if missing:
-        raise UsageError(f"--points: {table.name} has no column {', '.join(missing)}")
+        raise UsageError(f"--points: {table.name} has no column {', '.join(missing)}, it has {_listed(table)}")
     return [found[axis] for axis in range(1, axes + 1)]
+
+
+def _listed(table: Table) -> str:
+    return ", ".join(name or "one without a name" for name in table.columns)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -174,14 +194,19 @@ def targets_of(table: Table, rows: Sequence[Row], notation: Notation, outcome: O
 def _texts(rows: Sequence[Row], place: int, notation: Notation, outcome: Outcome) -> Targets:
     import numpy as np
 
+    from rpl.emulator.configuration import ExternalAxes
+
     good: list[Row] = []
     poses, flags = [], []
     for row in rows:
+        target = row.cells[place] if place < len(row.cells) else ""
         try:
-            pose, given = notation.parse_pose(row.cells[place] if place < len(row.cells) else "")
+            pose, given = notation.parse_pose(target)
         except SourceError as error:
             outcome.errors.append((row.line, "bad-point", str(error)))
             continue
+        if isinstance(notation, ExternalAxes) and notation.external_axes(target):
+            outcome.external.append(row.line)
         good.append(row)
         poses.append(pose)
         flags.append([math.nan if given.get(name) is None else float(given[name] or 0) for name in notation.fields])
@@ -199,7 +224,8 @@ def _columns(table: Table, rows: Sequence[Row], notation: Notation, outcome: Out
     if table.columns:
         places = table.places(pose)
         if places is None:
-            raise UsageError(f"--points: {table.name} needs the columns {', '.join(pose)} (or target, a text)")
+            needed = f"{table.name} needs the columns {', '.join(pose)} (or target, a text)"
+            raise UsageError(f"--points: {needed}, it has {_listed(table)}")
         present = [name for name in notation.fields if name in table.columns]
     else:
         count = len(table.rows[0].cells) if table.rows else width
@@ -209,14 +235,22 @@ def _columns(table: Table, rows: Sequence[Row], notation: Notation, outcome: Out
         places, present = list(range(width)), list(notation.fields) if count > width else []
     flag_places = [table.columns.index(name) if table.columns else width + i for i, name in enumerate(present)]
     good, values = matrix_of(table, rows, [*places, *flag_places], outcome, flag_places)
+    given = values[:, width:]
+    broken = ~(np.isnan(given) | (given == np.round(given)))
+    for row, bad in zip(good, broken.tolist(), strict=True):
+        if any(bad):
+            words = f"{present[bad.index(True)]} is a flag, a whole number is needed"
+            outcome.errors.append((row.line, "bad-point", words))
+    good = [row for row, bad in zip(good, broken.any(axis=1), strict=True) if not bad]
+    values = values[~broken.any(axis=1)]
     flags = np.full((len(good), len(notation.fields)), np.nan)
     for place, name in enumerate(present):
         flags[:, notation.fields.index(name)] = values[:, width + place]
     if "config" in table.columns and isinstance(notation, WordedFlags):
         place = table.columns.index("config")
         for one, row in enumerate(good):
-            given = notation.parse_flags(row.cells[place] if place < len(row.cells) else "")
-            for name, flag in (given or {}).items():
+            worded = notation.parse_flags(row.cells[place] if place < len(row.cells) else "")
+            for name, flag in (worded or {}).items():
                 if flag is not None:
                     flags[one, notation.fields.index(name)] = flag
     poses = notation.poses_of(values[:, :width])
@@ -237,6 +271,7 @@ def solved(
     import numpy as np
 
     from rpl.emulator.configuration import BatchNotation
+    from rpl.emulator.postures import out_of_reach
 
     if isinstance(notation, BatchNotation) and not follow:
         joints = notation.select_all(model, targets.poses, targets.flags, near).joints
@@ -248,7 +283,8 @@ def solved(
         given = {name: _flag(value) for name, value in zip(notation.fields, targets.flags[place], strict=True)}
         selection = notation.select(model, targets.poses[place], given, near)
         if selection.joints is None:
-            outcome.errors.append((row.line, "unreachable-point", selection.reason))
+            reason = out_of_reach(model, targets.poses[place]) or selection.reason
+            outcome.errors.append((row.line, "unreachable-point", reason))
             continue
         joints[place] = selection.joints
         near = selection.joints if follow else near
@@ -304,9 +340,8 @@ def report(table: Table, outcome: Outcome, facts: dict[str, object], as_json: bo
         errors = [{"line": line, "code": code, "message": words} for line, code, words in outcome.errors]
         import json
 
-        click.echo(
-            json.dumps(plain({**facts, "points": points, "errors": errors}), ensure_ascii=False, allow_nan=False)
-        )
+        document = {**facts, "points": points, "errors": errors, "external_axes_left_out": outcome.external}
+        click.echo(json.dumps(plain(document), ensure_ascii=False, allow_nan=False))
     else:
         out = io.StringIO()
         writer = csv.writer(out, lineterminator="\n")
@@ -315,6 +350,12 @@ def report(table: Table, outcome: Outcome, facts: dict[str, object], as_json: bo
         click.echo(out.getvalue(), nl=False)
     for line, code, words in outcome.errors:
         click.echo(f"{table.name}:{line}:1: error {code} {' '.join(words.splitlines())}", err=True)
+    if outcome.external:
+        many = f" of {len(outcome.external)} targets" if len(outcome.external) > 1 else ""
+        click.echo(
+            f"{table.name}:{outcome.external[0]}:1: warning external-axes the external axes{many} are left out",
+            err=True,
+        )
     return 1 if outcome.errors else 0
 
 

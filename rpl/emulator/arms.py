@@ -20,7 +20,9 @@ from rpl.emulator.rotations import FloatArray, pose_matrix, rotation_x, rotation
 
 BoolArray = NDArray[np.bool_]
 
-# A cosine may exceed 1 by this much through rounding and still count as the stretched arm.
+# A cosine may exceed 1 by this much through rounding and still count as the stretched arm: a wrist with axes of its own
+# is exact, one that shares parallel axes with the links (UR) loses more where it is straight too.
+EXACT_SLACK = 1e-12
 COSINE_SLACK = 1e-9
 # An arm as good as stretched is stretched: rounding alone would bend it by 1e-7 rad, which the pose does not show, but
 # which turns the hand about where the wrist is straight too.
@@ -122,14 +124,16 @@ def _signed(root: FloatArray) -> FloatArray:
     return both
 
 
-def _two_links(square: FloatArray, first: float, second: float) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray]:
+def _two_links(
+    square: FloatArray, first: float, second: float, slack: float
+) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray]:
     """Two links in a plane whose ends are apart by the root of `square` (mm²), both lengths of one sign.
 
     The angle between them (0 stretched), the angle of the first to the line between the ends, reachable, and stretched
     or folded. By half angles, which stay exact where links of equal length fold upon each other.
     """
     share = (square - (first - second) ** 2) * (0.25 / (first * second))
-    ok = (share >= -0.5 * COSINE_SLACK) & (share <= 1.0 + 0.5 * COSINE_SLACK)
+    ok = (share >= -0.5 * slack) & (share <= 1.0 + 0.5 * slack)
     straight = (share <= 0.5 * COSINE_SLACK) | (share >= 1.0 - 0.5 * COSINE_SLACK)
     share = np.where(share >= 1.0 - ROUNDING_COSINE, 1.0, np.maximum(share, 0.0))
     across, along = np.sqrt(1.0 - share), np.sqrt(share)
@@ -235,7 +239,7 @@ class OpwArm:
         """Joint 1 and the wrist's distance from axis 2 along the arm, both (2, k); reachable and singular (k,)."""
         radius_squared = centre[0] * centre[0] + centre[1] * centre[1]
         square = radius_squared - self.b**2
-        reachable = square >= -COSINE_SLACK * max(self.c2 + self.c3, 1.0) ** 2
+        reachable = square >= -2.0 * STILL_MM * abs(self.b)  # that the wrist centre is nearer to axis 1 than it can be
         root = np.sqrt(np.maximum(square, 0.0))
         # Turned about, the wrist centre is off by twice its distance from the axis.
         over_axis = radius_squared <= (0.5 * STILL_MM) ** 2
@@ -255,7 +259,7 @@ class OpwArm:
     ) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray]:
         """Joints 2 and 3 (shoulder, elbow, k); reachable and singular (stretched, folded) (shoulder, k)."""
         square = reach * reach + height * height
-        bend, ahead, ok, straight = _two_links(square, self.c2, math.hypot(self.a2, self.c3))
+        bend, ahead, ok, straight = _two_links(square, self.c2, math.hypot(self.a2, self.c3), EXACT_SLACK)
         lean = np.arctan2(reach, height)
         folded = square <= STILL_MM**2
         t2, t3 = np.empty((2, 2, len(height))), np.empty((2, 2, len(height)))
@@ -369,7 +373,7 @@ class UrArm:
         rows = _rows(flange)
         centre = rows[:, 3] - self.d6 * rows[:, 2]
         square = centre[0] * centre[0] + centre[1] * centre[1] - self.d4**2
-        reachable = square >= -COSINE_SLACK * self.d4**2
+        reachable = square >= -2.0 * STILL_MM * abs(self.d4)
         root = np.sqrt(np.maximum(square, 0.0))
         t1 = np.arctan2(centre[1], centre[0]) + np.arctan2(self.d4, _signed(root))
         c1, s1 = np.cos(t1), np.sin(t1)
@@ -380,7 +384,7 @@ class UrArm:
         x = (c1 * centre[0] + s1 * centre[1])[:, None] - sides * (self.d5 * (c1 * z4[0] + s1 * z4[1]))[:, None]
         y = centre[2] - self.d1 - sides * (self.d5 * z4[2])[:, None]
         total = np.arctan2(sides * x4[2][:, None], sides * (c1 * x4[0] + s1 * x4[1])[:, None])
-        bend, ahead, ok, straight = _two_links(x * x + y * y, self.a2, self.a3)
+        bend, ahead, ok, straight = _two_links(x * x + y * y, self.a2, self.a3, COSINE_SLACK)
         lean = np.arctan2(y, x)
         for elbow, side in enumerate((1.0, -1.0)):
             turned = lean - side * ahead
@@ -484,7 +488,7 @@ class ScaraArm:
     def inverse(self, flange: FloatArray, reference: FloatArray) -> Branches:
         x, y = flange[:, 0, 3], flange[:, 1, 3]
         square = x * x + y * y
-        bend, ahead, ok, straight = _two_links(square, self.l1, self.l2)
+        bend, ahead, ok, straight = _two_links(square, self.l1, self.l2, EXACT_SLACK)
         upright = (np.hypot(flange[:, 0, 2], flange[:, 1, 2]) <= self.tilt) & (flange[:, 2, 2] < 0.0)
         sides = np.array([1.0, -1.0])
         q2 = bend[:, None] * sides

@@ -88,6 +88,14 @@ class WordedFlags(Protocol):
         """The flags of such words, None when they are none."""
 
 
+@runtime_checkable
+class ExternalAxes(Protocol):
+    """A notation whose targets may carry external axes, which are no matter of the arm's own joints."""
+
+    def external_axes(self, text: str) -> dict[str, float]:
+        """The external axes that a target's text gives a value to, by name; degrees or mm."""
+
+
 def flag_row(fields: Sequence[str], flags: Flags) -> FloatArray:
     """Flags as one row (1, f) of numbers, NaN for a missing one."""
     return np.array([[np.nan if flags.get(name) is None else float(flags[name] or 0) for name in fields]])

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rpl.emulator.arms import OpwArm
+from rpl.emulator.arms import OpwArm, ScaraArm, UrArm
 from rpl.emulator.recognise import PlacedArm
 
 if TYPE_CHECKING:
@@ -70,6 +70,25 @@ def _sine(model: RobotModel, amplitude: float, thetas: tuple[int, ...], offset: 
     ends = np.stack([rows * model.limits[:, 0], rows * model.limits[:, 1]])
     low, high = float(ends.min(axis=0).sum()) + start, float(ends.max(axis=0).sum()) + start
     return Sine(float(amplitude), tuple(float(row) for row in rows), start, low > -180.0 and high < 180.0)
+
+
+UNKNOWN_BUILD = "what configuration flags mean on an arm of this build is not known"
+
+
+def has_flags(model: RobotModel) -> bool:
+    """Is it an arm of a build that controllers' flags are written for? Arms of seven axes, or with a wrist whose axes
+    do not meet, have flags too, but by rules of their own."""
+    arm = model.arm.arm if isinstance(model.arm, PlacedArm) else model.arm
+    return isinstance(arm, OpwArm | UrArm | ScaraArm)
+
+
+def out_of_reach(model: RobotModel, flange: FloatArray) -> str | None:
+    """Why no posture at all reaches a flange pose (4, 4), where there is more to say than that it is too far."""
+    if isinstance(model.arm, ScaraArm) and not model.inverse(flange):
+        tilt = float(np.degrees(np.arctan2(np.hypot(flange[0, 2], flange[1, 2]), -flange[2, 2])))
+        if tilt > np.degrees(model.arm.tilt):
+            return f"this arm's tool axis is always vertical, the pose tilts it by {tilt:.3g} degrees"
+    return None
 
 
 def sides(model: RobotModel, joints: FloatArray) -> IntArray:

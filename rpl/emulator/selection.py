@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from rpl.emulator.arms import OpwArm, UrArm
+from rpl.emulator.arms import OpwArm, ScaraArm, UrArm
 from rpl.emulator.model import LIMIT_SLACK, BatchSolutions
 from rpl.emulator.postures import same_posture, sides
 from rpl.emulator.recognise import PlacedArm
@@ -103,10 +103,10 @@ def _within_rounding(model: RobotModel, flanges: FloatArray, free: FloatArray) -
             flanges = flanges.copy()
             flanges[over, :3, 3] -= aside[over] @ base[:3, :2].T
     found = model.inverse_batch(flanges, free)
-    shoulder = arm.c1 if isinstance(arm, OpwArm) else arm.d1 if isinstance(arm, UrArm) else None
-    if shoulder is None or found.valid.any(axis=1).all():
+    if not isinstance(arm, OpwArm | UrArm | ScaraArm) or found.valid.any(axis=1).all():
         return found
     joints, valid, singular = found.joints.copy(), found.valid.copy(), found.singular.copy()
+    shoulder = arm.c1 if isinstance(arm, OpwArm) else arm.d1 if isinstance(arm, UrArm) else 0.0
     middle = (base @ np.array([0.0, 0.0, shoulder, 1.0]))[:3]
     for step in (ROUNDING_MM / 100.0, ROUNDING_MM):
         lost = np.flatnonzero(~valid.any(axis=1) & np.isfinite(flanges).all(axis=(1, 2)))
@@ -114,6 +114,8 @@ def _within_rounding(model: RobotModel, flanges: FloatArray, free: FloatArray) -
             break
         pulled = flanges[lost].copy()
         inward = middle - pulled[:, :3, 3]
+        if isinstance(arm, ScaraArm):  # whose links lie flat
+            inward[:, 2] = 0.0
         pulled[:, :3, 3] += step * inward / np.maximum(np.linalg.norm(inward, axis=1, keepdims=True), 1.0)
         again = model.inverse_batch(pulled, free[lost])
         joints[lost], valid[lost], singular[lost] = again.joints, again.valid, again.singular

@@ -142,7 +142,10 @@ def test_a_file_of_texts_from_standard_input(
         ("tp", "x,y,z,w,p,r,config\n965,0,965,-180,0,0,'N U T, 0, 0, 0'\n", (0, 0, 0, 0, -90, 0)),
         ("tp", "X;Y;Z;W;P;R;CONFIG\n965;0;965;180;0;-170;N U T, 0, 0, 1\n", (0, 0, 0, 0, -90, 190)),
         ("tp", "965,0,965,-180,0,0,0,0,0,0,0,0\n", (0, 0, 0, 0, -90, 0)),
+        ("tp", "x_mm;y [mm];z (mm);w_deg;p;r\n965,0;0;965,000;-180;0;0\n", (0, 0, 0, 0, -90, 0)),
         ("rapid", "x,y,z,q1,q2,q3,q4\n1,2,3,1,1,0,0\n", None),
+        ("tp", "x,y,z,w,p,r\n965,0,0,0,965,0,-180,0,0,0\n", None),
+        ("tp", "x,y,z,w,p,r,flip\n965,0,965,-180,0,0,0.5\n", None),
     ],
 )
 def test_columns(
@@ -165,8 +168,10 @@ def test_columns(
     [
         (["fk"], "either --joints or --points"),
         (["ik"], "either --pose or --points"),
-        (["fk", "--points", "POINTS"], "has no column j1"),
+        (["fk", "--points", "POINTS"], "has no column j1, j2, j3, j4, j5, j6, it has one, two"),
         (["ik", "--points", "POINTS", "--dialect", "krl"], "needs the columns x, y, z, a, b, c"),
+        (["ik", "--points", "TWICE", "--dialect", "krl"], "has the column x twice"),
+        (["ik", "--points", "BYTES"], "is no text in UTF-8"),
         (["ik", "--points", "EMPTY"], "has no points"),
         (["ik", "--points", "nowhere.csv"], "cannot be read"),
         (["ik", "--pose", "1,2,3", "--to-dialect", "cobol"], "no dialect named"),
@@ -175,7 +180,9 @@ def test_columns(
 def test_wrong_calls(arguments: list[str], words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "points.csv").write_text("one,two\n1,2\n", encoding="utf-8")
     (tmp_path / "empty.csv").write_text("\n", encoding="utf-8")
-    names = {"POINTS": str(tmp_path / "points.csv"), "EMPTY": str(tmp_path / "empty.csv")}
+    (tmp_path / "twice.csv").write_text("x,y,x_mm\n1,2,3\n", encoding="utf-8")
+    (tmp_path / "bytes.csv").write_bytes(b"\xff\xfe\x00")
+    names = {name.upper(): str(tmp_path / f"{name}.csv") for name in ("points", "empty", "twice", "bytes")}
     assert run([names.get(one, one) for one in arguments] + ["--robot", ROBOT]) == 2
     assert words in capsys.readouterr().err
 
@@ -222,3 +229,66 @@ def test_joints_beyond_their_limits_are_marked(tmp_path: Path, capsys: pytest.Ca
     assert run(["fk", "--robot", ROBOT, "--points", str(path)]) == 0
     rows, _ = answer(capsys)
     assert [row["outside_limits"] for row in rows] == ["", "1 5"]
+
+
+@pytest.mark.parametrize(
+    ("robot", "pose", "named"),
+    [
+        (ROBOT, "{X 525,Y 0,Z 890,A 0,B 90,C 0,S 2,T 2,E1 120.5,E2 0.0}", "E1"),
+        (ROBOT, "{X 525,Y 0,Z 890,A 0,B 90,C 0,S 2,T 2,E1 0.0}", ""),
+        ("abb_irb120_3_58", "[[374,0,630],[0.707107,0,0.707107,0],[0,0,0,0],[0,9E9,9E+09,9E9,9E9,9E9]]", "eax_a"),
+        ("abb_irb120_3_58", "[[374,0,630],[0.707107,0,0.707107,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]", ""),
+        (
+            "fanuc_m20id25",
+            "CONFIG : 'N U T, 0, 0, 0', X = 965 mm, Y = 0 mm, Z = 965 mm, W = 180 deg, P = 0 deg, R = 0 deg, E1= 55 mm",
+            "E1",
+        ),
+    ],
+)
+def test_external_axes_are_not_left_out_in_silence(
+    robot: str, pose: str, named: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["ik", "--robot", robot, "--pose", pose]) == 0
+    assert capsys.readouterr().err == (f"rpl: the external axes {named} are left out\n" if named else "")
+    path = tmp_path / "points.txt"
+    path.write_text(f"{pose}\n", encoding="utf-8")
+    assert run(["ik", "--robot", robot, "--points", str(path)]) == 0
+    assert ("external axes are left out" in capsys.readouterr().err) is bool(named)
+
+
+SEVEN = "".join(
+    [
+        '<robot name="seven"><link name="l0"/>',
+        *(
+            f'<link name="l{number}"/><joint name="j{number}" type="revolute"><parent link="l{number - 1}"/>'
+            f'<child link="l{number}"/><origin xyz="0 0 0.2"/><axis xyz="{axis}"/>'
+            '<limit lower="-2.9" upper="2.9" velocity="1" effort="1"/></joint>'
+            for number, axis in enumerate(["0 0 1", "0 1 0"] * 3 + ["0 0 1"], start=1)
+        ),
+        "</robot>",
+    ]
+)
+
+
+def test_flags_of_an_arm_of_another_build_are_refused_by_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """An arm of seven axes has an arm angle in its target, a cobot's wrist has other rules: nothing is made up."""
+    pytest.importorskip("pinocchio")
+    path = tmp_path / "seven.urdf"
+    path.write_text(SEVEN, encoding="utf-8")
+    words = "what configuration flags mean on an arm of this build is not known"
+    call = ["--robot", str(path), "--dialect", "rapid"]
+    assert run(["fk", *call, "--joints", "10,20,30,40,50,60,70"]) == 0
+    assert words in capsys.readouterr().err
+    pose = "[[300,100,900],[1,0,0,0],[0,0,0,3]]"
+    run(["ik", *call, "--pose", pose])
+    assert words in capsys.readouterr().err
+    assert run(["ik", *call, "--pose", pose, "--to-dialect", "rapid"]) == 2
+    assert words in capsys.readouterr().err
+
+
+def test_a_tilted_pose_of_an_arm_that_cannot_tilt(capsys: pytest.CaptureFixture[str]) -> None:
+    call = ["ik", "--robot", "adept_cobra_s600", "--dialect", "vplus"]
+    assert run([*call, "--pose", "TRANS(400, 100, 300, 0, 170, 0)"]) == 1
+    assert "tool axis is always vertical, the pose tilts it by 10 degrees" in capsys.readouterr().err

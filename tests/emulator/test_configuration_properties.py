@@ -208,6 +208,16 @@ def test_half_a_turn_in_printed_digits(dialect: str, robot: str, sixth: float) -
         assert found == pytest.approx(joints, abs=0.003)
 
 
+@pytest.mark.parametrize("first", range(-60, 61, 7))
+def test_the_end_of_the_reach_of_a_scara_in_printed_digits(first: int) -> None:
+    model = load_robot("adept_cobra_s600")
+    joints = np.array([first, 0.0, 50.0, 20.0])
+    flange = model.forward(joints)
+    flange[:3, 3] = np.round(flange[:3, 3], 3)
+    found = batch("vplus").select_all(model, flange[None], np.full((1, 3), np.nan), joints).joints[0]
+    assert model.forward(found) == pytest.approx(flange, abs=0.002)
+
+
 def test_a_point_that_was_never_taught() -> None:
     model, notation = load_robot("kuka_kr125_3"), batch("krl")
     poses = notation.poses_of(np.array([[666666.688, 0.0, 0.0, 0.0, 0.0, 0.0], [1500.0, 0, 1200, 0, 90, 0]]))

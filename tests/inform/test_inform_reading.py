@@ -87,6 +87,16 @@ def test_points_are_constants_of_their_job() -> None:
     assert (move.frame, move.tool) == (ir.Name("UF1"), ir.Name("TL2"))
 
 
+@pytest.mark.parametrize(
+    ("flags", "told"), [("1,0,0,0,1,0", False), ("1,0,0,0,1,0,0,0", False), ("1,0,0,0,1,0,0,1", True)]
+)
+def test_flags_behind_the_sixth_are_not_dropped_in_silence(flags: str, told: bool) -> None:
+    """Unused on six-axis arms (DX100 data transmission manual); an arm of seven axes sets them."""
+    points = f"///TOOL 2\n///POSTYPE ROBOT\n///RECTAN\n///RCONF {flags}\nC00007=1.5,2,3,10,20,30"
+    _, diagnostics = read(job("MOVL C00007 V=12.5 PL=0", points))
+    assert ("inform-form-of-more-axes" in [each.code.name for each in diagnostics]) is told
+
+
 def test_remarks_comments_and_disabled_lines_are_kept() -> None:
     program, _ = read(job("'first\nSET B000 1  //second\nCOMM MOVJ P001\nRET"))
     notes = [
