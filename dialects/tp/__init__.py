@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _HEAD = re.compile(r"^[ \t\ufeff]*/PROG\b", re.MULTILINE)
 _BODY = re.compile(r"^[ \t]*/(?:MN|ATTR)\b", re.MULTILINE)
 _DUMP = re.compile(
-    r"^\s*\[\*(?:NUMREG|POSREG|STRREG)\*\]\$\w+|^\s*\[\*SYSTEM\*\]\s*\$MN(?:UFRAME|UTOOL)\b", re.MULTILINE
+    r"^\s*\[\*(?:NUMREG|POSREG|STRREG)\*\]\$\w+|^\s*\[\*SYSTEM\*\]\s*\$(?:MN(?:UFRAME|UTOOL)|PLST_GRP1)\b", re.MULTILINE
 )
 
 
@@ -34,11 +34,11 @@ def _recognise(path: str, text: str) -> int:
     return 90 if _DUMP.search(text) else 0
 
 
-_DUMPS = ("numreg.va", "strreg.va", "posreg.va", "sysframe.va")
+_DUMPS = ("numreg.va", "strreg.va", "posreg.va", "sysframe.va", "sysmotn.va")
 
 
 def _companions(path: str) -> tuple[str, ...]:
-    """The variable dumps beside a listing: values of registers and frames."""
+    """The variable dumps beside a listing: values of registers, frames and loads."""
     file = Path(path)
     if file.suffix.lower() != ".ls":
         return ()

@@ -1,7 +1,8 @@
-"""Variable dumps of a controller (`.VA`): numeric, string and position registers, user and tool frames.
+"""Variable dumps of a controller (`.VA`): numeric, string and position registers, frames, payload schedules.
 
 NUMREG.VA `[1] = 1  'count'`, STRREG.VA `[1] = 'text'  'comment'`, POSREG.VA `[1,5] = 'pick'` followed by a joint or
-Cartesian position, SYSFRAME.VA the same for $MNUFRAME and $MNUTOOL. Laid out as public backups show it.
+Cartesian position, SYSFRAME.VA the same for $MNUFRAME and $MNUTOOL, SYSMOTN.VA or SYSVARS.VA the fields of $PLST_GRP1
+(the load of each PAYLOAD number). Laid out as public backups show it.
 """
 
 from __future__ import annotations
@@ -19,6 +20,9 @@ _ELEMENT = re.compile(r"^\s*\[\s*([\d, ]+)\]\s*=?([^\n]*)", re.MULTILINE)
 _QUOTED = re.compile(r"'([^']*)'")
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _VALUE = re.compile(r"\b([XYZWPR]|J\d|EXT\d|E\d)\s*[:=]\s*(\*+|[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)")
+_FIELD = re.compile(
+    r"^\s*Field:\s*\$PLST_GRP1\[(\d+)\]\.\$PAYLOAD(_I?[XYZ])?\s[^\n=]*=\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)", re.MULTILINE
+)
 _CONFIG = re.compile(r"Config\s*:\s*([^\n]*)", re.IGNORECASE)
 
 
@@ -31,12 +35,13 @@ class Dump:
     positions: dict[int, tuple[Position, Origin]] = field(default_factory=dict)
     frames: dict[tuple[str, int], tuple[Position, Origin]] = field(default_factory=dict)
     active: dict[str, int] = field(default_factory=dict)
+    loads: dict[int, dict[str, float]] = field(default_factory=dict)  # by number: M kg, X Y Z mm, IX IY IZ kg m2
     labels: dict[tuple[str, int], str] = field(default_factory=dict)
 
 
 def is_dump(text: str) -> bool:
-    """Is the text a variable dump with registers or frames?"""
-    return re.search(r"^\s*\[\*(?:NUMREG|POSREG|STRREG)\*\]|^\s*\[\*SYSTEM\*\]\$MN(?:UFRAME|UTOOL)\b",
+    """Is the text a variable dump with registers, frames or loads?"""
+    return re.search(r"^\s*\[\*(?:NUMREG|POSREG|STRREG)\*\]|^\s*\[\*SYSTEM\*\]\$(?:MN(?:UFRAME|UTOOL)|PLST_GRP1)\b",
                      text, re.MULTILINE) is not None  # fmt: skip
 
 
@@ -50,7 +55,19 @@ def read_dump(source: Source, into: Dump) -> int:
         name = head[2].upper()
         if name in ("$NUMREG", "$STRREG", "$POSREG", "$MNUFRAME", "$MNUTOOL", "$MNUFRAMENUM", "$MNUTOOLNUM"):
             count += _elements(source, name, head.end(), end, into)
+        elif name == "$PLST_GRP1":
+            count += _loads(text[head.end() : end], into)
     return count
+
+
+def _loads(text: str, into: Dump) -> int:
+    """The payload schedules of the first group. M: centres are in cm and inertias in kg cm2; a mass of no more than 0
+    stands for a schedule that nobody has filled in."""
+    fields = _FIELD.findall(text)
+    for number, name, value in fields:
+        scale = 1e-4 if name.startswith("_I") else 10.0 if name else 1.0
+        into.loads.setdefault(int(number), {})[name.removeprefix("_") or "M"] = float(value) * scale
+    return len(fields)
 
 
 def _elements(source: Source, name: str, begin: int, end: int, into: Dump) -> int:

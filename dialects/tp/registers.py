@@ -78,6 +78,7 @@ class Facts:
     numbers_set: set[str] = field(default_factory=set)  # which of their numbers a program sets
     highest_frame: dict[str, int] = field(default_factory=dict)
     wait_timeout: bool = False
+    loads: dict[int, dict[str, float]] = field(default_factory=dict)  # payload schedules, as a dump has them
     monitors: dict[str, tuple[int, int]] = field(default_factory=dict)  # program -> first interrupt, how many
 
     def register_kind(self, number: int | None) -> str:
@@ -221,6 +222,7 @@ def _labels(facts: Facts, text: str) -> None:
 
 def conclude(facts: Facts, dump: Dump, diagnostics: Diagnostics) -> None:
     """Spread what is known of position registers along assignments; report registers that hold both kinds."""
+    facts.loads = dump.loads
     for number, (position, origin) in dump.positions.items():
         if number in facts.used["PR"] or "PR" in facts.arrays:
             known = facts.joints if position.kind == "j" else facts.cartesian

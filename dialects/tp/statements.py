@@ -462,8 +462,18 @@ class Statements(Expressions):
         return ir.Message("error", shown, origin=self.origin), ir.Halt("stop", origin=self.origin)
 
     def on_payload(self, tree: SyntaxTree) -> Lowered:
-        self.index(_tree(tree.children[-1]))
-        return self.vendor(self.origin_line(), "tuning")
+        """PAYLOAD[n]: the load that a dump has under this number; without one the controller alone knows it."""
+        number = self.index(_tree(tree.children[-1]))
+        known = self.facts.loads.get(number.value) if isinstance(number, ir.IntLiteral) else None
+        said = self.vendor(self.origin_line(), "tuning")
+        if known is None or known.get("M", 0.0) <= 0.0 or len(tree.children) > 1:
+            return said
+        parts: list[tuple[str | None, ir.Expression]] = [("mass", ir.RealLiteral(known["M"]))]
+        centre = tuple((axis.lower(), ir.RealLiteral(known.get(axis, 0.0))) for axis in "XYZ")
+        parts.append(("cog", ir.Aggregate(centre, "vector")))
+        parts += [(name.lower(), ir.RealLiteral(known.get(name, 0.0))) for name in ("IX", "IY", "IZ")]
+        load = ir.Aggregate(tuple(parts), "load", origin=self.origin)
+        return said, ir.Assign(ir.System("load", origin=self.origin), load, origin=self.origin)
 
     def on_preread(self, tree: SyntaxTree) -> Lowered:
         """LOCK PREG lets position registers be read ahead: no difference to a program that is right."""

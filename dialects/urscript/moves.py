@@ -194,6 +194,9 @@ def _load(calls: Calls, bound: Bound) -> Made | None:
             return None
         centre = tuple((axis, ir.Quantity(part, "m")) for axis, part in zip("xyz", parts, strict=True))
         entries.append(("cog", ir.Aggregate(centre, "vector")))
+    inertia = calls.three(bound.get("inertia"))
+    if inertia is not None:  # about the centre of gravity, in the flange's axes; the products of inertia have no place
+        entries.extend(zip(("ix", "iy", "iz"), inertia, strict=True))
     if mass is None:
         entries.append(("mass", ir.Field(ir.System("load"), "mass")))  # set_payload_cog keeps it
     if not is_number(calls.kind(mass) if mass is not None else REAL):

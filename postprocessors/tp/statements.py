@@ -177,6 +177,8 @@ class Printer(StatementPrinter[Line]):
                 self.line(f"LBL[{self.labels.text(name)}]", origin)
             case ir.Goto(label=name):
                 self.line(f"JMP LBL[{self.labels.number(name)}]", origin)
+            case ir.Assign(target=ir.System(name="load")):
+                self.comments_only(origin)  # its PAYLOAD[n] stands in front of it
             case ir.Assign(target=ir.System(name="tool" | "base" as name), value=value):
                 self.select(name, value, origin)
             case ir.Assign(target=target, value=ir.System(name="tool")):

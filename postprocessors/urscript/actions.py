@@ -183,7 +183,12 @@ class Actions:
         inner = self.parts(centre)
         place = [inner.get(axis) or ir.Field(centre, axis) for axis in ("x", "y", "z")]
         shown = ", ".join(self.expressions.measured(one, "m") for one in place)
-        return f"set_payload({self.expressions.measured(mass, 'kg')}, [{shown}])"
+        given = f"{self.expressions.measured(mass, 'kg')}, [{shown}]"
+        inertias = [parts.get(name) for name in ("ix", "iy", "iz")]
+        if None in inertias or all(one in (ir.RealLiteral(0.0), ir.IntLiteral(0)) for one in inertias):
+            return f"set_payload({given})"
+        about = ", ".join(self.expressions.text(one) for one in inertias if one is not None)
+        return f"set_target_payload({given}, [{about}, 0, 0, 0])"
 
     def parts(self, value: ir.Expression) -> dict[str, ir.Expression]:
         """The components of a written value by their names."""

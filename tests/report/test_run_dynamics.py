@@ -64,6 +64,13 @@ def test_the_load_set_by_a_language_that_has_one() -> None:
     assert (place.x, place.y, place.z) == pytest.approx((0.0, 10.0, 50.0))
 
 
+def test_inertias_of_a_load_that_is_told_as_a_target() -> None:
+    """URScript manual, set_target_payload: mass, centre, and Ixx Iyy Izz Ixy Ixz Iyz about the centre."""
+    text = SWING.format(load="set_target_payload(2.0, [0, 0, 0.1], [0.03, 0.02, 0.01, 0, 0, 0])")
+    (load,) = driven_moves(run("urscript", text, robot="ur5e"))[0].payloads
+    assert (load.mass, load.inertias, load.frame.position.z) == (2.0, (0.03, 0.02, 0.01), 100.0)
+
+
 KRL_LOADS = """DEF PROG( )
 LOAD_DATA[2]={M 4.0,CM {X 10.0,Y 0.0,Z 60.0,A 90.0,B 0.0,C 0.0},J {X 0.1,Y 0.2,Z 0.3}}
 $ACT_TOOL=2
