@@ -2,8 +2,9 @@
 
 F (flip): J5 above zero. U: the elbow is above the line of the stretched arm, D below. T: wrist centre in front of axis
 1, B behind it. The digits are the turns of J1, J4 and J6: 0 for angles between -180 and 180, both ends open, 1 from 180
-(inclusive) to 540, -1 from -180 (inclusive) downwards. Sources: joint/pose pairs of virtual controllers (CrossArm) and
-taught points of public backups; the pair N U T / F U T of an R-2000iB published at onerobotics.com.
+(inclusive) to 540, -1 from -180 (inclusive) downwards. A SCARA has R or L alone (M: R is joint 2 positive). Sources:
+joint/pose pairs of virtual controllers (CrossArm) and taught points of public backups; the pair N U T / F U T of an
+R-2000iB published at onerobotics.com.
 """
 
 import re
@@ -73,7 +74,9 @@ def _parsed(text: str) -> dict[str, int | None] | None:
     found = _CONFIG.search(text)
     if found is None:
         return None
-    wrist, _, elbow, shoulder, *turns = found.groups()
+    wrist, hand, elbow, shoulder, *turns = found.groups()
+    if elbow is None and hand is not None:  # an arm of two links in a plane: which of the two ways its elbow bends
+        elbow = "UD"["RL".index(hand.upper())]
     flags: dict[str, int | None] = {}
     for name, letter in zip(BRANCH, (wrist, elbow, shoulder), strict=True):
         flags[name] = None if letter is None else _LETTERS[name].index(letter.upper())
@@ -82,9 +85,11 @@ def _parsed(text: str) -> dict[str, int | None] | None:
     return flags
 
 
-def config_text(flags: Flags) -> str:
-    """`N U T, 0, 0, 0`; a flag that is not known is written as the usual posture."""
+def config_text(flags: Flags, flat: bool = False) -> str:
+    """`N U T, 0, 0, 0`, of a `flat` arm (SCARA) `R, 0, 0, 0`; a flag not known is written as the usual posture."""
     letters = " ".join(_LETTERS[name][1 if flags.get(name) else 0] for name in BRANCH)
+    if flat:
+        letters = "RL"[1 if flags.get("down") else 0]
     turns = ", ".join(str(flags.get(name) or 0) for name in TURN_AXES)
     return f"{letters}, {turns}"
 
@@ -139,10 +144,13 @@ class TpNotation:
         if reference is not None and np.isnan(wanted[:, :3]).any():
             wanted[:, :3] = np.where(np.isnan(wanted[:, :3]), self.encode_all(model, near)[:, :3], wanted[:, :3])
         flip, down, back = (wanted[:, place, None] for place in range(3))
+        absent = [3 + place for place, axis in enumerate(TURN_AXES.values()) if axis >= model.axes]
+        turned = np.nan_to_num(wanted[:, absent]).any(axis=1)[:, None]  # a turn of an axis that the arm has not
 
         def fits(found: Candidates) -> BoolArray:
             shoulder, elbow = found.sides[None, :, 0], found.sides[None, :, 1]
-            return np.asarray((np.isnan(back) | (shoulder == back)) & (np.isnan(down) | (elbow == down)))
+            met = (np.isnan(back) | (shoulder == back)) & (np.isnan(down) | (elbow == down))
+            return np.asarray(met & ~turned)
 
         def turn_cost(axis: int, values: FloatArray) -> FloatArray | None:
             if axis == WRIST_AXIS and model.axes > 4:
@@ -159,9 +167,10 @@ class TpNotation:
 
     def _refusal(self, model: RobotModel, solutions: tuple[Solution, ...], wanted: Flags) -> str:
         shown = [self.encode(model, joints) for solution in solutions for joints in model.expand_turns(solution)]
+        flat = model.kind == "scara"
         shown.sort(key=lambda flags: (sum(abs(flags[name]) for name in TURN_AXES), config_text(flags)))
-        possible = list(dict.fromkeys(config_text(flags) for flags in shown))
-        asked = config_text(wanted)
+        possible = list(dict.fromkeys(config_text(flags, flat) for flags in shown))
+        asked = config_text(wanted, flat)
         if not possible:
             return f"'{asked}' cannot be reached: every solution exceeds a joint limit"
         listed = "; ".join(f"'{text}'" for text in possible[:_LISTED]) + (" ..." if len(possible) > _LISTED else "")
@@ -176,7 +185,7 @@ class TpNotation:
             for name, value, unit in zip("XYZWPR", values, ("mm",) * 3 + ("deg",) * 3, strict=True)
         ]
         if joints is not None:
-            parts.insert(0, f"CONFIG : '{config_text(self.encode(model, joints))}'")
+            parts.insert(0, f"CONFIG : '{config_text(self.encode(model, joints), model.kind == 'scara')}'")
         return ", ".join(parts)
 
     def poses_of(self, values: FloatArray) -> FloatArray:

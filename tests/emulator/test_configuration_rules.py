@@ -20,8 +20,13 @@ Taken = tuple[str, str, Joints, tuple[int | None, ...], Joints | None, Joints | 
 KRL, RAPID, TP, INFORM, VPLUS, UR = "krl", "rapid", "tp", "inform", "vplus", "urscript"
 KR6, KR125, IRB120, IRB6700 = "kuka_kr6r900sixx", "kuka_kr125_3", "abb_irb120_3_58", "abb_irb6700_140_285"
 LRMATE, R2000, M20, GP7 = "fanuc_lrmate200id", "fanuc_r2000ic165f", "fanuc_m20id25", "motoman_gp7"
+KR16, KR210, GP25 = "kuka_kr16_2", "kuka_kr210r2700prime", "motoman_gp25"
 VIPER, COBRA, UR5E = "adept_viper_s650", "adept_cobra_s600", "ur5e"
 
+KVP = "a state read from a controller ($POS_ACT: X 1339.9 Y 15.92 A 0 B 90 C -0.6808 S 6 T 19) in public code"
+MACHINE = "machine data of a KR 210 R2700 prime in a public backup: A3 and A4 are -41 mm apart"
+CELL = "a cell of GP25, github.com/lukelalondePZ/Komatsu-Press-Demo"
+SUMMARY = "FANUC, summary.dg of a SCARA prints CFG: R, 0, 0, 0 (public notes)"
 EXPERT = "KUKA, Expert Programming KSS 5.2, tables 2 and 3"
 BACKUP = "taught points of a KR 125/3 in a public backup"
 SINGUL = "KUKA, KR C2 operating handbook, machine data 2.1.151 $SINGUL_POS, as delivered 0"
@@ -69,6 +74,16 @@ SHOWN: tuple[Shown, ...] = (
     (VPLUS, VIPER, (0, -90, 180, 0, 45, 0), (0, 0, 0), ADEPT + ": RIGHTY ABOVE NOFLIP"),
     (VPLUS, VIPER, (0, -90, 180, 0, -45, 0), (0, 0, 1), ADEPT + ": FLIP is joint 5 negative"),
     (UR, UR5E, (0, -90, 90, 0, 45, 0), (), SCRIPT + ": a pose has no flags"),
+    (KRL, KR16, (-0.6808, -60, 70, 0, -10, 0), (6, 19), KVP + ": A1 clockwise, S 6 and T bits 0, 1 and 4"),
+    (KRL, KR210, (0, -90, -1.95, 0, 10, 0), (2, 6), MACHINE + ": an elbow offset upwards, the elbow changes at -1.96"),
+    (KRL, KR210, (0, -90, -1.97, 0, 10, 0), (0, 6), MACHINE + ": an elbow offset upwards, the elbow changes at -1.96"),
+    (INFORM, GP25, (136.043, -8.663, -22.801, -43.074, 19.224, 42.541), (0,) * 6, CELL + ": flip above zero"),
+    (INFORM, GP25, (145.76, -8.74, -8.4, 89.77, -55.76, 180.4), (1, 0, 0, 0, 1, 0), CELL + ": no-flip below zero"),
+    (INFORM, GP25, (0, 0, 0, -181, -60, 181), (1, 0, 0, 1, 1, 0), DATA + ": R at -181 and T at 181 are beyond"),
+    (TP, COBRA, (10, 40, 50, 200), (0, 0, 0, 0, 1, 0), SUMMARY + ": of a SCARA R and the turns of J1 and J4"),
+    (TP, COBRA, (10, -40, 50, 0), (0, 1, 0, 0, 0, 0), SUMMARY + ": (M) L is joint 2 below zero"),
+    (VPLUS, VIPER, (10, -150, 90, 20, 50, 30), (1, 0, 0), ADEPT + ": LEFTY, the wrist behind axis 1, elbow above"),
+    (VPLUS, VIPER, (10, -168.1014, 123.9323, 26.8662, 35.4344, 20.7391), (1, 1, 0), ADEPT + ": LEFTY, elbow below"),
 )
 
 HOME6 = (0, -90, 90, 0, 60, 0)
@@ -79,6 +94,11 @@ TAKEN: tuple[Taken, ...] = (
     (KRL, KR6, (10, -80, 70, 30, 50, -300), (2, 34), HOME6, (10, -80, 70, 30, 50, -300), EXPERT + ": T"),
     (KRL, KR6, (10, -80, 70, 30, 50, 60), (2, 34), HOME6, (10, -80, 70, 30, 50, -300), EXPERT + ": T"),
     (KRL, KR6, (10, -80, 70, 30, 50, 60), (18, 2), HOME6, (10, -80, 70, 30, 50, 60), EXPERT + ": bit 4"),
+    (KRL, KR6, (10, -80, 70, 30, 50, 60), (10, 2), HOME6, (10, -80, 70, 30, 50, 60), EXPERT + ": bit 3 is not used"),
+    (KRL, KR6, (10, -80, 70, 30, 50, 60), (26, 2), HOME6, (10, -80, 70, 30, 50, 60), EXPERT + ": bits 3 and 4"),
+    (KRL, KR6, (10, -80, 70, 30, 50, 60), (18, 34), HOME6, (10, -80, 70, 30, 50, -300), EXPERT + ": bit 4 and T"),
+    (KRL, KR6, (0, -80, 70, 0, 50, 0), (2, 59), HOME6, "cannot be reached", EXPERT + ": A2 is below zero, A5 above"),
+    (KRL, KR6, (0, -80, 70, 0, 50, 0), (2, 43), HOME6, (0, -80, 70, 0, 50, 0), "(M) T next to zero, exactly there"),
     (KRL, KR6, (10, -80, 70, 30, 50, 60), (1, 0), HOME6, "cannot be reached", "never replaced in silence"),
     (KRL, KR6, (20, -80, 70, 10, 50, 30), (None, None), (0, -90, 90, 0, -9, 0), (20, -80, 70, -170, -50, -150), SYSTEM),
     (KRL, KR6, (0, -90, 90, 0, 60, -40), (2, None), (0, -90, 90, 0, 60, 300), (0, -90, 90, 0, 60, 320), SYSTEM),
@@ -100,6 +120,8 @@ TAKEN: tuple[Taken, ...] = (
     (TP, R2000, (0, 0, 0, 0, -90, 0), (1, 0, 0, 0, 0, 0), None, "'N U T, 0, 0, 0'", MOTN + ": what it can do is said"),
     (TP, R2000, (0, 0, 0, 0, -90, 0), (None,) * 6, (0, 0, 0, 0, -80, 300), (0, 0, 0, 0, -90, 360), "PR[]"),
     (TP, R2000, (10, 0, 0, 30, 0, 10), (0, 0, 0, 0, 0, 0), (0, 0, 0, 25, -9, 0), (10, 0, 0, 25, 0, 15), KEPT),
+    (TP, COBRA, (10, 40, 50, 20), (None, 1, None, 0, 0, 0), None, (46.5254, -40, 50, -23.4746), SUMMARY + ": L"),
+    (TP, COBRA, (10, 40, 50, 20), (0, 0, 0, 0, 0, 1), None, "'R, 0, 0, 1' cannot be reached", "a SCARA has no axis 6"),
     # INFORM: given flags are met, the others kept
     (INFORM, GP7, (10, 10, 5, 20, -50, 30), (1, 0, 0, 0, 0, 0), None, (10, 10, 5, 20, -50, 30), DATA),
     (INFORM, GP7, (10, 10, 5, 20, -50, 30), (1, 0, 0, 0, 1, 0), None, (10, 10, 5, 20, -50, -330), DATA + ": T beyond"),
@@ -109,6 +131,13 @@ TAKEN: tuple[Taken, ...] = (
     (VPLUS, VIPER, (10, -80, 170, 20, 50, 30), (None, None, 1), (0, -90, 180, 0, 5, 0), (10, -80, 170, -160, -50, -150),
      ADEPT),
     (VPLUS, COBRA, (10, 40, 50, 20), (1, None, None), (0, 30, 0, 0), (46.5254, -40, 50, -23.4746), ADEPT + ": LEFTY"),
+    (VPLUS, VIPER, (10, -150, 90, 20, 50, 30), (0, 0, 0), (0, -90, 180, 0, 5, 0),
+     (-170, -72.6542, 189.546, -164.2923, 104.5881, 47.2195), ADEPT + ": RIGHTY"),
+    (VPLUS, VIPER, (10, -150, 90, 20, 50, 30), (0, 1, 0), (0, -90, 180, 0, 5, 0),
+     (-170, 16.6032, 24.3863, -150.9246, 32.6254, 18.0743), ADEPT + ": BELOW"),
+    (VPLUS, VIPER, (10, -150, 90, 20, 50, 30), (1, 1, 0), (0, -90, 180, 0, 5, 0),
+     (10, -168.1014, 123.9323, 26.8662, 35.4344, 20.7391), ADEPT + ": LEFTY BELOW"),
+    (VPLUS, VIPER, (170, -150, 190, 20, 50, 30), (1, 0, 0), None, "cannot be reached LEFTY ABOVE NOFLIP", ADEPT),
     # URScript: the nearest
     (UR, UR5E, (10, -80, 70, -60, 50, 30), (), (10, -80, 70, -60, 50, -300), (10, -80, 70, -60, 50, -330), SCRIPT),
 )  # fmt: skip
