@@ -30,6 +30,9 @@ from rpl.errors import UsageError
 from rpl.passes.legalise.pulses import report_assumed, report_stations
 
 if TYPE_CHECKING:
+    from rpl import ir
+    from rpl.cell import Cell
+    from rpl.emulator.model import RobotModel
     from rpl.simulation import RunResult
 
 
@@ -68,7 +71,6 @@ def command(
     with errors is not started.
     """
     from rpl.project import read_program
-    from rpl.proof.cellnames import report_unknown_signals
     from rpl.proof.prove import load_cell
     from rpl.simulation import run_program
 
@@ -82,15 +84,11 @@ def command(
         raise UsageError("no robot program was found; name the language with --from if there is one")
     if diagnostics.has_errors and not despite_errors:
         return _not_started(diagnostics, as_json)
-    model, surroundings, assumptions = robot_named(robot), load_cell(cell), collector()
-    if model is not None:
-        model = model.among(surroundings.mechanisms, surroundings.path) if surroundings is not None else model
-        report_assumed(read.program, model, assumptions)
-        report_stations(read.program, model, assumptions)
-    report_unknown_signals(read.program, surroundings, assumptions)
-    print_diagnostics(assumptions, Severity.WARNING)
+    surroundings = load_cell(cell)
+    model = _robot_in(robot, surroundings, read.program)
     with waiting("running"):
         result = run_program(read.program, model, surroundings, entry, limits=limits, controller=reports.controller)
+    _remark(result, model)
     layers, times = reports.layers(result, model), reports.times(result, model)
     if as_json:
         more = {"dynamics": layers, "times": times}
@@ -100,8 +98,33 @@ def command(
         show_reports(layers, times)
     # Last, so that a file that cannot be written does not cost the result.
     write_trace(trace, result)
-    reports.write(result, read, model, layers, surroundings.mechanisms if surroundings else ())
+    beside = surroundings.mechanisms if surroundings is not None and model is None else ()  # the model has them
+    reports.write(result, read, model, layers, beside)
     return 0 if result.status in ("finished", "stopped") else 1
+
+
+def _robot_in(robot: str | None, surroundings: Cell | None, program: ir.Program) -> RobotModel | None:
+    """The arm with the mechanisms around it; what the run takes for granted about the program is said."""
+    from rpl.proof.cellnames import report_unknown_signals
+
+    model, assumptions = robot_named(robot), collector()
+    if model is not None:
+        model = model.among(surroundings.mechanisms, surroundings.path) if surroundings is not None else model
+        report_assumed(program, model, assumptions)
+        report_stations(program, model, assumptions)
+    report_unknown_signals(program, surroundings, assumptions)
+    print_diagnostics(assumptions, Severity.WARNING)
+    return model
+
+
+def _remark(result: RunResult, model: RobotModel | None) -> None:
+    """What the run has taken for granted on its way."""
+    if model is not None:
+        from rpl.runtime.remarks import report_remarks
+
+        remarks = collector()
+        report_remarks(result, model.mechanisms, remarks)
+        print_diagnostics(remarks, Severity.WARNING)
 
 
 def write_trace(trace: Path | None, result: RunResult) -> None:

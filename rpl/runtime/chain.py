@@ -52,6 +52,7 @@ DEFAULTS: Modal = {
     "joint_speed": 100.0,
     "joint_acceleration": 100.0,
     "external_speed": 100.0,
+    "external_acceleration": 100.0,
     "override": 100.0,
     "speed_percent": 100.0,
     "acceleration_percent": 100.0,
@@ -504,7 +505,10 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
     }
     options |= _ramps(order, plan, effort_share)
     shares = [float(value("external_speed", place + 1)) / 100.0 for place in range(len(external))]
-    options |= plan.scene.options(plan.external, external, shares)
+    efforts = [
+        float(value("external_acceleration", place + 1)) / 100.0 * effort_share for place in range(len(external))
+    ]
+    options |= plan.scene.options(plan.external, external, shares, efforts)
     return _by_time(options, over) if speed.duration else options
 
 

@@ -64,18 +64,17 @@ class Scene:
         known = [self.axis(place + 1) for place in range(_SIX)]
         return tuple(axis is not None and axis.sliding for axis in known)
 
-    def options(self, start: External, goal: External, shares: list[float]) -> dict[str, Value]:
-        """External axes from one place to another as a request has them, at shares of their speed; nothing where there
-        are none."""
+    def options(self, start: External, goal: External, shares: list[float], efforts: list[float]) -> dict[str, Value]:
+        """External axes from one place to another as a request has them, at shares of their speed and acceleration;
+        nothing where there are none."""
         if not self.mechanisms and all(value is None for value in goal):
             return {}
         known = [self.axis(place + 1) for place in range(_SIX)]
         speeds = [axis.speed if axis is not None and axis.speed is not None else EXTERNAL_SPEED for axis in known]
         accs = [
-            None if axis is None or (axis.acceleration is None and axis.speed is None)
-            else axis.acceleration or (axis.speed or 0.0) / _RAMP_S
-            for axis in known
-        ]  # fmt: skip
+            ((axis.acceleration if axis is not None else None) or speed / _RAMP_S) * effort
+            for axis, speed, effort in zip(known, speeds, efforts, strict=True)
+        ]
         return {
             "external_start": tuple(value or 0.0 for value in start),
             "external_target": tuple(value or 0.0 for value in goal),
