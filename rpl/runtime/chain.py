@@ -504,11 +504,7 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
         "reduce_speed_near_singularity": value("path_limit_rule") == "reduce",
     }
     options |= _ramps(order, plan, effort_share)
-    shares = [float(value("external_speed", place + 1)) / 100.0 for place in range(len(external))]
-    efforts = [
-        float(value("external_acceleration", place + 1)) / 100.0 * effort_share for place in range(len(external))
-    ]
-    options |= plan.scene.options(plan.external, external, shares, efforts)
+    options |= _externals(order, plan, external, effort_share)
     return _by_time(options, over) if speed.duration else options
 
 
@@ -531,6 +527,17 @@ def _share(percent: Value, name: str, rules: Rules) -> float:
     """A percentage as a share, within what the controller takes."""
     least, most = rules.percent_limits.get(name, (1.0, math.inf))
     return min(max(float(percent), least), most) / 100.0
+
+
+def _externals(order: Order, plan: Planning, external: External, effort: float) -> dict[str, Value]:
+    """Where the external axes go, and their shares of speed and acceleration."""
+
+    def shares(name: str) -> list[float]:
+        places = range(1, len(external) + 1)
+        return [float(setting(plan.modal, order.modal, name, place)) / 100.0 for place in places]
+
+    efforts = [share * effort for share in shares("external_acceleration")]
+    return plan.scene.options(plan.external, external, shares("external_speed"), efforts)
 
 
 def _path_acceleration(order: Order, plan: Planning) -> float:
