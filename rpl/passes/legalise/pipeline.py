@@ -187,6 +187,7 @@ from rpl.passes.legalise.triggers import triggers
 from rpl.passes.legalise.truths import truths_to_numbers
 from rpl.passes.legalise.turnedways import turned_ways
 from rpl.passes.legalise.turningtimes import turning_times
+from rpl.passes.legalise.turningzones import full_zones, reduced_zones
 from rpl.passes.legalise.turns import told_turns
 from rpl.passes.legalise.undefined import asked_values
 from rpl.passes.legalise.undefinedparts import asked_elements
@@ -376,12 +377,14 @@ PASSES: tuple[Pass, ...] = (
     usual_accelerations,
     fit_speeds,
     corners,
+    reduced_zones,
     stand_before_ways,
     accelerations_of_moves,
     settings_of_one_move,
     corner_leads,
     corner_calls,
     modal_to_explicit,
+    full_zones,
     tool_data,
     own_places,
     mixed_speeds,
