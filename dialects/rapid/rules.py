@@ -48,6 +48,8 @@ _ADVANCE = AdvanceRules(
     runs_ahead_of="fly_by",
     lead_s=0.1,
     source="ABB RAPID Reference Manual, overview 5, 3.1 to 3.3: planning takes approx. 0.1 s, the servo's lag 0",
+    # M: number and name as published logs of controllers show them; the manual's list of events is not at hand.
+    late_corner="50024 Corner path failure: the corner path is executed as a stop point, the next move came too late",
 )
 
 _DEFAULTS: dict[str, float | bool | str] = {

@@ -157,6 +157,12 @@ def show(result: RunResult) -> None:
         click.echo(f"{t:9.3f} s  {name} = {str(value).upper() if isinstance(value, bool) else value}")
     for message in messages:
         click.echo(f"message    {message}")
+    for event in result.trace:
+        if event.kind == "warning":
+            data, origin = event.data, event.origin
+            click.echo(
+                f"{origin.file}:{origin.line}: warning {data['code']} {data['text']} (task {event.task})", err=True
+            )
     click.echo(f"{result.status} after {result.time_s:.3f} s, {result.moves} moves, {result.statements} statements")
     if isinstance(fault, dict):
         place = f"{fault['file']}:{fault['line']}: " if fault["file"] else ""

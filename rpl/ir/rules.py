@@ -20,6 +20,7 @@ class AdvanceRules:
     signals_stop: reading or writing a signal or an actual position waits for the motion to end.
     waits_queue: a time waited at rest is a move without a way: the robot keeps still, the program goes on.
     most: what the program may set `moves` to at most; 0: it cannot set it. source: where the numbers are from.
+    late_corner: with `fly_by`, what the controller logs when the next move comes too late for the corner.
     """
 
     moves: int
@@ -30,6 +31,7 @@ class AdvanceRules:
     waits_queue: bool = False
     most: int = 0
     source: str = ""
+    late_corner: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -208,10 +208,10 @@ def _move(row: MoveRow, labels: Labels) -> Row:
 
 
 def _marks(result: RunResult, labels: Labels) -> list[Row]:
-    """Messages and the fault, at their moments."""
+    """Messages, warnings and the fault, at their moments."""
     found: list[Row] = []
     for event in result.trace:
-        if event.kind in ("message", "fault") and len(found) < MOST_MARKS:
+        if event.kind in ("message", "warning", "fault") and len(found) < MOST_MARKS:
             text = str(event.data.get("text", event.data.get("message", "")))
             found.append(
                 {"t": round(event.t, 4), "kind": event.kind, "text": text, "label": labels.number(event.origin)}

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rpl.runtime import blocks, pathevents, pieces, resting, searching, stopping, velocities
+from rpl.runtime import blocks, latecorners, pathevents, pieces, resting, searching, stopping, velocities
 from rpl.runtime.chain import (
     Planning,
     pose_of_array,
@@ -234,6 +234,7 @@ class MotionQueue(RobotState):
         if following is not None:
             self._join(piece, following)
         elif piece.open_end and piece.drive.released:
+            latecorners.tell(self, piece.drive)
             self._settle(piece)
 
     def _rests(self, drive: Drive) -> bool:
@@ -371,6 +372,7 @@ class MotionQueue(RobotState):
             self._after_corner(following)
             return
         if piece.open_end:
+            latecorners.tell(self, piece.drive)
             piece.drive.blending = False
             self.piece = None
             self._drive(pieces.to_the_end(piece, now))

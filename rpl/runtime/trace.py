@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from rpl.emulator.planner import PlannedMove
     from rpl.runtime.payloads import Payload
 
-KINDS = ("move", "output", "input", "message", "wait", "call", "fault", "end")
+KINDS = ("move", "output", "input", "message", "warning", "wait", "call", "fault", "end")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
