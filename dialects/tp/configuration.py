@@ -145,7 +145,7 @@ class TpNotation:
             wanted[:, :3] = np.where(np.isnan(wanted[:, :3]), self.encode_all(model, near)[:, :3], wanted[:, :3])
         flip, down, back = (wanted[:, place, None] for place in range(3))
         absent = [3 + place for place, axis in enumerate(TURN_AXES.values()) if axis >= model.axes]
-        turned = np.nan_to_num(wanted[:, absent]).any(axis=1)[:, None]  # a turn of an axis that the arm has not
+        turned = np.asarray(np.nan_to_num(wanted[:, absent]).any(axis=1))[:, None]  # turns of axes that it has not
 
         def fits(found: Candidates) -> BoolArray:
             shoulder, elbow = found.sides[None, :, 0], found.sides[None, :, 1]
