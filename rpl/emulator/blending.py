@@ -369,6 +369,7 @@ def _driven(
     joints, poses = geometry.joints(ends), geometry.tcp(ends)
     corner = PlannedMove(
         kind="corner",
+        controller=first.controller,
         start_joints=joints[0],
         end_joints=joints[1],
         start_pose=poses[0],

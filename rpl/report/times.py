@@ -18,6 +18,7 @@ import numpy as np
 from rpl.source import Origin
 
 if TYPE_CHECKING:
+    from rpl.controllers import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.emulator.planner import PlannedMove
     from rpl.runtime.trace import Event, Leg, RunResult
@@ -152,22 +153,48 @@ def _effects(leg: Leg, model: RobotModel) -> Effects:
     """How much shorter and longer a leg may be, by the parameters of its controller and arm."""
     plan, declared = leg.plan, leg.plan.controller.uncertainty
     if plan.kind == "corner":
-        share = declared.get("corner", 0.0)
-        return {"corner": (leg.duration_s * share / (1.0 + share), leg.duration_s * share)} if share else {}
+        return _effects_of_corner(plan)
     joint = plan.kind == "joint"
-    ramped = (plan.controller.joint_ramp_s if joint else plan.controller.path_ramp_s) > 0.0
     speed_share = declared.get("joint_speed", UNVERIFIED if model.uncertain_axes else 0.0) if joint else 0.0
-    ramp = ("joint_" if joint else "path_") + ("ramp_s" if ramped else "acceleration")
     smoothing = "joint_smoothing_s" if joint else "path_smoothing_s"
     found: Effects = {}
     for name, share, quick, slow in (
         ("joint_speed", speed_share, {"speed": 1.0 + speed_share}, {"speed": 1.0 / (1.0 + speed_share)}),
-        _by("acceleration", ramp, declared.get(ramp, 0.0)),
+        *(_by("acceleration", name, declared.get(name, 0.0)) for name in _ramps(plan.controller, joint)),
         _by("smoothing_s", smoothing, declared.get(smoothing, 0.0) if plan.profile.smoothing_s > 0.0 else 0.0),
     ):
         if share > 0.0:
             found[name] = (leg.duration_s * (1.0 - _ratio(plan, quick)), leg.duration_s * (_ratio(plan, slow) - 1.0))
     return {name: (max(early, 0.0), max(late, 0.0)) for name, (early, late) in found.items()}
+
+
+def _ramps(controller: MotionModel, joint: bool) -> list[str]:
+    """The parameters that may decide how long a move speeds up: its ramp, and the acceleration where that is lower."""
+    kind = "joint" if joint else "path"
+    ramps = [f"{kind}_ramp_s", "joint_ramp_deg"] if joint else [f"{kind}_ramp_s"]
+    return [*(name for name in ramps if getattr(controller, name) > 0.0), f"{kind}_acceleration"]
+
+
+def _effects_of_corner(plan: PlannedMove) -> Effects:
+    """`corner` is the error of the time in a corner as such. Its speed goes with the root of the acceleration that
+    holds it; where two moves overlap, it lasts in proportion to the overlap and to the ramp beside it."""
+    from rpl.emulator.blending import JointCorner
+
+    controller, declared = plan.controller, plan.controller.uncertainty
+    powers = {"corner": 1.0}
+    if isinstance(plan.geometry, JointCorner):
+        powers["joint_acceleration"] = 0.5
+    else:
+        held = controller.corner_acceleration_mm_s2 is not None
+        powers["corner_acceleration_mm_s2" if held else "path_acceleration"] = 0.5
+    if controller.overlap:
+        powers |= {"overlap": 1.0, "corner_ramp_s": 1.0}
+    found: Effects = {}
+    for name, power in powers.items():
+        wrong = (1.0 + declared.get(name, 0.0)) ** power
+        if wrong > 1.0:
+            found[name] = (plan.duration_s * (1.0 - 1.0 / wrong), plan.duration_s * (wrong - 1.0))
+    return found
 
 
 def _by(field: str, name: str, share: float) -> tuple[str, float, dict[str, float], dict[str, float]]:
@@ -181,6 +208,8 @@ def _ratio(plan: PlannedMove, factors: dict[str, float]) -> float:
     if plan.duration_s <= 0.0 or not np.isfinite(plan.profile.speed):
         return 1.0
     changed = replace(plan.profile, **{name: getattr(plan.profile, name) * factor for name, factor in factors.items()})
+    if changed.deceleration is not None:
+        changed = replace(changed, deceleration=changed.deceleration * factors.get("acceleration", 1.0))
     begin, end = plan.span
     first, last = (float(speed) * (end - begin) for speed in (plan.law.speeds[0], plan.law.speeds[-1]))
     top = changed.speed
