@@ -2,7 +2,7 @@
 
 import re
 
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from rpl import ir
@@ -60,7 +60,8 @@ TOKENS = re.compile(r"\s*(?:(\d+)|([A-Za-z_]\w*)|(\*\*|\|\||&&|==|[-+*%^!=()]))"
 
 
 class Reader:
-    """Precedence climbing by the table itself: a prefix operator takes what binds tighter than itself."""
+    """Precedence climbing by the table itself: a prefix operator takes what binds tighter than itself, and another
+    prefix operator that does not."""
 
     def __init__(self, text: str, table: OperatorTable) -> None:
         self.tokens = [match.group().strip() for match in TOKENS.finditer(text)]
@@ -91,7 +92,9 @@ class Reader:
     def prefix(self) -> ir.Expression:
         if self.peek() in self.unary:
             op, operator = self.unary[self.take()]
-            operand = self.prefix() if self.peek() in self.unary else self.expression(operator.level + 1)
+            further = self.unary.get(self.peek())
+            loose = further is not None and further[1].level <= operator.level
+            operand = self.prefix() if loose else self.expression(operator.level + 1)
             if op == "-" and isinstance(operand, ir.IntLiteral):
                 return ir.IntLiteral(-operand.value)
             return ir.Unary(op, operand)
@@ -122,6 +125,7 @@ expressions = st.recursive(
 
 
 @given(expressions, st.sampled_from(sorted(TABLES)))
+@example(ir.Unary("not", ir.Binary("-", ir.Binary("+", ir.IntLiteral(-1), ir.Name("c")), ir.Name("a"))), "not loose")
 def test_reading_back_gives_the_same_tree(expression: ir.Expression, name: str) -> None:
     table = TABLES[name]
     text = ExpressionPrinter(table, atoms).text(expression)

@@ -160,7 +160,8 @@ def _assignments() -> st.SearchStrategy[str]:
         st.tuples(_values(), _values()).map(lambda t: f"p = {t[0]} < {t[1]}"),
         st.tuples(_places(), _values()).map(lambda t: f"IF p THEN SET do[1] TO {t[0]} < {t[1]}"),
         st.tuples(_values(), _values()).map(
-            lambda t: f"FOR j = 1 TO 3\nlist[j] = j\nMESSAGE value_text({t[0]} = {t[1]})\nEND FOR"
+            # behind the loop j is past the arrays, where the source would stop and numbered storage goes on
+            lambda t: f"FOR j = 1 TO 3\nlist[j] = j\nMESSAGE value_text({t[0]} = {t[1]})\nEND FOR\nj = 2"
         ),
     )
 
