@@ -121,7 +121,7 @@ class MotionQueue(RobotState):
         assert pieces.is_planned(planned)  # it is either
         self.planned_joints, self.planned_external = planned.end_joints, external
         drive = Drive(number, order, planned, moving, goal, external)
-        drive.blending = not order.blend.stops and order.search is None
+        drive.blending = order.search is None and pieces.may_blend(order.blend, planned)
         drive.sliding = self.machine.scene.sliding()
         return drive
 

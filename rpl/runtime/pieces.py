@@ -279,6 +279,13 @@ def blend_size(
     return None, None
 
 
+def may_blend(order: BlendOrder, move: PlannedMove) -> bool:
+    """May there be a corner behind the move? A distance of zero is a stop, before the next move is known."""
+    if order.stops:
+        return False
+    return order.kind != "distance" or blend_size(order, move, None) != (None, None)
+
+
 def _turn_share(rotation: float | None, move: PlannedMove) -> float | None:
     """Which share of the move turns the tool by that many degrees at its end."""
     if not rotation:

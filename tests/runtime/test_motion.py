@@ -320,3 +320,18 @@ def test_in_rpl_a_move_with_a_blend_lets_the_program_go_on_where_the_corner_begi
     assert result.outputs[0][0] == pytest.approx(corner.start_s, abs=1e-6)
     speed = [float(leg.plan.law.speed_at(leg.duration_s)) for leg in moves(result)[2].legs]
     assert speed[-2] > 0.0  # it did not stop there
+
+
+def test_a_corner_whose_computed_size_is_zero_is_a_stop() -> None:
+    text = (
+        "MODULE m\nVAR size: REAL = 0.0\nPROCEDURE main()\nMOVE TO {j1: 0, j2: 0, j3: 0, j4: 0, j5: 30, j6: 0}\n"
+        "MOVE LINEAR TO {x: 350, y: 0, z: 400, a: 0, b: 150, c: 0} SPEED 200 mm/s\n"
+        "MOVE LINEAR TO {x: 350, y: 100, z: 400, a: 0, b: 150, c: 0} SPEED 200 mm/s BLEND size mm\n"
+        "MOVE LINEAR TO {x: 350, y: 100, z: 300, a: 0, b: 150, c: 0} SPEED 200 mm/s\n"
+        "END PROCEDURE\nEND MODULE\n"
+    )
+    rounded, stopping = run("rpl", text, robot=ABB), run("rpl", text.replace(" BLEND size mm", ""), robot=ABB)
+    assert rounded.status == "finished", rounded.fault
+    (leg,) = moves(rounded)[2].legs
+    assert float(leg.plan.law.speed_at(leg.duration_s)) == pytest.approx(0.0, abs=1e-6)
+    assert ends(rounded) == pytest.approx(ends(stopping))
