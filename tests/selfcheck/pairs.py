@@ -102,6 +102,7 @@ PROJECTS = {
     "vplus_more_boards": Project(VIPER, 16, "boards"),
     "inform_more_bags": Project(YASKAWA, 16, "BAGMAIN"),
     "rpl_more_measuring": Project(KUKA, 16),
+    "rapid_more_coating": Project(ABB, 20),
 }
 TARGETS = list(registry.target_names())
 
