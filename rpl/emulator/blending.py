@@ -469,4 +469,4 @@ def _acceleration_share(model: RobotModel, move: PlannedMove) -> float:
 
 
 def _external(move: PlannedMove, fraction: float) -> FloatArray:
-    return np.asarray(move.external_start + fraction * (move.external_end - move.external_start))
+    return move.external_along(np.asarray(fraction))

@@ -92,16 +92,37 @@ class Carrier:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class ExternalWay:
+    """External axes smoothly through several points: coefficients (m, e, 6) over 0..1 of the pieces between the
+    fractions `marks` (m+1,) of a move."""
+
+    coefficients: FloatArray
+    marks: FloatArray
+
+    def at(self, fraction: FloatArray) -> FloatArray:
+        """External axes (..., e) at fractions (...)."""
+        s = np.asarray(fraction, dtype=np.float64)
+        holder = np.clip(np.searchsorted(self.marks, s, side="right") - 1, 0, len(self.marks) - 2)
+        u = (s - self.marks[holder]) / (self.marks[holder + 1] - self.marks[holder])
+        chosen = self.coefficients[holder]
+        value = chosen[..., -1]
+        for power in range(chosen.shape[-1] - 2, -1, -1):
+            value = value * u[..., None] + chosen[..., power]
+        return np.asarray(value)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Carried:
     """A carrier while external axes go from the first to the last of the `control` points (m, e): evenly with two, on
-    the parabola with three, on the cubic with four."""
+    the parabola with three, on the cubic with four; or as `way` says."""
 
     carrier: Carrier
     control: FloatArray
+    way: ExternalWay | None = None
 
     def external(self, fraction: FloatArray) -> FloatArray:
         """External axes (k, e) at fractions (k,) of the move."""
-        return along(self.control, fraction)
+        return along(self.control, fraction) if self.way is None else self.way.at(fraction)
 
     def flanges(self, work: FloatArray, fraction: FloatArray) -> FloatArray:
         """Flange poses (k, 4, 4) of tool poses in the work at fractions (k,)."""

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from rpl.controllers import PLAIN, MotionModel
 from rpl.emulator.configuration import Selection
-from rpl.emulator.mechanisms import Carried, Carrier, along
+from rpl.emulator.mechanisms import Carried, Carrier, ExternalWay, along
 from rpl.emulator.model import RobotModel
 from rpl.emulator.paths import Arc, Line, Path, arc_through
 from rpl.emulator.rotations import FloatArray, invert_pose, pose_matrix, rotation_angle
@@ -77,13 +77,14 @@ class MoveRequest:
     external_accs: tuple[float | None, ...] = ()
     external_limits: tuple[tuple[float, float] | None, ...] = ()
     carrier: Carrier | None = None
+    external_way: ExternalWay | None = None
 
     def carried(self) -> Carried | None:
         """The carrier over the external axes of this move."""
         if self.carrier is None:
             return None
         start = self.external_start or (0.0,)
-        return Carried(self.carrier, np.array([start, self.external_target or start], dtype=np.float64))
+        return Carried(self.carrier, np.array([start, self.external_target or start]), self.external_way)
 
 
 class Geometry(Protocol):
@@ -232,6 +233,7 @@ class PlannedMove:
     external_end: FloatArray
     controller: MotionModel = PLAIN
     external_middle: FloatArray | None = None  # of a corner: inner control points (m, e) of the external axes' curve
+    external_way: ExternalWay | None = None
 
     def _fraction(self, time_s: ArrayLike) -> FloatArray:
         begin, end = self.span
@@ -257,8 +259,14 @@ class PlannedMove:
 
     def external_at(self, time_s: ArrayLike) -> FloatArray:
         """External axes at a time (e,) or at times (k, e)."""
+        return self.external_along(self._fraction(time_s))
+
+    def external_along(self, fraction: FloatArray) -> FloatArray:
+        """External axes (..., e) at fractions (...) of the move."""
+        if self.external_way is not None:
+            return self.external_way.at(fraction)
         middle = () if self.external_middle is None else tuple(self.external_middle)
-        return along(np.stack([self.external_start, *middle, self.external_end]), self._fraction(time_s))
+        return along(np.stack([self.external_start, *middle, self.external_end]), fraction)
 
     def time_at_distance_from_start(self, distance_mm: float) -> float:
         """The time at which the tool centre point has travelled that far; at most the whole duration."""
@@ -425,7 +433,7 @@ def _plan_path(model: RobotModel, start: FloatArray, request: MoveRequest) -> Pl
     if carried is not None and request.orientation == "wrist_joints":
         text = "evenly moving wrist joints go with a tool on the robot and a frame that stands still"
         return MotionFault("bad_target", text)
-    path = _path(model, _tool_at(model, start, request, 0.0), request)
+    path = _path(model, tool_at(model, start, request, 0.0), request)
     if isinstance(path, MotionFault):
         return path
     track = path_track(model, start, path, request)
@@ -456,7 +464,7 @@ def _over(rate: float, way: float) -> float:
     return rate / way if way > 1e-9 else np.inf
 
 
-def _tool_at(model: RobotModel, joints: FloatArray, request: MoveRequest, fraction: float) -> FloatArray:
+def tool_at(model: RobotModel, joints: FloatArray, request: MoveRequest, fraction: float) -> FloatArray:
     """Where the tool is (4, 4), as the poses of the request count, at the start (0) or end (1) of the external axes."""
     carried = request.carried()
     flange = model.forward(joints)
@@ -465,7 +473,7 @@ def _tool_at(model: RobotModel, joints: FloatArray, request: MoveRequest, fracti
 
 def _path(model: RobotModel, first: FloatArray, request: MoveRequest) -> Path | MotionFault:
     if request.target_pose is None:
-        goal = _tool_at(model, request.target_joints if request.target_joints is not None else model.home, request, 1.0)
+        goal = tool_at(model, request.target_joints if request.target_joints is not None else model.home, request, 1.0)
     else:
         goal = request.target_pose
     constant = request.orientation == "constant"
@@ -587,4 +595,5 @@ def finished(request: MoveRequest, geometry: Geometry, profile: Profile) -> Plan
         external_start=begin,
         external_end=goal,
         controller=request.controller,
+        external_way=request.external_way,
     )

@@ -15,6 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rpl.emulator.mechanisms import ExternalWay, along
 from rpl.emulator.model import RobotModel
 from rpl.emulator.planner import (
     Geometry,
@@ -26,13 +27,14 @@ from rpl.emulator.planner import (
     finished,
     joint_target,
     path_track,
+    tool_at,
     within_axis_speeds,
 )
 from rpl.emulator.rotations import FloatArray, pose_matrix, rotation_angle, rotation_vector_to_matrix
 from rpl.emulator.splinerules import BlockRule, ruled
 from rpl.emulator.timelaw import Profile, mean_acceleration, of_constant_time
 from rpl.emulator.tracking import MotionFault
-from rpl.passes.curves import SAME_MM, Leg, Segment, block, smooth_numbers
+from rpl.passes.curves import SAME_MM, Leg, Segment, block, cubic, smooth_numbers
 from rpl.passes.rigid import Pose, pose_of_matrix
 
 Kind = Literal["joint", "linear", "circular", "spline"]
@@ -226,9 +228,11 @@ def _planned_runs(
             return BlockFault(number, fault)
     if all(kind == "joint" for kind in kinds):
         return _plan_joints(model, start, requests)
+    if requests[0].carrier is not None and any(one.orientation == "wrist_joints" for one in requests):
+        text = "evenly moving wrist joints go with a tool on the robot and a frame that stands still"
+        return BlockFault(0, MotionFault("bad_target", text))
     legs = [_leg(model, request, kind) for request, kind in zip(requests, kinds, strict=True)]
-    tool = requests[0].tool
-    runs = block(pose_of_matrix((model.forward(start) @ tool).tolist()), legs, mean)
+    runs = block(pose_of_matrix(tool_at(model, start, requests[0], 0.0).tolist()), legs, mean)
     if isinstance(runs, int):
         flat = "the three points lie on a line or coincide: they fix no circle"
         return BlockFault(runs, MotionFault("degenerate_circle", flat))
@@ -247,8 +251,8 @@ def _planned_runs(
 def _leg(model: RobotModel, request: MoveRequest, kind: Kind) -> Leg:
     target = request.target_pose
     if target is None:
-        target = model.forward(request.target_joints if request.target_joints is not None else model.home)
-        target = target @ request.tool
+        joints = request.target_joints if request.target_joints is not None else model.home
+        target = tool_at(model, joints, request, 1.0)
     via: Pose | None = pose_of_matrix(request.via_pose.tolist()) if request.via_pose is not None else None
     return Leg(
         _LEGS.get(kind, "spline"),
@@ -267,8 +271,8 @@ def _plan_run(
     # M: with evenly moving wrist joints they move evenly over the whole run, whatever its points say.
     by_wrist = any(request.orientation == "wrist_joints" for request in requests)
     mode: Literal["wrist_joints", "interpolated"] = "wrist_joints" if by_wrist else "interpolated"
-    whole = replace(requests[-1], kind="spline", orientation=mode, external_start=requests[0].external_start)
     marks = np.linspace(0.0, 1.0, len(segments) + 1) if path.length_mm < SAME_MM else path.marks / path.length_mm
+    whole = replace(_with_external(requests, marks), kind="spline", orientation=mode)
     track = path_track(model, start, path, whole)
     if isinstance(track, MotionFault):
         return _at_segment(marks, track)
@@ -277,15 +281,62 @@ def _plan_run(
             reason = request.check_end(track.at(marks[number + 1 : number + 2])[0])
             if reason is not None:
                 return BlockFault(number, MotionFault("configuration", reason, None, 1.0))
-    geometry: Geometry = PathGeometry(model, path, whole.tool, track)
+    geometry: Geometry = PathGeometry(model, path, whole.tool, track, whole.carried())
     if by_wrist:
         geometry = WristGeometry(model, path, whole.tool, track)
-    own = _driven_by(whole, _profile(path, requests), joint=False)
+    own = _driven_by(whole, _beside(_profile(path, requests), whole, marks), joint=False)
     profile = within_axis_speeds(model, track, own, whole)
     if isinstance(profile, MotionFault):
         return _at_segment(marks, profile)
     move = finished(whole, geometry, profile if profile is own else _lower(own, profile))
     return Run(move, tuple(float(mark) for mark in marks[1:]))
+
+
+def _with_external(requests: Sequence[MoveRequest], marks: FloatArray) -> MoveRequest:
+    """The last request of a run for all of it: external axes go smoothly through what each point says (M)."""
+    first, last = requests[0], requests[-1]
+    points = [first.external_start, *(one.external_target or one.external_start for one in requests)]
+    whole = replace(last, external_start=first.external_start)
+    spans = np.diff(marks)
+    if len(requests) == 1 or not any(a != b for a, b in pairwise(points)) or spans.min() < 1e-9:
+        return whole
+    places = np.array(points, dtype=np.float64)
+    rates = _steady_rates(places, spans)
+    ends = [(tuple(a), tuple(b)) for a, b in pairwise(places.tolist())]
+    pieces = [cubic(ends[at], (tuple(rates[at]), tuple(rates[at + 1])), float(span)) for at, span in enumerate(spans)]
+    return replace(whole, external_way=ExternalWay(np.array(pieces), marks))
+
+
+def _steady_rates(places: FloatArray, spans: FloatArray) -> FloatArray:
+    """Rates (m+1, e) at points with which the cubics between them never turn back (Fritsch and Butland 1984)."""
+    slopes = np.diff(places, axis=0) / spans[:, None]
+    before, behind = slopes[:-1], slopes[1:]
+    short, long = spans[:-1, None], spans[1:, None]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        mean = 3.0 * (short + long) / ((short + 2.0 * long) / behind + (2.0 * short + long) / before)
+    inner = np.where(before * behind > 0.0, mean, 0.0)
+    return np.vstack([slopes[:1], inner, slopes[-1:]])
+
+
+def _beside(profile: Profile, whole: MoveRequest, marks: FloatArray) -> Profile:
+    """The profile with the ceilings of external axes that move on a run."""
+    if not whole.external_speeds or (whole.external_way is None and whole.external_start == whole.external_target):
+        return profile
+    knots = np.unique(np.concatenate([np.linspace(a, b, _CEILINGS + 1) for a, b in pairwise(marks)]))
+    ends = np.array([whole.external_start, whole.external_target or whole.external_start], dtype=np.float64)
+    places = along(ends, knots) if whole.external_way is None else whole.external_way.at(knots)
+    speeds = np.array(whole.external_speeds[: places.shape[1]])
+    rates = (np.abs(np.diff(places, axis=0)) / np.diff(knots)[:, None])[:, : len(speeds)]
+    given = (*whole.external_accs, *(None for _ in speeds))[: len(speeds)]
+    efforts = np.array([top / 0.3 if own is None else own for own, top in zip(given, speeds, strict=True)])
+    with np.errstate(divide="ignore"):
+        ceilings = np.min(speeds / rates, axis=1)
+        acceleration = float(np.min(efforts / rates))
+    beside = Profile(float(ceilings.max()), min(profile.acceleration, acceleration), knots, ceilings)
+    if not np.isfinite(beside.speed) and not np.isfinite(profile.speed):
+        return profile
+    lowered = _lower(profile, beside)
+    return replace(lowered, acceleration=min(profile.acceleration, acceleration))
 
 
 def _at_segment(marks: FloatArray, fault: MotionFault) -> BlockFault:
@@ -436,8 +487,9 @@ def _plan_joints(model: RobotModel, start: FloatArray, requests: Sequence[MoveRe
     way = np.linalg.norm(np.diff(bare.tcp(fine)[:, :3, 3], axis=0), axis=1)
     geometry = replace(bare, knots=fine, travelled=np.insert(np.cumsum(way), 0, 0.0))
     profile = _joint_profile(model, geometry, [shares[number] for number in kept], requests, kept)
-    profile = _driven_by(requests[-1], profile, joint=True)
-    return [Run(finished(requests[-1], geometry, profile), tuple(float(mark) for mark in marks[1:]))]
+    whole = _with_external(requests, marks)
+    profile = _driven_by(whole, _beside(profile, whole, marks), joint=True)
+    return [Run(finished(whole, geometry, profile), tuple(float(mark) for mark in marks[1:]))]
 
 
 def _joint_profile(

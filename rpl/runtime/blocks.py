@@ -1,8 +1,8 @@
 """Spline blocks in the motion queue: all points of a block are known before the robot begins it, and each smooth run of
 it is one move. In the trace every segment is a move of its own, which begins and ends on the way.
 
-A block that the emulator has no curve for (external axes that move, a carried frame, a stationary tool, a search in it)
-is driven point by point, each way straight and with a stop at its end.
+A block that the emulator has no curve for (a search in it, joints in a carried frame, points of several
+tools or carried frames) is refused with the line of its point.
 """
 
 from __future__ import annotations
@@ -57,7 +57,8 @@ def planned(queue: MotionQueue, order: Order, old: Drive | None = None) -> list[
         for one in order.block:
             one.payloads = order.payloads
         asked = [*_asked(queue, (*order.block, order))]
-        return _runs(queue, asked) if _is_curve(queue, asked) else _singly(queue, [one.order for one in asked])
+        refused = _no_curve(asked)
+        return refused if refused is not None else _runs(queue, asked)
     drive = queue._planned(order, old.number if old is not None else _number(queue))
     return [drive] if isinstance(drive, Drive) else Refused(drive, order)
 
@@ -108,15 +109,27 @@ def _behind(model: RobotModel, request: MoveRequest, joints: FloatArray) -> Floa
     return chosen if chosen is not None else joints
 
 
-def _is_curve(queue: MotionQueue, asked: Sequence[_Asked]) -> bool:
-    tool = asked[0].request.tool
-    return all(
-        one.external == queue.planned_external
-        and one.order.search is None
-        and one.request.carrier is None
-        and abs(one.request.tool - tool).max() < _SAME_TOOL
-        for one in asked
-    )
+def _no_curve(asked: Sequence[_Asked]) -> Refused | None:
+    """What of a block no curve is known for: it is refused, with the point where it begins to be so."""
+    from rpl.emulator.planner import MotionFault
+
+    first = asked[0].request
+    for one in asked:
+        why = ""
+        carrier = one.request.carrier
+        if one.order.search is not None:
+            why = "a search"
+        elif carrier is not None and one.order.kind == "joint":
+            why = "joint motions in a frame that moves or with a tool fixed in the room"
+        elif abs(one.request.tool - first.tool).max() > _SAME_TOOL:
+            why = "another tool than its first point"
+        elif (carrier is None) != (first.carrier is None) or (
+            carrier is not None and first.carrier is not None and not carrier.same_work(first.carrier)
+        ):
+            why = "another carried frame than its first point"
+        if why:
+            return Refused(MotionFault("no_curve", f"a spline block has no curve for {why}"), one.order)
+    return None
 
 
 def _runs(queue: MotionQueue, asked: Sequence[_Asked]) -> list[Drive] | Refused:
@@ -135,7 +148,7 @@ def _runs(queue: MotionQueue, asked: Sequence[_Asked]) -> list[Drive] | Refused:
         before += len(run.marks)
         rules = _within(asked[-1].order.path_rules, before - len(part), before)
         done.append(_drive(queue, run, part, before == len(asked), rules))
-    queue.planned_joints = found[-1].move.end_joints
+    queue.planned_joints, queue.planned_external = found[-1].move.end_joints, asked[-1].external
     return done
 
 
@@ -183,21 +196,6 @@ def _triggers(move: PlannedMove, marks: Sequence[float], orders: Sequence[Order]
             elif place >= whole:
                 moved.reference, moved.distance = trigger.reference if not begins else "end", None
             done.append(moved)
-    return done
-
-
-def _singly(queue: MotionQueue, orders: Sequence[Order]) -> list[Drive] | Refused:
-    """Point by point, the last one with the block's corner."""
-    stood = queue.planned_joints, queue.planned_external
-    done: list[Drive] = []
-    for order in orders:
-        kind = "linear" if order.kind == "spline" else order.kind
-        blend = order.blend if order is orders[-1] else _STOP
-        drive = queue._planned(replace(order, kind=kind, block=(), blend=blend), _number(queue))
-        if not isinstance(drive, Drive):
-            queue.planned_joints, queue.planned_external = stood
-            return Refused(drive, order)
-        done.append(drive)
     return done
 
 

@@ -43,7 +43,7 @@ def _place(queue: MotionQueue, drive: Drive, plan: PlannedMove, share: float) ->
     before = queue.external
     if len(plan.external_end) != len(before):
         return joints, before
-    values = (1.0 - share) * plan.external_start + share * plan.external_end
+    values = plan.external_along(np.array(share))
     named = zip(values, before, drive.external, strict=True)
     return joints, tuple(None if old is None and new is None else float(value) for value, old, new in named)
 

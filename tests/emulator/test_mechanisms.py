@@ -11,7 +11,10 @@ from rpl.emulator.mechanisms import Carrier, mechanism_pose
 from rpl.emulator.model import load_robot
 from rpl.emulator.planner import MotionFault, MoveRequest, PlannedMove, plan
 from rpl.emulator.rotations import FloatArray, pose_matrix, rotation_angle, slerp, zyx_to_matrix
+from rpl.emulator.splines import plan_block, spline_path
 from rpl.errors import UsageError
+from rpl.passes.curves import Leg, block
+from rpl.passes.rigid import pose_of_matrix
 
 ROBOT = load_robot("abb_irb4600_60_205")
 START = np.array([10.0, 20.0, 10.0, 15.0, 40.0, -30.0])
@@ -282,3 +285,38 @@ def test_work_and_flange_are_always_each_others_inverse(
     )  # fmt: skip
     flange, at = ROBOT.forward(np.array(joints))[None], np.array([external])
     assert carrier.flanges(carrier.in_work(flange, at), at) == pytest.approx(flange, abs=1e-8)
+
+
+def test_a_spline_block_is_exact_in_a_frame_that_turns() -> None:
+    """Its path is that of the same block in a frame that stands still; the table passes what each point says."""
+    carrier = Carrier(TOOL, np.eye(4), mount=made(TABLE))
+    first = work_of(carrier, START, np.zeros(2))
+    goals = [goal_from(first, way, (0, 0, 0)) for way in ((20, 30, 0), (50, 20, 10), (70, 60, 10))]
+    turns, before = (10.0, 15.0, 40.0), (0.0, 0.0)
+    requests = []
+    for goal, turn in zip(goals, turns, strict=True):
+        after = (0.0, turn)
+        requests.append(
+            MoveRequest(
+                "linear", target_pose=goal, carrier=carrier, external_start=before, external_target=after,
+                external_speeds=(500.0, 90.0), tool=TOOL,
+            )
+        )  # fmt: skip
+        before = after
+    found = plan_block(ROBOT, START, requests, ["spline"] * 3)
+    assert isinstance(found, list)
+    (run,) = found
+    move = run.move
+    shares = np.linspace(0.0, 1.0, 41)
+    external, tools = move.external_along(shares), move.geometry.tcp(shares)
+    assert carrier.in_work(ROBOT.forward(move.geometry.joints(shares)), external) == pytest.approx(tools, abs=1e-6)
+    assert move.external_along(np.array(run.marks))[:, 1] == pytest.approx(turns)
+    assert (np.diff(external[:, 1]) > -1e-9).all()
+    legs = [Leg("spline", pose_of_matrix(goal.tolist())) for goal in goals]
+    runs = block(pose_of_matrix(first.tolist()), legs)
+    assert isinstance(runs, list)
+    (segments,) = runs
+    still = spline_path(segments)
+    assert tools == pytest.approx(still.poses(shares), abs=1e-6)
+    steps = np.diff(move.external_at(np.linspace(0.0, move.duration_s, 400))[:, 1]) / (move.duration_s / 399)
+    assert steps.max() <= 90.0 + 1e-6

@@ -208,11 +208,39 @@ def test_a_joint_block_is_one_smooth_move() -> None:
     assert points[-1].data["joints"][0] == pytest.approx(35.0, abs=1e-6)
 
 
-def test_moving_external_axes_make_a_block_of_straight_moves() -> None:
-    """A limit of the model."""
-    far = block().replace(place(POINTS[3]), place(POINTS[3]).replace("}", ",E1 100}"))
-    points = moves(krl(INIT + far, robot=KUKA))[2:]
-    assert [event.stops for event in points] == [True] * 4
+def external(event: Event, count: int = 9) -> Any:
+    """External axis 1 at even moments of a move."""
+    (leg,) = event.legs
+    return leg.plan.external_at(leg.offset_s + np.linspace(0.0, leg.duration_s, count))[:, 0]
+
+
+def test_moving_external_axes_go_smoothly_through_what_the_points_say() -> None:
+    """The path is the same as without them; M: between the points their way is smooth."""
+    lines = block()
+    for value, point in zip((10, 30, 80, 100), POINTS, strict=True):
+        lines = lines.replace(place(point), place(point).replace("}", f",E1 {value}}}"))
+    points = moves(krl(INIT + "LIN_REL {E1 0}\n" + lines, robot=KUKA))[3:]
+    assert [event.stops for event in points] == [False, False, False, True]
+    assert [event.data["xyz_mm"] for event in points] == [pytest.approx(point, abs=1e-4) for point in POINTS]
+    assert [external(event)[-1] for event in points] == pytest.approx([10, 30, 80, 100], abs=1e-3)
+    together = np.concatenate([external(event) for event in points])
+    assert (np.diff(together) > -1e-6).all()
+
+
+def test_an_external_axis_that_is_slow_slows_the_block_down() -> None:
+    far = block().replace(place(POINTS[3]), place(POINTS[3]).replace("}", ",E1 1000}"))
+    points = moves(krl(INIT + "LIN_REL {E1 0}\n" + far, robot=KUKA))[3:]
+    assert external(points[-1])[-1] == pytest.approx(1000.0)
+    assert sum(event.data["duration"] for event in points) > 1000.0 / 500.0  # M: 500 mm/s where nothing is known
+
+
+def test_what_has_no_curve_is_refused_with_its_line() -> None:
+    other = block().replace(
+        f"SPL {place(POINTS[2])}", f"SPL {place(POINTS[2])} WITH $TOOL={{X 0,Y 0,Z 50,A 0,B 0,C 0}}"
+    )
+    result = krl(INIT + other, robot=KUKA)
+    assert result.fault is not None and (result.fault.code, result.fault.origin.line) == ("no-curve", 15)
+    assert "another tool" in result.fault.message
 
 
 def test_without_a_robot_every_point_is_made_at_once() -> None:
