@@ -14,7 +14,8 @@ from rpl.reading.pieces import Block, Item, ModulePart
 
 from . import modal, tables
 from .header import Header
-from .motion import MISSING_POSITION, NOT_TAUGHT
+from .motion import MISSING_POSITION, NOT_TAUGHT, SECOND_ARM
+from .positions import parse_position
 from .statements import CHOSEN_NUMBER, CHOSEN_TRUTH, HIT, TIMED_OUT
 
 MISPLACED = code("tp-misplaced", Severity.ERROR, "{what} cannot stand here")
@@ -162,7 +163,11 @@ class Builder:
                     missing[name] = ir.Variable(name, ir.TargetType("tp"), None, "persistent", "routine")
                 elif known.initial is None and name not in written:
                     reported.add(name)
-                    self.diagnostics.report(NOT_TAUGHT, move.origin, number=name[1:])
+                    group = parse_position(known.origin.text).second_arm
+                    if group is not None:
+                        self.diagnostics.report(SECOND_ARM, move.origin, number=name[1:], group=group)
+                    else:
+                        self.diagnostics.report(NOT_TAUGHT, move.origin, number=name[1:])
         return (*found.values(), *missing.values())
 
 

@@ -35,6 +35,12 @@ MISSING_POSITION = code(
     Severity.WARNING,
     "this listing has no position P[{number}]; the controller stops at this move",
 )
+SECOND_ARM = code(
+    "tp-second-arm",
+    Severity.WARNING,
+    "P[{number}] has places of two arms, in groups 1 and {group}; one arm is driven here, and a run stops at this move",
+    "give each arm a program of its own",
+)
 KINDS = {"J": "joint", "L": "linear", "C": "circular", "A": "linear", "S": "spline"}
 
 
@@ -58,6 +64,7 @@ class Options:
     orientation: str | None = None
     vendor: list[tuple[str, str]] = field(default_factory=list)
     coordinated: bool = False
+    remote: bool = False
 
 
 class Motion(Statements):
@@ -204,6 +211,8 @@ class Motion(Statements):
                 options.incremental = True
             case "wjnt":
                 options.orientation = "wrist"
+            case "rtcp":
+                options.remote = True
             case lower:
                 options.vendor.append((word, "tuning" if lower in tables.HARMLESS_OPTIONS else "unknown"))
 
@@ -276,7 +285,7 @@ class Motion(Statements):
             frame=self.fixed_frame("UFRAME"),
             triggers=tuple(options.triggers),
             search=self.search(options),
-            settings=((ir.System("coordinated"), ir.TextLiteral(tables.LEADER)),) if options.coordinated else (),
+            settings=_settings(options),
             origin=self.origin,
         )
 
@@ -325,6 +334,13 @@ class Motion(Statements):
         if point.kind == "u" or point.kind not in ("p", "j"):
             raise StatementError("a move needs a position", 0)
         return point
+
+
+def _settings(options: Options) -> tuple[tuple[ir.Expression, ir.Expression], ...]:
+    """COORD and RTCP. M: of RTCP the selected user frame is the tool fixed in the room; positions stay those of the
+    selected tool in that frame."""
+    led = ((ir.System("coordinated"), ir.TextLiteral(tables.LEADER)),) if options.coordinated else ()
+    return (*led, (ir.System("remote_tool"), ir.BoolLiteral(True))) if options.remote else led
 
 
 def _sum(one: ir.Expression, other: ir.Expression) -> ir.Expression:

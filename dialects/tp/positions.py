@@ -68,6 +68,11 @@ class Position:
         return self.groups[1].kind if 1 in self.groups else "j"
 
     @property
+    def second_arm(self) -> int | None:
+        """The number of a further group that is a robot itself: its place is in space."""
+        return next((n for n, group in sorted(self.groups.items()) if n != 1 and group.kind == "p"), None)
+
+    @property
     def taught(self) -> bool:
         return 1 not in self.groups or self.groups[1].taught
 
@@ -121,8 +126,8 @@ def _group(text: str, offset: int) -> Group:
 
 
 def value_of(position: Position, origin: Origin) -> ir.Expression | None:
-    """The constant of a position; None when it was not taught."""
-    if not position.taught:
+    """The constant of a position; None when it was not taught, or has places of two arms."""
+    if not position.taught or position.second_arm is not None:
         return None
     arm = position.groups.get(1)
     entries: list[tuple[str | None, ir.Expression]] = []

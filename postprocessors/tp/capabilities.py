@@ -38,6 +38,7 @@ CAPABILITIES = Capabilities(
             "tool",
             "base",
             "coordinated",
+            "remote_tool",
             "override",
             "actual_pose",
             "actual_joints",

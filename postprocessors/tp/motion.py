@@ -72,7 +72,7 @@ class State(NamedTuple):
     handed: frozenset[str]
 
 
-_SETTINGS = ("coordinated", "external_speed")
+_SETTINGS = ("coordinated", "external_speed", "remote_tool")
 
 
 def _named(move: ir.Move) -> list[tuple[str, ir.Expression]]:
@@ -422,6 +422,8 @@ class Motion:
             shown += " Wjnt"
         if any(name == "coordinated" for name, _ in _named(move)):
             shown += " COORD"
+        if any(name == "remote_tool" and value == ir.BoolLiteral(True) for name, value in _named(move)):
+            shown += " RTCP"
         if move.relative in ("base", "joints"):
             shown += " INC"
         elif move.relative not in (None, "tool"):

@@ -180,6 +180,7 @@ SYSTEM_VARIABLES: dict[str, SystemVariable] = _system(
     base_unit       | x | rw | - |       | - | name of what carries the modal base; writing `base` takes it off
     base_root       | P | rw | - |       | - | where that mechanism's root is in the world, where the program says it
     coordinated     | x | rw | - |       | - | of a path move: the mechanism in whose moving frame it is straight
+    remote_tool     | b | rw | - |       | - | of a path move: straight in the held part, under the base as fixed tool
     displacement    | P | rw | - |       | - | between the frame and the targets (RAPID program displacement)
     load            | L | rw | - |       | - | payload
     robot_root      | P | rw | - |       | - | robot base in the world

@@ -318,7 +318,8 @@ def request_of(order: Order, plan: Planning) -> tuple[MoveRequest, rigid.Pose, r
     relative = order.relative is not None
     external = external_of(order.target, plan.external, relative)
     frames = _led(frames, order, plan, external)
-    carrier = None if order.velocity else frames.carrier()
+    remote = _is_remote(frames, order, plan)
+    carrier = None if order.velocity else _held(frames).carrier() if remote else frames.carrier()
     options = _common(order, plan, external) | {"carrier": carrier}
     if order.external_only:
         options |= {"kind": "joint", "target_joints": plan.joints}
@@ -329,7 +330,7 @@ def request_of(order: Order, plan: Planning) -> tuple[MoveRequest, rigid.Pose, r
         options |= {"target_joints": joints}
     else:
         goal = _goal(order.target, before, order.relative)
-        options |= {"target_pose": matrix_of(_planned(frames, carrier, goal))}
+        options |= {"target_pose": matrix_of(_planned(frames, carrier, goal, remote))}
         options |= _configuration(order, plan)
     moving = frames.target_in_robot(goal)[1]
     options |= {"kind": order.kind if order.kind in ("joint", "linear", "circular") else "linear"}
@@ -339,9 +340,9 @@ def request_of(order: Order, plan: Planning) -> tuple[MoveRequest, rigid.Pose, r
         along = frames
         if order.relative is None and isinstance(order.via, TargetValue):
             along = _led(frames_in_room, order, plan, external_of(order.via, external, False))
-        options |= {"via_pose": matrix_of(_planned(along, carrier, via)), "swept_deg": order.swept}
+        options |= {"via_pose": matrix_of(_planned(along, carrier, via, remote)), "swept_deg": order.swept}
         if is_joints(order.target):
-            options |= {"target_pose": matrix_of(_planned(frames, carrier, goal))}
+            options |= {"target_pose": matrix_of(_planned(frames, carrier, goal, remote))}
     return _request(options), moving, goal, external
 
 
@@ -353,8 +354,25 @@ def _led(frames: Frames, order: Order, plan: Planning, external: External) -> Fr
     return frames.at(external).led_by(plan.scene.called(str(leader)), external)
 
 
-def _planned(frames: Frames, carrier: Carrier | None, goal: rigid.Pose) -> rigid.Pose:
+def _is_remote(frames: Frames, order: Order, plan: Planning) -> bool:
+    """Is it a path in the part that the robot holds, although its places are those of the tool?"""
+    if order.kind == "joint" or setting(plan.modal, order.modal, "remote_tool") is not True:
+        return False
+    if frames.stationary or frames.mount is not None:
+        raise ProgramError("motion", "a path in the part under places of the tool goes with a base that stands still")
+    return True
+
+
+def _held(frames: Frames) -> Frames:
+    """The frames of a tool fixed in the room at the base of the moves, the flange itself being the part."""
+    return replace(frames, tool=rigid.IDENTITY, stationary=True)
+
+
+def _planned(frames: Frames, carrier: Carrier | None, goal: rigid.Pose, remote: bool = False) -> rigid.Pose:
     """A programmed pose as the planner counts it: in the work where something carries it, else in the base."""
+    if remote:
+        flange = frames.base.then(goal).then(frames.tool.inverse)
+        return _held(frames).target_in_work(_held(frames).goal_of(flange))
     return frames.target_in_robot(goal)[0] if carrier is None else frames.target_in_work(goal)
 
 

@@ -119,3 +119,68 @@ def test_other_targets_name_the_loss(target: str) -> None:
     diagnostics = Diagnostics()
     translate_program(listing(), target, ARM, None, diagnostics)
     assert "coordinated-move-lost" in [item.code.name for item in diagnostics if item.severity.word == "loss"]
+
+
+SECOND = """   GP2:
+    UF : 0, UT : 1,  CONFIG : 'N U T, 0, 0, 0',
+    X =   500.000  mm,  Y =     0.000  mm,  Z =   200.000  mm,
+    W =   180.000 deg,  P =     0.000 deg,  R =    90.000 deg
+};
+/END
+"""
+
+
+def test_places_of_a_second_arm_are_not_dropped() -> None:
+    at = LISTING.rindex("   GP2:")
+    diagnostics = Diagnostics()
+    text = LISTING[:at] + SECOND
+    read = read_sources([source_from_text("coordt.ls", text)], "tp", diagnostics)
+    told = [item for item in diagnostics if item.code.name == "tp-second-arm"]
+    assert [item.origin.line for item in told] == [text[: text.index("L P[3]")].count("\n") + 1]
+    result = run_program(read.program, ARM, parse_cell(TOOL + TABLE))
+    assert result.status == "fault"
+    assert len([event for event in result.trace if event.kind == "move"]) == 2
+
+
+def remote() -> ReadProgram:
+    """The fixed tool stands at the user frame; the part is in the gripper."""
+    text = (
+        LISTING.replace("UFRAME_NUM=0", "UFRAME_NUM=1").replace("UF : 0", "UF : 1").replace("FINE COORD", "FINE RTCP")
+    )
+    return read_sources([source_from_text("coordt.ls", text)], "tp", Diagnostics())
+
+
+FIXED = TOOL + '"UFRAME[1]" = { x = 30, y = -20, z = 40, a = 0, b = 0, c = 0 }\n'
+
+
+def test_rtcp_is_straight_in_the_part_that_the_robot_holds() -> None:
+    result = run_program(remote().program, ARM, parse_cell(FIXED + TABLE))
+    assert result.status == "finished", result.fault
+    plan = [event for event in result.trace if event.kind == "move"][2].legs[0].plan
+    flanges = load_robot(ARM).forward(plan.joints_at(np.linspace(0.0, plan.duration_s, 31)))
+    fixed = np.array([30.0, -20.0, 40.0, 1.0])
+    on_part = (np.linalg.inv(flanges) @ fixed)[:, :3]  # where the room's tool is on the part
+    way = on_part[-1] - on_part[0]
+    off = np.cross(on_part - on_part[0], way) / np.linalg.norm(way)
+    assert np.linalg.norm(off, axis=1).max() < 1e-4
+    assert plan.length_mm == pytest.approx(np.linalg.norm(way), abs=1e-4)
+    # it ends where the position says: the tool's own place in the user frame
+    tool = flanges[-1] @ pose_matrix([0, 0, 100])
+    assert tool[:3, 3] == pytest.approx([830.0, 80.0, 240.0], abs=1e-4)
+
+
+@pytest.mark.parametrize(("target", "word"), [("tp", "FINE RTCP"), ("rpl", "$remote_tool = TRUE")])
+def test_rtcp_comes_through(target: str, word: str) -> None:
+    read, cell = remote(), parse_cell(FIXED + TABLE)
+    written = translate_program(read, target, ARM, None, Diagnostics(), given=cell.variables)
+    assert word in "\n".join(file.data.decode("latin-1") for file in written.files)
+    back = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, Diagnostics())
+    result = prove_programs(read.program, back.program, ARM, ARM, cell, entry="COORDT", to_entry="COORDT")
+    assert result.equal, result.as_text()
+
+
+@pytest.mark.parametrize("target", ["rapid", "krl", "inform", "urscript", "vplus"])
+def test_rtcp_is_named_where_it_is_lost(target: str) -> None:
+    diagnostics = Diagnostics()
+    translate_program(remote(), target, ARM, None, diagnostics)
+    assert "remote-tool-lost" in [item.code.name for item in diagnostics if item.severity.word == "loss"]

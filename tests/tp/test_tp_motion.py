@@ -60,7 +60,6 @@ VENDOR = [
     ("BREAK", "tuning"),
     ("EV50%", "tuning"),
     ("Ind.EV 50%", "tuning"),
-    ("RTCP", "unknown"),
     ("Arc Start[1]", "unknown"),
     ("VOFFSET,VR[1]", "unknown"),
 ]

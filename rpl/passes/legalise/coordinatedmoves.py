@@ -31,7 +31,13 @@ SEEN = code(
     "where the tool is in a frame of its own cannot be composed while frames stand on mechanisms",
     "the program stops there; ask in the frame of the moves",
 )
-SETTING = "coordinated"
+REMOTE_LOST = code(
+    "remote-tool-lost",
+    Severity.LOSS,
+    "the target has no path in the held part under places of the tool",
+    "the program stops there; write the move with a tool fixed in the room",
+)
+SETTING, REMOTE = "coordinated", "remote_tool"
 _UNIT = "base_unit"
 
 
@@ -40,7 +46,8 @@ def coordinated_moves(program: ir.Program, context: Context) -> ir.Program:
     can = context.capabilities
     if "WorkObjectType" not in can.types and any(_is_carried(node) for node in walk(*program.modules)):
         program = _Composed(program, context).program()
-    return program if SETTING in can.system_variables else _Guarded(program, context).program()
+    lacking = tuple(name for name in (SETTING, REMOTE) if name not in can.system_variables)
+    return _Guarded(program, context, lacking).program() if lacking else program
 
 
 def _is_carried(node: object) -> bool:
@@ -76,20 +83,28 @@ def _names_frame(node: object) -> TypeGuard[ir.Builtin]:
 
 
 class _Guarded(Rewriter):
+    def __init__(self, program: ir.Program, context: Context, lacking: tuple[str, ...]) -> None:
+        super().__init__(program, context)
+        self.lacking = lacking
+
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
         if isinstance(statement, ir.Move):
-            led = [value for place, value in statement.settings if _is_led(place)]
-            if led:
-                unit = led[0].value if isinstance(led[0], ir.TextLiteral) else "that the program chooses"
-                self.context.diagnostics.report(COORDINATED, statement.origin, unit=unit)
-                rest = tuple(one for one in statement.settings if not _is_led(one[0]))
+            lost = [(place.name, value) for place, value in statement.settings if self.is_lost(place)]
+            if lost:
+                for name, value in lost:
+                    if name == REMOTE:
+                        self.context.diagnostics.report(REMOTE_LOST, statement.origin)
+                        continue
+                    unit = value.value if isinstance(value, ir.TextLiteral) else "that the program chooses"
+                    self.context.diagnostics.report(COORDINATED, statement.origin, unit=unit)
+                rest = tuple(one for one in statement.settings if not self.is_lost(one[0]))
                 bare = replace(statement, settings=rest, origin=replace(statement.origin, comments=()))
                 return [ir.Halt(origin=statement.origin), *super().statement(bare)]
         return super().statement(statement)
 
+    def is_lost(self, place: ir.Expression) -> TypeGuard[ir.System]:
+        """A setting of the move that the target has no word for."""
+        return isinstance(place, ir.System) and place.name in self.lacking
 
-def _is_led(place: ir.Expression) -> bool:
-    return isinstance(place, ir.System) and place.name == SETTING
 
-
-__all__ = ["coordinated_moves"]
+__all__ = ["REMOTE", "SETTING", "coordinated_moves"]

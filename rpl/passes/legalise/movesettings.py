@@ -14,6 +14,7 @@ from rpl import ir
 from rpl.diagnostics import Code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.coordinatedmoves import REMOTE
 from rpl.passes.legalise.coordinatedmoves import SETTING as COORDINATED
 from rpl.passes.legalise.modal import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, ZONE_MM_PER_PERCENT, says
 from rpl.passes.legalise.modalflow import SETTINGS, Flow, State
@@ -26,7 +27,7 @@ _WORLD = ir.System("null_frame")
 _TYPES: dict[str, ir.Type] = {"tool": ir.PoseType(), "base": ir.PoseType()}
 # Settings that such a target has no word for, so that they cannot stay modal either.
 # What targets with coordinated moves say at a move.
-_AT_MOVES = (COORDINATED, "external_speed")
+_AT_MOVES = (COORDINATED, "external_speed", REMOTE)
 _LEFT_OUT = DROPPED_SETTINGS | {"swivel_speed", "twist_speed", "acceleration_percent"}
 _PARTS = {
     "tool": ("tool",),
