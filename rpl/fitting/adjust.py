@@ -17,7 +17,7 @@ import numpy as np
 from rpl.controllers import MotionModel
 from rpl.errors import UsageError
 from rpl.fitting.log import Log
-from rpl.fitting.parameters import Parameter, prepared, values_of, with_values
+from rpl.fitting.parameters import BY_NAME, Parameter, prepared, values_of, with_values
 from rpl.fitting.shapes import Motion, is_straight, motions
 from rpl.fitting.squares import Found, least_squares
 
@@ -33,6 +33,11 @@ MOST_MOMENTS = 3000
 TIME_SHARE = 0.3
 SHIFTS = 4
 WELL, POORLY = 0.05, 0.3
+AT_BOUND = 1e-6
+# By how much the ends of motions may miss those of the program, as a share of the way that it spans.
+ELSEWHERE = 0.1
+# Factors by which the numbers of a log are too small in another unit: rad, m, inches.
+UNITS = {"deg": {57.29577951308232: "rad"}, "mm": {1000.0: "m", 25.4: "inches"}}
 NUDGE_S = 1e-4
 
 
@@ -51,6 +56,11 @@ class Told:
         if not np.isfinite(self.deviation):
             return "not at all"
         share = self.deviation / max(abs(self.value), 1e-12)
+        bounds = BY_NAME[self.name]
+        if self.value <= bounds.low * (1.0 + AT_BOUND) + 1e-12 < self.before or self.value >= bounds.high * (
+            1.0 - AT_BOUND
+        ):
+            return "at its bound"
         return "well" if share < WELL else "poorly" if share < POORLY else "hardly"
 
 
@@ -90,6 +100,7 @@ def fit_with_program(
             f"{log.path}: the log shows {len(recorded)} motions from rest to rest, the program makes "
             f"{len(compared.emulated(start))}: does the log belong to it, whole and with its rests?"
         )
+    compared.need_same_places(start)
     found = _adjusted(lambda model: compared.residuals(model), start, parameters)
     model, told = _told(start, parameters, found)
     return _fitted(model, told, *compared.left(model), log)
@@ -182,6 +193,25 @@ class _Compared:
         times: FloatArray = np.arange(-5.0, result.time_s / step + 6.0) * step
         values = run_at(result, times, self.log.joints)
         return times, values, motions(times, values)
+
+    def need_same_places(self, model: MotionModel) -> None:
+        """Raises UsageError where the motions of the log end at other places than those of the program."""
+        _, values, made = self._run(model)
+        seen = np.stack([self.log.values[motion.last] for motion in self.recorded])
+        meant = np.stack([values[motion.last] for motion in made])
+        span = float(np.ptp(values, axis=0).max())
+        off = np.abs(seen - meant).max(axis=1)
+        if off.max() <= ELSEWHERE * span:
+            return
+        unit, number = self.log.unit, int(np.argmax(off > ELSEWHERE * span))
+        for factor, name in UNITS[unit].items():
+            if np.abs(seen * factor - meant).max() <= ELSEWHERE * span:
+                raise UsageError(f"{self.log.path}: the log's places are in {name}; {unit} are needed")
+        raise UsageError(
+            f"{self.log.path}: motion {number + 1} of the log, begun at {self.recorded[number].start_s:g} s, ends "
+            f"{off[number]:.4g} {unit} from where the program's ends: other signs or another order of joints, another "
+            "frame or tool, or another program?"
+        )
 
     def residuals(self, model: MotionModel) -> FloatArray:
         """Differences of places, and those of times as places."""

@@ -1,7 +1,8 @@
 """A recorded motion as CSV: a header line, then a line per moment with the time in s and joints or a pose.
 
 Columns by name, in any order, others are left alone: `time` (or `t`, `time_s`); `j1`..`jn` in the robot's pendant
-units; `x`, `y`, `z` in mm of the tool centre point in the robot's base frame. Every fault names file and line.
+units; `x`, `y`, `z` in mm of the tool centre point in the robot's base frame. Between semicolons decimals may stand
+behind a comma. Every fault names file and line.
 """
 
 from __future__ import annotations
@@ -19,6 +20,8 @@ from rpl.errors import UsageError
 TIMES = ("time", "t", "time_s")
 PLACE = ("x", "y", "z")
 FEWEST = 20
+# Moments further apart than this (s) say nothing about ramps: such a time is in another unit.
+WIDEST_S = 0.5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,13 +65,17 @@ def read_log(path: str, axes: int) -> Log:
     for line, row in enumerate(rows[1:], 2):
         if not any(cell.strip() for cell in row):
             continue
-        here = [_number(path, line, row, place, names) for place in places]
+        here = [_number(path, line, row, place, names, separator == ";") for place in places]
         if numbers and here[0] <= numbers[-1][0]:
             raise UsageError(f"{path}:{line}: the time {here[0]:g} does not rise (before: {numbers[-1][0]:g})")
         numbers.append(here)
     if len(numbers) < FEWEST:
         raise UsageError(f"{path}:{len(rows)}: {len(numbers)} moments are too few, a fit needs at least {FEWEST}")
     table = np.array(numbers)
+    apart = float(np.median(np.diff(table[:, 0])))
+    if apart > WIDEST_S:
+        hint = "is the time in ms?" if apart <= 1e3 * WIDEST_S else "is the time in microseconds?"
+        raise UsageError(f"{path}:2: the moments are {apart:g} s apart, which shows no ramps; times are in s: {hint}")
     return Log(path, table[:, 0], table[:, 1:], wanted != PLACE)
 
 
@@ -85,8 +92,10 @@ def _columns(path: str, names: list[str], axes: int) -> tuple[str, ...]:
     return PLACE
 
 
-def _number(path: str, line: int, row: list[str], place: int, names: list[str]) -> float:
+def _number(path: str, line: int, row: list[str], place: int, names: list[str], commas: bool) -> float:
     cell = row[place].strip() if place < len(row) else ""
+    if commas and cell.count(",") == 1 and "." not in cell:
+        cell = cell.replace(",", ".")
     if not cell:
         raise UsageError(f"{path}:{line}: there is no value in column '{names[place]}'")
     try:

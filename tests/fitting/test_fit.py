@@ -15,7 +15,7 @@ from rpl.controllers import MotionModel, controller_named, parse_controller
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import RobotModel, load_robot
 from rpl.errors import UsageError
-from rpl.fitting.adjust import Fitted, fit_alone, fit_with_program, run_at
+from rpl.fitting.adjust import Fitted, Told, fit_alone, fit_with_program, run_at
 from rpl.fitting.log import Log, read_log
 from rpl.fitting.parameters import chosen, prepared
 from rpl.project import read_program
@@ -184,6 +184,64 @@ def test_another_program_than_the_recorded_one_is_noticed(tmp_path: Path) -> Non
         fit_with_program(log, robot, base, chosen(base, ()), partial(driven, short, robot))
 
 
+WRONG = {
+    "radians": (True, lambda values: np.radians(values), r"the log's places are in rad; deg are needed"),
+    "metres": (False, lambda values: values / 1000.0, r"the log's places are in m; mm are needed"),
+    "inches": (False, lambda values: values / 25.4, r"the log's places are in inches; mm are needed"),
+    "signs": (True, lambda values: -values, r"motion 1 of the log, .* from where the program's ends: other signs"),
+    "order": (True, lambda values: values[:, ::-1], r"motion \d of the log, .* another order of joints"),
+    "frame": (False, lambda values: values + np.array([0.0, 0.0, 400.0]), r"motion 1 of the log, .* another frame or tool"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_places_of_another_unit_or_frame_are_refused(case: str, tmp_path: Path) -> None:
+    joints, change, told = WRONG[case]
+    language, text, name, _ = CASES["path"][0]
+    robot = load_robot(name)
+    base = prepared(controller_named(language), robot)
+    path = program_of(tmp_path, language, text)
+    log = recorded(driven(path, robot, base), joints)
+    with pytest.raises(UsageError, match=told):
+        fit_with_program(
+            replace(log, values=change(log.values)), robot, base, chosen(base, ()), partial(driven, path, robot)
+        )
+
+
+RECORDERS = {
+    # noise (deg, mm), step s, what is kept of the moments
+    "slow": (True, 0.004, 0.05, lambda times: times > -9.0),
+    "noisy": (True, 0.05, 0.004, lambda times: times > -9.0),
+    "noisy places": (False, 0.2, 0.004, lambda times: times > -9.0),
+    "uneven": (True, 0.004, 0.004, lambda times: np.random.default_rng(1).random(len(times)) > 0.5),
+    "with a gap": (True, 0.004, 0.004, lambda times: (times < 13.6) | (times > 14.0)),
+}
+
+
+@pytest.mark.parametrize("recorder", RECORDERS)
+def test_other_recorders_give_the_parameters_back_too(recorder: str, tmp_path: Path) -> None:
+    """The remaining error is the recorder's own noise, whatever it is."""
+    joints, noise, step_s, kept = RECORDERS[recorder]
+    (language, text, name, hidden), close = CASES["path"]
+    robot = load_robot(name)
+    base = prepared(controller_named(language), robot)
+    path = program_of(tmp_path, language, text)
+    log = recorded(driven(path, robot, replace(base, **hidden)), joints, noise, step_s)  # type: ignore[arg-type]
+    rows = kept(log.times)
+    log = replace(log, times=log.times[rows], values=log.values[rows])
+    found = fit_with_program(log, robot, base, chosen(base, tuple(hidden)), partial(driven, path, robot))
+    for one in found.parameters:
+        assert one.value == pytest.approx(hidden[one.name], rel=close[one.name]), one
+        assert abs(one.value - hidden[one.name]) < 6.0 * one.deviation
+    assert found.rms == pytest.approx(noise, rel=0.15)
+
+
+def test_a_value_at_its_bound_is_said_to_be_there() -> None:
+    assert Told("joint_smoothing_s", 0.0, 0.1, 1e-4).determined == "at its bound"
+    assert Told("path_acceleration_mm_s2", 2e5, 5000.0, 10.0).determined == "at its bound"
+    assert Told("joint_smoothing_s", 0.1, 0.1, 1e-4).determined == "well"
+
+
 def write(path: Path, log: Log) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
@@ -219,6 +277,14 @@ BAD = {
     "text": (HEAD + ROWS + "0.30,0,0,0,x7,0,0\n", r"log.csv:32: 'x7' in column 'j4' is no number"),
     "short row": (HEAD + ROWS + "0.30,0,0\n", r"log.csv:32: there is no value in column 'j3'"),
     "empty": ("", r"log.csv:1: the log is empty"),
+    "milliseconds": (
+        HEAD + "".join(f"{10 * k},{k},0,0,0,0,0\n" for k in range(30)),
+        r"log.csv:2: the moments are 10 s apart.* is the time in ms\?",
+    ),
+    "microseconds": (
+        HEAD + "".join(f"{10000 * k},{k},0,0,0,0,0\n" for k in range(30)),
+        r"log.csv:2: the moments are 10000 s apart.* microseconds\?",
+    ),
     "few": (HEAD + "0,0,0,0,0,0,0\n", r"log.csv:2: 1 moments are too few"),
 }
 
@@ -238,3 +304,13 @@ def test_columns_are_found_by_name_and_semicolons_are_read(tmp_path: Path) -> No
     log = read_log(str(path), 6)
     assert not log.joints
     assert log.values[3].tolist() == [6.0, 0.0, 3.0]
+
+
+def test_decimal_commas_stand_between_semicolons(tmp_path: Path) -> None:
+    path = tmp_path / "log.csv"
+    path.write_text(
+        "t;x;y;z\n" + "".join(f"{k / 10:.1f};{k},5;0;1.25\n".replace("0.", "0,") for k in range(25)), "utf-8"
+    )
+    log = read_log(str(path), 6)
+    assert log.values[3].tolist() == [3.5, 0.0, 1.25]
+    assert log.times[3] == pytest.approx(0.3)
