@@ -20,9 +20,9 @@ from rpl.emulator.rotations import FloatArray, pose_matrix, rotation_x, rotation
 
 BoolArray = NDArray[np.bool_]
 
-# A cosine may exceed 1 by this much through rounding and still count as the stretched arm: a wrist with axes of its own
-# is exact, one that shares parallel axes with the links (UR) loses more where it is straight too.
-EXACT_SLACK = 1e-12
+# A pose may lie this far beyond the end of the reach through rounding and still count as reached there; where parallel
+# axes follow the links (UR), a straight wrist loses more: there a cosine may exceed 1 by that much.
+BEYOND_MM = 1e-9
 COSINE_SLACK = 1e-9
 # An arm as good as stretched is stretched: rounding alone would bend it by 1e-7 rad, which the pose does not show, but
 # which turns the hand about where the wrist is straight too.
@@ -125,7 +125,7 @@ def _signed(root: FloatArray) -> FloatArray:
 
 
 def _two_links(
-    square: FloatArray, first: float, second: float, slack: float
+    square: FloatArray, first: float, second: float, beyond: float | None = BEYOND_MM
 ) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray]:
     """Two links in a plane whose ends are apart by the root of `square` (mm²), both lengths of one sign.
 
@@ -133,7 +133,11 @@ def _two_links(
     or folded. By half angles, which stay exact where links of equal length fold upon each other.
     """
     share = (square - (first - second) ** 2) * (0.25 / (first * second))
-    ok = (share >= -0.5 * slack) & (share <= 1.0 + 0.5 * slack)
+    far = near = 0.5 * COSINE_SLACK
+    if beyond is not None:
+        far = (first + second) * beyond * (0.5 / (first * second))
+        near = (abs(first - second) + 0.5 * beyond) * beyond * (0.5 / (first * second))
+    ok = (share >= -near) & (share <= 1.0 + far)
     straight = (share <= 0.5 * COSINE_SLACK) | (share >= 1.0 - 0.5 * COSINE_SLACK)
     share = np.where(share >= 1.0 - ROUNDING_COSINE, 1.0, np.maximum(share, 0.0))
     across, along = np.sqrt(1.0 - share), np.sqrt(share)
@@ -259,7 +263,7 @@ class OpwArm:
     ) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray]:
         """Joints 2 and 3 (shoulder, elbow, k); reachable and singular (stretched, folded) (shoulder, k)."""
         square = reach * reach + height * height
-        bend, ahead, ok, straight = _two_links(square, self.c2, math.hypot(self.a2, self.c3), EXACT_SLACK)
+        bend, ahead, ok, straight = _two_links(square, self.c2, math.hypot(self.a2, self.c3))
         lean = np.arctan2(reach, height)
         folded = square <= STILL_MM**2
         t2, t3 = np.empty((2, 2, len(height))), np.empty((2, 2, len(height)))
@@ -384,7 +388,7 @@ class UrArm:
         x = (c1 * centre[0] + s1 * centre[1])[:, None] - sides * (self.d5 * (c1 * z4[0] + s1 * z4[1]))[:, None]
         y = centre[2] - self.d1 - sides * (self.d5 * z4[2])[:, None]
         total = np.arctan2(sides * x4[2][:, None], sides * (c1 * x4[0] + s1 * x4[1])[:, None])
-        bend, ahead, ok, straight = _two_links(x * x + y * y, self.a2, self.a3, COSINE_SLACK)
+        bend, ahead, ok, straight = _two_links(x * x + y * y, self.a2, self.a3, None)
         lean = np.arctan2(y, x)
         for elbow, side in enumerate((1.0, -1.0)):
             turned = lean - side * ahead
@@ -488,7 +492,7 @@ class ScaraArm:
     def inverse(self, flange: FloatArray, reference: FloatArray) -> Branches:
         x, y = flange[:, 0, 3], flange[:, 1, 3]
         square = x * x + y * y
-        bend, ahead, ok, straight = _two_links(square, self.l1, self.l2, EXACT_SLACK)
+        bend, ahead, ok, straight = _two_links(square, self.l1, self.l2)
         upright = (np.hypot(flange[:, 0, 2], flange[:, 1, 2]) <= self.tilt) & (flange[:, 2, 2] < 0.0)
         sides = np.array([1.0, -1.0])
         q2 = bend[:, None] * sides
