@@ -1,7 +1,7 @@
 """The move that is driven now, as programs ask about it: where it begins and ends, and where a path was left.
 
 A program pointer that runs ahead may have commanded further moves: they do not count here. In a corner the present move
-is the one before it up to the corner's middle. Of a spline block it is the segment that is driven.
+is the one before it up to the corner's middle, or the one behind it where a program goes on as soon as that is begun. Of a spline block it is the segment that is driven.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ def ends(queue: MotionQueue) -> tuple[Place, Place] | None:
     if piece is None:
         return None
     drive = piece.drive
-    if piece.corner is not None and drive not in queue.queue:
+    begun = drive.order.rules.advance.runs_ahead_of == "begun"
+    if piece.corner is not None and (begun or drive not in queue.queue):
         drive = piece.corner.following
     assert drive.plan is not None  # with a piece there is a plan
     bounds = (0.0, *drive.marks, 1.0)
