@@ -190,7 +190,11 @@ WRONG = {
     "inches": (False, lambda values: values / 25.4, r"the log's places are in inches; mm are needed"),
     "signs": (True, lambda values: -values, r"motion 1 of the log, .* from where the program's ends: other signs"),
     "order": (True, lambda values: values[:, ::-1], r"motion \d of the log, .* another order of joints"),
-    "frame": (False, lambda values: values + np.array([0.0, 0.0, 400.0]), r"motion 1 of the log, .* another frame or tool"),
+    "frame": (
+        False,
+        lambda values: values + np.array([0.0, 0.0, 400.0]),
+        r"motion 1 of the log, .* another frame or tool",
+    ),
 }
 
 

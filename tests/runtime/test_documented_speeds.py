@@ -60,8 +60,8 @@ END
     ),
     "vplus": (
         ABB,
-        ".PROGRAM main()\n  SET a = TRANS(300,-200,500,0,180,0)\n  SET b = TRANS(300,200,500,0,180,0)\n  MOVE a\n  BREAK\n"
-        "  {before}\n  MOVES b\n.END\n",
+        ".PROGRAM main()\n  SET a = TRANS(300,-200,500,0,180,0)\n  SET b = TRANS(300,200,500,0,180,0)\n"
+        "  MOVE a\n  BREAK\n  {before}\n  MOVES b\n.END\n",
     ),
     "inform": (
         ABB,
