@@ -1,7 +1,8 @@
 """The move that is driven now, as programs ask about it: where it begins and ends, and where a path was left.
 
 A program pointer that runs ahead may have commanded further moves: they do not count here. In a corner the present move
-is the one before it up to the corner's middle, or the one behind it where a program goes on as soon as that is begun. Of a spline block it is the segment that is driven.
+is the one before it up to the corner's middle, or the one behind it where a program goes on as soon as that is begun.
+Of a spline block it is the segment that is driven.
 """
 
 from __future__ import annotations
