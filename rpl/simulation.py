@@ -6,7 +6,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -38,15 +38,18 @@ def run_program(
     on_event: Callable[[Event], None] | None = None,
     limits: Limits = DEFAULTS,
     controller: str | MotionModel | None = None,
+    further: Sequence[str | RobotModel] = (),
 ) -> RunResult:
     """Run a normalised program. Without a robot its moves take no time. A given `max_time_s` or `max_statements` stands
     in place of that of `limits`. `controller` (a language's name, `plain`, or a file) drives the robot in place of each
-    language's own.
+    language's own. `further`: the robots of the second and further motion tasks, which move at the same time.
 
     Raises UsageError for an unknown robot or when the entry cannot be found (the candidates are listed), RunError when
     the cell file does not fit the program. A fault inside the program is part of the result.
     """
-    simulation = Simulation(program, robot, cell, entry, max_time_s, max_statements, on_event, limits, controller)
+    simulation = Simulation(
+        program, robot, cell, entry, max_time_s, max_statements, on_event, limits, controller, further
+    )
     simulation.run()
     return simulation.result()
 
@@ -65,6 +68,7 @@ class Simulation(Machine):
         on_event: Callable[[Event], None] | None = None,
         limits: Limits = DEFAULTS,
         controller: str | MotionModel | None = None,
+        further: Sequence[str | RobotModel] = (),
     ) -> None:
         from rpl.cell import Cell as NoCell
         from rpl.controllers import controller_named
@@ -77,11 +81,13 @@ class Simulation(Machine):
         linked = self.program = link(program)
         driven = controller_named(controller) if isinstance(controller, str) else controller
         surroundings = cell if cell is not None else NoCell()
-        super().__init__(linked, _model(robot), surroundings, limits, on_event, driven)
+        others = tuple(model for one in further if (model := _model(one)) is not None)
+        super().__init__(linked, _model(robot), surroundings, limits, on_event, driven, others)
         self.breakpoints: set[tuple[str, int]] = set()
         self.passed: tuple[int, int] | None = None
         for declared, routine in _tasks(program, linked, entry):
             self._add(declared, routine)
+        self._robots_are_driven()
         for task in self.tasks:
             self.ready(task)
 
@@ -104,8 +110,15 @@ class Simulation(Machine):
             old = identity(task) if pose else task.modal.get(key, DEFAULTS.get(key))
             task.modal[name] = shaped(old, value, f"{self.cell.path}: system.{name}")
         self.tasks.append(task)
-        if declared.kind == MOTION_TASK and not any(other.robot for other in self.tasks):
+        robots = sum(other.robot is not None for other in self.tasks)
+        if declared.kind == MOTION_TASK and robots <= len(self.further):
             task.robot = self.new_robot(task)
+
+    def _robots_are_driven(self) -> None:
+        """Every robot that is named has a motion task."""
+        driven = sum(task.robot is not None for task in self.tasks)
+        if self.further and driven <= len(self.further):
+            raise UsageError(f"{len(self.further) + 1} robots are named, and the program has {driven} motion tasks")
 
     # ---- control
 

@@ -20,7 +20,6 @@ from rpl.cli.output import (
     print_diagnostics,
     print_json,
     robot_named,
-    robot_option,
     waiting,
     write_file,
 )
@@ -39,7 +38,9 @@ if TYPE_CHECKING:
 @click.command("run")
 @paths_argument
 @from_option
-@robot_option
+@click.option(
+    "--robot", "robots", multiple=True, metavar="R", help="Arm: a name or a .toml file; again for a second motion task."
+)
 @click.option("--cell", metavar="F.toml", help="Surroundings: inputs over time, answers of the operator, parts.")
 @click.option("--entry", metavar="NAME", help="Routine to start with; else main, or the only one nobody calls.")
 @click.option("--trace", type=click.Path(dir_okay=False, path_type=Path), metavar="F.jsonl", help="Write every event.")
@@ -50,7 +51,7 @@ if TYPE_CHECKING:
 def command(
     paths: Sequence[str],
     dialect: str | None,
-    robot: str | None,
+    robots: Sequence[str],
     cell: str | None,
     entry: str | None,
     trace: Path | None,
@@ -74,6 +75,7 @@ def command(
     from rpl.proof.prove import load_cell
     from rpl.simulation import run_program
 
+    robot, further = robots[0] if robots else None, robots[1:]
     limits = limits_of(max_time, max_steps, max_events)
     reports = reports_of(plot, dynamics, payload, robot, timed, controller)
     diagnostics = collector()
@@ -87,7 +89,10 @@ def command(
     surroundings = load_cell(cell)
     model = _robot_in(robot, surroundings, read.program)
     with waiting("running"):
-        result = run_program(read.program, model, surroundings, entry, limits=limits, controller=reports.controller)
+        driver = reports.controller
+        result = run_program(
+            read.program, model, surroundings, entry, limits=limits, controller=driver, further=further
+        )
     _remark(result, model)
     layers, times = reports.layers(result, model), reports.times(result, model)
     if as_json:

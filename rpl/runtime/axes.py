@@ -31,7 +31,7 @@ _NO_EXTERNAL = ExternalValue((None,) * 6)
 
 def _pulses_per_degree(task: Task) -> list[float]:
     """One number for each axis of the arm."""
-    model = task.machine.model
+    model = task.robot.model if task.robot is not None else task.machine.model
     if model is None:
         raise ProgramError("motion", "positions in pulses need a robot (--robot)")
     if model.pulse_scale is None:
@@ -70,7 +70,8 @@ def _external_from_pulses(task: Task, axes: Value) -> ExternalValue:
     given = axes.ext if isinstance(axes, TargetValue | JointsValue) else axes
     if not isinstance(given, ExternalValue):
         raise ProgramError("wrong_kind", "external axes are needed here")
-    model, scene = task.machine.model, task.machine.scene
+    model = task.robot.model if task.robot is not None else task.machine.model
+    scene = task.machine.scene
     neutral = model is not None and not model.counts_pulses
     done: list[float | None] = []
     for number, count in enumerate(used_axes(given.values), 1):

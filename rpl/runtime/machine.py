@@ -49,9 +49,11 @@ class Machine:
         limits: Limits,
         on_event: Callable[[Event], None] | None = None,
         controller: MotionModel | None = None,
+        further: tuple[RobotModel, ...] = (),
     ) -> None:
         self.linked = linked
         self.model = model
+        self.further = further  # the robots of the second and further motion tasks
         self.controller = controller
         self.cell = cell
         self.scene = Scene(model.among(cell.mechanisms, cell.path).mechanisms if model is not None else cell.mechanisms)
@@ -89,7 +91,7 @@ class Machine:
             self.schedule(given.time_s, INPUTS, "input", 0, given.signal, given.value)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Machine:
-        for shared in (self.linked, self.model, self.controller, self.cell, self.scene, self.on_event):
+        for shared in (self.linked, self.model, self.further, self.controller, self.cell, self.scene, self.on_event):
             memo[id(shared)] = shared
         twin = self.__class__.__new__(self.__class__)
         memo[id(self)] = twin
@@ -510,5 +512,6 @@ class Machine:
         )
 
     def new_robot(self, task: Task) -> MotionQueue:
-        """The motion queue of a motion task. One arm: the first motion task's."""
-        return MotionQueue(self, task.index, self.model)
+        """The motion queue of a motion task: the first one has the first robot, the next ones the further robots."""
+        before = sum(other.robot is not None for other in self.tasks)
+        return MotionQueue(self, task.index, self.further[before - 1] if before else self.model)

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 # A task that a program starts has this kind: the run does not wait for its end.
 STARTED = "background"
+MOTION = "motion"
 
 
 def named(machine: Machine, name: str) -> Task | None:
@@ -131,6 +132,9 @@ def take_robot(task: Task, moving: bool = False) -> bool:
         robot = other.robot
         if robot is None or other is task:
             continue
+        if not moving and task.kind == other.kind == MOTION:
+            what = f"task {task.name} moves a robot of its own beside that of task {other.name}"
+            raise ProgramError("second_robot", f"{what}; name it by a second --robot")
         if other.busy and not moving and not other.has_ended:
             raise ProgramError("motion", f"the robot is moved by task {other.name}")
         other.robot, task.robot = None, robot

@@ -1,4 +1,4 @@
-"""Frames around the robot by their arithmetic in mm: $ROBROOT, roots of external kinematics, parts that the robot holds."""
+"""Frames around the robot by their arithmetic in mm: its root, roots of external kinematics, parts that it holds."""
 
 import numpy as np
 import pytest
