@@ -27,6 +27,7 @@ RULES = Rules(
     number_marks=tables.NUMBER_MARKS,
     leading_numbers=True,  # M: VAL stops at the first sign that is no part of a number
     undefined=True,
+    whole_targets=True,  # "undefined value" at a location that was never set
     wait_poll_s=tables.CYCLE_S,
     # SPEED 100,100 ALWAYS, ACCEL 100,100, continuous path: the state in which every program starts.
     system_defaults={

@@ -45,7 +45,7 @@ class MotionStatements:
         """A motion target: components without a value are no fault here, they stay as they are, if the language's rules
         do not demand whole positions."""
         read = self.linker.compiler.raw(expression)
-        return _whole(read) if self.linker.compiler.scope.rules.whole_targets else read
+        return _whole(read, expression) if self.linker.compiler.scope.rules.whole_targets else read
 
     def statement(self, statement: ir.Statement) -> None:
         emit = self.linker.assembler.emit
@@ -394,8 +394,9 @@ def _frozen(value: Value, write: Callable[[Values, Value], None]) -> Instruction
     return act
 
 
-def _whole(read: Read) -> Read:
+def _whole(read: Read, expression: ir.Expression) -> Read:
     """Demands a position in which every component has a value."""
+    named = f"the position {expression.id}" if isinstance(expression, ir.Name) else "the position"
 
     def checked(f: Values) -> Value:
         value = read(f)
@@ -407,7 +408,7 @@ def _whole(read: Read) -> Read:
             case _:
                 parts = (value,)
         if None in parts:
-            raise ProgramError("no_value", "the position has no value: it was never taught or set")
+            raise ProgramError("no_value", f"{named} has no value: it was never taught or set")
         return value
 
     return checked

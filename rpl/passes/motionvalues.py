@@ -149,6 +149,8 @@ class _Module:
                     last = self.move(statement, scope, last)
                 case ir.Assign(target=ir.System(name=name), value=value) if name in _SPEEDS:
                     self.speed(_SPEEDS[name], value, statement.origin, scope)
+                case ir.SetForNextMove(setting=ir.System(name="path_speed"), value=value):
+                    self.speed("path speed", value, statement.origin, scope)
                 case ir.Assign(value=value):
                     self.rotations(value, statement.origin, scope)
                 case ir.Nothing() | ir.Trigger() | ir.LookAhead():
@@ -230,7 +232,14 @@ class _Module:
 
 def _place(expression: ir.Expression, scope: Scope) -> rigid.Vector | None:
     pose = pose_of(constant(expression, scope))
-    return None if pose is None else pose.position
+    if pose is not None:
+        return pose.position
+    if not isinstance(expression, ir.Aggregate):
+        return None
+    # A point on the way is often written without an orientation, which the target then keeps.
+    numbers = {str(name).lower(): constant_number(value, scope) for name, value in expression.entries}
+    x, y, z = (numbers.get(name) for name in "xyz")
+    return None if x is None or y is None or z is None else rigid.Vector(x, y, z)
 
 
 def _bodies(statement: ir.Statement) -> Iterator[ir.Body]:

@@ -87,7 +87,12 @@ KRL_CASES: list[tuple[tuple[str, ...], list[tuple[str, int]]]] = [
     (("$VEL.CP=0",), [("speed-not-positive", 5)]),
     (("$VEL.CP=-0.1",), [("speed-not-positive", 5)]),
     (("$VEL.CP=0.1",), []),
-    (("LIN {X 500,Y 0,Z 400,A 0,B 135,C 0}", "CIRC {X 500,Y 50,Z 400},{X 500,Y 90,Z 400,A 0,B 135,C 0}"), []),
+    (
+        ("LIN {X 500,Y 0,Z 400,A 0,B 135,C 0}", "CIRC {X 500,Y 50,Z 400},{X 500,Y 90,Z 400,A 0,B 135,C 0}"),
+        [("circle-of-points-in-line", 6)],
+    ),
+    (("LIN {X 500,Y 0,Z 400,A 0,B 135,C 0}", "CIRC {X 520,Y 50,Z 400},{X 500,Y 90,Z 400,A 0,B 135,C 0}"), []),
+    (("LIN {X 500,Y 0,Z 400,A 0,B 135,C 0}", "CIRC {X 500,Y 50},{X 500,Y 90,Z 400,A 0,B 135,C 0}"), []),
     (
         (
             "LIN {X 500,Y 0,Z 400,A 0,B 135,C 0}",
@@ -106,6 +111,24 @@ def test_krl_is_told_when_read(lines: tuple[str, ...], expected: list[tuple[str,
 def test_krl_a_move_before_any_tool_is_set() -> None:
     text = "DEF P( )\n$VEL.CP=0.1\nLIN {X 500,Y 0,Z 400,A 0,B 135,C 0}\nEND"
     assert [(name, line) for name, line, _ in told("krl", text)] == [("tool-not-set", 3)]
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"), [("SPEED 0", 1), ("SPEED 0 MMPS", 1), ("SPEED 50", 0), ("SPEED 20 MMPS", 0)]
+)
+def test_vplus_a_speed_of_nothing_is_told_once(line: str, expected: int) -> None:
+    found = told("vplus", f".PROGRAM p()\n{line}\nMOVES TRANS(400,0,300,0,180,0)\n.END\n")
+    assert [(name, line) for name, line, _ in found if name == "speed-not-positive"] == expected * [
+        ("speed-not-positive", 2)
+    ]
+
+
+def test_vplus_a_location_that_was_never_set_is_a_fault() -> None:
+    text = ".PROGRAM p()\nMOVE #PPOINT(0,-90,180,0,60,0)\nMOVES nowhere\n.END\n"
+    result = run("vplus", text, "adept_viper_s650")
+    assert result.status == "fault" and result.fault is not None
+    assert (result.fault.code, result.fault.origin.line) == ("no-value", 3)
+    assert "nowhere" in result.fault.message
 
 
 def test_urscript_overlapping_blends_are_told() -> None:
