@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rpl.ir.rules import AdvanceRules, Rules
+from rpl.ir.rules import AdvanceRules, InputRules, Rules
 
 _XYZ = {name: name for name in ("x", "y", "z", "a", "b", "c")}
 _WPR = {"w": "c", "p": "b", "r": "a"}
@@ -15,8 +15,13 @@ COMPONENTS = {
     "JointsType": {**{f"j{n}": f"j{n}" for n in range(1, 7)}, **_EXTERNAL},
 }
 
+# M: corners of a given size (CR, CD) take at most half of the shorter move beside them; the option's manual is not at
+# hand. CNT has no size of its own.
+_INPUTS = InputRules(large_corner="makes it {half:g} mm, half of that")
+
 RULES = Rules(
     name="tp",
+    inputs=_INPUTS,
     # Behind FINE the program goes on when the robot is in position, behind CNT as soon as the move slows down (M: at
     # the beginning of the corner).
     advance=AdvanceRules(

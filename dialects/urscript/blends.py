@@ -13,7 +13,7 @@ from rpl.diagnostics import Diagnostics, Severity, code
 OVERLAP = code(
     "urscript-overlapping-blends",
     Severity.WARNING,
-    "this blend of {radius} m and that of the next point, {distance} m away, overlap",
+    "this blend of {radius} m and that of the point beside it, {distance} m away, overlap",
     "the controller leaves such a move out; make the radius smaller",
 )
 _SLACK_M = 1e-6
@@ -36,7 +36,11 @@ def check_blends(body: ir.Body, given: Mapping[str, ir.Expression], diagnostics:
         if last is not None and last[2] > 0.0:
             distance = math.dist(last[1], place)
             if distance > _SLACK_M and last[2] + radius > distance + _SLACK_M:
-                diagnostics.report(OVERLAP, last[0].origin, radius=f"{last[2]:g}", distance=f"{distance:.4g}")
+                late = radius > 0.0  # the later one of two blends is left out, see rpl.runtime.leftout
+                told, size = (statement, radius) if late else (last[0], last[2])
+                diagnostics.report(OVERLAP, told.origin, radius=f"{size:g}", distance=f"{distance:.4g}")
+                if late:
+                    continue
         last = (statement, place, radius)
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from rpl.ir.rules import AdvanceRules, Rules
+from rpl.ir.rules import AdvanceRules, InputRules, Rules
 
 # A move without blend has ended before the next statement begins; behind one with a blend the program goes on when the
 # robot enters the blend (M: it does not matter to the path what the program does then).
@@ -48,9 +48,16 @@ FIRST_SIGNAL: Final = {
 LEGACY_DIGITAL: Final = {8: 17, 9: 18, 16: 17, 17: 18}
 LEGACY_ANALOG: Final = {2: 3, 3: 4}
 
+# Script manual, movej: a move whose blend overlaps with that of a waypoint beside it is skipped.
+_INPUTS = InputRules(
+    overlapping_blends="Overlapping blends: this move is left out, its blend of {radius:g} mm and the one of"
+    " {before:g} mm before it are longer than the {way:g} mm between them",
+)
+
 RULES = Rules(
     name="urscript",
     advance=_ADVANCE,
+    inputs=_INPUTS,
     case_sensitive=True,
     text_plus=True,
     undefined=True,

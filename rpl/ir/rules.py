@@ -78,6 +78,8 @@ class InputRules:
     rotation_limits: by how much the squares of a quaternion may miss 1 without and with being normalised; beyond, it
         cannot be used. large_corner: what happens to a corner larger than half of a move beside it (`half`: in mm).
     least_mass: kg of a load that is none below, and what happens then. without_tool: what happens before a tool is set.
+    overlapping_blends: what is logged when a move is left out whose blend (`radius` mm) and that of the move before it
+        (`before`) are longer than the `way` between both; empty: no move is.
     """
 
     rotation_limits: tuple[float, float] | None = None
@@ -85,6 +87,7 @@ class InputRules:
     least_mass: float | None = None
     without_mass: str = ""
     without_tool: str = ""
+    overlapping_blends: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from rpl.passes import rigid
+from rpl.runtime import leftout
 from rpl.runtime.chain import Planning, request_of
 from rpl.runtime.orders import BlendOrder, Drive, Order, PathRuleOrder, TriggerOrder
 from rpl.runtime.pieces import Piece
@@ -52,14 +53,18 @@ class _Asked:
 
 def planned(queue: MotionQueue, order: Order, old: Drive | None = None) -> list[Drive] | Refused:
     """What is driven for a move, or for the block that ends with it, from where everything commanded before ends.
-    `old`: a drive that is planned anew and keeps its number."""
+    `old`: a drive that is planned anew and keeps its number. Nothing for a move that the controller leaves out."""
     if order.block or order.path_rules:
         for one in order.block:
             one.payloads = order.payloads
         asked = [*_asked(queue, (*order.block, order))]
         refused = _no_curve(asked)
         return refused if refused is not None else _runs(queue, asked)
+    stood = queue.planned_joints, queue.planned_external
     drive = queue._planned(order, old.number if old is not None else _number(queue))
+    if old is None and isinstance(drive, Drive) and leftout.is_left_out(queue, drive):
+        queue.planned_joints, queue.planned_external = stood
+        return []
     return [drive] if isinstance(drive, Drive) else Refused(drive, order)
 
 

@@ -96,6 +96,8 @@ class MotionQueue(RobotState):
         drives = blocks.planned(self, order)
         if isinstance(drives, blocks.Refused):
             return self._refuse(drives.fault, drives.order, next)
+        if not drives:
+            return next
         self.queue += drives
         task.busy = True
         self._ask()

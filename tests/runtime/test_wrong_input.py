@@ -131,12 +131,26 @@ def test_vplus_a_location_that_was_never_set_is_a_fault() -> None:
     assert "nowhere" in result.fault.message
 
 
+def test_tp_corners_of_a_size_larger_than_half_of_a_move_are_told() -> None:
+    """M: half of the shorter move. CNT has no size of its own."""
+    places = "".join(
+        f"P[{number}]{{\n   GP1:\n\tUF : 0, UT : 1,\t\tCONFIG : 'N U T, 0, 0, 0',\n\tX = {x}.000  mm,\tY = {y}.000  mm,"
+        "\tZ = 300.000  mm,\n\tW = 180.000 deg,\tP = 0.000 deg,\tR = 135.000 deg\n};\n"
+        for number, (x, y) in enumerate(((400, 0), (460, 0), (460, 200)), 1)
+    )
+    for size, expected in (("CR50", [("corner-larger-than-move", 5)]), ("CR30", []), ("CNT100", [])):
+        lines = ("J P[1] 30% FINE", f"L P[2] 100mm/sec {size}", "L P[3] 100mm/sec FINE")
+        numbered = "".join(f"{number:4d}:{line} ;\n" for number, line in enumerate(lines, 1))
+        text = f"/PROG  P\n/ATTR\n/MN\n{numbered}/POS\n{places}/END\n"
+        assert [(name, line) for name, line, _ in told("tp", text)] == expected
+
+
 def test_urscript_overlapping_blends_are_told() -> None:
     text = (
         "def prog():\n  movel(p[0.4,0,0.3,0,3.14,0], r=0)\n  movel(p[0.4,0.06,0.3,0,3.14,0], r=0.05)\n"
         "  movel(p[0.4,0.06,0.36,0,3.14,0], r=0.05)\n  movel(p[0.4,0.2,0.36,0,3.14,0])\nend\n"
     )
-    assert ("urscript-overlapping-blends", 3) in [(name, line) for name, line, _ in told("urscript", text)]
+    assert ("urscript-overlapping-blends", 4) in [(name, line) for name, line, _ in told("urscript", text)]
 
 
 # ---- in the run

@@ -119,6 +119,7 @@ def test_a_loop_that_only_sets_outputs_takes_no_time() -> None:
 def test_a_move_along_the_tool_starts_where_the_last_pass_of_a_loop_went() -> None:
     lines = """        FOR n = 1 TO 2
             MOVES b:TRANS(0, n * 20)
+            BREAK
         END
         DEPARTS 40"""
     assert "get_actual_tcp_pose" not in equal("vplus", VPLUS.format(lines=lines))

@@ -273,7 +273,7 @@ def test_overlapping_blends_are_reported_where_they_are() -> None:
         "movel(p[0.2,0,0,0,0,0])\nend\n"
     )
     (item,) = [i for i in diagnostics if i.code.name == "urscript-overlapping-blends"]
-    assert item.origin.line == 3
+    assert item.origin.line == 4
     assert "0.03 m" in item.message and "0.05 m" in item.message
 
 

@@ -107,6 +107,7 @@ from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.onceonly import reactions_once, rearmed_reactions
 from rpl.passes.legalise.onemove import settings_of_one_move
 from rpl.passes.legalise.optional import fit_parameters
+from rpl.passes.legalise.overlapping import fitting_corners, left_out_moves
 from rpl.passes.legalise.overrides import full_override
 from rpl.passes.legalise.ownplaces import own_places
 from rpl.passes.legalise.ownrecords import apart_from_neutral_records
@@ -376,6 +377,7 @@ PASSES: tuple[Pass, ...] = (
     strengths,
     usual_accelerations,
     fit_speeds,
+    left_out_moves,
     corners,
     reduced_zones,
     stand_before_ways,
@@ -385,6 +387,7 @@ PASSES: tuple[Pass, ...] = (
     corner_calls,
     modal_to_explicit,
     full_zones,
+    fitting_corners,
     tool_data,
     own_places,
     mixed_speeds,
