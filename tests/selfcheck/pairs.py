@@ -103,6 +103,7 @@ PROJECTS = {
     "inform_more_bags": Project(YASKAWA, 16, "BAGMAIN"),
     "rpl_more_measuring": Project(KUKA, 16),
     "rapid_more_coating": Project(ABB, 20),
+    "krl_more_sealing": Project(KUKA, 18, "SEALING"),
 }
 TARGETS = list(registry.target_names())
 

@@ -12,6 +12,7 @@ from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.earlyways import by_way
+from rpl.passes.legalise.modalflow import Flow
 from rpl.passes.legalise.movesettings import plain
 from rpl.passes.legalise.storedevents import events_before_moves
 from rpl.passes.legalise.usage import usage_of
@@ -50,12 +51,16 @@ class _Stored:
     def __init__(self, context: Context) -> None:
         self.context = context
         self.scope: Scope | None = None
+        self.flow: Flow | None = None  # of the settings, where the target's rule needs the speed of moves
         self.declarations: list[ir.Declaration] = []
         self.routines: list[ir.Routine] = []
+        self.pending = False  # may the program come here again before the event at hand has come?
         self.everywhere: frozenset[str] = frozenset()  # variables that a trap of the module at hand sees, folded
 
     def program(self, program: ir.Program) -> ir.Program:
         scopes = ProgramScope(program)
+        if rules_of(self.context.target).triggers.early_while_braking:
+            self.flow = Flow.of(program, dict(rules_of(self.context.source).system_defaults))
         seen = [one for module in program.modules for one in module.declarations if isinstance(one, ir.Variable)]
         everywhere = frozenset(one.name.lower() for one in seen if one.scope == "global")
         return replace(program, modules=tuple(self.module(module, scopes, everywhere) for module in program.modules))
@@ -78,7 +83,8 @@ class _Stored:
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
         waiting: list[ir.Trigger] = []
-        for statement in body:
+        for given in body:
+            statement = given
             if isinstance(statement, ir.Trigger):
                 waiting.append(statement)
                 continue
@@ -87,16 +93,19 @@ class _Stored:
                 own = tuple(one for one in statement.triggers if not isinstance(one, ir.Trigger))
                 statement = replace(statement, triggers=own)
             if waiting and isinstance(statement, ir.Move):
+                speed = self.speed(given)
                 names: list[ir.Expression] = []
                 for trigger in waiting:
                     name = self.context.fresh("rpl_trigger")
                     self.declarations.append(ir.Variable(name, ir.TriggerType(), scope="module"))
                     names.append(ir.Name(name))
-                    done.extend(self.stored(self.placed(trigger, statement), ir.Name(name)))
+                    self.pending = not isinstance(statement.blend, ir.BlendStop | None)
+                    done.extend(self.stored(self.placed(trigger, statement, speed), ir.Name(name)))
                 waiting = []
                 done.append(replace(statement, triggers=(*statement.triggers, *names)))
                 continue
             if isinstance(statement, ir.DefineTrigger) and statement.interrupt is None:
+                self.pending = False
                 done.extend(self.stored(statement.trigger, statement.target))
                 continue
             if waiting and not isinstance(statement, ir.Assign | ir.Nothing | ir.LookAhead):
@@ -106,15 +115,24 @@ class _Stored:
         done.extend(waiting)
         return tuple(done)
 
-    def placed(self, trigger: ir.Trigger, move: ir.Move) -> ir.Trigger:
+    def speed(self, move: ir.Statement) -> ir.Expression | None:
+        """What the move says of its speed on the path, or what holds for all moves there; None: it has a time."""
+        own = move.speed if isinstance(move, ir.Move) else None
+        if self.flow is None or (own is not None and own.duration is not None):
+            return None
+        if own is not None and own.path is not None:
+            return own.path
+        return self.flow.at(move).get("path_speed") or ir.System("path_speed")
+
+    def placed(self, trigger: ir.Trigger, move: ir.Move, speed: ir.Expression | None) -> ir.Trigger:
         """A routine that begins a constant time before the end of a straight move begins at the place where the tool is
         then, where the target counts such a time only while the robot brakes."""
-        speed = move.speed.path if move.speed is not None and move.speed.duration is None else None
-        rules = rules_of(self.context.target).triggers
-        if not rules.early_while_braking or speed is None or move.kind != "linear" or self.scope is None:
+        if speed is None or move.kind != "linear" or self.scope is None:
             return trigger
         delay = None if trigger.delay is None else constant_number(plain(trigger.delay), self.scope)
         switches = isinstance(trigger.action, ir.Assign) and not self.by_a_trap(trigger.action)
+        if trigger.reference == "middle" and isinstance(move.blend, ir.BlendStop | None):
+            trigger = replace(trigger, reference="end")  # no corner is there
         if switches or trigger.reference != "end" or delay is None or delay >= 0.0:
             return trigger
         return by_way(trigger, move, plain(speed), self.context)
@@ -133,6 +151,7 @@ class _Stored:
         steps: list[ir.Statement] = []
         action: ir.Statement = trigger.action
         if delay is not None and delay > 0 and trigger.delay is not None:
+            self.pending = True
             timer = self.interrupt(action, steps, trigger)
             action = ir.OrderInterrupt(timer, "timer", time=trigger.delay, once=True, origin=later)
             trigger = replace(trigger, delay=None)
@@ -154,8 +173,14 @@ class _Stored:
         self.declarations.append(ir.Variable(handle, ir.InterruptType(), scope="module"))
         self.routines.append(ir.Routine(trap, "trap", body=(action,)))
         later = replace(trigger.origin, comments=())
-        steps.append(ir.ControlInterrupt("delete", ir.Name(handle), origin=later))
-        steps.append(ir.ConnectInterrupt(ir.Name(handle), trap, origin=later))
+        connect = ir.ConnectInterrupt(ir.Name(handle), trap, origin=later)
+        if self.pending:  # a new connection would forget the event that is still to come
+            done = self.context.fresh("rpl_trigger_connected")
+            self.declarations.append(ir.Variable(done, ir.BoolType(), ir.BoolLiteral(False), scope="module"))
+            noted = ir.Assign(ir.Name(done), ir.BoolLiteral(True), origin=later)
+            steps.append(ir.If(((ir.Unary("not", ir.Name(done)), (connect, noted)),), origin=later))
+        else:
+            steps.extend((ir.ControlInterrupt("delete", ir.Name(handle), origin=later), connect))
         return ir.Name(handle)
 
 
