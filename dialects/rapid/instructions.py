@@ -126,6 +126,27 @@ def _wait_time(arguments: Arguments, expressions: Expressions, origin: Origin) -
     return ir.Wait(arguments.need(1)[0], "inpos" in arguments.options, origin=origin)
 
 
+# ---- tasks that wait for each other
+
+
+def _meet(mode: str, error: str) -> Make:
+    """WaitSyncTask [\\InPos,] point, tasks [\\TimeOut] and SyncMoveOn; SyncMoveOff point [\\TimeOut]. Only the name of
+    the point counts (data type syncident). SyncMoveOn and SyncMoveOff wait until the robot stands."""
+    count = 1 if mode == "apart" else 2
+    known = frozenset(("timeout", "inpos") if mode == "wait" else ("timeout",))
+
+    def make(arguments: Arguments, expressions: Expressions, origin: Origin) -> Made:
+        point, *rest = arguments.need(count)
+        options = arguments.options
+        if set(options) - known:
+            return None
+        limit = options.get("timeout")
+        raised, tasks = error if limit is not None else None, rest[0] if rest else None
+        return ir.Meet(point, tasks, mode, limit, raised, "inpos" in options, origin=origin)
+
+    return make
+
+
 # ---- interrupts
 
 
@@ -398,4 +419,5 @@ INSTRUCTIONS: dict[str, Make] = {
     "bookerrno": _book_error,
     "waittestandset": _take_lock,
     "callbyvar": _numbered_call,
+    "waitsynctask": _meet("wait", "ERR_WAITSYNCTASK"),
 }

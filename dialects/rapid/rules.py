@@ -131,6 +131,8 @@ RULES = Rules(
     loads_of_tools=True,
     functions=FUNCTIONS,
     inputs=INPUTS,
+    # M: the controller's configuration (SYS.cfg, CAB_TASKS) names its tasks; the first robot's is T_ROB1 by delivery.
+    task_name="T_ROB{number}",
     pulse_step_s=0.001,  # PulseDO, limitations (0.01 s before RobotWare 5)
     triggers=TriggerRules(early_while_braking=True),  # TriggIO, limitations: not earlier than the braking begins
 )

@@ -149,6 +149,21 @@ def _wait_until(tree: SyntaxTree, at: Reading) -> ir.Statement:
     )
 
 
+def _meet(tree: SyntaxTree, at: Reading) -> ir.Statement:
+    word = wording(next(tokens(tree, "MEET_OP"))).split()[1]
+    identity, *rest = trees(tree)
+    found = options(rest)
+    return ir.Meet(
+        expression(identity, at),
+        _valued(found, "with_tasks", at),
+        "wait" if word == "at" else word,
+        _valued(found, "timeout", at),
+        _worded(found, "error"),
+        "at_rest" in found,
+        origin=at.origin,
+    )
+
+
 def _declare_interrupt(tree: SyntaxTree, at: Reading) -> ir.Statement:
     priority, *rest, condition, done = trees(tree)
     found = options(rest)
@@ -299,6 +314,7 @@ STATEMENTS: dict[str, Lowering] = {
     "ask": _ask,
     "clock": _clock,
     "task_control": _task_control,
+    "meet": _meet,
     "enter_critical": _bare(ir.Critical, enter=True),
     "leave_critical": _bare(ir.Critical, enter=False),
     "for_next_move": _for_next_move,

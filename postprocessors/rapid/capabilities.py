@@ -11,7 +11,7 @@ from .tables import OPERATORS, RESERVED, TYPE_NAMES, words
 _STATEMENTS = words(
     """Assign CallRoutine If Switch For While Label Goto Return Halt Wait WaitUntil WaitForMotion Pulse SetAfter
     ConnectInterrupt OrderInterrupt ControlInterrupt StopMotion StartMotion ClearMotion StoreMotion Raise Retry
-    TryNext Message Dialog Clock Do Vendor Nothing Move MoveExternal DefineTrigger Search"""
+    TryNext Message Dialog Clock Do Vendor Nothing Move MoveExternal DefineTrigger Search Meet"""
 )
 
 CAPABILITIES = Capabilities(

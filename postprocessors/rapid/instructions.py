@@ -13,6 +13,11 @@ from .tables import BUTTONS
 _CONTROL = {"on": "IWatch", "off": "ISleep", "enable": "IEnable", "disable": "IDisable", "delete": "IDelete"}
 _HALT = {"stop": "Stop", "exit": "EXIT", "cycle": "ExitCycle"}
 _SETTERS = {"digital_out": "SetDO", "analog_out": "SetAO", "group_out": "SetGO"}
+_MEETINGS = {
+    "wait": ("WaitSyncTask", "ERR_WAITSYNCTASK"),
+    "together": ("SyncMoveOn", "ERR_SYNCMOVEON"),
+    "apart": ("SyncMoveOff", "ERR_SYNCMOVEOFF"),
+}
 _KEYS = 5
 NO_HEADLINE = '"Program"'  # of an error message whose source gives none
 _SETTINGS = {"joint_configuration_check": "ConfJ", "path_configuration_check": "ConfL"}
@@ -161,6 +166,8 @@ class Instructions:
                 if (handle is None) != (op in ("enable", "disable")):
                     raise CannotSayError("IEnable and IDisable work on all interrupts, the others on one")
                 return f"{_CONTROL[op]}{'' if handle is None else ' ' + self.print(handle)};"
+            case ir.Meet():
+                return self.meet(statement)
             case ir.Message():
                 return self.message(statement)
             case ir.Dialog():
@@ -206,6 +213,20 @@ class Instructions:
                     return f"Wait{_short(kind)} {self.signal(signal)},0{options};"
         stand = "\\InPos," if wait.in_position else " "
         return f"WaitUntil{stand}{self.print(wait.condition)}{options};"
+
+    def meet(self, meet: ir.Meet) -> str:
+        """Points are variables; what a time-out raises is the instruction's own error."""
+        word, error = _MEETINGS[meet.mode]
+        if not isinstance(meet.identity, ir.Name | ir.Index):
+            raise CannotSayError("tasks meet at a point that a variable names")
+        if (meet.timeout is None) != (meet.error is None) or (meet.error or error).upper() != error:
+            raise CannotSayError(f"a time-out raises {error}")
+        if (meet.tasks is None) != (meet.mode == "apart"):
+            raise CannotSayError("SyncMoveOff takes no list of tasks, the others need one")
+        given = "\\InPos," if meet.in_position and meet.mode == "wait" else " "
+        given += self.print(meet.identity) + ("" if meet.tasks is None else f",{self.print(meet.tasks)}")
+        limit = "" if meet.timeout is None else f"\\TimeOut:={self.print(meet.timeout)}"
+        return f"{word}{given}{limit};"
 
     def pulse(self, pulse: ir.Pulse) -> str:
         name, length = self.signal(pulse.signal), self.print(pulse.duration)

@@ -211,6 +211,8 @@ def _flow_text(statement: ir.Statement) -> str:
         case ir.TaskControl(op=op, task=task, arguments=arguments):
             given = f"({arguments_text(arguments)})" if arguments else ""
             return f"{op.upper()} TASK {name_text(task)}{given}"
+        case ir.Meet():
+            return _meet(statement)
         case ir.Critical(enter=enter):
             return "ENTER CRITICAL" if enter else "LEAVE CRITICAL"
         case ir.SetForNextMove(setting=setting, value=value):
@@ -243,6 +245,15 @@ def _wait_until(wait: ir.WaitUntil) -> str:
     if wait.error is not None:
         text += f" ERROR {name_text(wait.error)}"
     return text + " AT REST" if wait.in_position else text
+
+
+def _meet(meet: ir.Meet) -> str:
+    word = "AT" if meet.mode == "wait" else meet.mode.upper()
+    text = f"MEET {word} {expression_text(meet.identity)}{_behind('WITH', meet.tasks)}"
+    text += _behind("TIMEOUT", meet.timeout)
+    if meet.error is not None:
+        text += f" ERROR {name_text(meet.error)}"
+    return text + " AT REST" if meet.in_position else text
 
 
 def _operator_text(statement: ir.Message | ir.Dialog) -> str:

@@ -112,7 +112,8 @@ class Rules:
     controller whose messages show constant text only: regular expressions for what names a register of numbers, or
     any other register, in such a text. last_tool: while the program has set no tool, the place of the robot is told
     by tool and frame of the last move that named some (else by none). task_instances: starting a task that runs begins
-    another one of its routine (else nothing happens). exact_types: built-in types with components
+    another one of its routine (else nothing happens). task_name: how lists of tasks call a motion task
+    of that `{number}` where its own name is not known. exact_types: built-in types with components
     have to be equal too where a value is stored or passed. loads_of_tools: a tool has its own load; a load set for all
     moves is the part's, given in the tool, and that of one move is all of it (else there is one load, in the
     flange). load_variables: where it is kept, if not
@@ -151,6 +152,7 @@ class Rules:
     message_texts: str = ""
     last_tool: bool = True
     task_instances: bool = False
+    task_name: str = ""
     exact_types: bool = False
     loads_of_tools: bool = False
     load_variables: LoadVariables | None = None

@@ -357,6 +357,25 @@ class Critical:
 
 
 @dataclass(frozen=True, slots=True)
+class Meet:
+    """Tasks wait for each other: the program goes on when each task of `tasks` (an array of their names, or of records
+    whose first component is one) is at the point `identity`. That is a text; of a variable that only stands for a point
+    (RAPID syncident) its name counts, with its indices.
+
+    mode: `wait`, `together` (from here on the robots of these tasks are driven together: moves of the same identity
+    begin and end at the same time) or `apart` (no longer; the tasks are those that went together). `timeout` in s:
+    when it passes, `error` is raised. `in_position`: first wait until the robot stands."""
+
+    identity: Expression
+    tasks: Expression | None = None
+    mode: str = "wait"
+    timeout: Expression | None = None
+    error: str | None = None
+    in_position: bool = False
+    origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
+@dataclass(frozen=True, slots=True)
 class SetForNextMove:
     """A modal system variable has this value for the next commanded move only (V+ SPEED without ALWAYS)."""
 
@@ -413,6 +432,7 @@ Statement = (
     | Do
     | TaskControl
     | Critical
+    | Meet
     | SetForNextMove
     | OnError
     | Vendor

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from rpl import ir
 from rpl.ir.walk import children
 from rpl.linking import interrupts
+from rpl.linking.meetings import meet
 from rpl.linking.places import writer
 from rpl.runtime import answers, functions, resting, system, tasks
 from rpl.runtime.code import SWITCHED, Instruction, Read, Values, Write
@@ -45,6 +46,8 @@ def action(statement: ir.Statement, linker: RoutineLinker) -> Make | None:
             return _failing("opaque", f"this statement could not be read: {text.strip()[:80]}")
         case ir.TaskControl():
             return _task_control(statement, linker)
+        case ir.Meet():
+            return meet(statement, linker)
         case ir.Critical(enter=enter):
             return _critical(enter)
         case ir.SetForNextMove():

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
-from rpl.runtime import searching, tasks
+from rpl.runtime import meetings, searching, tasks
 from rpl.runtime.code import Code, Read, Values
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.interrupts import Interrupt
@@ -23,7 +23,7 @@ from rpl.runtime.signals import Key, bit_kind, group_bits, is_bit_group, key_of,
 from rpl.runtime.task import ENDED, READY, WAITING, Task
 from rpl.runtime.trace import Event, Fault, RunResult
 from rpl.runtime.values import SignalRef, StopWatch, Value, whole
-from rpl.runtime.waits import CYCLE_S, Wait, poll_step
+from rpl.runtime.waits import CYCLE_S, TIMED_OUT, Wait, poll_step
 from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
@@ -81,6 +81,7 @@ class Machine:
         self.tokens = 0
         self.answered = 0
         self.critical: int | None = None
+        self.arrivals: list[meetings.Arrival] = []  # tasks that wait for others
         self.held: list[int] = []
         self.timers: dict[int, StopWatch] = {}
         self.cyclic: dict[int, tuple[Values, Read]] = {}  # flag -> frame and expression
@@ -193,9 +194,9 @@ class Machine:
         wait = task.wait
         if wait is None or wait.token != token:
             return
-        over = wait.kind == "condition" and self._is_over(task, wait)
+        over = wait.kind in ("condition", "meeting") and self._is_over(task, wait)
         if task.wait is wait:
-            task.awake(not over and wait.kind in ("condition", "answer"))
+            task.awake(not over and wait.kind in TIMED_OUT)
         self.ready(task)
 
     def _poll(self, task: Task, token: int) -> None:
@@ -227,9 +228,9 @@ class Machine:
     def wait_again(self, task: Task, wait: Wait) -> None:
         """An interrupt has ended: take its task's wait up again."""
         if wait.deadline is not None and self.now >= wait.deadline:
-            over = wait.kind == "condition" and self._is_over(task, wait)
+            over = wait.kind in ("condition", "meeting") and self._is_over(task, wait)
             if task.wait is wait:
-                task.awake(not over and wait.kind in ("condition", "answer"))
+                task.awake(not over and wait.kind in TIMED_OUT)
         elif self._is_over(task, wait):
             task.awake(False)
         elif task.wait is wait:
@@ -429,6 +430,10 @@ class Machine:
         self.changed()
         if task.kind == "motion" and self._is_finished():
             self.end("finished")
+            return
+        waiting = meetings.in_vain(self, task)
+        if waiting is not None:
+            self.deadlock(waiting, f"task {task.name}, which has ended ({waiting.where().text.strip()[:80]})")
 
     def end_beyond_limits(self, task: Task) -> None:
         """End a run that has done more than it may; `task` was the last that did something."""

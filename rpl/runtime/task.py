@@ -12,7 +12,7 @@ from rpl.runtime.faults import FATAL, ProgramError, name_of, number_of
 from rpl.runtime.interrupts import Interrupt, Interrupts
 from rpl.runtime.values import Value
 from rpl.runtime.velocities import let_rest
-from rpl.runtime.waits import CYCLE_S, Wait, poll_step
+from rpl.runtime.waits import CYCLE_S, TIMED_OUT, Wait, poll_step
 from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
@@ -51,6 +51,7 @@ class Task:
         self.robot: MotionQueue | None = None
         self.busy = False
         self.held = False
+        self.together: frozenset[int] = frozenset()  # the tasks whose robots are driven together with this one's
         self.aside = 0  # frames of interrupts and triggers: there the program pointer never waits for the main motion
         self.looked = False
         self.looked_at_time = False
@@ -266,12 +267,12 @@ class Task:
         self.state = READY
         if wait is None:
             return
-        if wait.kind != "condition" and wait.kind != "answer":
+        if wait.kind not in TIMED_OUT:
             return
         if wait.timed_out is not None and wait.values is not None:
             wait.timed_out(wait.values, timed_out)
         elif timed_out and wait.error is not None:
-            name = "timeout" if wait.kind == "condition" else "dialog_timeout"
+            name = "dialog_timeout" if wait.kind == "answer" else "timeout"
             error = ProgramError(name, "the wait has timed out")
             error.number = self.frame.code.rules.errors.get(wait.error)
             self.fail(error, wait.at)

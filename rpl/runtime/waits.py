@@ -10,6 +10,8 @@ from rpl.runtime.code import Read, Values, Write
 if TYPE_CHECKING:
     from rpl.runtime.task import Task
 
+# Waits whose deadline is a time-out: the error is raised then.
+TIMED_OUT = frozenset(("condition", "answer", "meeting"))
 # How often a condition that depends on time is looked at, s: the cycle in which controllers interpolate.
 CYCLE_S = 0.012
 # A long wait is looked at less often: at this share of the time it has taken so far, at most every POLL_MOST_S.
@@ -26,7 +28,7 @@ def poll_step(waited_s: float, least_s: float = CYCLE_S) -> float:
 class Wait:
     """kind: time, condition, idle (the robot has driven everything), room (the program pointer may go on), released
     (move `move` lets the program go on), standing (a stop has ended), tick (a polling loop lets time pass), answer,
-    task (number `move` has ended).
+    task (number `move` has ended), meeting (other tasks are at the same point).
 
     `at` is the waiting instruction, `next` where to go on; `deadline` ends the wait, then `timed_out` is written or the
     error raised. `counts`: whether the deadline is the purpose (a timed wait) or a time-out.
@@ -61,6 +63,8 @@ class Wait:
                 return task.robot is None or task.robot.has_released(self.move)
             case "standing":
                 return task.robot is None or task.robot.is_standing()
+            case "meeting":
+                return all(one.token != self.token for one in task.machine.arrivals)
             case "task":
                 return task.machine.tasks[self.move].has_ended
         return False
@@ -76,6 +80,7 @@ class Wait:
             "standing": "the robot to stand",
             "tick": "time to pass",
             "answer": "the operator's answer",
+            "meeting": "other tasks",
             "task": "another task to end",
         }
         return f"{words[self.kind]} ({self.subject})" if self.subject else words[self.kind]

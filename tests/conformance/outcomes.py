@@ -146,6 +146,7 @@ _CALLED = {
     ir.Dialog: "question to the operator",
     ir.Clock: "stop watch",
     ir.Critical: "critical section",
+    ir.Meet: "tasks that wait for each other",
     ir.SetForNextMove: "setting for one move",
     ir.Trigger: "output or call on the path",
     ir.PathRule: "spline",

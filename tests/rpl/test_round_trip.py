@@ -146,6 +146,8 @@ _FULL: tuple[ir.Statement, ...] = (
     ir.Assign(_ONE, ir.Builtin("sin", (_ONE,))),
     ir.Assign(_ONE, ir.VendorValue("rapid", "f(1)", ir.RealType())),
     ir.Critical(True),
+    ir.Meet(_ONE, _ONE, "together", _ONE, "e", True),
+    ir.Meet(ir.TextLiteral("t"), mode="apart"),
     ir.SetForNextMove(_ONE, _ONE),
     ir.OnError("f"),
 )

@@ -38,7 +38,7 @@ PAUSED_AT_END = code(
 _DRIVES = (ir.Move, ir.MoveExternal, ir.Spline)
 _SLOW = (
     *(*_DRIVES, ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.Halt, ir.Loop, ir.Vendor, ir.Opaque),
-    *(ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.StoreMotion, ir.ResumeLevel, ir.Critical),
+    *(ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.StoreMotion, ir.ResumeLevel, ir.Critical, ir.Meet),
 )
 _LEAVES = (ir.Label, ir.Goto, ir.Return, ir.ExitLoop, ir.NextPass, ir.Raise, ir.Retry, ir.TryNext)
 _DEEPEST = 8  # calls in calls that are looked into

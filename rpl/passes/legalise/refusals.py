@@ -31,6 +31,13 @@ INTERRUPT = code(
     "watch the condition in a task of its own or with the controller's monitoring function",
     stops=True,
 )
+MEETING = code(
+    "meeting-lost",
+    Severity.LOSS,
+    "the target's tasks cannot wait for each other at a point ({point})",
+    "let the programs wait for signals of each other",
+    stops=True,
+)
 TUNING = code(
     "tuning-left-out",
     Severity.WARNING,
@@ -74,6 +81,8 @@ def refuse(program: ir.Program, context: Context) -> ir.Program:
                 return (ir.Nothing(origin=replace(statement.origin, comments=(*statement.origin.comments, remark))),)
             case ir.TaskControl(op=op, task=name) if "TaskControl" not in statements or op not in operations:
                 report(TASK, statement.origin, what=_WHAT.get(op, op), name=name)
+            case ir.Meet(identity=point) if "Meet" not in statements:
+                report(MEETING, statement.origin, point=_called(point))
             case ir.DeclareInterrupt(action=action) if not _INTERRUPTS & statements:
                 name = action.name if isinstance(action, ir.CallRoutine) else "an assignment"
                 report(INTERRUPT, statement.origin, action=name)
@@ -89,6 +98,13 @@ def refuse(program: ir.Program, context: Context) -> ir.Program:
         return edit_bodies(routine, lambda body: map_body(body, change))
 
     return edit_routines(program, context, work)
+
+
+def _called(point: ir.Expression) -> str:
+    """What a meeting point is called, as far as the program's text says it."""
+    while isinstance(point, ir.Index):
+        point = point.base
+    return point.id if isinstance(point, ir.Name) else point.value if isinstance(point, ir.TextLiteral) else "computed"
 
 
 def _unsolved(statement: ir.Statement, scope: Scope, context: Context) -> None:
