@@ -22,6 +22,7 @@ _FRAME = re.compile(
     r"|DEFDAT\s+[\w$]+|&ACCESS\b|&REL\b|&PARAM\b)",
     re.IGNORECASE | re.MULTILINE,
 )
+_FORM = re.compile(r"^[ \t\ufeff]*DEFTP\s+\w+\s*=", re.IGNORECASE | re.MULTILINE)  # an inline form's mask, no program
 _STATEMENTS = re.compile(
     r"^[ \t]*(?:S?(?:PTP|LIN|CIRC)(?:_REL)?[ \t]*[\w${]|\$(?:OUT|VEL|BASE|TOOL|APO|ACC)\b|WAIT[ \t]+(?:SEC|FOR)\b"
     r"|DECL[ \t]|ENDFOR\b|ENDIF\b|ENDSWITCH\b|END[ \t]*$|ENDFCT\b|ENDDAT\b|;FOLD\b|BAS[ \t]*\()",
@@ -32,6 +33,8 @@ _STATEMENTS = re.compile(
 def _recognise(path: str, text: str) -> int:
     """How sure the content is KRL: the frame of a module, then the share of typical lines."""
     head = text[:200_000]
+    if _FORM.search(head[:20_000]):
+        return 0
     frames = len(_FRAME.findall(head[:20_000]))
     if frames and _STATEMENTS.search(head):
         return 95

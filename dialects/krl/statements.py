@@ -170,8 +170,14 @@ class Statements(Declarations):
         return lambda pieces, origin: procedure_call(name, (), code_text(origin), origin)
 
     def action(self, tree: SyntaxTree) -> Callable[[Pieces, Origin], ir.Assign | ir.CallRoutine]:
-        """The statement behind DO of a trigger or interrupt."""
+        """The statement behind DO of a trigger or interrupt.
+
+        A routine of a technology package (H50, A20 ...) stays a call: it runs when the action does, and is named then.
+        """
         build = self.statement(tree)
+        called = tree.data == "call_statement"
+        name = str(tree.children[0]) if called else ""
+        arguments = self.arguments(_tree(tree.children[1])) if called else None
 
         def make(pieces: Pieces, origin: Origin) -> ir.Assign | ir.CallRoutine:
             done = build(pieces, origin)
@@ -179,10 +185,12 @@ class Statements(Declarations):
                 case ir.Assign() | ir.CallRoutine():
                     return done
                 case ir.Pulse(signal=ir.Signal(kind="digital_out", index=index)) if index is not None:
-                    arguments = (index, done.value, done.duration)
-                    return ir.CallRoutine("PULSE_OUT", tuple(map(ir.Argument, arguments)), origin=origin)
+                    pulsed = (index, done.value, done.duration)
+                    return ir.CallRoutine("PULSE_OUT", tuple(map(ir.Argument, pulsed)), origin=origin)
                 case ir.StopMotion(hard=hard):
                     return ir.CallRoutine("BRAKE_HARD" if hard else "BRAKE_SOFT", origin=origin)
+                case ir.Vendor() if arguments is not None:
+                    return ir.CallRoutine(name, arguments(pieces, origin), origin=origin)
             raise StatementError("only an assignment or a call can stand behind DO", 0)
 
         return make

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import re
 
-_COMMENTS = r"(?:\s|\ufeff|![^\r\n]*(?:\r\n|\r|\n|$))*"
+# Each text is looked at, logs of thousands of blank lines too: no pattern may have two ways through the same blanks.
+_COMMENTS = r"(?:[\s\ufeff]|![^\r\n]*+)*+"
 _HEADER = re.compile(rf"{_COMMENTS}%%%\s*VERSION\s*:\s*\d", re.IGNORECASE)
 _MODULE = re.compile(rf"{_COMMENTS}(?:%%%[^%]*%%%)?{_COMMENTS}MODULE\s+[^\W\d]\w*\s*(?:\(|\r|\n|!|$)", re.IGNORECASE)
-_END = re.compile(r"^\s*END(?:MODULE|PROC|FUNC|TRAP)\b", re.IGNORECASE | re.MULTILINE)
+_END = re.compile(r"^[ \t]*+END(?:MODULE|PROC|FUNC|TRAP)\b", re.IGNORECASE | re.MULTILINE)
 _PROC = re.compile(
-    r"^\s*(?:LOCAL\s+)?(?:PROC\s+\w+\s*\(|FUNC\s+\w+\s+\w+\s*\(|TRAP\s+\w+\s*$)", re.IGNORECASE | re.MULTILINE
+    r"^[ \t]*+(?:LOCAL\s+)?(?:PROC\s+\w+\s*\(|FUNC\s+\w+\s+\w+\s*\(|TRAP\s+\w+\s*$)", re.IGNORECASE | re.MULTILINE
 )
 _DATA = re.compile(
-    r"^\s*(?:LOCAL\s+|TASK\s+)?(?:CONST|VAR|PERS)\s+(?:num|robtarget|jointtarget|bool|string|tooldata|wobjdata)\s+\w+"
+    r"^[ \t]*+(?:LOCAL\s+|TASK\s+)?(?:CONST|VAR|PERS)\s+(?:num|robtarget|jointtarget|bool|string|tooldata|wobjdata)\s+\w+"
     r"[^;\n]*;",
     re.IGNORECASE | re.MULTILINE,
 )
-_MOVE = re.compile(r"^\s*Move(?:AbsJ|J|L|C)\b[^;\n]*,[^;\n]*;", re.IGNORECASE | re.MULTILINE)
+_MOVE = re.compile(r"^[ \t]*+Move(?:AbsJ|J|L|C)\b[^;\n]*,[^;\n]*;", re.IGNORECASE | re.MULTILINE)
 
 
 def encoded(data: bytes) -> bool:

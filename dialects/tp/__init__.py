@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 _HEAD = re.compile(r"^[ \t\ufeff]*/PROG\b", re.MULTILINE)
 _BODY = re.compile(r"^[ \t]*/(?:MN|ATTR)\b", re.MULTILINE)
 _DUMP = re.compile(
-    r"^\s*\[\*(?:NUMREG|POSREG|STRREG)\*\]\$\w+|^\s*\[\*SYSTEM\*\]\s*\$(?:MN(?:UFRAME|UTOOL)|PLST_GRP1)\b", re.MULTILINE
+    r"^[ \t]*\[\*(?:NUMREG|POSREG|STRREG)\*\]\$\w+|^[ \t]*\[\*SYSTEM\*\]\s*\$(?:MN(?:UFRAME|UTOOL)|PLST_GRP1)\b",
+    re.MULTILINE,
 )
 
 

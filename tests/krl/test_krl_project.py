@@ -236,6 +236,7 @@ RECOGNISED = [
     ("a.dat", "DEFDAT A PUBLIC\nENDDAT\n", True),
     ("a.src", "#include <stdio.h>\nint main(void) { return 0; }\n", False),
     ("a.dat", "1.0 2.0 3.0\n4.0 5.0 6.0\n", False),
+    ("form.kfd", "DEFTP GRIP={SOT FALSE}\nDECL PARAM one={VALUE {NUMBER:MIN 1,MAX 4}}\nENDTP\nDEF A()\n", False),
     ("a.mod", "MODULE M\nPROC main()\nMoveJ p1,v100,z10,tool0;\nENDPROC\nENDMODULE\n", False),
     ("log.dat", "EVENT :START\nLOGIN :\nTASK :1\n\n" * 20 + "WAIT SEC 1\n", False),
     ("log.src", "2024-01-01 12:00:00 robot started\n2024-01-01 12:00:01 robot stopped\n", False),

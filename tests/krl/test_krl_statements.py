@@ -80,10 +80,24 @@ def test_triggers(text: str, wanted: tuple[object, ...]) -> None:
     assert found == wanted
 
 
+def test_a_technology_call_on_the_path_keeps_its_name_and_arguments() -> None:
+    trigger = statement("TRIGGER WHEN DISTANCE=1 DELAY=20 DO H50(CHK,1,2) PRIO=-1")
+    assert isinstance(trigger, ir.Trigger)
+    called = trigger.action
+    assert isinstance(called, ir.CallRoutine)
+    assert (called.name, [shown(given.value) for given in called.arguments if given.value]) == (
+        "H50",
+        ["CHK", "1", "2"],
+    )
+
+
 STATEMENTS = [
     ("GLOBAL INTERRUPT DECL 3 WHEN $STOPMESS==TRUE DO IR_STOPM ( )", ir.DeclareInterrupt),
     ("INTERRUPT DECL 3 WHEN $IN[2]==FALSE DO BRAKE", ir.DeclareInterrupt),
     ("INTERRUPT DECL 3 WHEN $IN[2] DO $OUT[1]=TRUE", ir.DeclareInterrupt),
+    ("INTERRUPT DECL 6 WHEN $CYCFLAG[3]==FALSE DO A20(TECH_STOP2)", ir.DeclareInterrupt),
+    ("INTERRUPT DECL 15 WHEN $ZERO_MOVE DO H70 (7,CD0 )", ir.DeclareInterrupt),
+    ("TRIGGER WHEN DISTANCE=0 DELAY=0 DO H50(CHK_APO_UP,1,1,GCONT) PRIO=-1", ir.Trigger),
     ("Wait for StrClear($LOOP_MSG[])", ir.WaitUntil),
     ("INTERRUPT ON 3", ir.ControlInterrupt),
     ("INTERRUPT OFF", ir.ControlInterrupt),

@@ -106,6 +106,11 @@ def test_recognition_goes_by_content(text: str, sure: bool) -> None:
     assert found == DIALECT.recognise("x.txt", text)
 
 
+@pytest.mark.parametrize("filling", ["\n", "\r\n", " ", "! remark\r\n"], ids=["lines", "crlf", "blanks", "remarks"])
+def test_recognition_ends_on_long_empty_texts(filling: str) -> None:
+    assert DIALECT.recognise("x.dat", filling * 100_000 + "x") == 0
+
+
 def test_the_predefined_data_have_their_values_and_types() -> None:
     prelude = DIALECT.prelude()
     assert prelude is not None

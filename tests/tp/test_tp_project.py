@@ -284,6 +284,11 @@ def test_the_content_tells_a_listing_from_a_log(text: str, score: bool) -> None:
     assert (registry.dialect("tp").recognise("a.ls", text) > 50) == score
 
 
+@pytest.mark.parametrize("line", ["\n", "\r\n", " \n"])
+def test_recognition_ends_on_long_empty_texts(line: str) -> None:
+    assert registry.dialect("tp").recognise("a.ls", line * 100_000 + "x") == 0
+
+
 LAYOUTS = [
     "/PROG A\n/MN\n: DO[1]=ON;\n: WAIT R[33]=3;\n/POS\n/END\n",
     "/PROG  A\r\n/ATTR\r\n/MN\r\n   1:  DO[1]=ON ;\r\n   2:   ;\r\n/POS\r\n/END\r\n",

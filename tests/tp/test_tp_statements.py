@@ -227,4 +227,6 @@ def test_an_unknown_instruction_is_vendor_and_noted() -> None:
 def test_a_macro_instruction_calls_its_program() -> None:
     macro = listing("DO[1]=ON", "", "TOPEN", "Macro").replace('"test"', '"Open tool"')
     assert body("Open tool", macro) == ["TOPEN()"]
+    waits = macro.replace("TOPEN", "WAITNEXT").replace("Open tool", "WAIT NEXT PART")
+    assert body("WAIT NEXT PART", waits) == ["WAITNEXT()"]
     assert body("Open hand 1", listing("DO[1]=ON", "", "HOPN1", "Macro")) == ["HOPN1()"]  # M: the standard macros
