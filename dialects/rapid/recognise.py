@@ -13,8 +13,8 @@ _PROC = re.compile(
     r"^[ \t]*+(?:LOCAL\s+)?(?:PROC\s+\w+\s*\(|FUNC\s+\w+\s+\w+\s*\(|TRAP\s+\w+\s*$)", re.IGNORECASE | re.MULTILINE
 )
 _DATA = re.compile(
-    r"^[ \t]*+(?:LOCAL\s+|TASK\s+)?(?:CONST|VAR|PERS)\s+(?:num|robtarget|jointtarget|bool|string|tooldata|wobjdata)\s+\w+"
-    r"[^;\n]*;",
+    r"^[ \t]*+(?:LOCAL\s+|TASK\s+)?(?:CONST|VAR|PERS)\s+"
+    r"(?:num|robtarget|jointtarget|bool|string|tooldata|wobjdata)\s+\w+[^;\n]*;",
     re.IGNORECASE | re.MULTILINE,
 )
 _MOVE = re.compile(r"^[ \t]*+Move(?:AbsJ|J|L|C)\b[^;\n]*,[^;\n]*;", re.IGNORECASE | re.MULTILINE)
