@@ -11,7 +11,7 @@ from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
 ARM = "adept_viper_s650"
-MOVES = "MOVES TRANS(400,20*i,200,0,180,0)\nMOVES TRANS(400,20*i,240,0,180,0)"
+MOVES = "MOVES TRANS(400,20*i,140,0,180,0)\nMOVES TRANS(400,20*i,240,0,180,0)"
 BODIES = {
     "loop": f"FOR i = 1 TO 2\n{MOVES}\nEND",
     "branch": f"i = 2\nIF SIG(-1001) THEN\n{MOVES}\nEND",

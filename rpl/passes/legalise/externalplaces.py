@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rpl import ir
+from rpl import ir, registry
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant, constant_number
@@ -43,15 +43,21 @@ def external_places(program: ir.Program, context: Context) -> ir.Program:
 
 
 def _used(program: ir.Program) -> tuple[str, ...]:
-    """Axes that some place or component of the program sends away from zero; those of no other place do not count."""
+    """Axes that some place or component of the program sends away from zero; those of no other place do not count,
+    nor those of the parameters in a language's prelude, which are limits and not places."""
     found: set[str] = set()
-    for node in walk(*program.modules):
+    for node in walk(*(module for module in program.modules if not _is_prelude(module))):
         match node:
             case ir.Field(name=name):
                 found |= {name} & set(_NAMES)
             case ir.Aggregate(entries=entries):
                 found |= {name for name, value in entries if name in _NAMES and not is_nothing(value)}
     return tuple(name for name in _NAMES if name in found)
+
+
+def _is_prelude(module: ir.Module) -> bool:
+    prelude = registry.dialect(module.dialect).prelude()
+    return prelude is not None and prelude.name.lower() == module.name.lower()
 
 
 class _Places:

@@ -31,9 +31,10 @@ SMALLER = code(
 )
 UNKNOWN = code(
     "corners-may-overlap",
-    Severity.INFO,
-    "where this corner or the next one lies is not known here: if both are longer than the way between them, the"
-    " target's controller leaves a move out",
+    Severity.WARNING,
+    "how large this corner or the next one is, or where it lies, is not known here: if both are longer than the way"
+    " between them, the target's controller leaves a move out",
+    "look at the places, or give the moves smaller corners",
 )
 _SLACK_MM = 1e-3
 
@@ -67,35 +68,33 @@ def fitting_corners(program: ir.Program, context: Context) -> ir.Program:
     if source or not target:
         return program
 
-    told: set[str] = set()
+    told: list[ir.Move] = []
 
     def change(scope: Scope, body: ir.Body) -> ir.Body:
         done = list(body)
         last: tuple[int, _Corner] | None = None
         flown_by: ir.Move | None = None
         for index, statement in enumerate(body):
+            if isinstance(statement, ir.Nothing):
+                continue
             corner = _corner(statement, scope)
-            if corner is not None and last is not None and last[1].overlaps(corner):
-                way = last[1].way_to(corner)
-                context.diagnostics.report(SMALLER, last[1].move.origin, way=round(way, 3))
-                done[last[0]] = last[1].of_size(done[last[0]], way / 2.0)
-                done[index] = corner.of_size(statement, way / 2.0)
-                corner = replace(corner, size=min(corner.size, way / 2.0))
-            if not isinstance(statement, ir.Nothing):
-                if (
-                    corner is None
-                    and last is None
-                    and flown_by is not None
-                    and _flies_by(statement, scope)
-                    and not told
-                ):
-                    told.add("unknown")
-                    context.diagnostics.report(UNKNOWN, flown_by.origin)
-                last = (index, corner) if corner is not None else None
-                flown_by = statement if isinstance(statement, ir.Move) and _flies_by(statement, scope) else None
+            if corner is not None and last is not None:
+                if last[1].overlaps(corner):
+                    way = last[1].way_to(corner)
+                    context.diagnostics.report(SMALLER, last[1].move.origin, way=round(way, 3))
+                    done[last[0]] = last[1].of_size(done[last[0]], way / 2.0)
+                    done[index] = corner.of_size(statement, way / 2.0)
+                    corner = replace(corner, size=min(corner.size, way / 2.0))
+            elif flown_by is not None and _flies_by(statement, scope):
+                told.append(flown_by)
+            last = (index, corner) if corner is not None else None
+            flown_by = statement if isinstance(statement, ir.Move) and _flies_by(statement, scope) else None
         return body if all(new is old for new, old in zip(done, body, strict=True)) else tuple(done)
 
-    return _rewritten(program, change)
+    fitted = _rewritten(program, change)
+    for move in told[:1]:
+        context.diagnostics.report(UNKNOWN, move.origin)
+    return fitted
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,11 +128,11 @@ def _flies_by(statement: ir.Statement, scope: Scope) -> bool:
     """Is it a path move with a corner, as far as can be told?"""
     if not isinstance(statement, ir.Move) or statement.kind == "joint":
         return False
-    return isinstance(statement.blend, ir.BlendDistance | ir.BlendZone) and _size(statement.blend, scope) != 0.0
+    return not isinstance(statement.blend, ir.BlendStop | None) and _size(statement.blend, scope) != 0.0
 
 
 def _corner(statement: ir.Statement, scope: Scope) -> _Corner | None:
-    if not isinstance(statement, ir.Move) or statement.relative is not None or statement.kind == "circular":
+    if not isinstance(statement, ir.Move) or statement.relative is not None:
         return None
     pose, size = pose_of(constant(statement.target, scope)), _size(statement.blend, scope)
     if pose is None or size is None:
