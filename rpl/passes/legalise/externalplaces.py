@@ -56,8 +56,12 @@ def _used(program: ir.Program) -> tuple[str, ...]:
 
 
 def _is_prelude(module: ir.Module) -> bool:
+    """Is the module the used part of its language's prelude?"""
     prelude = registry.dialect(module.dialect).prelude()
-    return prelude is not None and prelude.name.lower() == module.name.lower()
+    if prelude is None or not module.declarations:
+        return False
+    sources = [declaration.origin.source for declaration in prelude.declarations]
+    return all(any(one.origin.source is source for source in sources) for one in module.declarations)
 
 
 class _Places:
