@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rpl.ir.rules import AdvanceRules, Rules
+from rpl.ir.rules import AdvanceRules, InputRules, Range, Rules
 
 from . import tables
 
@@ -40,6 +40,8 @@ RULES = Rules(
         "deceleration_percent": 100.0,  # M: DEC is given apart from ACC; without it a move slows down as it can
         "path_limit_rule": "reduce",
     },
+    # Operator's manuals: VJ is 0.01 to 100 percent.
+    inputs=InputRules(ranges={"joint_speed": Range(most=100.0), "external_speed": Range(most=100.0)}),
     blend_levels=tables.LEVELS,
     # MOVS is the parabola through three points; where two of them overlap "a composite path" is made (operator's
     # manuals). M: the composite is their mean, weighted evenly along the way from one to the other.

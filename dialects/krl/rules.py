@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rpl.ir.rules import AdvanceRules, InputRules, LoadVariables, Rules, TriggerRules
+from rpl.ir.rules import AdvanceRules, InputRules, LoadVariables, Range, Rules, TriggerRules
 
 from . import tables
 
@@ -39,6 +39,13 @@ LOADS = LoadVariables(
 INPUTS = InputRules(
     large_corner="begins it {half:g} mm before the point, at half of that",
     without_tool="after power-on $TOOL is not valid and the controller refuses the move (here it counts as zero)",
+    # M: KSS refuses a value beyond 100 percent; with $OV_PRO=0 it is in order and the robot stands.
+    ranges={
+        "joint_speed": Range(most=100.0),
+        "override": Range(
+            0.0, 100.0, at_least="the robot stands until it is raised (here it drives at a thousandth of the speed)"
+        ),
+    },
 )
 
 RULES = Rules(

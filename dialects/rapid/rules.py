@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rpl.ir.rules import AdvanceRules, InputRules, Rules, TriggerRules
+from rpl.ir.rules import AdvanceRules, InputRules, Range, Rules, TriggerRules
 
 from .prelude import ERRORS
 from .types import TYPES
@@ -106,7 +106,8 @@ INPUTS = InputRules(
     rotation_limits=(1e-5, 0.1),
     large_corner="makes it {half:g} mm, half of that",
     least_mass=1e-6,
-    without_mass="the controller refuses to move with it",
+    without_mass="the controller refuses to move with it (here it drives as without a load)",
+    ranges={"move_duration": Range(0.0, above=True)},  # M: \\T:=0 is no time for a move
 )
 
 RULES = Rules(

@@ -8,7 +8,7 @@ statement begins; behind a move with a blend the program goes on when the robot 
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.rules import AdvanceRules, Rules
+from rpl.ir.rules import AdvanceRules, InputRules, Range, Rules
 from rpl.ir.words import NATIVE
 
 # Names that a handler or a WAIT ... ERROR may use. The numbers lie above those that programs raise themselves.
@@ -42,6 +42,7 @@ RULES = Rules(
         stop_statements=frozenset(("Halt",)),
         source="docs/rpl.md: a move with a blend lets the program go on where the corner begins",
     ),
+    inputs=InputRules(ranges={"joint_speed": Range(most=100.0), "override": Range(0.0, 100.0, above=True)}),
     undefined=True,
     last_tool=False,
     system_defaults={

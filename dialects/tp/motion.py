@@ -21,7 +21,8 @@ from .statements import HIT, Lowered, Many, Statements
 OTHER_FRAME = code(
     "tp-other-frame",
     Severity.WARNING,
-    "P[{number}] was recorded with {name} {recorded}, but {active} is active here; controllers stop there",
+    "P[{number}] was recorded with {name} {recorded}, but {active} is active here; controllers stop there"
+    " (a run goes on with the active one)",
     "record the point again or select {name} {recorded}",
 )
 NOT_TAUGHT = code(

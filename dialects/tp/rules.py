@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from rpl.ir.rules import AdvanceRules, InputRules, Rules
+from rpl.ir.rules import AdvanceRules, InputRules, Range, Rules
+
+from . import tables
 
 _XYZ = {name: name for name in ("x", "y", "z", "a", "b", "c")}
 _WPR = {"w": "c", "p": "b", "r": "a"}
@@ -17,7 +19,17 @@ COMPONENTS = {
 
 # M: corners of a given size (CR, CD) take at most half of the shorter move beside them; the option's manual is not at
 # hand. CNT has no size of its own.
-_INPUTS = InputRules(large_corner="makes it {half:g} mm, half of that")
+# Ranges: the operator's manual gives 1 to 100 percent for J, 0 to 100 for CNT and 1 to 100 for OVERRIDE; M: a move with
+# a time needs more than none, and numbers of frames go up to what the controller has.
+_INPUTS = InputRules(
+    large_corner="makes it {half:g} mm, half of that",
+    ranges={
+        "joint_speed": Range(most=100.0),
+        "override": Range(1.0, 100.0),
+        "move_duration": Range(0.0, above=True),
+    },
+    variable_ranges={f"{bank}_NUM": Range(0.0, float(most)) for bank, most in tables.FRAMES.items()},
+)
 
 RULES = Rules(
     name="tp",

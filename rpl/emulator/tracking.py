@@ -30,6 +30,7 @@ FaultKind = Literal[
     "degenerate_circle",
     "bad_speed",
     "bad_target",
+    "bad_value",
     "no_curve",
 ]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -72,6 +73,79 @@ class LoadVariables:
 
 
 @dataclass(frozen=True, slots=True)
+class Range:
+    """The values that a controller takes of a quantity (base units): from `least` (`above`: only beyond it) to `most`.
+
+    Any other one stops the program where it is set or driven with. `at_least`: what happens at `least`, where that is
+    allowed and yet hardly meant.
+    """
+
+    least: float = -math.inf
+    most: float = math.inf
+    above: bool = False
+    at_least: str = ""
+
+    def holds(self, value: float) -> bool:
+        """Is this value (base units) one that the controller takes? NaN is none."""
+        return (value > self.least if self.above else value >= self.least) and value <= self.most
+
+    @property
+    def text(self) -> str:
+        """The range in words."""
+        low = f"more than {self.least:g}" if self.above else f"at least {self.least:g}"
+        if self.most == math.inf:
+            return low
+        high = f"at most {self.most:g}"
+        return high if self.least == -math.inf else f"{low} and {high}"
+
+
+# What no controller can drive with, whatever its language: by neutral system variable, or by the part of a move that
+# stands for it. A speed of zero or less is told by the planner, together with what a speed is worked out from.
+RANGES: Mapping[str, Range] = {
+    "override": Range(0.0, above=True),
+    "speed_percent": Range(0.0, above=True),
+    "speed_limit": Range(0.0, above=True),
+    "path_acceleration": Range(0.0, above=True),
+    "axis_acceleration": Range(0.0, above=True),
+    "joint_acceleration": Range(0.0, above=True),
+    "move_duration": Range(0.0),
+    "blend_distance": Range(0.0),
+    "blend_rotation": Range(0.0),
+    "blend_joint": Range(0.0, 100.0),
+    "blend_speed": Range(0.0, 100.0),
+}
+
+# How a message calls them, with the base unit.
+QUANTITIES: Mapping[str, tuple[str, str]] = {
+    "override": ("override", "%"),
+    "speed_percent": ("share of the speed", "%"),
+    "speed_limit": ("speed limit", "mm/s"),
+    "joint_speed": ("axis speed", "%"),
+    "external_speed": ("speed of external axes", "%"),
+    "path_acceleration": ("path acceleration", "mm/s2"),
+    "axis_acceleration": ("axis acceleration", "deg/s2"),
+    "joint_acceleration": ("axis acceleration", "%"),
+    "acceleration_percent": ("acceleration", "%"),
+    "deceleration_percent": ("deceleration", "%"),
+    "acceleration_ramp": ("acceleration ramp", "%"),
+    "stop_ramp": ("ramp of a stop", "%"),
+    "move_duration": ("time of the move", "s"),
+    "blend_distance": ("corner distance", "mm"),
+    "blend_rotation": ("corner angle", "deg"),
+    "blend_joint": ("corner", "%"),
+    "blend_speed": ("corner", "% of the speed"),
+}
+
+
+def refusal(name: str, value: float, allowed: Range) -> str:
+    """Why a controller does not take a value (base units) of a quantity or variable; empty: it does."""
+    if allowed.holds(value):
+        return ""
+    what, unit = QUANTITIES.get(name, (name, ""))
+    return f"the {what} is {value:g}{' ' if unit else ''}{unit}, but must be {allowed.text}"
+
+
+@dataclass(frozen=True, slots=True)
 class InputRules:
     """What a controller makes of motion values that are no good (rpl.passes.motionvalues).
 
@@ -80,6 +154,8 @@ class InputRules:
     least_mass: kg of a load that is none below, and what happens then. without_tool: what happens before a tool is set.
     overlapping_blends: what is logged when a move is left out whose blend (`radius` mm) and that of the move before it
         (`before`) are longer than the `way` between both; empty: no move is.
+    ranges: values of quantities that it takes, where they differ from RANGES; variable_ranges: those of the language's
+    own variables, by name (FANUC UTOOL_NUM).
     """
 
     rotation_limits: tuple[float, float] | None = None
@@ -88,6 +164,12 @@ class InputRules:
     without_mass: str = ""
     without_tool: str = ""
     overlapping_blends: str = ""
+    ranges: Mapping[str, Range] = field(default_factory=dict)
+    variable_ranges: Mapping[str, Range] = field(default_factory=dict)
+
+    def range_of(self, name: str) -> Range | None:
+        """The values that the controller takes of a quantity; None: any."""
+        return self.ranges.get(name, RANGES.get(name))
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,3 +243,7 @@ class Rules:
     pulse_step_s: float = 0.0
     inputs: InputRules = InputRules()
     mean_parabolas: bool = False
+
+    def percents_of(self, name: str) -> tuple[float, float]:
+        """Least and most that counts of a percentage of acceleration."""
+        return self.percent_limits.get(name, (1.0, math.inf))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.errors import InternalError
+from rpl.ir.rules import Range, refusal
 from rpl.ir.walk import walk
 from rpl.linking.expressions import HIDDEN, Compiler, Place, unknown
 from rpl.runtime import procedures, system
@@ -33,7 +34,36 @@ MakeRef = Callable[[Values], AnyRef]
 
 
 def writer(compiler: Compiler, target: ir.Expression, origin: Origin) -> Write:
-    """A closure that writes a value to the place that an expression names."""
+    """A closure that writes a value to the place that an expression names; one that the controller does not take for
+    such a quantity is a fault there."""
+    allowed, write = _allowed(compiler, target), _writer(compiler, target, origin)
+    return write if allowed is None else _within(*allowed, write)
+
+
+def _allowed(compiler: Compiler, target: ir.Expression) -> tuple[str, Range] | None:
+    """Name and values of what the controller takes only some values of."""
+    inputs = compiler.scope.rules.inputs
+    match target:
+        case ir.System(name=name):
+            found = inputs.range_of(name)
+        case ir.Name(id=name):
+            found = inputs.variable_ranges.get(name)
+        case _:
+            return None
+    return (name, found) if found is not None else None
+
+
+def _within(name: str, allowed: Range, write: Write) -> Write:
+    def held(f: Values, value: Value) -> None:
+        why = refusal(name, value, allowed) if isinstance(value, int | float) else ""
+        if why:
+            raise ProgramError("bad_value", why)
+        write(f, value)
+
+    return held
+
+
+def _writer(compiler: Compiler, target: ir.Expression, origin: Origin) -> Write:
     match target:
         case ir.Name(id=name):
             return _write_name(compiler, name, origin)
@@ -55,7 +85,7 @@ def writer(compiler: Compiler, target: ir.Expression, origin: Origin) -> Write:
             index = compiler.value(indices[0])
             return lambda f, value: write(f[0], whole(index(f)), value)
         case ir.Convert(operand=operand):
-            return writer(compiler, operand, origin)
+            return _writer(compiler, operand, origin)
     return _refused("this cannot be written to")
 
 
@@ -283,7 +313,7 @@ def assignment(compiler: Compiler, statement: ir.Assign) -> Make:
     read = _fitted(compiler, target, statement.value, read)
     if watches(compiler, target):
         return _attentive(writer(compiler, target, statement.origin), read)
-    if isinstance(target, ir.Name):
+    if isinstance(target, ir.Name) and _allowed(compiler, target) is None:
         place = compiler.place_of(target.id)
         assert isinstance(place, Place)  # others are watched
         return _store_global(place.number, read) if place.is_global else _store_local(place.number, read)

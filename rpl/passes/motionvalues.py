@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.rules import QUANTITIES, Range, refusal
 from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant, constant_number
@@ -55,10 +56,25 @@ NO_TOOL = code(
     Severity.INFO,
     "nothing that was read sets the tool before this move; {does}",
 )
+VALUE = code("motion-value-out-of-range", Severity.WARNING, "{why}; the controller stops here")
+LEAST = code("motion-value-least", Severity.INFO, "the {what} is {value:g} {unit}: {does}")
+HELD = code("motion-value-held", Severity.INFO, "the {what} is {value:g} {unit}; the controller takes {taken:g} {unit}")
+UNIT = code("unit-does-not-fit", Severity.ERROR, "{unit} is no unit of the {what}", "write one of {wanted}")
 
 FLAT = 1e-6  # sine of the angle between two sides below which three points lie on a line (as in rpl.emulator.paths)
 _SPEEDS = {"path_speed": "path speed", "joint_speed": "axis speed"}
 _LEAST_WAY = 1e-3
+# Percentages of which the controller takes the nearest that it can.
+_HELD = ("acceleration_percent", "deceleration_percent", "acceleration_ramp", "stop_ramp")
+# Parts of a move's speed: the quantity of `InputRules`, and the units that fit ("%" is `percent`).
+_PARTS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
+    ("path", "path speed", ("mm/s", "m/s", "cm/min", "inch/min")),
+    ("joint", "joint_speed", ("percent",)),
+    ("duration", "move_duration", ("s", "ms", "min")),
+    ("path_acceleration", "path_acceleration", ("mm/s2", "m/s2")),
+    ("axis_acceleration", "axis_acceleration", ("deg/s2", "rad/s2")),
+)
+_LENGTHS, _ANGLES, _PERCENT = ("mm", "cm", "m", "inch"), ("deg", "rad"), ("percent",)
 
 
 def motion_values(program: ir.Program, diagnostics: Diagnostics) -> None:
@@ -149,10 +165,17 @@ class _Module:
                     last = self.move(statement, scope, last)
                 case ir.Assign(target=ir.System(name=name), value=value) if name in _SPEEDS:
                     self.speed(_SPEEDS[name], value, statement.origin, scope)
+                    self.quantity(name, value, statement.origin, scope)
                 case ir.SetForNextMove(setting=ir.System(name="path_speed"), value=value):
                     self.speed("path speed", value, statement.origin, scope)
-                case ir.Assign(value=value):
+                case ir.SetForNextMove(setting=ir.System(name=name), value=value):
+                    self.quantity(name, value, statement.origin, scope)
+                case ir.Assign(target=target, value=value):
                     self.rotations(value, statement.origin, scope)
+                    if isinstance(target, ir.System):
+                        self.quantity(target.name, value, statement.origin, scope)
+                    elif isinstance(target, ir.Name) and target.id in self.rules.variable_ranges:
+                        self.within(target.id, self.rules.variable_ranges[target.id], value, statement.origin, scope)
                 case ir.Nothing() | ir.Trigger() | ir.LookAhead():
                     continue
                 case _:
@@ -165,7 +188,69 @@ class _Module:
         if number is not None and number <= 0.0:
             self.diagnostics.report(SPEED, origin, what=what, value=number)
 
+    def quantity(
+        self, name: str, value: ir.Expression | None, origin: Origin, scope: Scope, units: tuple[str, ...] = ()
+    ) -> None:
+        """A value of a system variable, or of what stands for it in a move; `units`: the ones that fit."""
+        what, unit = QUANTITIES.get(name, (name, ""))
+        if isinstance(value, ir.Quantity) and units and value.unit not in units:
+            self.diagnostics.report(UNIT, origin, unit=value.unit, what=what, wanted=", ".join(units))
+            return
+        allowed = self.rules.range_of(name)
+        if allowed is not None:
+            self.within(name, allowed, value, origin, scope)
+        number = constant_number(value, scope) if value is not None and name in _HELD else None
+        if number is not None:
+            least, most = scope.rules.percents_of(name)
+            taken = min(max(number, least), most)
+            if taken != number:
+                self.diagnostics.report(HELD, origin, what=what, value=number, unit=unit, taken=taken)
+
+    def within(self, name: str, allowed: Range, value: ir.Expression | None, origin: Origin, scope: Scope) -> None:
+        number = constant_number(value, scope) if value is not None else None
+        if number is None:
+            return
+        why = refusal(name, number, allowed)
+        if why:
+            self.diagnostics.report(VALUE, origin, why=why)
+        elif allowed.at_least and number == allowed.least:
+            what, unit = QUANTITIES.get(name, (name, ""))
+            self.diagnostics.report(LEAST, origin, what=what, value=number, unit=unit, does=allowed.at_least)
+
+    def parts(self, move: ir.Move, scope: Scope) -> None:
+        """What one move says for itself: parts of the speed, settings, the corner."""
+        if move.speed is not None and move.motion_class != "velocity":
+            for part, name, units in _PARTS:
+                self.quantity(name, getattr(move.speed, part), move.origin, scope, units)
+        self.quantity("acceleration_percent", move.acceleration, move.origin, scope, _PERCENT)
+        for setting, value in move.settings:
+            if isinstance(setting, ir.System):
+                self.quantity(setting.name, value, move.origin, scope)
+        match move.blend:
+            case ir.BlendDistance(distance=distance, rotation=rotation):
+                self.quantity("blend_distance", distance, move.origin, scope, _LENGTHS)
+                self.quantity("blend_rotation", rotation, move.origin, scope, _ANGLES)
+            case ir.BlendPercent(percent=percent):
+                self.quantity("blend_joint", percent, move.origin, scope, _PERCENT)
+            case ir.BlendSpeed(percent=percent):
+                self.quantity("blend_speed", percent, move.origin, scope, _PERCENT)
+            case ir.BlendZone(zone=zone, distance=distance):
+                self.quantity("blend_distance", distance, move.origin, scope, _LENGTHS)
+                self.zone(zone, move.origin, scope)
+
+    def zone(self, zone: ir.Expression, origin: Origin, scope: Scope) -> None:
+        """A corner given by several sizes, of which none may be below nothing."""
+        value, allowed = constant(zone, scope), self.rules.range_of("blend_distance")
+        if not isinstance(value, Record) or value.part("stop") or allowed is None:
+            return
+        sizes = [value.part(name) for name in ("path", "rotation_path", "external_path")]
+        for size in [one for one in sizes if isinstance(one, int | float)]:
+            if why := refusal("blend_distance", float(size), allowed):
+                self.diagnostics.report(VALUE, origin, why=why)
+                return
+
     def move(self, move: ir.Move, scope: Scope, last: _Last) -> _Last:
+        self.parts(move, scope)
         speed = move.speed
         if speed is not None and move.motion_class != "velocity":
             self.speed("path speed", speed.path, move.origin, scope)

@@ -16,6 +16,7 @@ from rpl.runtime import leftout
 from rpl.runtime.chain import Planning, request_of
 from rpl.runtime.orders import BlendOrder, Drive, Order, PathRuleOrder, TriggerOrder
 from rpl.runtime.pieces import Piece
+from rpl.runtime.ranges import outside
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
@@ -54,6 +55,10 @@ class _Asked:
 def planned(queue: MotionQueue, order: Order, old: Drive | None = None) -> list[Drive] | Refused:
     """What is driven for a move, or for the block that ends with it, from where everything commanded before ends.
     `old`: a drive that is planned anew and keeps its number. Nothing for a move that the controller leaves out."""
+    for one in (*order.block, order):
+        fault = outside(one)
+        if fault is not None:
+            return Refused(fault, one)
     if order.block or order.path_rules:
         for one in order.block:
             one.payloads = order.payloads

@@ -6,7 +6,6 @@ stationary tool) the roles change:  robot_root · FK(joints) · part · displace
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
@@ -543,7 +542,7 @@ def _ramps(order: Order, plan: Planning, effort: float) -> dict[str, Value]:
 
 def _share(percent: Value, name: str, rules: Rules) -> float:
     """A percentage as a share, within what the controller takes."""
-    least, most = rules.percent_limits.get(name, (1.0, math.inf))
+    least, most = rules.percents_of(name)
     return min(max(float(percent), least), most) / 100.0
 
 

@@ -10,7 +10,9 @@ from collections.abc import Mapping
 from rpl.ir.errornames import SPELLINGS
 
 # Errors that are faults of the program in every language: no handler sees them.
-FATAL = frozenset(("no_value", "wrong_kind", "no_time", "opaque", "vendor", "too_deep", "internal_limit", "motion"))
+FATAL = frozenset(
+    ("no_value", "wrong_kind", "no_time", "opaque", "vendor", "too_deep", "internal_limit", "motion", "bad_value")
+)
 
 
 class ProgramError(Exception):
