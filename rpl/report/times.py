@@ -234,7 +234,9 @@ def _stood(result: RunResult, task: str, legs: Sequence[Leg]) -> tuple[float, fl
         at = max(at, leg.start_s + leg.duration_s)
     gaps.append((at, result.time_s))
     timed, waited = [], []
-    own = [event for event in result.trace if not task or event.task == task]
+    # A move that was ahead of the program may end while it waits: the robot's own events end no wait.
+    own = [event for event in result.trace if (not task or event.task == task) and event.kind != "move"]
+    ends = {(name, begin): end for name, begin, end in result.waited}
     for event, after in zip(own, [*own[1:], None], strict=True):
         if event.kind != "wait":
             continue
@@ -242,7 +244,8 @@ def _stood(result: RunResult, task: str, legs: Sequence[Leg]) -> tuple[float, fl
         if seconds is not None:
             timed.append((event.t, event.t + float(seconds)))
         else:
-            waited.append((event.t, after.t if after is not None else result.time_s))
+            until = ends.get((event.task, event.t), after.t if after is not None else result.time_s)
+            waited.append((event.t, until))
     total = sum(max(end - begin, 0.0) for begin, end in gaps)
     for_time, for_signals = _shared(gaps, timed), _shared(gaps, waited)
     return for_time, for_signals, max(total - for_time - for_signals, 0.0)

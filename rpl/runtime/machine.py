@@ -82,6 +82,7 @@ class Machine:
         self.answered = 0
         self.critical: int | None = None
         self.arrivals: list[meetings.Arrival] = []  # tasks that wait for others
+        self.waited: list[tuple[str, float, float]] = []  # conditions that tasks waited for: task, from, to
         self.held: list[int] = []
         self.timers: dict[int, StopWatch] = {}
         self.cyclic: dict[int, tuple[Values, Read]] = {}  # flag -> frame and expression
@@ -514,6 +515,7 @@ class Machine:
             fault=self.end_fault,
             trace=tuple(self.trace),
             joints=joints,
+            waited=tuple(self.waited),
         )
 
     def new_robot(self, task: Task) -> MotionQueue:

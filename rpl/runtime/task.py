@@ -267,6 +267,8 @@ class Task:
         self.state = READY
         if wait is None:
             return
+        if wait.kind in ("condition", "meeting"):
+            self.machine.waited.append((self.name, wait.since, self.machine.now))
         if wait.kind not in TIMED_OUT:
             return
         if wait.timed_out is not None and wait.values is not None:

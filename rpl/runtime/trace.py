@@ -80,7 +80,8 @@ class Fault:
 @dataclass(frozen=True, slots=True)
 class RunResult:
     """How a run ended. status: finished, stopped, fault, deadlock, limit. `outputs` are changes in order: time, name of
-    the physical signal, value. `joints` at the end (None without a robot)."""
+    the physical signal, value. `joints` at the end (None without a robot). `waited`: the waits for conditions that
+    ended, met or timed out: task, from and to (s)."""
 
     status: str
     time_s: float
@@ -92,6 +93,7 @@ class RunResult:
     trace: tuple[Event, ...]
     joints: tuple[float, ...] | None = None
     waiting: tuple[str, ...] = ()
+    waited: tuple[tuple[str, float, float], ...] = ()
 
     def as_json(self) -> dict[str, Value]:
         return {

@@ -130,3 +130,40 @@ def test_a_controller_file_that_is_wrong_is_refused_with_its_key(tmp_path: Path,
     with pytest.raises(UsageError) as caught:
         controller_named(str(file))
     assert told in str(caught.value) and "own.toml" in str(caught.value)
+
+
+BEHIND_A_CORNER = """/PROG  AHEAD
+/ATTR
+/MN
+   1:  $WAITTMOUT=300 ;
+   2:J P[1] 50% CNT50 ;
+   3:  WAIT DI[1]=ON TIMEOUT,LBL[1] ;
+   4:  LBL[1] ;
+   5:J P[2] 50% FINE ;
+/POS
+P[1]{
+   GP1:
+    UF : 0, UT : 1,
+    J1= 10.000 deg, J2= 0.000 deg, J3= 0.000 deg,
+    J4= 0.000 deg, J5= -60.000 deg, J6= 0.000 deg
+};
+P[2]{
+   GP1:
+    UF : 0, UT : 1,
+    J1= 30.000 deg, J2= 0.000 deg, J3= 0.000 deg,
+    J4= 0.000 deg, J5= -60.000 deg, J6= 0.000 deg
+};
+/END
+"""
+
+
+def test_a_wait_that_begins_before_the_robot_stands_is_waiting_for_signals() -> None:
+    read = read_sources([source_from_text("ahead.ls", BEHIND_A_CORNER)], "tp", Diagnostics())
+    result = run_program(read.program, "fanuc_m710ic50", controller="tp")
+    assert result.status == "finished", result.fault
+    (wait,) = [event for event in result.trace if event.kind == "wait"]
+    found = run_times(result, load_robot("fanuc_m710ic50"))
+    first, second = found.moves
+    assert wait.t < first.start_s + first.seconds < wait.t + 3.0
+    assert found.signal_s == pytest.approx(wait.t + 3.0 - first.start_s - first.seconds, abs=1e-3)
+    assert found.standing_s == pytest.approx(second.start_s - wait.t - 3.0, abs=1e-3)
