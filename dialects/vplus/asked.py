@@ -26,8 +26,8 @@ _SETTINGS: dict[tuple[str, int], str] = {
 
 def switch(name: str, facts: Facts, origin: Origin) -> ir.Expression | None:
     """SWITCH(name): continuous path is a setting here; the emulated robot has its power on. None: nobody can say."""
-    if name == "cp":
-        return ir.System("blending", origin=origin)
+    if name in tables.SETTING_SWITCHES:
+        return ir.System(tables.SETTING_SWITCHES[name], origin=origin)
     if name in tables.SWITCHED_ON and name not in facts.switched:
         return ir.BoolLiteral(True, origin=origin)
     if name == "dry.run" and name not in facts.switched:

@@ -39,6 +39,9 @@ RULES = Rules(
         "twist_speed": tables.FULL_ROTATION_SPEED_DEG_S,
         "acceleration_percent": 100.0,
         "deceleration_percent": 100.0,
+        # V+ Language Reference Guide, SCALE.ACCEL: on at the start; the effective acceleration and deceleration are the
+        # program speed times what ACCEL says. The speed up to which this holds is "very large" as delivered.
+        "scale_acceleration": True,
         "blending": True,
         "end_tolerance": 100.0,
         "circle_orientation": "path",

@@ -325,8 +325,8 @@ class Settings(Motion):
                 continue
             text = self.written(tree)
             name = text.partition("[")[0].lower()
-            if name == "cp":
-                done.extend(self.set_to([("blending", ir.BoolLiteral(on))], True, origin))
+            if name in tables.SETTING_SWITCHES:
+                done.extend(self.set_to([(tables.SETTING_SWITCHES[name], ir.BoolLiteral(on))], True, origin))
                 continue
             harmless = name in tables.SWITCHES_WITHOUT_EFFECT or (name == "upper" and self.facts.upper is not None)
             statement = f"{given.word.upper()} {text.upper()}"

@@ -111,9 +111,12 @@ RAW_EFFECTS: dict[str, str] = {
 # switch stops a run unless the cell file says what it stands for.
 SWITCHES_WITHOUT_EFFECT = frozenset(
     """auto.power.off autostart belt force interactive kermit mcp.messages mcs.message mcs.messages messages monitors
-    network power robot scale.accel set.speed trace vision
+    network power robot set.speed trace vision
     """.split()  # noqa: SIM905
 )
+
+# Switches that are settings of the moves behind them. M: SCALE.ACCEL is that of the task's robot.
+SETTING_SWITCHES = {"cp": "blending", "scale.accel": "scale_acceleration"}
 
 # M: these are on in a robot that works.
 SWITCHED_ON = frozenset(("power", "robot", "messages"))

@@ -85,6 +85,8 @@ def setting(name: str, value: ir.Expression, always: bool, expressions: Expressi
             return [f"DURATION {expressions.measured(value, 's')}{ending}"]
         case "blending" if isinstance(value, ir.BoolLiteral):
             return [f"{'CPON' if value.value else 'CPOFF'}{ending}"]
+        case "scale_acceleration" if isinstance(value, ir.BoolLiteral):
+            return [f"{'ENABLE' if value.value else 'DISABLE'} SCALE.ACCEL"]
         case "end_tolerance":
             known = expressions.known(value)
             if known is not None and known > 100.0:

@@ -103,8 +103,8 @@ SYSTEM = {
     "time": "TIMER(-3)",
 }
 SETTINGS = words(
-    """acceleration_percent deceleration_percent override blending end_tolerance move_duration posture_shoulder
-    posture_elbow posture_wrist"""
+    """acceleration_percent deceleration_percent override blending scale_acceleration end_tolerance move_duration
+    posture_shoulder posture_elbow posture_wrist"""
 )
 POSTURES = {
     ("posture_shoulder", "front"): "RIGHTY",

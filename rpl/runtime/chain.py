@@ -57,6 +57,7 @@ DEFAULTS: Modal = {
     "acceleration_percent": 100.0,
     "acceleration_ramp": 100.0,
     "stop_ramp": 100.0,
+    "scale_acceleration": False,
     "path_limit_rule": "reduce",
     "orientation_mode": "variable",
     "circle_orientation": "base",
@@ -477,7 +478,8 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
     over = max(float(value("override")) / 100.0, 1e-3)
     profile_share = over * float(value("speed_percent")) / 100.0
     own = order.acceleration if order.acceleration is not None else value("acceleration_percent")
-    effort = effort_share = _share(own, "acceleration_percent", order.rules)
+    scale = _speed_share(order, plan) if value("scale_acceleration") else 1.0
+    effort = effort_share = _share(own, "acceleration_percent", order.rules) * scale
     axes = range(1, plan.model.axes + 1)
     options: dict[str, Value] = {}
     if speed.profile is not None:
@@ -520,13 +522,27 @@ def _common(order: Order, plan: Planning, external: tuple[float | None, ...]) ->
         "circle_orientation": order.circle_orientation or str(value("circle_orientation")),
         "reduce_speed_near_singularity": value("path_limit_rule") == "reduce",
     }
-    options |= _ramps(order, plan, effort_share)
+    options |= _ramps(order, plan, effort_share, scale)
     options |= _externals(order, plan, external, effort_share)
     return _by_time(options, over) if speed.duration else options
 
 
-def _ramps(order: Order, plan: Planning, effort: float) -> dict[str, Value]:
-    """How the acceleration changes, and slowing down by `effort`, the share in which the move speeds up."""
+def _speed_share(order: Order, plan: Planning) -> float:
+    """The programmed speed as a share of the full one, which on a path is the one that programs start with; the
+    override does not count. M: at most the whole, so that no axis exceeds its acceleration."""
+    speed = order.speed
+    if order.kind == "joint" and (speed.path is None or speed.joint is not None):
+        said = speed.joint if speed.joint is not None else setting(plan.modal, order.modal, "joint_speed", 1)
+        full: Value = 100.0
+    else:
+        said = speed.path if speed.path is not None else setting(plan.modal, order.modal, "path_speed")
+        full = order.rules.system_defaults.get("path_speed", DEFAULTS["path_speed"])
+    return min(max(float(said) / float(full), 1e-3), 1.0)
+
+
+def _ramps(order: Order, plan: Planning, effort: float, scale: float) -> dict[str, Value]:
+    """How the acceleration changes, and slowing down by `effort`, the share in which the move speeds up. `scale`: what
+    both are scaled by."""
 
     def share(name: str) -> float:
         return _share(setting(plan.modal, order.modal, name), name, order.rules)
@@ -535,7 +551,7 @@ def _ramps(order: Order, plan: Planning, effort: float) -> dict[str, Value]:
     return {
         "controller": plan.controller.with_ramp(100.0 * share("acceleration_ramp")),
         "effort": effort,
-        "braking": 1.0 if down is None else share("deceleration_percent") / effort,
+        "braking": 1.0 if down is None else share("deceleration_percent") * scale / effort,
         "stop_ramp": share("stop_ramp"),
     }
 

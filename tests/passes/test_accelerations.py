@@ -52,7 +52,7 @@ def test_a_percentage_for_all_moves_is_set_around_them() -> None:
 
 def test_braking_goes_with_it_where_a_target_has_both() -> None:
     found = [f"ACCEL {value}, {value}" for value in (80, 60, 100, 50, 100)]
-    assert written("vplus", "ACCEL")[0] == found
+    assert written("vplus", "ACCEL")[0] == ["DISABLE SCALE.ACCEL", *found]
 
 
 def test_axes_and_path_have_accelerations_of_their_own() -> None:

@@ -58,7 +58,7 @@ LINES = """.PROGRAM off()
 """
 STOPS = {
     "krl": "LIN {X 330,Y {y},Z 260,A 180,B 0,C 180}",
-    "urscript": "movel(p[0.33, {m}, 0.26, 0, 3.141592654, 0], a=5, v=0.1)",
+    "urscript": "movel(p[0.33, {m}, 0.26, 0, 3.141592654, 0], a=0.5, v=0.1)",
 }
 
 

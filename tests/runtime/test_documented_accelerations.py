@@ -1,6 +1,6 @@
 """How strongly robots speed up and slow down, as programs say it, by the documents of each language.
 
-RAPID: Technical reference manual, AccSet. V+: Language Reference Guide, ACCEL. URScript: movel (the same rate for
+RAPID: Technical reference manual, AccSet. V+: Language Reference Guide, ACCEL and SCALE.ACCEL. URScript: movel (the same rate for
 both). KRL: $ACC.CP. M where no manual at hand says it: INFORM ACC= and DEC= are independent; TP ACC is for both.
 """
 
@@ -103,12 +103,20 @@ def last(result: RunResult) -> PlannedMove:
 @pytest.mark.parametrize(
     ("dialect", "setting", "up", "down"),
     [
-        ("vplus", "", 100, 100),
-        ("vplus", "ACCEL 50, 80", 50, 80),
-        ("vplus", "ACCEL (2) 50, 80", 50, 80),
-        ("vplus", "ACCEL 50", 50, 100),
-        ("vplus", "ACCEL , 20", 100, 20),
-        ("vplus", "ACCEL 400, 30", 100, 30),  # the nearest extreme value is used
+        ("vplus", "DISABLE SCALE.ACCEL", 100, 100),
+        ("vplus", "DISABLE SCALE.ACCEL\n  ACCEL 50, 80", 50, 80),
+        ("vplus", "DISABLE SCALE.ACCEL\n  ACCEL (2) 50, 80", 50, 80),
+        ("vplus", "DISABLE SCALE.ACCEL\n  ACCEL 50", 50, 100),
+        ("vplus", "DISABLE SCALE.ACCEL\n  ACCEL , 20", 100, 20),
+        ("vplus", "DISABLE SCALE.ACCEL\n  ACCEL 400, 30", 100, 30),  # the nearest extreme value is used
+        # Scaled, as at the start: the program speed (200 of 1000 mm/s) times what ACCEL says. The speed that the
+        # operator sets is none of the program.
+        ("vplus", "", 20, 20),
+        ("vplus", "ACCEL 50, 80", 10, 16),
+        ("vplus", "SPEED 20 ALWAYS", 20, 20),
+        ("vplus", "DISABLE SCALE.ACCEL\n  ENABLE SCALE.ACCEL[1]", 20, 20),
+        ("vplus", "DISABLE CP, SCALE.ACCEL", 100, 100),
+        ("rpl", "$scale_acceleration = TRUE\n$path_speed = 500", 80, 80),  # of the 250 mm/s at the start
         ("inform", "", 100, 100),
         ("inform", "ACC=50 DEC=80", 50, 80),
         ("inform", "ACC=50", 50, 100),

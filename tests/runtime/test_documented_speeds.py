@@ -126,7 +126,7 @@ def test_speeds_of_the_tool(dialect: str, before: str, at: str, speed: float) ->
         ("tp", "R[1]=1", "2000msec", 2.0),
         ("urscript", "", "t=4", 4.0),
         ("vplus", "DURATION 4", "", 4.0),
-        ("vplus", "SPEED 200 MMPS\nDURATION 1", "", 2.04),  # no shorter than the speed allows: 400/200 + 200/5000
+        ("vplus", "SPEED 200 MMPS\nDURATION 1", "", 2.2),  # no shorter than the speed allows: 400/200 + 200/1000
     ],
 )
 def test_times_of_moves(dialect: str, before: str, at: str, seconds: float) -> None:

@@ -68,8 +68,8 @@ VPLUS = """.PROGRAM main()
 def test_continuous_path_leaves_each_move_where_its_braking_would_begin() -> None:
     script = equal("vplus", VPLUS.format(lines="        SPEED 40\n        MOVES b\n        MOVES c"))
     (radius,) = re.findall(r"movel\(b, .*r=([\d.]+)\)", script)
-    speed = float(re.findall(r"movel\(b, a=5, v=([\d.]+)", script)[0]) * 1000.0
-    assert float(radius) * 1000.0 == pytest.approx(speed**2 / 10000.0, rel=0.01)
+    speed = float(re.findall(r"movel\(b, a=2, v=([\d.]+)", script)[0]) * 1000.0
+    assert float(radius) * 1000.0 == pytest.approx(speed**2 / 4000.0, rel=0.01)
 
 
 def test_full_acceleration_decides_the_corner_too() -> None:

@@ -33,9 +33,12 @@ _SHARES = {"speed_percent": 100.0, "speed_limit": 5000.0}
 _DOWN = "deceleration_percent"
 # Whether moves are joined at all (V+ CPON): a truth value.
 _JOINED = "blending"
+# Whether accelerations are a share of what is said, as the speed is.
+SCALED = {"scale_acceleration": False}
 # The least time of moves, s; none where nothing is said.
 _TIMES = {"move_duration": 0.0}
-_FOLLOWED = SETTINGS | BRAKING.keys() | _SHARES.keys() | _TIMES.keys() | {"displacement", _TURNS, _JOINED, _DOWN}
+_NUMBERS = BRAKING.keys() | _SHARES.keys() | _TIMES.keys()
+_FOLLOWED = SETTINGS | _NUMBERS | SCALED.keys() | {"displacement", _TURNS, _JOINED, _DOWN}
 # Setting -> constant; None: it depends on the run. A place that is never reached has no state.
 State = dict[str, "ir.Expression | None"]
 _UNKNOWN: State = dict.fromkeys(_FOLLOWED)
@@ -130,7 +133,7 @@ def _default(name: str, defaults: dict[str, float | bool | str]) -> ir.Expressio
         return ir.System("null_frame")
     if name == _TURNS:
         return ir.EnumLiteral(str(defaults.get(name, "base")))
-    value = defaults.get(name, (BRAKING | _SHARES | _TIMES).get(name))
+    value = defaults.get(name, (BRAKING | _SHARES | _TIMES | SCALED).get(name))
     if isinstance(value, bool):
         return ir.BoolLiteral(value)
     return ir.RealLiteral(float(value)) if isinstance(value, int | float) else None

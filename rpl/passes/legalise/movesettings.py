@@ -280,7 +280,7 @@ class _Settings:
         for value, power in (
             (percent, 2),
             (known.get("path_acceleration"), -1),
-            (known.get("acceleration_percent"), -1),
+            (own.get("acceleration_percent") or move.acceleration or known.get("acceleration_percent"), -1),
         ):
             number = plain(value) if value is not None else None
             if not isinstance(number, ir.RealLiteral) or number.value <= 0.0:

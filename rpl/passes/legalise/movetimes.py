@@ -251,6 +251,8 @@ class _Times:
         if not isinstance(seconds, int | float) or seconds <= 0.0:
             return None
         state, highest = self.flow.at(move), math.inf if most is None else self.known(most)
+        if move.acceleration is not None:
+            state = {**state, "acceleration_percent": move.acceleration}
         if not isinstance(highest, int | float):
             return None
         if move.kind == "joint":

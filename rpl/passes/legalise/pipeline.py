@@ -141,6 +141,7 @@ from rpl.passes.legalise.rotationvectors import rotation_vectors
 from rpl.passes.legalise.routineclocks import clocks_of_routines
 from rpl.passes.legalise.saidtwice import said_once
 from rpl.passes.legalise.sameunits import same_units
+from rpl.passes.legalise.scaledaccelerations import scaled_accelerations
 from rpl.passes.legalise.scaledspeeds import scaled_override
 from rpl.passes.legalise.searches import searches
 from rpl.passes.legalise.searchparts import search_parts
@@ -276,6 +277,7 @@ PASSES: tuple[Pass, ...] = (
     queued_waits,
     next_moves_behind_calls,
     settings_of_next_move,
+    scaled_accelerations,
     joined_moves,
     move_times,
     turning_times,
