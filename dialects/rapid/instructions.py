@@ -420,4 +420,6 @@ INSTRUCTIONS: dict[str, Make] = {
     "waittestandset": _take_lock,
     "callbyvar": _numbered_call,
     "waitsynctask": _meet("wait", "ERR_WAITSYNCTASK"),
+    "syncmoveon": _meet("together", "ERR_SYNCMOVEON"),
+    "syncmoveoff": _meet("apart", "ERR_SYNCMOVEOFF"),
 }

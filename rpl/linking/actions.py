@@ -337,6 +337,8 @@ def _stop_motion(hard: bool) -> Make:
     def make(here: int, next: int) -> Instruction:
         def stop(f: Values) -> int:
             task = f[0]
+            if task.together:
+                raise ProgramError("synchronisation", "a stop of robots that go together is not driven")
             if task.robot is None and not tasks.take_robot(task, moving=True):
                 return next
             task.robot.halt(hard)

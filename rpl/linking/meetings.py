@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.linking.expressions import Place
-from rpl.runtime import meetings
+from rpl.runtime import meetings, together
 from rpl.runtime.code import Instruction, Read, Values
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.values import whole
@@ -31,6 +31,8 @@ def meet(statement: ir.Meet, linker: RoutineLinker) -> Make:
             if stands and task.busy:
                 standing: int = task.wait_for("idle", here, here)
                 return standing
+            if mode == "apart":
+                together.check_apart(task)
             names = meetings.names_in(tasks(f)) if tasks is not None else None
             limit = float(timeout(f)) if timeout is not None else None
             return meetings.meet(task, meetings.Appointment(identity(f), mode, names, limit, error), here, next)

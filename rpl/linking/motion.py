@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from rpl import ir
 from rpl.linking.flatten import has_call
+from rpl.linking.meetings import identity_of
 from rpl.linking.places import writer
 from rpl.linking.stops import looks_outside
 from rpl.runtime.code import Instruction, Read, Values
@@ -79,6 +80,7 @@ class MotionStatements:
             "tool": self.optional(move.tool),
             "frame": self.optional(move.frame),
             "acceleration": self.optional(move.acceleration),
+            "identity": identity_of(move.identity, self.linker) if move.identity is not None else None,
         }
         speed, blend = self.speed(move.speed), self.blend(move.blend)
         triggers = [self.trigger_of(trigger) for trigger in move.triggers]
@@ -93,8 +95,7 @@ class MotionStatements:
             "velocity": move.motion_class == "velocity",
         }
         kind, rules = move.kind, self.linker.compiler.scope.rules
-        load = self.optional(move.load)
-        hand_over = submit or _submit
+        load, hand_over = self.optional(move.load), submit or _submit
 
         def make(here: int, next: int) -> Instruction:
             def drive(f: Values) -> int:

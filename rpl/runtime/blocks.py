@@ -66,7 +66,7 @@ def planned(queue: MotionQueue, order: Order, old: Drive | None = None) -> list[
         refused = _no_curve(asked)
         return refused if refused is not None else _runs(queue, asked)
     stood = queue.planned_joints, queue.planned_external
-    drive = queue._planned(order, old.number if old is not None else _number(queue))
+    drive = queue.plan_order(order, old.number if old is not None else _number(queue))
     if old is None and isinstance(drive, Drive) and leftout.is_left_out(queue, drive):
         queue.planned_joints, queue.planned_external = stood
         return []

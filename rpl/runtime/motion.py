@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rpl.runtime import blocks, latecorners, pathevents, pieces, resting, searching, stopping, velocities
+from rpl.runtime import blocks, latecorners, pathevents, pieces, resting, searching, stopping, together, velocities
 from rpl.runtime.chain import (
     Planning,
     pose_of_array,
@@ -74,6 +74,7 @@ class MotionQueue(RobotState):
     def submit(self, order: Order, next: int) -> int:
         """Plan a move, queue it, and say how the program goes on."""
         task = self.task
+        together.check(task, order)
         if order.kind == "joint" and order.rules.triggers.on_paths_only and any(t.distance for t in order.triggers):
             raise ProgramError("motion", "an action at a distance along the path needs a path: this is a joint move")
         if order.velocity:
@@ -103,7 +104,7 @@ class MotionQueue(RobotState):
         self._ask()
         return self._go_on(drives[-1], next)
 
-    def _planned(self, order: Order, number: int) -> Drive | MotionFault:
+    def plan_order(self, order: Order, number: int) -> Drive | MotionFault:
         """The move as it is driven from where everything commanded before it ends."""
         assert self.model is not None and self.planned_joints is not None  # with a model there are joints
         notation = self.machine.linked.notation(order.rules.name)
@@ -194,8 +195,7 @@ class MotionQueue(RobotState):
     def _ask(self) -> None:
         """Look at the queue when all tasks have done what they do at this moment."""
         if not self.asked:
-            self.asked = True
-            self.machine.schedule(self.machine.now, MOTION, "motion", self.task_index, "consider", 0)
+            self.ask_at(self.machine.now)
 
     def happen(self, what: str, *data: int) -> None:
         """An event of the agenda."""
@@ -226,7 +226,7 @@ class MotionQueue(RobotState):
         if self.stopped:
             return
         if self.piece is None:
-            if self.queue and not self._rests(self.queue[0]):
+            if self.queue and together.begins(self, self.queue[0]):
                 self._begin(self.queue[0])
             return
         piece = self.piece
@@ -239,14 +239,10 @@ class MotionQueue(RobotState):
             latecorners.tell(self, piece.drive)
             self._settle(piece)
 
-    def _rests(self, drive: Drive) -> bool:
-        """Does the controller let some time pass yet after a move that stopped exactly?"""
-        begins = self.stood_s + (drive.plan.controller.restart_s if drive.plan is not None else 0.0)
-        if begins <= self.machine.now:
-            return False
+    def ask_at(self, time_s: float) -> None:
+        """Look at the queue then."""
         self.asked = True
-        self.machine.schedule(begins, MOTION, "motion", self.task_index, "consider", 0)
-        return True
+        self.machine.schedule(time_s, MOTION, "motion", self.task_index, "consider", 0)
 
     def _after(self, drive: Drive) -> Drive | None:
         place = self.queue.index(drive) + 1

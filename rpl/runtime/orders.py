@@ -101,7 +101,8 @@ class SearchOrder:
 class Order:
     """One move as the program asks for it. `modal` overlays the task's system variables for this move; `once` is what
     of it statements before the move have set. `block`: of the last move of a spline block those before it, and
-    `path_rules`: how the block is driven."""
+    `path_rules`: how the block is driven. `together`: the tasks whose moves of the
+    same `identity` go with it; `agreed`: when it begins and ends is settled."""
 
     kind: str
     target: Value
@@ -130,6 +131,9 @@ class Order:
     velocity: bool = False
     block: tuple[Order, ...] = ()
     path_rules: tuple[PathRuleOrder, ...] = ()
+    identity: str | None = None
+    together: frozenset[int] = frozenset()
+    agreed: bool = False
 
 
 @dataclass(slots=True, eq=False)

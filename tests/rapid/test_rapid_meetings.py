@@ -1,4 +1,4 @@
-"""Tasks that wait for each other: written in RAPID as they were read, refused by name where there is nothing like it."""
+"""Tasks that wait for each other: written in RAPID as they were read, refused by name elsewhere."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ LINES = (
     "WaitSyncTask here,both;",
     "WaitSyncTask\\InPos,points{3},both;",
     "WaitSyncTask here,both\\TimeOut:=20;",
+    "SyncMoveOn here,both;",
+    "SyncMoveOff here\\TimeOut:=2;",
 )
 
 

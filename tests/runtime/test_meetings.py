@@ -134,3 +134,94 @@ def test_the_last_move_may_be_flown_by_and_in_position_waits_for_the_robot() -> 
         for how in (" ", "\\InPos,")
     )
     assert late - early > 0.1  # the program goes on that long before the corner would begin
+
+
+# ---- moves together
+
+
+def line(x: float, y: float, z: float) -> str:
+    return f"[[{x},{y},{z}],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+
+
+def going(first: str, second: str) -> RunResult:
+    """Both at a place, then together, then apart."""
+    at = f"MoveJ {line(700, 0, 500)},v1000,fine,tool0;\n"
+    return run(
+        *(f"SyncMoveOn here,both;\n{text}SyncMoveOff there;\nSetDO do{n},1;" for n, text in ((1, first), (2, second))),
+        begin=at,
+    )
+
+
+def spans(result: RunResult, task: str) -> list[tuple[float, float]]:
+    """Start and end of the moves of a task behind the first one."""
+    moves = [event for event in result.trace if event.kind == "move" and event.task == task]
+    return [(event.legs[0].start_s, event.t) for event in moves[1:]]
+
+
+def test_the_slowest_robot_says_how_long_a_move_together_takes() -> None:
+    """MultiMove manual 6.7.4: 1000 mm at v100 beside 500 mm at v500 takes both 10 s, the second at 50 mm/s; here a
+    fifth of the ways: 2 s, and what speeding up and braking adds."""
+    result = going(
+        f"MoveL {line(700, 200, 500)}\\ID:=10,v100,fine,tool0;\n",
+        f"WaitTime 1;\nMoveL {line(700, 100, 500)}\\ID:=10,v500,fine,tool0;\n",
+    )
+    assert result.status == "finished", result.fault
+    first, second = spans(result, "TASK1"), spans(result, "TASK2")
+    assert first == second  # to the last bit
+    ((begin, end),) = first
+    assert end - begin == pytest.approx(2.0, abs=0.15)
+    arrived = [event.t for event in result.trace if event.kind == "move"][:2]
+    assert begin == pytest.approx(max(arrived) + 1.0, abs=0.05)
+    (leg,) = [e.legs for e in result.trace if e.kind == "move" and e.task == "TASK2"][1]
+    speeds = [abs(leg.plan.tcp_at(t + 0.01)[1, 3] - leg.plan.tcp_at(t)[1, 3]) / 0.01 for t in (0.9, 1.0, 1.1)]
+    assert speeds == pytest.approx([50.0] * 3, rel=0.05)
+    assert {time for time, _, _ in result.outputs} == {end}
+
+
+def test_each_pair_of_moves_has_its_own_slowest() -> None:
+    result = going(
+        f"MoveL {line(700, 100, 500)}\\ID:=1,v50,fine,tool0;\nMoveL {line(700, 0, 500)}\\ID:=2,v1000,fine,tool0;\n",
+        f"MoveL {line(700, 0, 600)}\\ID:=1,v1000,fine,tool0;\nMoveL {line(700, 0, 500)}\\ID:=2,v30,fine,tool0;\n",
+    )
+    assert result.status == "finished", result.fault
+    both = spans(result, "TASK1")
+    assert both == spans(result, "TASK2")
+    assert [end - begin for begin, end in both] == pytest.approx([2.0, 100.0 / 30.0], abs=0.15)
+
+
+def test_corners_between_moves_together_end_at_rest_and_are_told() -> None:
+    text = f"MoveL {line(700, 50, 500)}\\ID:=1,v100,z10,tool0;\nMoveL {line(700, 50, 550)}\\ID:=2,v100,fine,tool0;\n"
+    result = going(text, text)
+    assert result.status == "finished", result.fault
+    assert spans(result, "TASK1") == spans(result, "TASK2")
+    assert [e.data["code"] for e in result.trace if e.kind == "warning"] == ["corner-together"] * 2
+
+
+MOVE = f"MoveL {line(700, 50, 500)}\\ID:=1,v100,fine,tool0;\n"
+
+
+@pytest.mark.parametrize(
+    "first, second, told",
+    [
+        (MOVE.replace("\\ID:=1", ""), MOVE, "TASK1 goes together with other robots: its move needs an identity"),
+        (MOVE, MOVE.replace("=1,", "=2,"), "move 2"),
+        (MOVE, "", "TASK1 has a move 1 for which TASK2 has none before they go apart"),
+        (MOVE, MOVE + "WaitTime 1;\n" + MOVE.replace("=1,", "=2,"), "TASK2 has a move 2 for which TASK1 has none"),
+        ("SyncMoveOff there;\n" + MOVE, "SyncMoveOff there;\n" + MOVE, "but the robots do not go together here"),
+        ("SyncMoveOn there,both;\n", "SyncMoveOn there,both;\n", "goes together with other tasks already"),
+        ("StopMove;\n", MOVE, "a stop of robots that go together is not driven"),
+    ],
+)
+def test_moves_that_do_not_fit_together_are_faults(first: str, second: str, told: str) -> None:
+    result = going(first, second)
+    assert result.status == "fault"
+    assert result.fault is not None
+    assert result.fault.code == "synchronisation"
+    assert told in result.fault.message
+
+
+def test_a_move_that_waits_for_another_robot_for_ever_is_told() -> None:
+    result = going(MOVE, "WaitDI di1,1;\n" + MOVE)
+    assert result.status == "deadlock"
+    assert result.fault is not None
+    assert "move 1 together with TASK2" in result.fault.message
