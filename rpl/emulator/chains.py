@@ -4,6 +4,7 @@ A URDF leads to the same `Arm` as a robot file does. This is the one module of t
 and only inside the functions, so that arms of the closed-form families load without it.
 """
 
+import re
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from functools import lru_cache
@@ -37,7 +38,8 @@ class UrdfChain:
 def read_urdf(path: Path, tip: str | None) -> UrdfChain:
     """The chain to the link `tip`, else to a link with a tool's usual name, else the longest; `RobotError` if none."""
     try:
-        tree = ET.fromstring(path.read_text(encoding="utf-8"))
+        written = path.read_text(encoding="utf-8")
+        tree = ET.fromstring(written)
     except OSError as error:
         raise RobotError(f"robot file {path} cannot be read: {error.strerror}") from error
     except (ET.ParseError, UnicodeDecodeError) as error:
@@ -58,7 +60,7 @@ def read_urdf(path: Path, tip: str | None) -> UrdfChain:
         raise RobotError(f"{path.name}: joint '{mimics[0]}' follows another one, which is not supported inside the arm")
     for joint in joints:
         _bound(joint)
-    facts = [_limits(path, joint) for joint in joints]
+    facts = [_limits(path, written, joint) for joint in joints]
     return UrdfChain(
         text=ET.tostring(tree, encoding="unicode"),
         tip=tip,
@@ -92,13 +94,24 @@ def _bound(joint: ET.Element) -> None:
         limit.set("upper", str(2.0 * np.pi))
 
 
-def _limits(path: Path, joint: ET.Element) -> tuple[float, float, float]:
+def _limit_line(written: str, name: str) -> int:
+    """The line of a joint's limit, else of the joint (the parser keeps no places)."""
+    joint = re.search(rf"<joint\b[^>]*\bname\s*=\s*[\"']{re.escape(name)}[\"']", written)
+    if joint is None:
+        return 1
+    limit = re.compile(r"<limit\b|</joint").search(written, joint.end())
+    place = limit.start() if limit is not None and limit[0] == "<limit" else joint.start()
+    return written.count("\n", 0, place) + 1
+
+
+def _limits(path: Path, written: str, joint: ET.Element) -> tuple[float, float, float]:
     """Lower, upper and speed of a joint in degrees or mm; a missing speed is a full turn in 2 s, or 1 m/s."""
     limit = joint.find("limit")
     sliding = joint.get("type") == "prismatic"
     scale = 1000.0 if sliding else 180.0 / np.pi
     values = {} if limit is None else limit.attrib
-    place = f"{path.name}: joint '{joint.get('name', '')}'"
+    name = joint.get("name", "")
+    place = f"{path.name}:{_limit_line(written, name)}: joint '{name}'"
     numbers = []
     for key in ("lower", "upper", "velocity"):
         text = values.get(key, "0")
@@ -111,9 +124,9 @@ def _limits(path: Path, joint: ET.Element) -> tuple[float, float, float]:
         numbers.append(number * scale)
     low, high, speed = numbers
     if low > high:
-        raise RobotError(f"{place}: its lower limit {low:g} is above its upper one {high:g}")
+        raise RobotError(f"{place}: the limit's 'lower', {low:g}, is above its 'upper', {high:g}")
     if speed < 0.0:
-        raise RobotError(f"{place}: its speed is below zero")
+        raise RobotError(f"{place}: the limit's 'velocity' is below zero")
     return low, high, speed if speed > 0.0 else (1000.0 if sliding else 180.0)
 
 

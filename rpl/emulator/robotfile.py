@@ -151,7 +151,7 @@ def _parse(text: str, place: str, folder: Path | None) -> RobotFile:
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise RobotError(f"robot file {place}: {error}") from error
+        raise RobotError(_unread(text, place, str(error))) from error
     reader = _Reader(data, place, _lines(text))
     kind = reader.text("kind")
     if kind not in LENGTHS:
@@ -198,6 +198,16 @@ def _parse(text: str, place: str, folder: Path | None) -> RobotFile:
         weights=_weights(reader, count),
         lag=_lag(axes, count),
     )
+
+
+def _unread(text: str, place: str, reason: str) -> str:
+    """Why a text is no TOML, with its line, and the key where one stands there (twice, perhaps)."""
+    found, lines = re.search(r"\(at line (\d+), column \d+\)", reason), text.splitlines()
+    if found is None or int(found[1]) > len(lines):
+        return f"robot file {place}: {reason}"
+    key = KEY.match(lines[int(found[1]) - 1])
+    named = f"'{key[1]}': " if key else ""
+    return f"robot file {place}:{found[1]}: {named}{reason}"
 
 
 def _motion(reader: "_Reader", count: int) -> dict[str, float | Vector]:

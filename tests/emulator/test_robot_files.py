@@ -139,11 +139,11 @@ URDF = """<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="
 @pytest.mark.parametrize(
     ("velocity", "lower", "upper", "message"),
     [
-        ("1", "1", "-1", "joint 'j': its lower limit 57.2958 is above its upper one -57.2958"),
+        ("1", "1", "-1", "joint 'j': the limit's 'lower', 57.2958, is above its 'upper', -57.2958"),
         ("1", "nan", "1", "joint 'j': the limit's 'lower' is 'nan', which is no number"),
         ("1", "-1", "inf", "joint 'j': the limit's 'upper' is 'inf', which is no number"),
         ("fast", "-1", "1", "joint 'j': the limit's 'velocity' is 'fast', which is no number"),
-        ("-1", "-1", "1", "joint 'j': its speed is below zero"),
+        ("-1", "-1", "1", "joint 'j': the limit's 'velocity' is below zero"),
     ],
 )
 def test_a_wrong_urdf_is_refused_with_its_joint(
@@ -153,7 +153,14 @@ def test_a_wrong_urdf_is_refused_with_its_joint(
     path.write_text(URDF.format(velocity, lower, upper))
     with pytest.raises(RobotError) as caught:
         load_robot(str(path))
-    assert f"arm.urdf: {message}" in str(caught.value)
+    assert f"arm.urdf:2: {message}" in str(caught.value)
+
+
+@pytest.mark.parametrize("key", ["a1 = 25", "c4 = 80"])
+def test_a_key_that_stands_twice_is_named_with_its_line(tmp_path: Path, key: str) -> None:
+    message = refused(tmp_path, key, f"{key}\n{key}")
+    name, line = key.split(" ")[0], 6 if key.startswith("a1") else 12
+    assert f"arm.toml:{line}: '{name}': " in message
 
 
 def test_a_urdf_whose_joints_hang_on_nothing(tmp_path: Path) -> None:
