@@ -248,6 +248,9 @@ class Motion(Data):
                 case "VJ" | "VE":
                     parts["joint"] = value
                 case "PL":
+                    number = value.value if isinstance(value, ir.IntLiteral) else 0
+                    if number not in range(tables.STANDARD_LEVEL):
+                        raise StatementError(f"there is no positioning level {number}", 0)
                     level = value
                 case "CR":
                     blend = ir.BlendDistance(value)

@@ -151,6 +151,12 @@ def test_a_unit_of_another_quantity_is_an_error(clause: str, expected: list[str]
     assert [name for name, _, _ in told("rpl", program("rpl", f"{GO} {clause}")) if name in OURS] == expected
 
 
+@pytest.mark.parametrize(("level", "expected"), [(0, []), (8, []), (9, [17]), (12, [17])])
+def test_inform_a_positioning_level_that_there_is_not(level: int, expected: list[int]) -> None:
+    text = inform("MOVJ C00000 VJ=10.00", f"MOVL C00001 V=50 PL={level}")
+    assert [line for name, line, _ in told("inform", text) if name == "unreadable-statement"] == expected
+
+
 def test_a_variable_with_the_name_of_a_quantity_is_free() -> None:
     text = (
         "VAR override: INT = 1\nVAR blend_distance: REAL = 0.0\nPROCEDURE main()\noverride = 0\nblend_distance = -5.0\n"
