@@ -95,7 +95,7 @@ def test_what_hangs_on_the_run_is_told(target: str) -> None:
 
 
 def test_a_program_for_such_a_controller_switches_it_off() -> None:
-    source, made, text, codes = both("rapid", RAPID, "vplus")
+    source, made, text, _ = both("rapid", RAPID, "vplus")
     assert made[1:] == pytest.approx(source[1:], rel=1e-3)
     assert text.count("DISABLE SCALE.ACCEL") == 1
     assert text.index("DISABLE SCALE.ACCEL") < text.index("MOVE")

@@ -1,6 +1,7 @@
 """How strongly robots speed up and slow down, as programs say it, by the documents of each language.
 
-RAPID: Technical reference manual, AccSet. V+: Language Reference Guide, ACCEL and SCALE.ACCEL. URScript: movel (the same rate for
+RAPID: Technical reference manual, AccSet. V+: Language Reference Guide, ACCEL and SCALE.ACCEL. URScript:
+movel (the same rate for
 both). KRL: $ACC.CP. M where no manual at hand says it: INFORM ACC= and DEC= are independent; TP ACC is for both.
 """
 
