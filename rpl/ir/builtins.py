@@ -214,7 +214,7 @@ SYSTEM_VARIABLES: dict[str, SystemVariable] = _system(
     acceleration_percent | n | rw | - | percent | - | RAPID AccSet acceleration
     acceleration_ramp | n | rw | - | percent | - | RAPID AccSet ramp
     deceleration_percent | n | rw | - | percent | - | deceleration, where that is not as strong as the acceleration
-    scale_acceleration | b | rw | - |    | - | acceleration and deceleration are a share of what is said, as the speed is
+    scale_acceleration | b | rw | - | | - | acceleration and deceleration are a share of what is said, as the speed is
     stop_ramp       | n | rw | - | percent | - | RAPID AccSet: how fast the deceleration changes before a stop
     joint_configuration_check | b | rw | - | | - | joint moves go to exactly the programmed configuration
     path_configuration_check | b | rw | - | | - | path moves check the programmed configuration at their end

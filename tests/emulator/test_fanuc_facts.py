@@ -16,7 +16,7 @@ def drawn(model: RobotModel, count: int) -> FloatArray:
 
 def test_all_arms_of_the_maker_are_there_and_no_others() -> None:
     assert len(NAMES) > 30
-    assert NAMES == [name for name in robot_names() if read_robot_file(name).maker == "FANUC"]
+    assert [name for name in robot_names() if read_robot_file(name).maker == "FANUC"] == NAMES
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -43,7 +43,8 @@ CASES = {
 def test_the_robot_stands_where_the_program_wants_it(what: str) -> None:
     main, others, waits = CASES[what]
     text = (
-        f".PROGRAM main()\nDISABLE SCALE.ACCEL\nSPEED 50 ALWAYS\nMOVE TRANS(400,0,240,0,180,0)\nMOVES TRANS(400,0,200,0,180,0)\n{main}\n"
+        ".PROGRAM main()\nDISABLE SCALE.ACCEL\nSPEED 50 ALWAYS\n"
+        f"MOVE TRANS(400,0,240,0,180,0)\nMOVES TRANS(400,0,200,0,180,0)\n{main}\n"
         f"IF ABS(DY(now)-40) < 0.05 THEN\nSIGNAL 1\nEND\n.END\n{others}"
     )
     read = read_sources([source_from_text("main.v2", text)], "vplus", Diagnostics())

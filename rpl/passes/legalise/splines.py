@@ -15,7 +15,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.curvepoints import SAME_CURVE_MM, OTHER_CURVE
+from rpl.passes.legalise.curvepoints import OTHER_CURVE, SAME_CURVE_MM
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.partialplaces import moving_routines
