@@ -4,6 +4,8 @@ corners that would make it leave one out are written smaller. Source: URScript M
 
 from __future__ import annotations
 
+import pytest
+
 from rpl.diagnostics import Diagnostics
 from rpl.project import ReadProgram, read_sources
 from rpl.source import source_from_text
@@ -57,3 +59,36 @@ def test_corners_that_overlap_are_written_smaller() -> None:
     text, told = translated(rapid("z30"), "rapid", "urscript")
     assert text.count("r=0.03)") == 2
     assert "corner-made-smaller" not in [name for name, _ in told]
+
+
+def move(y: float, zone: str) -> str:
+    return f"MoveL [[400,{y},300],[0,0,1,0],{NOWHERE}],v100,{zone},tool0;"
+
+
+# What stands in main, and in a routine that it may call; whether an overlap is possible for all that the program says.
+ORDERS = {
+    "a branch": (f"{move(0, 'z50')}\nIF di1=1 THEN\n{move(60, 'z50')}\nENDIF\n{move(400, 'fine')}", "", True),
+    "behind a branch": (f"IF di1=1 THEN\n{move(0, 'z50')}\nENDIF\n{move(60, 'z50')}\n{move(400, 'fine')}", "", True),
+    "a routine": (f"{move(0, 'z50')}\nother;\n{move(400, 'fine')}", move(60, "z50"), True),
+    "behind a routine": (f"other;\n{move(60, 'z50')}\n{move(400, 'fine')}", move(0, "z50"), True),
+    "a loop": (f"WHILE di1=1 DO\n{move(0, 'z50')}\n{move(400, 'z50')}\nENDWHILE\n{move(500, 'fine')}", "", True),
+    "a stop at the end of a loop": (f"WHILE di1=1 DO\n{move(0, 'z50')}\n{move(400, 'fine')}\nENDWHILE", "", False),
+    "a stop in a routine": (f"other;\n{move(60, 'z50')}\n{move(400, 'fine')}", move(0, "fine"), False),
+    "a branch without moves": (f"{move(0, 'z50')}\nIF di1=1 THEN\nn:=1;\nENDIF\n{move(400, 'fine')}", "", False),
+}
+
+
+@pytest.mark.parametrize("what", ORDERS)
+def test_corners_that_meet_only_in_the_run_are_warned_of(what: str) -> None:
+    main, other, possible = ORDERS[what]
+    program = f"MODULE m\nVAR num n:=0;\nPROC main()\n{main}\nENDPROC\nPROC other()\n{other}\nENDPROC\nENDMODULE\n"
+    _, told = translated(program, "rapid", "urscript")
+    assert ("corners-may-overlap" in [name for name, _ in told]) == possible
+
+
+def test_what_stands_between_two_moves_does_not_hide_their_corners() -> None:
+    lines = rapid("z50").splitlines()
+    lines.insert(4, "SetDO do1,1;")
+    text, told = translated("\n".join(lines) + "\n", "rapid", "urscript")
+    assert text.count("r=0.03)") == 2
+    assert "corners-may-overlap" not in [name for name, _ in told]

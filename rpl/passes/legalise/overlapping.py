@@ -9,10 +9,12 @@ from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import edit_bodies
+from rpl.passes.legalise.effects import blocks
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Record, pose_of
@@ -37,6 +39,7 @@ UNKNOWN = code(
     "look at the places, or give the moves smaller corners",
 )
 _SLACK_MM = 1e-3
+_LOOPS = (ir.For, ir.While, ir.Repeat, ir.Loop)
 
 
 def left_out_moves(program: ir.Program, context: Context) -> ir.Program:
@@ -69,13 +72,23 @@ def fitting_corners(program: ir.Program, context: Context) -> ir.Program:
         return program
 
     told: list[ir.Move] = []
+    order = _Order(program)
 
     def change(scope: Scope, body: ir.Body) -> ir.Body:
         done = list(body)
         last: tuple[int, _Corner] | None = None
         flown_by: ir.Move | None = None
         for index, statement in enumerate(body):
-            if isinstance(statement, ir.Nothing):
+            if not isinstance(statement, ir.Move):
+                first, end = order.flying((statement,), scope), order.flying((statement,), scope, last=True)
+                if first is not None and (flown_by is not None or (isinstance(statement, _LOOPS) and end is not None)):
+                    told.append(flown_by or first)
+                if isinstance(statement, ir.WaitForMotion):
+                    last = flown_by = None
+                elif isinstance(statement, ir.Label):
+                    last, flown_by = None, flown_by or order.flying(body, scope, last=True)
+                elif order.moves(statement):
+                    last, flown_by = None, end or flown_by
                 continue
             corner = _corner(statement, scope)
             if corner is not None and last is not None:
@@ -88,13 +101,67 @@ def fitting_corners(program: ir.Program, context: Context) -> ir.Program:
             elif flown_by is not None and _flies_by(statement, scope):
                 told.append(flown_by)
             last = (index, corner) if corner is not None else None
-            flown_by = statement if isinstance(statement, ir.Move) and _flies_by(statement, scope) else None
+            flown_by = statement if _flies_by(statement, scope) else None
         return body if all(new is old for new, old in zip(done, body, strict=True)) else tuple(done)
 
     fitted = _rewritten(program, change)
     for move in told[:1]:
         context.diagnostics.report(UNKNOWN, move.origin)
     return fitted
+
+
+class _Order:
+    """Which path move with a corner may come first or last in a part of the program, into routines that it calls."""
+
+    def __init__(self, program: ir.Program) -> None:
+        scopes = ProgramScope(program)
+        self.routines = {
+            routine.name.lower(): (scopes.routine(module, routine), routine)
+            for module in program.modules
+            for routine in module.routines
+        }
+        self.known: dict[tuple[str, bool], ir.Move | None] = {}
+        self.moving: dict[str, bool] = {}
+
+    def flying(self, body: ir.Body, scope: Scope, last: bool = False) -> ir.Move | None:
+        for statement in reversed(body) if last else body:
+            if isinstance(statement, ir.WaitForMotion):
+                return None
+            if isinstance(statement, ir.Move):
+                return statement if _flies_by(statement, scope) else None
+            found = [one for inner in blocks(statement) if (one := self.flying(inner, scope, last)) is not None]
+            found += [one for name in _called(statement) if (one := self.of_routine(name, last)) is not None]
+            if found:
+                return found[0]
+        return None
+
+    def of_routine(self, name: str, last: bool) -> ir.Move | None:
+        if (name, last) not in self.known and name in self.routines:
+            self.known[name, last] = None  # a routine that calls itself adds nothing to what it does
+            scope, routine = self.routines[name]
+            self.known[name, last] = self.flying(routine.body, scope, last)
+        return self.known.get((name, last))
+
+    def moves(self, statement: ir.Statement) -> bool:
+        """May it move the robot?"""
+        return any(
+            isinstance(node, ir.Move)
+            or (isinstance(node, ir.CallRoutine | ir.Call) and self.routine_moves(node.name.lower()))
+            for node in walk(statement)
+        )
+
+    def routine_moves(self, name: str) -> bool:
+        if name not in self.moving and name in self.routines:
+            self.moving[name] = False
+            self.moving[name] = any(self.moves(one) for one in self.routines[name][1].body)
+        return self.moving.get(name, False)
+
+
+def _called(statement: ir.Statement) -> list[str]:
+    """The routines that a statement itself calls, not those in its bodies."""
+    if blocks(statement):
+        return []
+    return [one.name.lower() for one in walk(statement) if isinstance(one, ir.CallRoutine | ir.Call)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +195,7 @@ def _flies_by(statement: ir.Statement, scope: Scope) -> bool:
     """Is it a path move with a corner, as far as can be told?"""
     if not isinstance(statement, ir.Move) or statement.kind == "joint":
         return False
-    return not isinstance(statement.blend, ir.BlendStop | None) and _size(statement.blend, scope) != 0.0
+    return _size(statement.blend, scope) != 0.0
 
 
 def _corner(statement: ir.Statement, scope: Scope) -> _Corner | None:
@@ -148,8 +215,12 @@ def _size(blend: ir.Blend | None, scope: Scope) -> float | None:
             return constant_number(distance, scope)
         case ir.BlendZone(zone=zone):
             value = constant(zone, scope)
-            path = value.part("path") if isinstance(value, Record) and not value.part("stop") else None
-            return float(path) if isinstance(path, int | float) else None
+            if not isinstance(value, Record):
+                return None
+            path = value.part("path")
+            return 0.0 if value.part("stop") else float(path) if isinstance(path, int | float) else None
+        case None | ir.BlendStop():
+            return 0.0
     return None
 
 
