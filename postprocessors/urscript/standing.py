@@ -7,11 +7,14 @@ step is the first of a routine that is called there), and is written as a wait w
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import expressions, walk
 from rpl.passes.legalise.effects import blocks, children
+from rpl.passes.legalise.operands import stands_still
+from rpl.passes.legalise.standing import changed_beside
 
 _LOOPS = (ir.For, ir.While, ir.Repeat, ir.Loop)
 _DEEPEST = 8  # calls in calls that are looked into
@@ -23,6 +26,13 @@ class Standing:
 
     def __init__(self, program: ir.Program) -> None:
         self.routines = {one.name.lower(): one for module in program.modules for one in module.routines}
+        self.changed = changed_beside(program)
+        # In how many routines a name stands.
+        self.routines_with = Counter(
+            name
+            for one in self.routines.values()
+            for name in {n.id.lower() for n in walk(one) if isinstance(n, ir.Name)}
+        )
         self.entered: set[str] = set()  # routines that may be called while the robot is at a corner
         self.leave: dict[tuple[str, bool], bool] = {}  # routine, at a corner before -> at one behind?
         self.waits: set[int] = set()  # the steps (by identity) that have to wait
@@ -48,6 +58,8 @@ class Standing:
             match statement:
                 case ir.Nothing():
                     continue
+                case ir.Assign(target=ir.Name(id=name), value=value) if self.unseen(name, value):
+                    continue
                 case ir.WaitForMotion() | ir.Wait(in_position=True) | ir.WaitUntil(in_position=True):
                     return True
                 case ir.CallRoutine(name=name, dynamic=None) if depth < _DEEPEST and not _calls(children(statement)):
@@ -55,6 +67,12 @@ class Standing:
                     return called is not None and self.wanted(called.body, depth + 1)
             return False
         return False
+
+    def unseen(self, name: str, value: ir.Expression) -> bool:
+        """May a variable be set later, when the robot stands: is it of one routine alone, and its value the same?"""
+        return self.routines_with[name.lower()] == 1 and all(
+            stands_still(part, self.changed) for part in expressions(value)
+        )
 
 
 class _Way:

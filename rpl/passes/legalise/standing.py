@@ -125,6 +125,11 @@ class _Facts:
         return found
 
 
+def changed_beside(program: ir.Program) -> frozenset[str]:
+    """Variables, in lower case, that interrupts, actions on the path and background tasks assign."""
+    return _Facts.of(program).changed
+
+
 def _with_ends(program: ir.Program, facts: _Facts, scopes: ProgramScope, stops: frozenset[str]) -> _Facts:
     """The facts with the routines that end with a stop point, those by what they call included."""
     while True:
