@@ -2,7 +2,9 @@
 
 Sources: KUKA Expert Programming KSS 5.2, 3.5.2 (C_DIS: so many mm before the point, at most half of the block; C_ORI:
 so many degrees of the turn are left; C_VEL: where braking for a stop would have reached that part of the speed). (M):
-CR of FANUC counts along both moves and takes at most half of the shorter one.
+CR of FANUC counts along both moves and takes at most half of the shorter one; CR of INFORM and its levels PL (12.5 mm
+for PL=1, 25 mm for PL=2, as delivered) likewise. V+ Language Guide, continuous path: no distances are published; (M)
+the corner begins where braking for a stop would begin and ends where the speed is reached again.
 """
 
 from __future__ import annotations
@@ -86,7 +88,9 @@ def tp(size: str, way: float) -> RunResult:
     return run("tp", f"/PROG  P\n/ATTR\n/MN\n{numbered}/POS\n{data}/END\n", "fanuc_m20id25")
 
 
-@pytest.mark.parametrize(("size", "way", "expected"), [("CR20", 100.0, 20.0), ("CR50", 60.0, 30.0)])
+@pytest.mark.parametrize(
+    ("size", "way", "expected"), [("CR20", 100.0, 20.0), ("CR50", 60.0, 30.0), ("CD20", 100.0, 20.0)]
+)
 def test_tp(size: str, way: float, expected: float) -> None:
     result = tp(size, way)
     assert corner_of(result) == pytest.approx((expected, expected), abs=0.01)
@@ -100,4 +104,37 @@ def test_urscript() -> None:
     )
     result = run("urscript", text, "ur5e")
     assert corner_of(result) == pytest.approx((30.0, 30.0), abs=0.01)
+    check_speed(result)
+
+
+def inform(size: str) -> RunResult:
+    places = ((500.0, -100.0), (500.0, 0.0), (600.0, 0.0))
+    data = "".join(f"C0000{n}={x:.3f},{y:.3f},400.000,180.0000,0.0000,0.0000\n" for n, (x, y) in enumerate(places))
+    text = (
+        "/JOB\n//NAME P\n//POS\n///NPOS 3,0,0,0,0,0\n///TOOL 0\n///POSTYPE ROBOT\n///RECTAN\n"
+        f"///RCONF 0,0,0,0,0,0,0,0\n{data}//INST\n///DATE 2024/01/01 00:00\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\n"
+        f"MOVJ C00000 VJ=20.00\nMOVL C00001 V=100.0 {size}\nMOVL C00002 V=100.0 PL=0\nEND\n"
+    )
+    return run("inform", text, "motoman_gp7")
+
+
+@pytest.mark.parametrize(
+    ("size", "expected"), [("PL=1", 12.5), ("PL=2", 25.0), ("PL=8", 50.0), ("CR=20.0", 20.0), ("CR=80.0", 50.0)]
+)
+def test_inform(size: str, expected: float) -> None:
+    result = inform(size)
+    assert corner_of(result) == pytest.approx((expected, expected), abs=0.01)
+    check_speed(result)
+
+
+@pytest.mark.parametrize(("speed", "percent"), [(100.0, 100.0), (200.0, 100.0), (200.0, 50.0)])
+def test_vplus(speed: float, percent: float) -> None:
+    text = (
+        f".PROGRAM p()\nDISABLE SCALE.ACCEL\nACCEL {percent:g},{percent:g}\nSPEED {speed:g} MMPS ALWAYS\n"
+        "MOVE TRANS(350,-100,300,0,180,0)\nBREAK\nMOVES TRANS(350,0,300,0,180,0)\nMOVES TRANS(450,0,300,0,180,0)\n"
+        "BREAK\n.END\n"
+    )
+    result = run("vplus", text, "adept_viper_s650")
+    braking = speed * speed / (2.0 * 5000.0 * percent / 100.0)
+    assert corner_of(result) == pytest.approx((braking, braking), abs=0.01)
     check_speed(result)
