@@ -15,6 +15,7 @@ from dataclasses import dataclass, field, fields, replace
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 from rpl import registry
 from rpl.errors import UsageError
@@ -176,8 +177,8 @@ def parse_controller(text: str, name: str, place: str) -> MotionModel:
             raise UsageError(
                 f"controller file {place}: unknown key '{key}'" + (f"; meant {close[0]}?" if close else "")
             )
-    numbers = {key: _number(data[key], key, place) for key in NUMBERS if key in data}
-    texts = {key: str(data[key]) for key in ("title", "source") if key in data}
+    given: dict[str, Any] = {key: _number(data[key], key, place) for key in NUMBERS if key in data}
+    given |= {key: str(data[key]) for key in ("title", "source") if key in data}
     uncertain = data.get("uncertainty", {})
     if not isinstance(uncertain, dict):
         raise UsageError(f"controller file {place}: 'uncertainty' must be a table")
@@ -188,18 +189,18 @@ def parse_controller(text: str, name: str, place: str) -> MotionModel:
     ramps = data.get("joint_ramps_s", [])
     if not isinstance(ramps, list):
         raise UsageError(f"controller file {place}: 'joint_ramps_s' must be a list of times, one per axis")
-    made = MotionModel(
+    return MotionModel(
         name=name,
         overlap=_overlap(data.get("overlap", []), place),
         joint_ramps_s=tuple(_number(each, "joint_ramps_s", place) for each in ramps),
         uncertainty=uncertainty,
+        **given,
     )
-    return replace(made, **texts, **numbers)  # type: ignore[arg-type]  # names of fields with their types
 
 
-def on_robot(model: MotionModel, measured: Mapping[str, float | tuple[float, ...]]) -> MotionModel:
-    """The controller with what was measured on one arm."""
-    return replace(model, **measured) if measured else model  # type: ignore[arg-type]  # names of number fields
+def on_robot(model: MotionModel, measured: Mapping[str, Any]) -> MotionModel:
+    """The controller with what was measured on one arm: numbers, and ramps per axis."""
+    return replace(model, **measured) if measured else model
 
 
 def as_toml(model: MotionModel) -> str:

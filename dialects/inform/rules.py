@@ -41,6 +41,7 @@ RULES = Rules(
         "path_limit_rule": "reduce",
     },
     # Operator's manuals: VJ is 0.01 to 100 percent.
+    # M: VJ and EV end at 100 %.
     inputs=InputRules(ranges={"joint_speed": Range(most=100.0), "external_speed": Range(most=100.0)}),
     blend_levels=tables.LEVELS,
     # MOVS is the parabola through three points; where two of them overlap "a composite path" is made (operator's

@@ -19,8 +19,8 @@ COMPONENTS = {
 
 # M: corners of a given size (CR, CD) take at most half of the shorter move beside them; the option's manual is not at
 # hand. CNT has no size of its own.
-# Ranges: the operator's manual gives 1 to 100 percent for J, 0 to 100 for CNT and 1 to 100 for OVERRIDE; M: a move with
-# a time needs more than none, and numbers of frames go up to what the controller has.
+# M (the operator's manual is not at hand): J and CNT end at 100 percent, OVERRIDE goes from 1 to 100, a move with a
+# time needs more than none, and numbers of frames go up to what the controller has.
 _INPUTS = InputRules(
     large_corner="makes it {half:g} mm, half of that",
     ranges={

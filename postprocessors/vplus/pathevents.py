@@ -192,10 +192,10 @@ class PathEvents:
 
     def not_behind(self, one: ir.Trigger, other: ir.Trigger, equal: bool = True) -> bool:
         """Does the program look for the first no later than for the other (or earlier)? As `order` puts them."""
-        places = [self.written_place(trigger) for trigger in (one, other)]
-        if None in places:
+        first, second = self.written_place(one), self.written_place(other)
+        if first is None or second is None:
             return False
-        return places[0] < places[1] or (equal and places[0] == places[1])  # type: ignore[operator]
+        return first < second or (equal and first == second)
 
     def written_place(self, trigger: ir.Trigger) -> tuple[int, float] | None:
         """From which end it counts and how far, in mm; None when that is computed."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rpl.controllers import MotionModel
 from rpl.errors import UsageError
@@ -96,5 +96,5 @@ def values_of(model: MotionModel, parameters: tuple[Parameter, ...]) -> list[flo
 
 def with_values(model: MotionModel, parameters: tuple[Parameter, ...], values: list[float]) -> MotionModel:
     """The controller with other values of these parameters."""
-    changed = {parameter.name: value for parameter, value in zip(parameters, values, strict=True)}
-    return replace(model, **changed)  # type: ignore[arg-type]  # names of number fields
+    changed: dict[str, Any] = {parameter.name: value for parameter, value in zip(parameters, values, strict=True)}
+    return replace(model, **changed)

@@ -101,6 +101,7 @@ class Range:
 
 # What no controller can drive with, whatever its language: by neutral system variable, or by the part of a move that
 # stands for it. A speed of zero or less is told by the planner, together with what a speed is worked out from.
+# M where no manual at hand says so: that a controller refuses what no robot can do (a negative time or corner).
 RANGES: Mapping[str, Range] = {
     "override": Range(0.0, above=True),
     "speed_percent": Range(0.0, above=True),
