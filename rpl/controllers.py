@@ -155,13 +155,14 @@ def controller_named(name_or_path: str) -> MotionModel:
         except OSError as error:
             raise UsageError(f"controller file {name_or_path} cannot be read: {error.strerror}") from error
         return parse_controller(text, Path(name_or_path).stem, name_or_path)
-    if name_or_path not in registry.dialect_names():
+    name = registry.dialect_meant(name_or_path)
+    if name not in registry.dialect_names():
         names = [PLAIN_NAME, *registry.dialect_names()]
         close = difflib.get_close_matches(name_or_path, names, 1)
         hint = f"; did you mean {close[0]}?" if close else ""
         raise UsageError(f"no controller named {name_or_path!r}: there are {', '.join(names)} and .toml files{hint}")
-    text = registry.controller_text(name_or_path)
-    return PLAIN if not text else parse_controller(text, name_or_path, f"controller.toml of {name_or_path}")
+    text = registry.controller_text(name)
+    return PLAIN if not text else parse_controller(text, name, f"controller.toml of {name}")
 
 
 def parse_controller(text: str, name: str, place: str) -> MotionModel:

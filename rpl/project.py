@@ -64,10 +64,11 @@ def read_program(
 ) -> ReadProgram:
     """Read files, folders and archives as one project.
 
-    `dialect` overrides the recognition by content. Raises UsageError when a path does not exist. Everything else is
-    reported: a file that is no program never stops the others from being read.
+    `dialect` (its name or an alias) overrides the recognition by content. Raises UsageError when a path does not exist.
+    Everything else is reported: a file that is no program never stops the others from being read.
     """
     collector = diagnostics if diagnostics is not None else Diagnostics()
+    dialect = registry.dialect_called(dialect).name if dialect is not None else None
     groups: dict[str, list[Source]] = {}
     for found in _expand(paths, collector):
         name, reason = (dialect, "") if dialect else recognise(found.source)

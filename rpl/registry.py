@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     from rpl.writing.target import Capabilities, OutputFile, WriteContext
 
 
+# The rooms that languages stand in.
+_DIALECTS, _TARGETS = "dialects", "postprocessors"
+
+
 class ReadSources(Protocol):
     def __call__(self, sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult: ...
 
@@ -64,6 +68,7 @@ class Dialect:
     companions(path): files that belong to a named one where they exist (a data list). signal_name(kind, number): how
     the language spells a numbered signal. flag_terms(arm): what each flag of the notation is the sum of: weight, a fact
     of rpl.emulator.model.Posture (or `negative`, `quarter`: the sign and the quarter turn of an axis) and the axis.
+    aliases: other words that people ask for it by, such as its maker's name; capitals do not count.
     """
 
     name: str
@@ -78,6 +83,7 @@ class Dialect:
     companions: Callable[[str], tuple[str, ...]] = _no_companions
     signal_name: Callable[[str, int], str] = _signal_name
     flag_terms: Callable[[str], Mapping[str, tuple[tuple[int, str, int], ...]]] = _no_flag_terms
+    aliases: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +92,7 @@ class Target:
 
     What its controller loads: lines of at most `longest_line` characters (0: any), text in one of the `encodings`.
     `options`: names of the target's own options and what they say; `fitted` gives the capabilities under some of them.
+    `aliases`: other words for it, beside those of the dialect of its name.
     """
 
     name: str
@@ -96,6 +103,7 @@ class Target:
     longest_line: int = 0
     encodings: tuple[str, ...] = ("utf-8",)
     fitted: Callable[[Mapping[str, str]], Capabilities] | None = None
+    aliases: tuple[str, ...] = ()
 
     def capabilities_under(self, options: Mapping[str, str]) -> Capabilities:
         """What the controller can say when these options are given. Raises UsageError for an option it has not."""
@@ -121,38 +129,79 @@ def _names(room: str) -> dict[str, str]:
 def _load(room: str, name: str, attribute: str) -> object:
     names = _names(room)
     if name not in names:
-        close = get_close_matches(name, names, 1)
-        hint = f"; did you mean {close[0]}?" if close else ""
-        raise UsageError(f"no {room.rstrip('s')} named {name!r}: there are {', '.join(names)}{hint}")
+        raise UsageError(_unknown(room, name))
     return getattr(import_module(names[name]), attribute)
 
 
+def _words(room: str) -> dict[str, str]:
+    """What a language may be asked for by, in small letters, to its name: the names, then aliases of its records."""
+    found = {name.lower(): name for name in _names(room)}
+    for name in _names(room):
+        own = target(name).aliases if room == _TARGETS else ()
+        spoken = dialect(name).aliases if name in _names(_DIALECTS) else ()
+        for alias in (*own, *spoken):
+            found.setdefault(alias.lower(), name)
+    return found
+
+
+def _meant(room: str, word: str) -> str:
+    """The name of the language that the word asks for; the word itself where there is none."""
+    if word in _names(room):
+        return word
+    return _words(room).get(" ".join(word.lower().split()), word)
+
+
+def _unknown(room: str, name: str) -> str:
+    """That there is no such language, with the nearest words."""
+    words = _words(room)
+    nearest = list(dict.fromkeys(words[word] for word in get_close_matches(name.lower(), words)))
+    hint = f"; did you mean {' or '.join(nearest)}?" if nearest else ""
+    kind = "language that can be written is" if room == _TARGETS else "language is"
+    return f"no {kind} called {name!r}: there are {', '.join(_names(room))}{hint}"
+
+
 def dialect_names() -> list[str]:
-    return list(_names("dialects"))
+    return list(_names(_DIALECTS))
 
 
 def target_names() -> list[str]:
-    return list(_names("postprocessors"))
+    return list(_names(_TARGETS))
 
 
 @cache
 def dialect(name: str) -> Dialect:
     """The dialect of that name. Raises UsageError when there is none."""
-    found = _load("dialects", name, "DIALECT")
+    found = _load(_DIALECTS, name, "DIALECT")
     assert isinstance(found, Dialect)  # a promise of our own folders, not of input
     return found
+
+
+def dialect_meant(word: str) -> str:
+    """The name of the dialect that people ask for by this word: its name or an alias, in any capitals; the word itself
+    where there is none."""
+    return _meant(_DIALECTS, word)
+
+
+def dialect_called(word: str) -> Dialect:
+    """The dialect that people ask for by this word. Raises UsageError with the nearest names when there is none."""
+    return dialect(dialect_meant(word))
 
 
 def controller_text(name: str) -> str:
     """The text of `controller.toml` in a dialect's folder: how its controller moves. Empty when there is none."""
     dialect(name)  # an unknown name is refused there
-    file = resources.files(_names("dialects")[name]).joinpath("controller.toml")
+    file = resources.files(_names(_DIALECTS)[name]).joinpath("controller.toml")
     return file.read_text(encoding="utf-8") if file.is_file() else ""
 
 
 @cache
 def target(name: str) -> Target:
     """The target of that name. Raises UsageError when there is none."""
-    found = _load("postprocessors", name, "TARGET")
+    found = _load(_TARGETS, name, "TARGET")
     assert isinstance(found, Target)
     return found
+
+
+def target_called(word: str) -> Target:
+    """The target that people ask for by this word, as `dialect_called`."""
+    return target(_meant(_TARGETS, word))

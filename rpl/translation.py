@@ -42,15 +42,16 @@ def translate_program(
 ) -> Translation:
     """Write a program that was read in another language (or anew in its own).
 
-    robot: the arm the source was written for; to_robot: the arm that will run the result (default: the same). Raises
-    UsageError for unknown names. `registers`: numbers that an earlier translation gave (Translation.registers).
-    `options`: the target's own, by name (Target.options). `given`: values of data that the controller keeps and the
-    program does not set, by name (the variables of a cell file); what is written for another controller sets them.
-    `mechanisms`: those of the cell, beside those of the robot's file.
+    target_name: its name or an alias (registry.target_called). robot: the arm the source was written for; to_robot: the
+    arm that will run the result (default: the same). Raises UsageError for unknown names. `registers`: numbers that an
+    earlier translation gave (Translation.registers). `options`: the target's own, by name (Target.options). `given`:
+    values of data that the controller keeps and the program does not set, by name (the variables of a cell file); what
+    is written for another controller sets them. `mechanisms`: those of the cell, beside those of the robot's file.
     What the target cannot say is written as a guarded stop and listed in `losses`.
     """
     collector = diagnostics if diagnostics is not None else Diagnostics()
-    target = registry.target(target_name)
+    target = registry.target_called(target_name)
+    target_name = target.name
     first = _load(robot, mechanisms)
     second = _load(to_robot, mechanisms) if to_robot and to_robot != robot else first
     source = read.dialects[0] if read.dialects else target_name

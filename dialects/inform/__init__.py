@@ -67,4 +67,5 @@ DIALECT = Dialect(
     notation=_notation,
     notation_fields=("noflip", "lower", "rear", "r180", "t180", "s180"),
     signal_name=signal_name,
+    aliases=("yaskawa", "motoman"),
 )

@@ -118,4 +118,5 @@ DIALECT = Dialect(
     companions=_companions,
     signal_name=_signal_name,
     flag_terms=_flag_terms,
+    aliases=("kuka", "krc"),
 )

@@ -64,4 +64,5 @@ DIALECT = Dialect(
     _notation,
     notation_fields=("cf1", "cf4", "cf6", "cfx"),
     flag_terms=_flag_terms,
+    aliases=("abb",),
 )

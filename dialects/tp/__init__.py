@@ -96,4 +96,5 @@ DIALECT = Dialect(
     companions=_companions,
     notation_fields=("flip", "down", "back", "t1", "t4", "t6"),
     signal_name=_signal_name,
+    aliases=("fanuc",),
 )

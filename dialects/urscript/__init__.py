@@ -106,4 +106,5 @@ DIALECT = Dialect(
     notation=_notation,
     notation_fields=(),
     signal_name=_signal_name,
+    aliases=("ur", "universal robots", "universal-robots"),
 )

@@ -88,4 +88,5 @@ DIALECT = Dialect(
     notation=_notation,
     notation_fields=("shoulder", "elbow", "wrist"),
     signal_name=_signal_name,
+    aliases=("v+", "adept"),
 )

@@ -18,12 +18,21 @@ def command(as_json: bool) -> int:
         dialect = registry.dialect(name) if name in reads else None
         title = dialect.title if dialect else registry.target(name).title
         extensions = list(dialect.extensions) if dialect else []
+        aliases = [*(dialect.aliases if dialect else ()), *(registry.target(name).aliases if name in writes else ())]
         rows.append(
-            {"name": name, "title": title, "reads": name in reads, "writes": name in writes, "extensions": extensions}
+            {
+                "name": name,
+                "title": title,
+                "reads": name in reads,
+                "writes": name in writes,
+                "extensions": extensions,
+                "aliases": aliases,
+            }
         )
         if not as_json:
             does = f"{'reads' if name in reads else '':<6}{'writes' if name in writes else '':<7}"
-            click.echo(f"{name:<10} {title:<32} {does} {' '.join(extensions)}")
+            also = f"  (also: {', '.join(aliases)})" if aliases else ""
+            click.echo(f"{name:<10} {title:<46} {does} {' '.join(extensions)}{also}")
     if as_json:
         print_json(rows)
     return 0

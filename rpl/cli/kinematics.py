@@ -51,7 +51,7 @@ def chosen_notation(dialect: str | None, model: RobotModel) -> tuple[str, Notati
 
 def named_notation(dialect: str) -> tuple[str, Notation]:
     """A dialect's notation of poses. Raises UsageError when it has none."""
-    name, known = registry.dialect(dialect).name, notations()
+    name, known = registry.dialect_called(dialect).name, notations()
     if name not in known:
         raise UsageError(f"{name} has no notation of poses: there are {', '.join(known)}")
     return name, known[name]

@@ -67,10 +67,10 @@ def robot_named(name: str | None) -> RobotModel | None:
 
 
 def dialect_exists(name: str | None) -> str | None:
-    """The name again, if there is such a dialect. Raises UsageError otherwise."""
+    """The name of the dialect that this word asks for. Raises UsageError when there is none."""
     from rpl import registry
 
-    return registry.dialect(name).name if name is not None else None
+    return registry.dialect_called(name).name if name is not None else None
 
 
 def numbers(text: str, what: str, count: int | None = None) -> list[float]:

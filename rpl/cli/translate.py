@@ -85,7 +85,7 @@ def command(
     from rpl.writing.registers import read_registers
 
     own = _options(options)
-    registry.target(target).capabilities_under(own)
+    target = _target(target, own)
     diagnostics = collector(accepted)
     with waiting("reading"):
         read = read_program(paths, dialect_exists(dialect), diagnostics)
@@ -117,6 +117,13 @@ def command(
     if proof is not None and not proof.equal:
         return NO
     return GUARDED if diagnostics.has_losses else OK
+
+
+def _target(word: str, options: dict[str, str]) -> str:
+    """The name of the language to write. Raises UsageError for an unknown one, and for options that it has not."""
+    found = registry.target_called(word)
+    found.capabilities_under(options)
+    return found.name
 
 
 def _options(written: Sequence[str]) -> dict[str, str]:

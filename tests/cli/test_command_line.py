@@ -40,7 +40,7 @@ def test_every_command_has_help(name: str, capsys: pytest.CaptureFixture[str]) -
 def test_dialects_and_robots_have_their_shapes(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["dialects", "--json"]) == 0
     dialects = json.loads(words(capsys)[0])
-    assert {"name", "title", "reads", "writes", "extensions"} == set(dialects[0])
+    assert {"name", "title", "reads", "writes", "extensions", "aliases"} == set(dialects[0])
     assert run(["robots", "--json"]) == 0
     robots = json.loads(words(capsys)[0])
     assert {"name", "maker", "model", "axes"} <= set(robots[0])

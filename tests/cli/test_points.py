@@ -174,7 +174,7 @@ def test_columns(
         (["ik", "--points", "BYTES"], "is no text in UTF-8"),
         (["ik", "--points", "EMPTY"], "has no points"),
         (["ik", "--points", "nowhere.csv"], "cannot be read"),
-        (["ik", "--pose", "1,2,3", "--to-dialect", "cobol"], "no dialect named"),
+        (["ik", "--pose", "1,2,3", "--to-dialect", "cobol"], "no language is called"),
     ],
 )
 def test_wrong_calls(arguments: list[str], words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
