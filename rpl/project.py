@@ -16,12 +16,13 @@ from pathlib import Path, PurePosixPath
 
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.errors import RplError, UsageError
+from rpl.errors import UsageError
 from rpl.passes.collector import paused_cycle_collector
 from rpl.passes.hiddentypes import hidden_types
 from rpl.passes.motionvalues import motion_values
 from rpl.passes.typing import normalise
 from rpl.reading.ledger import FileReport
+from rpl.sidefiles import SideFile, side_file
 from rpl.source import Origin, Source, source_from_bytes
 
 NOT_A_PROGRAM = code(
@@ -30,6 +31,7 @@ NOT_A_PROGRAM = code(
     "this is not a robot program: {reason}",
     "name the language with --from if it is one",
 )
+SIDE_FILE = code("side-file", Severity.ERROR, "this is no robot program but {kind}", "{use}")
 SKIPPED = code("skipped-file", Severity.INFO, "skipped, not a robot program: {reason}")
 UNREADABLE_FILE = code("unreadable-file", Severity.ERROR, "cannot read this file: {reason}")
 UNREADABLE_ARCHIVE = code("unreadable-archive", Severity.ERROR, "cannot open this archive: {reason}")
@@ -71,10 +73,12 @@ def read_program(
     dialect = registry.dialect_called(dialect).name if dialect is not None else None
     groups: dict[str, list[Source]] = {}
     for found in _expand(paths, collector):
+        beside = side_file(found.source)
+        if beside is not None:
+            _told(beside, found, collector)
+            continue
         name, reason = (dialect, "") if dialect else recognise(found.source)
         if name is None:
-            if not found.named and _is_cell(found.source):
-                continue  # the project's own surroundings, which a run is given by name
             at = Origin(found.source)
             collector.report(NOT_A_PROGRAM if found.named else SKIPPED, at, reason=reason)
             continue
@@ -134,17 +138,12 @@ def recognise(source: Source) -> tuple[str | None, str]:
     return best, ""
 
 
-def _is_cell(source: Source) -> bool:
-    """Is it a cell file: surroundings of a run?"""
-    if not source.path.lower().endswith(".toml"):
-        return False
-    from rpl.cell import parse_cell
-
-    try:
-        parse_cell(source.text, source.path)
-    except RplError:
-        return False
-    return True
+def _told(beside: SideFile, found: _Found, diagnostics: Diagnostics) -> None:
+    """A file beside the programs: an error where it was given as one, no word where it belongs to the folder."""
+    if found.named:
+        diagnostics.report(SIDE_FILE, Origin(found.source), kind=beside.kind, use=beside.use)
+    elif not beside.own:
+        diagnostics.report(SKIPPED, Origin(found.source), reason=f"it is {beside.kind}")
 
 
 def _is_binary(source: Source) -> bool:

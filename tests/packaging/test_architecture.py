@@ -16,6 +16,7 @@ LEVELS = [
     ["api"],
     ["proof", "fitting"],
     ["project", "translation", "simulation", "report"],
+    ["sidefiles"],
     ["cell", "emulator", "runtime", "linking", "writing", "reading"],
     ["passes"],
     ["controllers"],
