@@ -93,6 +93,13 @@ class LinkedProgram:
             self._codes[id(routine)] = found
         return found
 
+    def codes(self) -> Iterator[tuple[int, Code]]:
+        """The code of each routine of the program (by its number in the program's order) and of the actions in it."""
+        routines = (routine for module in self.program.modules for routine in module.routines)
+        for number, routine in enumerate(routines):
+            code = self.code_of(routine)
+            yield from ((number, each) for each in (code, *code.actions))
+
     def routine(self, scope: Scope, name: str) -> ir.Routine | None:
         """The routine that a call in this scope means; a prelude's is entered when it is met."""
         found = scope.routine(name)

@@ -56,6 +56,7 @@ class RoutineLinker:
         outer = self.assembler
         self.assembler = Assembler()
         code = Code(name, self.compiler.scope.rules, "action")
+        self.code.actions.append(code)
         self.statements.statement(action)
         self.assembler.emit(leaving(None))
         self.assembler.assemble(code)

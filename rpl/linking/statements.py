@@ -16,7 +16,7 @@ from rpl.linking.flatten import has_call
 from rpl.linking.motion import MotionStatements
 from rpl.linking.places import assignment, procedure, watches
 from rpl.linking.stops import stops_before
-from rpl.runtime.code import Instruction, Read, Values
+from rpl.runtime.code import Branch, Code, Instruction, Read, Values
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.values import Value, equal
 
@@ -145,7 +145,7 @@ class Statements:
         done = Label()
         for condition, body in statement.branches:
             otherwise = Label()
-            self.emit(_branch(self.value(condition), otherwise))
+            self.emit(_branch(self.value(condition), otherwise, self.linker.code))
             self.body(body)
             self.assembler.jump(done)
             self.assembler.place(otherwise)
@@ -162,7 +162,7 @@ class Statements:
                 self._case_with_calls(selector, case, otherwise)
             else:
                 values = [self.linker.compiler.value(value) for value in case.values]
-                self.emit(_case(selector, values, otherwise))
+                self.emit(_case(selector, values, otherwise, self.linker.code))
             self.body(case.body)
             self.assembler.jump(done)
             self.assembler.place(otherwise)
@@ -175,7 +175,7 @@ class Statements:
         found = Label()
         for value in case.values:
             differs = Label()
-            self.emit(_case(selector, [self.value(value)], differs))
+            self.emit(_case(selector, [self.value(value)], differs, self.linker.code))
             self.assembler.jump(found)
             self.assembler.place(differs)
         self.assembler.jump(otherwise)
@@ -192,7 +192,7 @@ class Statements:
         again, leave = Label(), Label()
         self.assembler.place(again)
         self._stop_advance(statement)
-        self.emit(_branch(self.value(statement.condition), leave))
+        self.emit(_branch(self.value(statement.condition), leave, self.linker.code))
         self._in_loop(statement.body, leave, again)
         self.assembler.jump(again)
         self.assembler.place(leave)
@@ -203,7 +203,7 @@ class Statements:
         self._in_loop(statement.body, leave, again)
         self.assembler.place(again)
         self._stop_advance(statement)
-        self.emit(_branch(self.value(statement.until), begin))
+        self.emit(_branch(self.value(statement.until), begin, self.linker.code))
         self.assembler.place(leave)
 
     def _loop(self, statement: ir.Loop) -> None:
@@ -311,10 +311,18 @@ def _failing(error: str, message: str) -> Make:
     return make
 
 
-def _branch(condition: Read, otherwise: Label) -> Make:
+def _branch(condition: Read, otherwise: Label, code: Code) -> Make:
     def make(here: int, next: int) -> Instruction:
         target = otherwise.pc
-        return lambda f: next if condition(f) else target
+        code.branches.append(Branch(here, next, target))
+
+        def branch(f: Values) -> int:
+            if condition(f):
+                return next
+            f[0].marks[~here] = 1
+            return target
+
+        return branch
 
     return make
 
@@ -338,15 +346,17 @@ def _keep(place: int, read: Read) -> Make:
     return make
 
 
-def _case(selector: int, values: list[Read], otherwise: Label) -> Make:
+def _case(selector: int, values: list[Read], otherwise: Label, code: Code) -> Make:
     def make(here: int, next: int) -> Instruction:
         target = otherwise.pc
+        code.branches.append(Branch(here, next, target))
 
         def select(f: Values) -> int:
             chosen = f[selector]
             for value in values:
                 if equal(chosen, value(f)):
                     return next
+            f[0].marks[~here] = 1
             return target
 
         return select

@@ -37,10 +37,20 @@ class HandlerCode:
     start: int
 
 
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """An instruction that decides: goes on at `held` when its condition holds, else at `failed`."""
+
+    at: int
+    held: int
+    failed: int
+
+
 @dataclass(slots=True, eq=False)
 class Code:
     """A routine (or the action of an interrupt) as instructions. `statements` gives, per instruction, where its
-    statement starts and where the next one does; `origins` where it stands in the source."""
+    statement starts and where the next one does; `origins` where it stands in the source. `branches`: the instructions
+    that decide; `actions`: of interrupts and triggers in it, which are code of their own."""
 
     name: str
     rules: Rules
@@ -54,6 +64,8 @@ class Code:
     prepare: tuple[Callable[[Values], None], ...] = ()
     places: dict[str, tuple[int, bool]] = field(default_factory=dict)
     globals_needed: int = 0
+    branches: list[Branch] = field(default_factory=list)
+    actions: list[Code] = field(default_factory=list)
     predefined: bool = False
 
     def __deepcopy__(self, memo: object) -> Code:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from rpl.emulator.configuration import Notation
-    from rpl.runtime.code import Values
+    from rpl.runtime.code import Code, Values
     from rpl.runtime.values import SignalRef
 
 
@@ -15,6 +17,9 @@ class Linked(Protocol):
 
     def initialise(self, values: Values, machine: Any) -> None:
         """Fill the global data with first values."""
+
+    def codes(self) -> Iterator[tuple[int, Code]]:
+        """The code of each routine of the program (by its number in the program's order) and of the actions in it."""
 
     def variable_slot(self, name: str) -> int | None:
         """The place of a global variable."""

@@ -18,6 +18,7 @@ from rpl.runtime.faults import ProgramError
 from rpl.runtime.interrupts import Interrupt
 from rpl.runtime.limits import EVENTS_OF_MOTION, MOST_WAITING, STEPS_OF_EVENT, Limits
 from rpl.runtime.motion import MotionQueue
+from rpl.runtime.reached import Reached
 from rpl.runtime.scene import Scene
 from rpl.runtime.signals import Key, bit_kind, group_bits, is_bit_group, key_of, keys_named, usual, usual_key, zero_of
 from rpl.runtime.task import ENDED, READY, WAITING, Task
@@ -63,6 +64,7 @@ class Machine:
         self.agenda: list[Entry] = []
         self.sequence = 0
         self.globals: Values = []
+        self.marks: dict[Code, bytearray] = {}
         self.signals: dict[Key, Value] = {}
         self.names: dict[Key, str] = {}
         self.tasks: list[Task] = []
@@ -284,6 +286,14 @@ class Machine:
                 task.interrupts.came(interrupt)
 
     # ---- data
+
+    def marks_of(self, code: Code) -> bytearray:
+        """What the run has done in the code: place n is 1 when instruction n has been executed, place ~n (from the end)
+        when it was a branch whose condition did not hold."""
+        found = self.marks.get(code)
+        if found is None:
+            found = self.marks[code] = bytearray(2 * len(code.instructions))
+        return found
 
     def provide(self, code: Code) -> None:
         """Make sure that the global data which the code uses exists."""
@@ -516,6 +526,7 @@ class Machine:
             trace=tuple(self.trace),
             joints=joints,
             waited=tuple(self.waited),
+            reached=Reached(self.linked, {code: bytes(marks) for code, marks in self.marks.items()}),
         )
 
     def new_robot(self, task: Task) -> MotionQueue:

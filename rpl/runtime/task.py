@@ -59,6 +59,7 @@ class Task:
         self.error_number: float = 0
         self.interrupt_number: float = 0
         self.statements = 0
+        self.marks = bytearray()  # of the present frame's code (see Machine.marks_of)
         self.spent = 0
         self.spent_at = -1.0
         self.due = SPIN  # what it may have spent until somebody looks whether it spins
@@ -170,9 +171,11 @@ class Task:
         while self.state == READY and not self.machine.paused:
             frame = self.frame
             values, instructions, counter = frame.values, frame.code.instructions, frame.counter
+            marks = self.marks = self.machine.marks_of(frame.code)
             used = 0
             try:
                 for used in range(1, self._budget() + 1):  # noqa: B007 (how far it came)
+                    marks[counter] = 1
                     counter = instructions[counter](values)
                     if counter < 0:
                         break

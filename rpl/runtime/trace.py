@@ -12,6 +12,7 @@ from rpl.source import NOWHERE, Origin
 if TYPE_CHECKING:
     from rpl.emulator.planner import PlannedMove
     from rpl.runtime.payloads import Payload
+    from rpl.runtime.reached import Reached
 
 KINDS = ("move", "output", "input", "message", "warning", "wait", "call", "fault", "end")
 
@@ -81,7 +82,7 @@ class Fault:
 class RunResult:
     """How a run ended. status: finished, stopped, fault, deadlock, limit. `outputs` are changes in order: time, name of
     the physical signal, value. `joints` at the end (None without a robot). `waited`: the waits for conditions that
-    ended, met or timed out: task, from and to (s)."""
+    ended, met or timed out: task, from and to (s). `reached`: which statements it came to (see rpl.proof.reach)."""
 
     status: str
     time_s: float
@@ -94,6 +95,7 @@ class RunResult:
     joints: tuple[float, ...] | None = None
     waiting: tuple[str, ...] = ()
     waited: tuple[tuple[str, float, float], ...] = ()
+    reached: Reached | None = field(default=None, compare=False, repr=False)
 
     def as_json(self) -> dict[str, Value]:
         return {
