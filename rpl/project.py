@@ -22,6 +22,7 @@ from rpl.passes.hiddentypes import hidden_types
 from rpl.passes.motionvalues import motion_values
 from rpl.passes.typing import normalise
 from rpl.reading.ledger import FileReport
+from rpl.showing import counted, heading, line, table
 from rpl.sidefiles import SideFile, side_file
 from rpl.source import Origin, Source, source_from_bytes
 
@@ -53,6 +54,23 @@ class ReadProgram:
     sources: tuple[Source, ...]
     files: tuple[FileReport, ...]
     dialects: tuple[str, ...]
+
+    def _parts(self) -> list[str]:
+        statements = sum(report.statements for report in self.files)
+        unread = sum(report.opaque for report in self.files)
+        return [
+            " and ".join(self.dialects),
+            counted(len(self.files), "file"),
+            counted(statements, "statement"),
+            f"{unread} not readable" if unread else "",
+        ]
+
+    def __repr__(self) -> str:
+        return line("ReadProgram", self._parts())
+
+    def _repr_html_(self) -> str:
+        rows = [(report.path, report.dialect, report.statements, report.opaque) for report in self.files]
+        return heading("program", self._parts()) + table(("file", "language", "statements", "not readable"), rows)
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,8 +12,12 @@ from rpl.emulator.model import RobotModel, load_robot
 from rpl.passes.given import with_given
 from rpl.passes.legalise import Context, legalise
 from rpl.project import ReadProgram
+from rpl.showing import counted, folded, heading, line, table
+from rpl.source import decode
 from rpl.writing.names import rename, rename_hiding, renamed_twice
 from rpl.writing.target import OutputFile, WriteContext
+
+_MOST_NAMED = 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +31,22 @@ class Translation:
     losses: tuple[Diagnostic, ...] = ()
     registers: Mapping[tuple[str, int], str] = field(default_factory=dict)
     register_types: Mapping[tuple[str, int], str] = field(default_factory=dict)
+
+    def _parts(self) -> list[str]:
+        names = [file.path for file in self.files[:_MOST_NAMED]]
+        more = ["..."] if len(self.files) > _MOST_NAMED else []
+        return [
+            f"{counted(len(self.files), 'file')} ({', '.join([*names, *more])})",
+            counted(len(self.losses), "loss", "losses"),
+        ]
+
+    def __repr__(self) -> str:
+        return line("Translation", self._parts())
+
+    def _repr_html_(self) -> str:
+        rows = [(item.origin.file, item.origin.line, item.code.name, item.message) for item in self.losses]
+        texts = "".join(folded(file.path, decode(file.data)[0]) for file in self.files)
+        return heading("translation", self._parts()) + table(("file", "line", "loss", "reason"), rows) + texts
 
 
 def translate_program(

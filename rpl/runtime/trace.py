@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from rpl.runtime.values import SignalRef, Value
+from rpl.showing import counted, heading, line, table
 from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
@@ -96,6 +97,30 @@ class RunResult:
     waiting: tuple[str, ...] = ()
     waited: tuple[tuple[str, float, float], ...] = ()
     reached: Reached | None = field(default=None, compare=False, repr=False)
+
+    def _parts(self) -> list[str]:
+        return [
+            f"{self.status} after {self.time_s:.3f} s",
+            counted(self.moves, "move"),
+            counted(len(self.outputs), "output"),
+            counted(len(self.messages), "message") if self.messages else "",
+            self._why(),
+        ]
+
+    def _why(self) -> str:
+        if self.fault is None:
+            return ""
+        origin = self.fault.origin
+        place = f" at {origin.file}:{origin.line}" if origin.source else ""
+        return f"{self.fault.code}: {self.fault.message}{place}"
+
+    def __repr__(self) -> str:
+        return line("RunResult", self._parts())
+
+    def _repr_html_(self) -> str:
+        outputs = [(f"{t:.3f}", name, value) for t, name, value in self.outputs]
+        messages = [(text,) for text in self.messages]
+        return heading("run", self._parts()) + table(("s", "output", "value"), outputs) + table(("message",), messages)
 
     def as_json(self) -> dict[str, Value]:
         return {
