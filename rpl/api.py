@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
-from rpl.diagnostics import Diagnostics, Severity
+from rpl.diagnostics import Diagnostics, Severity, folded
 from rpl.errors import SourceError, UsageError
 from rpl.project import ReadProgram, read_program
 
@@ -96,8 +96,9 @@ def _program(given: ReadProgram | Paths, diagnostics: Diagnostics | None = None)
     found = read_program(_several(given), None, collector)
     errors = collector.of(Severity.ERROR)
     if errors:
-        more = [f"and {len(errors) - _MOST_ERRORS} more"] if len(errors) > _MOST_ERRORS else []
-        raise SourceError("\n".join([*(item.as_text() for item in errors[:_MOST_ERRORS]), *more]))
+        texts = list(folded(errors))
+        more = [f"and {len(texts) - _MOST_ERRORS} more"] if len(texts) > _MOST_ERRORS else []
+        raise SourceError("\n".join([*texts[:_MOST_ERRORS], *more]))
     if not found.files:
         raise UsageError(f"no robot program was found in {', '.join(str(path) for path in _several(given))}")
     return found

@@ -149,6 +149,45 @@ def _place(item: Diagnostic) -> tuple[object, ...]:
     return item.origin.file, item.origin.line, item.origin.column
 
 
+# So many lines of one report are named, and so many different reports of one code about one file are printed.
+_MOST_LINES, _MOST_OF_A_KIND = 10, 20
+
+
+def folded(items: Iterable[Diagnostic]) -> Iterator[str]:
+    """The reports as lines of text, in order: those that say the same about one file are one line with their number and
+    places, and of errors and remarks of one code about one file only the first are shown, with the number of the rest.
+    Losses stand all, because each is a stop."""
+    groups: dict[tuple[object, ...], list[Diagnostic]] = {}
+    for item in items:
+        groups.setdefault((item.origin.file, item.severity, item.code.name, item.message), []).append(item)
+    kinds: dict[tuple[object, ...], list[list[Diagnostic]]] = {}
+    for (file, severity, name, _), group in groups.items():
+        kinds.setdefault((file, severity, name), []).append(group)
+    for key, group in groups.items():
+        alike = kinds[key[:3]]
+        known = len(alike) if key[1] == Severity.LOSS else _MOST_OF_A_KIND
+        if len(alike) <= known + 1 or group in alike[:known]:
+            yield group[0].as_text() + _again(group[1:])
+        elif group is alike[known]:
+            yield _rest([item for group in alike[known:] for item in group])
+
+
+def _again(more: list[Diagnostic]) -> str:
+    """The number of reports that say the same, and where."""
+    if not more:
+        return ""
+    places = list(dict.fromkeys(item.origin.line for item in more))
+    shown = ", ".join(str(place) for place in places[:_MOST_LINES]) + (", ..." if len(places) > _MOST_LINES else "")
+    where = f": line{'s' * (len(places) > 1)} {shown}" if more[0].origin.source else ""
+    return f" [{len(more)} more time{'s' * (len(more) > 1)}{where}]"
+
+
+def _rest(items: list[Diagnostic]) -> str:
+    first, lines = items[0], [item.origin.line for item in items]
+    place = f"{first.origin.file}:{min(lines)}: " if first.origin.source else ""
+    return f"{place}{first.severity.word} {first.code.name} {len(items)} more of this kind, to line {max(lines)}"
+
+
 def sarif(items: Iterable[Diagnostic]) -> str:
     """SARIF 2.1.0 log of the reports, for code hosts and editors."""
     levels = {Severity.INFO: "note", Severity.WARNING: "warning", Severity.LOSS: "warning", Severity.ERROR: "error"}

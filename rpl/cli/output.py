@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from rpl.diagnostics import Diagnostic, Diagnostics, Severity
+from rpl.diagnostics import Diagnostic, Diagnostics, Severity, folded
 from rpl.errors import UsageError
 
 if TYPE_CHECKING:
@@ -46,10 +46,9 @@ def plain(value: object) -> object:
 
 
 def print_diagnostics(items: Iterable[Diagnostic], least: Severity = Severity.INFO) -> None:
-    """Reports on stderr, one per line, from this severity on."""
-    for item in items:
-        if item.severity >= least:
-            click.echo(" ".join(item.as_text().splitlines()), err=True)
+    """Reports on stderr, one per line, from this severity on; repeated ones with their count."""
+    for text in folded(item for item in items if item.severity >= least):
+        click.echo(" ".join(text.splitlines()), err=True)
 
 
 def collector(accepted: Sequence[str] = ()) -> Diagnostics:
