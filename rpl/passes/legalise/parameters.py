@@ -17,7 +17,7 @@ from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, e
 from rpl.passes.legalise.effects import children, everything, is_constant, statements_in
 from rpl.passes.legalise.jumps import goes_on, inside
 from rpl.passes.legalise.lists import sized
-from rpl.passes.legalise.references import is_open
+from rpl.passes.legalise.references import fixed_place, is_open
 from rpl.passes.legalise.support import with_support
 from rpl.passes.legalise.usage import base_name, bodies
 from rpl.passes.rewrite import rewrite_parts
@@ -25,11 +25,6 @@ from rpl.passes.scope import ProgramScope, Scope
 
 ARGUMENTS = "AR"
 _NUMBERED = (ir.IntType, ir.RealType, ir.StringType, ir.CharType)
-COPIED = code(
-    "reference-copied",
-    Severity.WARNING,
-    "{name} passes {what} by reference, and {name} uses it by its own name as well: it sees the copy at other times",
-)
 NOT_PASSED = code(
     "argument-not-passed",
     Severity.LOSS,
@@ -63,10 +58,7 @@ def fit_arguments(program: ir.Program, context: Context) -> ir.Program:
     if not context.capabilities.recursion or not context.capabilities.locals:
         for key in Activations.of(program).recursive & plans.keys():
             plans[key].again = True
-    mentions = _Mentions(program)
-    done = edit_routines(
-        program, context, lambda editor, routine: _Calls(editor, plans, mentions).routine(routine, plans)
-    )
+    done = edit_routines(program, context, lambda editor, routine: _Calls(editor, plans).routine(routine, plans))
     modules = []
     for old, module in zip(program.modules, done.modules, strict=True):
         made = [one for r in old.routines if id(r) in plans for one in plans[id(r)].variables.values()]
@@ -153,43 +145,12 @@ class ArraySizes:
         return replace(type, dimensions=(ir.IntLiteral(max(known)),)) if 0 < len(passed) == len(known) else type
 
 
-class _Mentions:
-    """Names that each routine and what it calls uses, folded."""
-
-    def __init__(self, program: ir.Program) -> None:
-        self.names: dict[str, set[str]] = {}
-        calls: dict[str, set[str]] = {}
-        for module in program.modules:
-            for routine in module.routines:
-                names = self.names.setdefault(routine.name.lower(), set())
-                callees = calls.setdefault(routine.name.lower(), set())
-                for body in bodies(routine):
-                    for statement in statements_in(body):
-                        if isinstance(statement, ir.CallRoutine):
-                            callees.add(statement.name.lower())
-                        for child in children(statement):
-                            for one in everything(child):
-                                if isinstance(one, ir.Name):
-                                    names.add(one.id.lower())
-                                elif isinstance(one, ir.Call):
-                                    callees.add(one.name.lower())
-        changed = True
-        while changed:
-            changed = False
-            for caller, callees in calls.items():
-                size = len(self.names[caller])
-                for callee in callees:
-                    self.names[caller] |= self.names.get(callee, set())
-                changed = changed or len(self.names[caller]) != size
-
-
 class _Calls(Hoister):
     """One routine: its own parameters, and the calls in it."""
 
-    def __init__(self, editor: Editor, plans: dict[int, _Plan], mentions: _Mentions) -> None:
+    def __init__(self, editor: Editor, plans: dict[int, _Plan]) -> None:
         super().__init__(editor, self.called)
         self.plans = plans
-        self.mentions = mentions
 
     # ---- the routine's own side
 
@@ -270,7 +231,7 @@ class _Calls(Hoister):
         plan = self.plan_of(expression.name)
         if plan is None:
             return None
-        before, arguments, behind = self.passed(expression.name, expression.arguments, plan, ir.Nothing())
+        before, arguments, behind = self.passed(expression.name, expression.arguments, plan)
         call = replace(expression, arguments=arguments)
         if not behind:
             return before, call
@@ -288,7 +249,7 @@ class _Calls(Hoister):
                 last = done[-1]
                 if plan is None or not isinstance(last, ir.CallRoutine):
                     return done
-                before, arguments, behind = self.passed(statement.name, last.arguments, plan, statement)
+                before, arguments, behind = self.passed(statement.name, last.arguments, plan)
                 call = replace(last, arguments=arguments)
                 return expansion(statement.origin, (*done[:-1], *before, call, *behind))
             case ir.CallRoutine(arguments=arguments) if arguments and self.all_numbered(len(arguments)):
@@ -340,7 +301,7 @@ class _Calls(Hoister):
         self.editor.context.diagnostics.report(NOT_PASSED, statement.origin, name=name, reason=reason)
 
     def passed(
-        self, name: str, arguments: tuple[ir.Argument, ...], plan: _Plan, at: ir.Statement
+        self, name: str, arguments: tuple[ir.Argument, ...], plan: _Plan
     ) -> tuple[ir.Body, tuple[ir.Argument, ...], ir.Body]:
         """What must run before the call, the arguments that stay, and what must run behind it."""
         routine = self.editor.scope.routine(name)
@@ -364,9 +325,8 @@ class _Calls(Hoister):
                 continue
             place = argument.value
             if parameter.mode == "reference" and isinstance(place, ir.Name | ir.Index | ir.Field):
-                place = self.fixed(place, before)
+                place = fixed_place(place, before, self.editor)
                 behind.extend(self.copy(place, ir.Name(variable.name), variable.type, place))
-                self.warn(name, place, at)
             before.extend(self.copy(ir.Name(variable.name), place, variable.type, place))
         return tuple(before), tuple(numbered), tuple(behind)
 
@@ -379,29 +339,6 @@ class _Calls(Hoister):
             type = replace(type, dimensions=own.dimensions)
         base = type.base if isinstance(type, ir.ArrayType) else 0
         return array_copy(target, value, type, (base, base))
-
-    def fixed(self, place: ir.Expression, before: list[ir.Statement]) -> ir.Expression:
-        """The same place before and behind the call: subscripts are evaluated once."""
-        match place:
-            case ir.Index(base=base, indices=indices):
-                done = []
-                for index in indices:
-                    if not is_constant(index):
-                        kept = self.editor.temporary("subscript", self.editor.type_of(index) or ir.IntType())
-                        before.append(ir.Assign(kept, index))
-                        index = kept
-                    done.append(index)
-                return replace(place, base=self.fixed(base, before), indices=tuple(done))
-            case ir.Field(base=base):
-                return replace(place, base=self.fixed(base, before))
-        return place
-
-    def warn(self, name: str, place: ir.Expression, at: ir.Statement) -> None:
-        variable = base_name(place)
-        symbol = self.editor.scope.value(variable) if variable else None
-        shared = variable is not None and symbol is not None and symbol.routine is None
-        if shared and variable in self.mentions.names.get(name.lower(), ()):
-            self.editor.context.diagnostics.report(COPIED, at.origin, name=name, what=variable)
 
 
 def _given_back(body: ir.Body, end: list[ir.Statement]) -> ir.Body:

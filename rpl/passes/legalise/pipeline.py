@@ -10,6 +10,7 @@ from rpl.passes.legalise.actionarguments import action_arguments
 from rpl.passes.legalise.aggregates import aggregates
 from rpl.passes.legalise.aheadreadings import ahead_readings
 from rpl.passes.legalise.aliases import without_aliases
+from rpl.passes.legalise.aliasing import without_shared_references
 from rpl.passes.legalise.arcdistances import arc_distances
 from rpl.passes.legalise.arcpoints import whole_arc_points
 from rpl.passes.legalise.arithmetic import arithmetic
@@ -282,6 +283,7 @@ PASSES: tuple[Pass, ...] = (
     move_times,
     turning_times,
     error_routines,
+    without_shared_references,
     list_results,
     lists_in_variables,
     joined_subscripts,

@@ -11,9 +11,9 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion, map_body
-from rpl.passes.legalise.effects import blocks, statements_in
+from rpl.passes.legalise.effects import blocks, is_constant, statements_in
 from rpl.passes.legalise.usage import base_name, bodies
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import changed, rewrite_parts
 from rpl.passes.scope import ProgramScope
 from rpl.passes.typing import type_of
 
@@ -192,6 +192,23 @@ def _rewritten(editor: Editor, routine: ir.Routine, facts: _Facts, results: dict
     return replace(done, body=body if ends else (*body, *leave))
 
 
+def fixed_place(place: ir.Expression, before: list[ir.Statement], editor: Editor) -> ir.Expression:
+    """The same place before and behind a call: what calculates its subscripts goes to `before`, once."""
+    match place:
+        case ir.Index(base=base, indices=indices):
+            done = []
+            for index in indices:
+                if not is_constant(index):
+                    kept = editor.temporary("subscript", editor.type_of(index) or ir.IntType())
+                    before.append(ir.Assign(kept, index))
+                    index = kept
+                done.append(index)
+            return replace(place, base=fixed_place(base, before, editor), indices=tuple(done))
+        case ir.Field(base=base):
+            return replace(place, base=fixed_place(base, before, editor))
+    return place
+
+
 class _Callers(Hoister):
     """Calls, and what the caller takes over behind them."""
 
@@ -199,27 +216,37 @@ class _Callers(Hoister):
         super().__init__(editor, self.called)
         self.facts, self.results = facts, results
 
-    def taken(self, name: str, arguments: tuple[ir.Argument, ...]) -> ir.Body:
-        return tuple(
-            ir.Assign(value, ir.Name(self.results[key]))
-            for key, value in self.facts.given(name, arguments)
-            if key in self.results and isinstance(value, _LVALUES)
+    def passed(self, name: str, arguments: tuple[ir.Argument, ...]) -> tuple[ir.Body, tuple[ir.Argument, ...], ir.Body]:
+        """What runs before a call, its arguments, and what takes over what the routine has left behind it. Places are
+        chosen once: the routine may change what their subscripts are calculated from."""
+        before: list[ir.Statement] = []
+        behind: list[ir.Statement] = []
+        fixed = {id(value): value for _, value in self.facts.given(name, arguments)}
+        for key, value in self.facts.given(name, arguments):
+            if key in self.results and isinstance(value, _LVALUES):
+                fixed[id(value)] = place = fixed_place(value, before, self.editor)
+                behind.append(ir.Assign(place, ir.Name(self.results[key])))
+        given = tuple(
+            one if one.value is None else changed(one, value=fixed.get(id(one.value), one.value)) for one in arguments
         )
+        return tuple(before), given, tuple(behind)
 
     def called(self, expression: ir.Expression) -> Lowered | None:
         if not isinstance(expression, ir.Call):
             return None
-        after = self.taken(expression.name, expression.arguments)
+        before, arguments, behind = self.passed(expression.name, expression.arguments)
         type = self.editor.type_of(expression)
-        if not after or type is None:
+        if not behind or type is None:
             return None
         result = self.editor.temporary("result", type)
-        return (ir.Assign(result, expression), *after), result
+        return (*before, ir.Assign(result, replace(expression, arguments=arguments)), *behind), result
 
     def statement(self, statement: ir.Statement) -> ir.Body:
         done = super().statement(statement)
         last = done[-1]
         if not isinstance(last, ir.CallRoutine):
             return done
-        after = self.taken(last.name, last.arguments)
-        return expansion(statement.origin, (*done, *after)) if after else done
+        before, arguments, behind = self.passed(last.name, last.arguments)
+        if not behind:
+            return done
+        return expansion(statement.origin, (*done[:-1], *before, replace(last, arguments=arguments), *behind))

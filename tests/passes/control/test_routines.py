@@ -9,6 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from rpl import ir
+from rpl.passes.legalise.aliasing import without_shared_references
 from rpl.passes.legalise.context import Context, Pass
 from rpl.passes.legalise.elseif import nest_branches
 from rpl.passes.legalise.functions import functions_to_procedures
@@ -234,7 +235,7 @@ def test_a_routine_in_two_threads_is_named() -> None:
     assert [item.code.name for item in context.diagnostics] == ["variables-shared"]
 
 
-def test_what_a_routine_also_sees_by_name_is_named() -> None:
+def test_what_a_routine_also_sees_by_name_stops_the_program() -> None:
     text = "DEF main()\nwork(g)\nEND\nDEF work(v:OUT)\nINT v\nv = 1\n$ANOUT[1] = g\nEND\n"
     data = "DEFDAT main PUBLIC\nDECL GLOBAL INT g=0\nENDDAT\n"
     from rpl.diagnostics import Diagnostics
@@ -243,8 +244,9 @@ def test_what_a_routine_also_sees_by_name_is_named() -> None:
 
     sources = [source_from_text("main.src", text), source_from_text("main.dat", data)]
     given = read_sources(sources, "krl", Diagnostics()).program
-    _, context = legalised(given, WEAKEST, *ROUTINES)
-    assert [item.code.name for item in context.diagnostics] == ["reference-copied"]
+    after, context = legalised(given, WEAKEST, without_shared_references, *ROUTINES)
+    assert [item.code.name for item in context.diagnostics] == ["reference-aliased"]
+    assert any(isinstance(one, ir.Vendor) for one in nodes(after))
 
 
 def test_arrays_go_through_variables() -> None:
