@@ -48,6 +48,7 @@ APART = {
     "read by both": "look g; IF h=2 SetDO do1,1;",
     "read by two": "both g,g; IF h=2 SetDO do1,1;",
     "two elements": "two t{1},t{2}; IF t{1}=3 AND t{2}=12 SetDO do1,1;",
+    "two elements side by side": "n:=2; two t{n},t{n+1}; IF t{2}=4 AND t{3}=13 SetDO do1,1;",
     "two variables": "two g,h; IF g=3 AND h=11 SetDO do1,1;",
     "an element whose subscript changes": "next t{g}; IF t{1}=21 AND t{2}=2 AND g=2 SetDO do1,1;",
     "a function's": "n:=3; h:=own(n); IF n=4 AND h=8 SetDO do1,1;",

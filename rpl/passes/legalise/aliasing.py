@@ -35,7 +35,8 @@ _PARTS = (ir.Index, ir.Field)
 _STATEMENTS = tuple(one for one in get_args(ir.Statement) if one is not ir.CallRoutine)
 _NONE, _LATER = ir.Nothing(), ir.Nothing()  # no statement yet; something that an interrupt or a place on the path does
 Key = int | tuple[int, str]  # a variable's declaration by identity; a parameter by its routine and folded name
-Steps = tuple[int | str | None, ...]  # components and elements; None: an element that the run chooses
+Step = int | str | tuple[str, int] | None  # an element, a component, a variable and what is added to it, any element
+Steps = tuple[Step, ...]
 Place = tuple[Key, Steps]
 
 
@@ -250,7 +251,7 @@ class _Facts:
         inner = {one for callee in nested.callees for one in self.reached(callee)}
         for at, (parameter, here, what) in enumerate(given):
             for other, second, _ in given[:at]:
-                shared = here[0] == second[0] and overlap(here[1], second[1])
+                shared = here[0] == second[0] and overlap(here[1], second[1], together=not inner)
                 if shared and ({parameter, other} & self.written) and self.used(parameter) and self.used(other):
                     return what, f"its parameters {other[1]} and {parameter[1]} may both stand for it"
             if isinstance(here[0], tuple) or not self.used(parameter):
@@ -299,13 +300,13 @@ def paired(
 def placed(value: object, scope: Scope) -> tuple[Place | None, list[object]]:
     """Where an lvalue is, as far as others can see it, and the subscripts in it. A routine's own variables are nobody
     else's, but two parameters may stand for one of them."""
-    steps: list[int | str | None] = []
+    steps: list[Step] = []
     below: list[object] = []
     while isinstance(value, _PARTS):
         if isinstance(value, ir.Field):
             steps.append(value.name.lower())
         else:
-            steps.extend(one.value if isinstance(one, ir.IntLiteral) else None for one in reversed(value.indices))
+            steps.extend(map(_step, reversed(value.indices)))
             below.extend(value.indices)
         value = value.base
     if not isinstance(value, ir.Name):
@@ -320,9 +321,30 @@ def placed(value: object, scope: Scope) -> tuple[Place | None, list[object]]:
     return (key, tuple(reversed(steps))), below
 
 
-def overlap(one: Steps, other: Steps) -> bool:
-    """May two parts of a variable have something in common?"""
-    return all(a == b or a is None or b is None for a, b in zip(one, other, strict=False))
+def _step(index: ir.Expression) -> Step:
+    """A subscript: a number, a variable with a number added, or anything."""
+    match index:
+        case ir.IntLiteral(value=number):
+            return number
+        case ir.Name(id=name):
+            return name.lower(), 0
+        case ir.Binary(op="+" | "-" as op, left=ir.Name(id=name), right=ir.IntLiteral(value=number)):
+            return name.lower(), number if op == "+" else -number
+    return None
+
+
+def overlap(one: Steps, other: Steps, together: bool = False) -> bool:
+    """May two parts of a variable have something in common? `together`: both are chosen at the same moment, so that
+    `a[i]` and `a[i+1]` are two elements."""
+    return all(_same(a, b, together) for a, b in zip(one, other, strict=False))
+
+
+def _same(one: Step, other: Step, together: bool) -> bool:
+    if isinstance(one, tuple) or isinstance(other, tuple):
+        return not (together and isinstance(one, tuple) and isinstance(other, tuple) and one[0] == other[0]) or (
+            one == other
+        )
+    return one == other or one is None or other is None
 
 
 def written_places(statement: ir.Statement) -> Sequence[ir.Expression]:
