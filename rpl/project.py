@@ -24,7 +24,7 @@ from rpl.passes.typing import normalise
 from rpl.reading.ledger import FileReport
 from rpl.showing import counted, heading, line, table
 from rpl.sidefiles import SideFile, side_file
-from rpl.source import Origin, Source, source_from_bytes
+from rpl.source import LARGEST_FILE, Origin, Source, source_from_bytes
 
 NOT_A_PROGRAM = code(
     "not-a-program",
@@ -37,7 +37,6 @@ SKIPPED = code("skipped-file", Severity.INFO, "skipped, not a robot program: {re
 UNREADABLE_FILE = code("unreadable-file", Severity.ERROR, "cannot read this file: {reason}")
 UNREADABLE_ARCHIVE = code("unreadable-archive", Severity.ERROR, "cannot open this archive: {reason}")
 
-LARGEST_FILE = 256 * 1024 * 1024
 _SURE_ENOUGH = 30
 _CERTAIN = 95
 _ARCHIVES = (".zip", ".tar", ".tgz", ".tar.gz", ".tar.bz2", ".tar.xz")
@@ -80,9 +79,9 @@ class _Found:
 
 
 def read_program(
-    paths: Sequence[str | Path], dialect: str | None = None, diagnostics: Diagnostics | None = None
+    paths: Sequence[str | Path | Source], dialect: str | None = None, diagnostics: Diagnostics | None = None
 ) -> ReadProgram:
-    """Read files, folders and archives as one project.
+    """Read files, folders and archives as one project; a Source stands for a file that has been read.
 
     `dialect` (its name or an alias) overrides the recognition by content. Raises UsageError when a path does not exist.
     Everything else is reported: a file that is no program never stops the others from being read.
@@ -182,9 +181,12 @@ def _first_nul(source: Source) -> str:
     return f" (zero bytes, the first one in line {source.data.count(10, 0, at) + 1})"
 
 
-def _expand(paths: Sequence[str | Path], diagnostics: Diagnostics) -> Iterator[_Found]:
+def _expand(paths: Sequence[str | Path | Source], diagnostics: Diagnostics) -> Iterator[_Found]:
     seen: set[str] = set()
     for given in paths:
+        if isinstance(given, Source):
+            yield _Found(given, True)
+            continue
         path = Path(given)
         if not path.exists():
             raise UsageError(f"no such file or folder: {path}")

@@ -10,6 +10,8 @@ from bisect import bisect_right
 from dataclasses import dataclass, field
 from pathlib import Path
 
+# No robot program is larger (bytes).
+LARGEST_FILE = 256 * 1024 * 1024
 # Order matters: a strict decoder that fails is a proof that the text is something else. Latin-1 never fails.
 _ENCODINGS = ("utf-8", "cp1252", "latin-1")
 

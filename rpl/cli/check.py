@@ -12,6 +12,7 @@ from rpl.cli.output import (
     dialect_exists,
     from_option,
     json_option,
+    opened,
     paths_argument,
     print_diagnostics,
     print_json,
@@ -28,12 +29,15 @@ from rpl.reading.ledger import FileReport
 @json_option
 @click.option("--sarif", "as_sarif", is_flag=True, help="One SARIF 2.1.0 log on stdout, for code hosts and editors.")
 def command(paths: Sequence[str], dialect: str | None, accepted: Sequence[str], as_json: bool, as_sarif: bool) -> int:
-    """Read programs (files, folders, archives) together and report what cannot be read or makes no sense."""
+    """Read programs together and report what cannot be read or makes no sense.
+
+    A PATH is a file, a folder, an archive, or - for standard input.
+    """
     from rpl.project import read_program
 
-    diagnostics = collector(accepted)
+    diagnostics, language = collector(accepted), dialect_exists(dialect)
     with waiting("reading"):
-        read = read_program(paths, dialect_exists(dialect), diagnostics)
+        read = read_program(opened(paths), language, diagnostics)
     print_diagnostics(diagnostics)
     if as_sarif:
         click.echo(sarif(diagnostics))

@@ -12,11 +12,11 @@ import click
 from rpl.cli.kinematics import required_robot
 from rpl.cli.output import (
     collector,
-    dialect_exists,
     from_option,
     json_option,
     print_diagnostics,
     print_json,
+    read_paths,
     robot_named,
     waiting,
     write_file,
@@ -93,13 +93,9 @@ def command(
 
 
 def _read(paths: Sequence[str], dialect: str | None) -> ReadProgram:
-    from rpl.project import read_program
-
     diagnostics = collector()
-    read = read_program(paths, dialect_exists(dialect), diagnostics)
+    read = read_paths(paths, dialect, diagnostics)
     print_diagnostics(diagnostics, Severity.WARNING)
-    if not read.files:
-        raise UsageError("no robot program was found; name the language with --from if there is one")
     if diagnostics.has_errors:
         raise UsageError("the program has errors: it is not driven")
     return read

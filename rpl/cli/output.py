@@ -15,12 +15,15 @@ import click
 
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity, folded
 from rpl.errors import UsageError
+from rpl.source import LARGEST_FILE, Source, source_from_bytes
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
+    from rpl.project import ReadProgram
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 _PATIENCE_S = 0.7
+STANDARD_INPUT = "-"
 
 json_option = click.option("--json", "as_json", is_flag=True, help="One JSON document on stdout and nothing else.")
 from_option = click.option("--from", "dialect", metavar="D", help="Language of the source; else seen from its content.")
@@ -63,6 +66,39 @@ def robot_named(name: str | None) -> RobotModel | None:
     from rpl.emulator.model import load_robot
 
     return load_robot(name)
+
+
+def robots_exist(*names: str | None) -> None:
+    """Arms are asked for before anything is read: what is unknown or not installed is said at once."""
+    for name in names:
+        robot_named(name)
+
+
+def opened(paths: Sequence[str]) -> list[str | Source]:
+    """The paths, `-` as what standard input gives. Raises UsageError when it is asked for twice."""
+    if list(paths).count(STANDARD_INPUT) > 1:
+        raise UsageError("- (standard input) can be given once only")
+    return [_standard_input() if path == STANDARD_INPUT else path for path in paths]
+
+
+def _standard_input() -> Source:
+    data = sys.stdin.buffer.read(LARGEST_FILE + 1)
+    if len(data) > LARGEST_FILE:
+        raise UsageError(f"standard input is larger than {LARGEST_FILE // 2**20} MiB")
+    return source_from_bytes("stdin", data)
+
+
+def read_paths(paths: Sequence[str], dialect: str | None, diagnostics: Diagnostics) -> ReadProgram:
+    """The program in these paths (`-`: standard input). Raises UsageError, behind the reports, when there is none."""
+    from rpl.project import read_program
+
+    language = dialect_exists(dialect)
+    with waiting("reading"):
+        read = read_program(opened(paths), language, diagnostics)
+    if not read.files:
+        print_diagnostics(diagnostics)
+        raise UsageError("no robot program was found; name the language with --from if there is one")
+    return read
 
 
 def dialect_exists(name: str | None) -> str | None:

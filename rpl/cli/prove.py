@@ -5,7 +5,17 @@ from __future__ import annotations
 import click
 
 from rpl.cli.limits import limit_options, limits_of
-from rpl.cli.output import collector, dialect_exists, json_option, print_diagnostics, print_json, robot_option, waiting
+from rpl.cli.output import (
+    collector,
+    dialect_exists,
+    json_option,
+    opened,
+    print_diagnostics,
+    print_json,
+    robot_option,
+    robots_exist,
+    waiting,
+)
 from rpl.diagnostics import Severity
 from rpl.errors import UsageError
 
@@ -58,16 +68,18 @@ def command(
     if tolerance is not None and not tolerance >= 0:
         raise UsageError(f"--tolerance: {tolerance:g} is not a distance")
     limits, driver = limits_of(max_time, max_steps, max_events), controller_named(controller)
+    robots_exist(robot, to_robot)
+    surroundings, sources = load_cell(cell), opened([a, b])
     programs = []
-    for path, language in ((a, dialect), (b, other)):
+    for path, source, language in zip((a, b), sources, (dialect, other), strict=True):
         diagnostics = collector()
         with waiting("reading"):
-            read = read_program([path], dialect_exists(language), diagnostics)
+            read = read_program([source], dialect_exists(language), diagnostics)
         print_diagnostics(diagnostics, Severity.WARNING)
         if not read.files:
             raise UsageError(f"no robot program in {path}; name the language with --from or --to if there is one")
         programs.append(read.program)
-    surroundings, unknown = load_cell(cell), collector()
+    unknown = collector()
     report_unknown_signals(programs[0], surroundings, unknown)
     print_diagnostics(unknown, Severity.WARNING)
     with waiting("proving"):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from rpl.cli.output import numbers, write_file
+from rpl.cli.output import numbers, robot_named, write_file
 from rpl.controllers import controller_named
 from rpl.errors import UsageError
 
@@ -128,6 +128,8 @@ def reports_of(
         raise UsageError("--payload is a load for --dynamics; ask for both")
     if dynamics and robot is None:
         raise UsageError("--dynamics needs an arm: name one with --robot")
+    if dynamics:
+        _torques_can_be_had(robot)
     if timed and robot is None:
         raise UsageError("--times needs an arm: name one with --robot")
     chosen = controller_named(controller) if controller is not None else None
@@ -136,6 +138,15 @@ def reports_of(
 
         library = drawing_library()
     return Reports(plot, dynamics, library, None if payload is None else _load(payload), timed, chosen)
+
+
+def _torques_can_be_had(robot: str | None) -> None:
+    """Torques of an arm with masses need a package of the extra. Raises UsageError when it is not installed."""
+    from importlib.util import find_spec
+
+    model = robot_named(robot)
+    if model is not None and model.inertias is not None and find_spec("pinocchio") is None:
+        raise UsageError("--dynamics needs the package pinocchio: pip install 'robot-rpl[kinematics]'")
 
 
 def _load(text: str) -> Body:

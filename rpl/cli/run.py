@@ -12,20 +12,20 @@ import click
 from rpl.cli.limits import limit_options, limits_of
 from rpl.cli.output import (
     collector,
-    dialect_exists,
     from_option,
     json_option,
     paths_argument,
     plain,
     print_diagnostics,
     print_json,
+    read_paths,
     robot_named,
+    robots_exist,
     waiting,
     write_file,
 )
 from rpl.cli.reports import report_options, reports_of, show_reports
 from rpl.diagnostics import Diagnostics, Severity
-from rpl.errors import UsageError
 from rpl.passes.legalise.pulses import report_assumed, report_stations
 
 if TYPE_CHECKING:
@@ -71,22 +71,18 @@ def command(
     Exit status 0 when the program came to its end or its own stop, 1 for a fault, a deadlock or a limit. A program
     with errors is not started.
     """
-    from rpl.project import read_program
     from rpl.proof.prove import load_cell
     from rpl.simulation import run_program
 
+    robots_exist(*robots)
     robot, further = robots[0] if robots else None, robots[1:]
     limits = limits_of(max_time, max_steps, max_events)
     reports = reports_of(plot, dynamics, payload, robot, timed, controller)
-    diagnostics = collector()
-    with waiting("reading"):
-        read = read_program(paths, dialect_exists(dialect), diagnostics)
+    surroundings, diagnostics = load_cell(cell), collector()
+    read = read_paths(paths, dialect, diagnostics)
     print_diagnostics(diagnostics, Severity.WARNING)
-    if not read.files:
-        raise UsageError("no robot program was found; name the language with --from if there is one")
     if diagnostics.has_errors and not despite_errors:
         return _not_started(diagnostics, as_json)
-    surroundings = load_cell(cell)
     model = _robot_in(robot, surroundings, read.program)
     with waiting("running"):
         driver = reports.controller

@@ -13,13 +13,14 @@ from rpl import registry
 from rpl.cli.output import (
     accept_option,
     collector,
-    dialect_exists,
     from_option,
     json_option,
     paths_argument,
     print_diagnostics,
     print_json,
+    read_paths,
     robot_option,
+    robots_exist,
     waiting,
     write_file,
 )
@@ -44,6 +45,7 @@ OK, NO, GUARDED = 0, 1, 3
 @click.option(
     "-o", "--output", type=click.Path(file_okay=False, path_type=Path), metavar="DIR", help="Folder to write."
 )
+@click.option("--entry", metavar="NAME", help="Routine that the program begins with; else as for run.")
 @click.option("--prove", "proving", is_flag=True, help="Run both programs and compare what they do.")
 @click.option("--cell", metavar="F.toml", help="Values of data that the controller keeps; surroundings for the proof.")
 @click.option(
@@ -65,6 +67,7 @@ def command(
     robot: str | None,
     to_robot: str | None,
     output: Path | None,
+    entry: str | None,
     proving: bool,
     cell: str | None,
     registers: Path | None,
@@ -76,27 +79,24 @@ def command(
     """Write programs in another controller's language.
 
     What the target cannot say becomes a comment and the target's own stop, is listed, and gives exit status 3. Without
-    -o a single file is printed.
+    -o the program is printed.
     """
     from rpl.cell import read_cell
-    from rpl.project import read_program
     from rpl.proof.cellnames import report_unknown_signals
     from rpl.translation import translate_program
     from rpl.writing.registers import read_registers
 
     own = _options(options)
     target = _target(target, own)
+    robots_exist(robot, to_robot)
+    kept = read_registers(registers) if registers is not None else None
+    around = read_cell(cell) if cell is not None else None
     diagnostics = collector(accepted)
-    with waiting("reading"):
-        read = read_program(paths, dialect_exists(dialect), diagnostics)
-    if not read.files:
-        raise UsageError("no robot program was found; name the language with --from if there is one")
+    read = read_paths(paths, dialect, diagnostics)
     if diagnostics.has_errors:
         return _refuse(diagnostics, as_json)
-    before = len(diagnostics)
+    read, before = _begun_at(read, entry), len(diagnostics)
     with waiting("writing"):
-        kept = read_registers(registers) if registers is not None else None
-        around = read_cell(cell) if cell is not None else None
         report_unknown_signals(read.program, around, diagnostics)
         given = around.variables if around is not None else None
         beside = around.mechanisms if around is not None else ()
@@ -105,10 +105,11 @@ def command(
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:
         return _refuse(diagnostics, as_json)
-    written = _write(translation.files, output, as_json or proving)
+    alone = output is None and not as_json
+    written = _write(_printed(translation, target, proving) if alone else translation.files, output)
     if output is not None and translation.registers:
         written.append(_write_registers(translation, output))
-    proof = _prove(read, translation, target, robot, to_robot or robot, cell) if proving else None
+    proof = _prove(read, translation, target, robot, to_robot or robot, cell, entry) if proving else None
     print_diagnostics(diagnostics)
     if as_json:
         print_json(_document(translation, written, diagnostics, proof))
@@ -124,6 +125,17 @@ def _target(word: str, options: dict[str, str]) -> str:
     found = registry.target_called(word)
     found.capabilities_under(options)
     return found.name
+
+
+def _begun_at(read: ReadProgram, entry: str | None) -> ReadProgram:
+    """The program beginning with that routine. Raises UsageError with the candidates when there is none."""
+    if entry is None:
+        return read
+    from rpl.linking import link
+    from rpl.simulation import find_entry
+
+    found = find_entry(read.program, link(read.program), entry)
+    return replace(read, program=replace(read.program, entry=found.name))
 
 
 def _options(written: Sequence[str]) -> dict[str, str]:
@@ -153,11 +165,8 @@ def _raise_approximations(diagnostics: Diagnostics, first: int) -> None:
             diagnostics.items[index] = replace(diagnostics.items[index], severity=Severity.ERROR)
 
 
-def _write(files: Sequence[OutputFile], output: Path | None, any_number: bool) -> list[dict[str, object]]:
-    """Write the files, or show their text when no folder is named."""
-    if output is None and len(files) > 1 and not any_number:
-        names = ", ".join(file.path for file in files)
-        raise UsageError(f"{len(files)} files would be written ({names}): name a folder with -o")
+def _write(files: Sequence[OutputFile], output: Path | None) -> list[dict[str, object]]:
+    """Write the files; give their text when no folder is named."""
     rows: list[dict[str, object]] = []
     for file in files:
         inside = PurePosixPath(file.path)
@@ -169,6 +178,34 @@ def _write(files: Sequence[OutputFile], output: Path | None, any_number: bool) -
             write_file(output / inside, file.data)
             rows.append({"path": file.path, "written": str(output / inside)})
     return rows
+
+
+def _printed(translation: Translation, target: str, proving: bool) -> Sequence[OutputFile]:
+    """What is printed without a folder: the one program among the files. Those that only belong to it (lists of data,
+    our own library) are named on stderr. Raises UsageError where there are several programs."""
+    files = translation.files
+    programs = [file for file in files if not _of_library(file)]
+    data = {module.name.lower() for module in translation.program.modules if not module.routines}
+    programs = [file for file in programs if PurePosixPath(file.path).stem.lower() not in data]
+    if target in registry.dialect_names():
+        for file in tuple(programs):
+            lists = (
+                {name.lower() for name in registry.dialect(target).companions(file.path)} if file in programs else ()
+            )
+            programs = [other for other in programs if other.path.lower() not in lists]
+    if len(programs) > 1 and not proving:
+        names = ", ".join(file.path for file in programs)
+        raise UsageError(f"{len(programs)} programs would be written ({names}): name a folder with -o")
+    shown = programs or files
+    others = [file.path for file in files if file not in shown]
+    if others:
+        click.echo(f"rpl: to what is printed belong {', '.join(others)}: -o DIR writes them too", err=True)
+    return shown
+
+
+def _of_library(file: OutputFile) -> bool:
+    """Written for the program from our own library (the prefix of names that translations make)."""
+    return PurePosixPath(file.path).name.lower().startswith("rpl_")
 
 
 def _write_registers(translation: Translation, output: Path) -> dict[str, object]:
@@ -193,6 +230,7 @@ def _prove(
     robot: str | None,
     to_robot: str | None,
     cell: str | None,
+    entry: str | None = None,
 ) -> ProofResult:
     """Read the written files back and compare the runs of both programs."""
     from rpl.project import read_sources
@@ -209,7 +247,7 @@ def _prove(
         raise InternalError(f"what was written cannot be read back: {errors[0].as_text()}")
     with waiting("proving"):
         again_named = with_signal_names(back.program, translation.program)
-        entry = entry_name(read.program)
+        entry = entry_name(read.program, entry)
         # A script begins with itself, also where the first routine is called besides and stands in it as one of many.
         to_entry = back.program.entry or translation.renamed.get(entry, entry) if entry else None
         return prove_programs(

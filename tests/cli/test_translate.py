@@ -172,3 +172,41 @@ def test_a_script_is_proved_from_its_own_beginning(tmp_path: Path, capsys: pytes
     wanted = ["translate", str(tmp_path), "--to", "urscript", "-o", str(tmp_path / "out"), "--prove", "--json"]
     assert run(wanted) == 0
     assert json.loads(capsys.readouterr().out)["proof"]["equal"]
+
+
+def test_one_program_is_printed_and_what_belongs_to_it_named(capsys: pytest.CaptureFixture[str]) -> None:
+    sample = str(Path(__file__).parents[2] / "samples/krl/palletiser/palletiser.src")
+    for target, first, others in (
+        ("krl", "&ACCESS", "PALLETISER.dat"),
+        ("rapid", "MODULE PALLETISER", "rpl_motion.mod"),
+    ):
+        assert run(["translate", sample, "--to", target]) == 0
+        out, err = capsys.readouterr()
+        assert out.startswith(first) and "MODULE rpl_motion" not in out and "DEFDAT" not in out
+        assert f"to what is printed belong {others}: -o DIR" in err
+
+
+def test_several_programs_need_a_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    program = tmp_path / "two.src"
+    program.write_text(TWO)
+    assert run(["translate", str(program), "--to", "tp"]) == 2
+    assert "2 programs would be written (A.LS, B.LS): name a folder with -o" in capsys.readouterr().err
+
+
+TWO = "DEF a()\n$OUT[1]=TRUE\nEND\nDEF b()\n$OUT[2]=TRUE\nEND\n"
+
+
+@pytest.mark.parametrize(("entry", "output"), [("a", 0), ("B", 1)])
+def test_the_entry_begins_what_is_written_and_the_proof(
+    entry: str, output: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    program, folder = tmp_path / "two.src", tmp_path / "out"
+    program.write_text(TWO)
+    arguments = ["translate", str(program), "--to", "urscript", "-o", str(folder), "--prove", "--json"]
+    assert run([*arguments, "--entry", entry]) == 0
+    assert json.loads(capsys.readouterr().out)["proof"]["equal"]
+    assert [file.name for file in folder.iterdir()] == [f"{entry.lower()}.script"]
+    assert run(["run", str(folder), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["outputs"] == [[0.0, f"digital_out[{output}]", True]]
+    assert run([*arguments, "--entry", "c"]) == 2
+    assert "there is no routine c: candidates are a, b" in capsys.readouterr().err
