@@ -69,7 +69,7 @@ def command(
         raise UsageError(f"--tolerance: {tolerance:g} is not a distance")
     limits, driver = limits_of(max_time, max_steps, max_events), controller_named(controller)
     robots_exist(robot, to_robot)
-    surroundings, sources = load_cell(cell), opened([a, b])
+    surroundings, sources, unknown = load_cell(cell), opened([a, b]), collector()
     programs = []
     for path, source, language in zip((a, b), sources, (dialect, other), strict=True):
         diagnostics = collector()
@@ -79,7 +79,6 @@ def command(
         if not read.files:
             raise UsageError(f"no robot program in {path}; name the language with --from or --to if there is one")
         programs.append(read.program)
-    unknown = collector()
     report_unknown_signals(programs[0], surroundings, unknown)
     print_diagnostics(unknown, Severity.WARNING)
     with waiting("proving"):
