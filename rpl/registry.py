@@ -21,6 +21,7 @@ from rpl.source import Source
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
     from rpl.ir import Module, Program
+    from rpl.ir.analog import AnalogPorts
     from rpl.ir.rules import Rules
     from rpl.reading.ledger import FileReport
     from rpl.writing.target import Capabilities, OutputFile, WriteContext
@@ -58,6 +59,10 @@ def _no_companions(path: str) -> tuple[str, ...]:
     return ()
 
 
+def _nothing_said(program: Program) -> tuple[AnalogPorts, ...]:
+    return ()
+
+
 @dataclass(frozen=True, slots=True)
 class Dialect:
     """A language that can be read.
@@ -69,6 +74,7 @@ class Dialect:
     the language spells a numbered signal. flag_terms(arm): what each flag of the notation is the sum of: weight, a fact
     of rpl.emulator.model.Posture (or `negative`, `quarter`: the sign and the quarter turn of an axis) and the axis.
     aliases: other words that people ask for it by, such as its maker's name; capitals do not count.
+    analog_said(program): the ranges of analogue signals that a program of the language itself says.
     """
 
     name: str
@@ -84,6 +90,7 @@ class Dialect:
     signal_name: Callable[[str, int], str] = _signal_name
     flag_terms: Callable[[str], Mapping[str, tuple[tuple[int, str, int], ...]]] = _no_flag_terms
     aliases: tuple[str, ...] = ()
+    analog_said: Callable[[Program], tuple[AnalogPorts, ...]] = _nothing_said
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,8 @@ from rpl import ir, registry
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity
 from rpl.emulator.mechanismfile import Mechanism
 from rpl.emulator.model import RobotModel, load_robot
+from rpl.ir.analog import AnalogSetting
+from rpl.passes.analog import analog_ranges
 from rpl.passes.given import with_given
 from rpl.passes.legalise import Context, legalise
 from rpl.project import ReadProgram
@@ -59,6 +61,7 @@ def translate_program(
     options: Mapping[str, str] | None = None,
     given: Mapping[str, object] | None = None,
     mechanisms: tuple[Mechanism, ...] = (),
+    analog: tuple[AnalogSetting, ...] = (),
 ) -> Translation:
     """Write a program that was read in another language (or anew in its own).
 
@@ -67,6 +70,7 @@ def translate_program(
     earlier translation gave (Translation.registers). `options`: the target's own, by name (Target.options). `given`:
     values of data that the controller keeps and the program does not set, by name (the variables of a cell file); what
     is written for another controller sets them. `mechanisms`: those of the cell, beside those of the robot's file.
+    `analog`: ranges of analogue signals (the cell's `[analog.LANGUAGE]`).
     What the target cannot say is written as a guarded stop and listed in `losses`.
     """
     collector = diagnostics if diagnostics is not None else Diagnostics()
@@ -78,6 +82,8 @@ def translate_program(
     capabilities = target.capabilities_under(options or {})
     context = Context(source, target_name, capabilities, collector, first, second)
     context.registers = registers or {}
+    languages = (*(module.dialect for module in read.program.modules), target_name)
+    context.analog = {one: analog_ranges(read.program, one, analog) for one in dict.fromkeys(languages)}
     before = len(collector)
     whole = with_given(read.program, given) if given and source != target_name else read.program
     renamed: dict[str, str] = {}

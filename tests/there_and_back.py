@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from rpl import ir
 from rpl.cell import Cell
 from rpl.diagnostics import Diagnostics, Severity
+from rpl.ir.analog import AnalogSetting
 from rpl.project import ReadProgram, read_sources
 from rpl.proof.prove import ProofResult, prove_programs
 from rpl.proof.recording import record_of
@@ -62,13 +63,19 @@ class Journey:
         return {int(name.partition(":")[2]) for name in names if name.startswith("digital_out:")}
 
 
-def there_and_back(files: Mapping[str, str], language: str, target: str, robot: str | None = None) -> Journey:
+def there_and_back(
+    files: Mapping[str, str],
+    language: str,
+    target: str,
+    robot: str | None = None,
+    analog: tuple[AnalogSetting, ...] = (),
+) -> Journey:
     """Read the files (texts by name), write them in the target's language, and read that. What the readers find wrong
     is a failure here; losses are for the caller to look at."""
     found, again = Diagnostics(), Diagnostics()
     source = read_sources([source_from_text(name, text) for name, text in files.items()], language, found)
     assert not found.has_errors, [item.as_text() for item in found]
-    written = translate_program(source, target, robot, None, found)
+    written = translate_program(source, target, robot, None, found, analog=analog)
     back = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, again)
     assert not again.has_errors, [item.as_text() for item in again]
     return Journey(source, written, back, found, robot)

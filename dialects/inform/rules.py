@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rpl.ir.analog import AnalogPorts, AnalogRange
 from rpl.ir.rules import AdvanceRules, InputRules, Range, Rules
 
 from . import tables
@@ -16,6 +17,11 @@ COMPONENTS = {
     "TargetType": {**_POSE, **_EXTERNAL, **{name: name for name in FIELDS}},
     "JointsType": {**{name: f"j{n}" for n, name in enumerate("slurbt", 1)}, **_EXTERNAL},
 }
+
+# AOUT takes volts, and a whole-number variable 0.01 V (tables.VOLTS_PER_COUNT), which the reader turns into volts.
+# M: an input counts in volts too.
+_VOLTS = AnalogRange((0.0, 1.0), (0.0, 1.0))
+ANALOG = (AnalogPorts("analog_in", _VOLTS), AnalogPorts("analog_out", _VOLTS))
 
 RULES = Rules(
     name="inform",
@@ -47,4 +53,5 @@ RULES = Rules(
     # MOVS is the parabola through three points; where two of them overlap "a composite path" is made (operator's
     # manuals). M: the composite is their mean, weighted evenly along the way from one to the other.
     mean_parabolas=True,
+    analog=ANALOG,
 )

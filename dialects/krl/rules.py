@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rpl.ir.analog import AnalogPorts, AnalogRange
 from rpl.ir.rules import AdvanceRules, InputRules, LoadVariables, Range, Rules, TriggerRules
 
 from . import tables
@@ -48,6 +49,10 @@ INPUTS = InputRules(
     },
 )
 
+# robot-forum.com thread 44124: $ANIN and $ANOUT are -1 to 1 for -100 % to 100 % of the module's range, 1 is 10 V there.
+_SHARE = AnalogRange((0.0, 1.0), (0.0, 10.0), usual=True)
+ANALOG = (AnalogPorts("analog_in", _SHARE), AnalogPorts("analog_out", _SHARE))
+
 RULES = Rules(
     name="krl",
     advance=AdvanceRules(
@@ -91,6 +96,7 @@ RULES = Rules(
     type_names=tables.BASIC_TYPES,
     triggers=TRIGGERS,
     load_variables=LOADS,
+    analog=ANALOG,
     inputs=INPUTS,
     pulse_step_s=0.1,  # expert programming, 5.4: rounded to the nearest tenth of a second
 )

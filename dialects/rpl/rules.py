@@ -8,6 +8,7 @@ statement begins; behind a move with a blend the program goes on when the robot 
 from __future__ import annotations
 
 from rpl import ir
+from rpl.ir.analog import AnalogPorts, AnalogRange
 from rpl.ir.rules import AdvanceRules, InputRules, Range, Rules
 from rpl.ir.words import NATIVE
 
@@ -34,6 +35,10 @@ _ERROR_NAMES = (
 )
 _FIRST_ERROR = 1001
 
+# docs/rpl.md: an analogue signal is a voltage in V.
+_VOLTS = AnalogRange((0.0, 1.0), (0.0, 1.0))
+ANALOG = (AnalogPorts("analog_in", _VOLTS), AnalogPorts("analog_out", _VOLTS))
+
 RULES = Rules(
     name=NATIVE,
     advance=AdvanceRules(
@@ -43,6 +48,7 @@ RULES = Rules(
         source="docs/rpl.md: a move with a blend lets the program go on where the corner begins",
     ),
     inputs=InputRules(ranges={"joint_speed": Range(most=100.0), "override": Range(0.0, 100.0, above=True)}),
+    analog=ANALOG,
     undefined=True,
     last_tool=False,
     system_defaults={

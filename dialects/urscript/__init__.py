@@ -13,7 +13,8 @@ from rpl.source import Source
 
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
-    from rpl.ir import Module
+    from rpl.ir import Module, Program
+    from rpl.ir.analog import AnalogPorts
     from rpl.ir.rules import Rules
 
 _HEADER = re.compile(
@@ -80,6 +81,12 @@ def _notation() -> Notation:
     return NOTATION
 
 
+def _analog_said(program: Program) -> tuple[AnalogPorts, ...]:
+    from .levels import said
+
+    return said(program)
+
+
 # Neutral numbers of digital and analog signals by the pendant's names: first number, name.
 _DIGITAL = ((19, "{}put_boolean_register_{}"), (17, "tool_{}[{}]"), (9, "config_{}[{}]"), (1, "digital_{}[{}]"))
 _ANALOG = ((5, "{}put_float_register_{}"), (3, "tool_analog_{}[{}]"), (1, "analog_{}[{}]"))
@@ -107,4 +114,5 @@ DIALECT = Dialect(
     notation_fields=(),
     signal_name=_signal_name,
     aliases=("ur", "universal robots", "universal-robots"),
+    analog_said=_analog_said,
 )

@@ -4,13 +4,17 @@ range. Which of both `set_analog_outputdomain` says; without it the installation
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Final
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.analog import MILLIAMPERES, AnalogPorts, AnalogRange
+from rpl.ir.walk import walk
 
 from . import nodes
 from .nodes import Expr
+from .rules import FIRST_SIGNAL
 from .scopes import Project, calls_inside, own_expressions, statements
 
 if TYPE_CHECKING:
@@ -68,4 +72,28 @@ def level(calls: Calls, name: str, group: str, port: Expr | None) -> ir.Expressi
     return level if least == 0.0 else ir.Binary("+", level, ir.RealLiteral(least))
 
 
-__all__ = ["NO_DOMAIN", "level"]
+_SAID = re.compile(r"(set_analog_outputdomain|set_(?:standard|tool)_analog_input_domain)\(\s*(\d+)\s*,\s*([01])\s*\)")
+_OUTPUT = {
+    CURRENT: AnalogRange((0.0, 1.0), (4.0, 20.0), MILLIAMPERES),
+    VOLTAGE: AnalogRange((0.0, 1.0), (0.0, 10.0)),
+}
+_INPUT = {CURRENT: AnalogRange((0.0, 1.0), (0.0, 1000.0), MILLIAMPERES), VOLTAGE: AnalogRange((0.0, 1.0), (0.0, 1.0))}
+
+
+def said(program: ir.Program) -> tuple[AnalogPorts, ...]:
+    """The ranges of the signals whose domain the program sets; none of those that it sets to both."""
+    found: dict[tuple[str, int], set[AnalogRange]] = {}
+    for node in walk(*program.modules):
+        call = _SAID.fullmatch(node.text.strip()) if isinstance(node, ir.Vendor) else None
+        if call is not None:
+            port, domain, output = int(call[2]), int(call[3]), call[1] == _SETTER
+            first = FIRST_SIGNAL["tool_analog" if "tool" in call[1] else "standard_analog"]
+            key = ("analog_out" if output else "analog_in", port + first)
+            found.setdefault(key, set()).add((_OUTPUT if output else _INPUT)[domain])
+    return tuple(
+        AnalogPorts(kind, next(iter(ranges)) if len(ranges) == 1 else None, number, number)
+        for (kind, number), ranges in found.items()
+    )
+
+
+__all__ = ["NO_DOMAIN", "level", "said"]

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from typing import Final
 
+from rpl.ir.analog import AnalogPorts, AnalogRange
 from rpl.ir.rules import AdvanceRules, InputRules, Rules
 
 # A move without blend has ended before the next statement begins; behind one with a blend the program goes on when the
@@ -48,6 +49,13 @@ FIRST_SIGNAL: Final = {
 LEGACY_DIGITAL: Final = {8: 17, 9: 18, 16: 17, 17: 18}
 LEGACY_ANALOG: Final = {2: 3, 3: 4}
 
+# Script manual: set_standard_analog_out takes 0 to 1, a share of the range; get_standard_analog_in and
+# get_tool_analog_in give volts or amperes. Which of both the program can say (levels.py), else the installation does:
+# volts as a rule. Registers behind them have no unit.
+_SHARE = AnalogRange((0.0, 1.0), (0.0, 10.0), usual=True)
+_VOLTS = AnalogRange((0.0, 1.0), (0.0, 1.0), usual=True)
+ANALOG = (AnalogPorts("analog_out", _SHARE, 1, 2), AnalogPorts("analog_in", _VOLTS, 1, 4))
+
 # Script manual, movej: a move whose blend overlaps with that of a waypoint beside it is skipped.
 _INPUTS = InputRules(
     overlapping_blends="Overlapping blends: this move is left out, its blend of {radius:g} mm and the one of"
@@ -61,6 +69,7 @@ RULES = Rules(
     case_sensitive=True,
     text_plus=True,
     undefined=True,
+    analog=ANALOG,
     array_base=0,
     group_bits=32,  # integer registers
     text_decimals=6,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rpl.ir.analog import AnalogPorts, AnalogRange
 from rpl.ir.rules import AdvanceRules, Rules
 
 from . import tables
@@ -18,6 +19,10 @@ ADVANCE = AdvanceRules(
     source="V+ Language User's Guide, motion control: one motion is executed, one is waited for",
     waits_queue=True,  # M: DELAY is a move without a way: it begins when the move before has ended, the program goes on
 )
+
+# M: AIO.IN and AIO.OUT are -1 to 1 for the range of the analogue board, 10 V as delivered.
+_SHARE = AnalogRange((0.0, 1.0), (0.0, 10.0), usual=True)
+ANALOG = (AnalogPorts("analog_in", _SHARE), AnalogPorts("analog_out", _SHARE))
 
 RULES = Rules(
     name="vplus",
@@ -50,5 +55,6 @@ RULES = Rules(
     # V+ Language Reference Guide, ACCEL: 1 to 100 as a rule (a robot's maker may allow more); else the nearest of both.
     percent_limits={"acceleration_percent": (1.0, 100.0), "deceleration_percent": (1.0, 100.0)},
     errors=tables.ERRORS,
+    analog=ANALOG,
     errors_looked_for=frozenset(("division_by_zero", "negative_argument")),
 )

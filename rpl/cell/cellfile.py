@@ -10,6 +10,7 @@ statements stand for. Every error names the file and the key.
     [variables]   count = 3   "module.name" = [1, 2]   "data[1]" = { x = 10.0, y = 0.0 }
     [system]      path_speed = 100.0   tool = { x = 0, y = 0, z = 100, a = 0, b = 0, c = 0 }
     [[answer]]    answer = 2  [text = "regex"]  [after = 1.0]
+    [analog.tp]   "AO[1]" = { numbers = [0, 2000], volts = [0, 10] }     or milliamperes = [4, 20]
     [[vendor]]    match = "regex"  effect = "none|message|time"  [seconds = 1.0]  [value = 5]  [set = [["di3", true]]]
 """
 
@@ -19,12 +20,14 @@ import re
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from rpl import ir
+from rpl import ir, registry
 from rpl.emulator.mechanismfile import Mechanism, read_mechanisms
 from rpl.errors import UsageError
+from rpl.ir.analog import MILLIAMPERES, VOLTS, AnalogRange, AnalogSetting
 
 Value = Any  # what TOML can say: numbers, BOOLs, texts, lists, tables
 
@@ -85,6 +88,7 @@ class Cell:
     path: str = ""
     mechanisms: tuple[Mechanism, ...] = ()
     external: tuple[float | None, ...] | None = None
+    analog: tuple[AnalogSetting, ...] = ()
 
 
 def read_cell(path: str | Path) -> Cell:
@@ -122,6 +126,7 @@ _TOP = frozenset(
         "answers",
         "vendor",
         "mechanism",
+        "analog",
     )
 )
 _MOST_EXTERNAL = 6
@@ -163,6 +168,7 @@ class _Reader:
             self.path,
             read_mechanisms(table.get("mechanism", []), self.path),
             self.external(table),
+            tuple(self.analog(table.get("analog", {}))),
         )
 
     def external(self, table: dict[str, Value]) -> tuple[float | None, ...] | None:
@@ -173,6 +179,36 @@ class _Reader:
         if not numbers or not 1 <= len(given) <= _MOST_EXTERNAL:
             raise self.wrong("external", f"must be a list of 1 to {_MOST_EXTERNAL} values of external axes")
         return (*(float(one) for one in given), *(None,) * (_MOST_EXTERNAL - len(given)))
+
+    def analog(self, table: Value) -> Iterator[AnalogSetting]:
+        """`[analog.LANGUAGE]`: what the numbers of a signal stand for."""
+        if not isinstance(table, dict):
+            raise self.wrong("analog", "must be written as [analog.LANGUAGE] tables")
+        for language, rows in table.items():
+            if language not in registry.dialect_names():
+                raise self.wrong(f"analog.{language}", f"no language: there are {', '.join(registry.dialect_names())}")
+            if not isinstance(rows, dict):
+                raise self.wrong(f"analog.{language}", "must be a table of signals")
+            for name, row in rows.items():
+                key = f"analog.{language}.{name}"
+                if not isinstance(row, dict):
+                    raise self.wrong(key, "must be { numbers = [a, b], volts = [c, d] }")
+                self.known(key, row, ("numbers",), ("volts", "milliamperes"))
+                units = [unit for unit in ("volts", "milliamperes") if unit in row]
+                if len(units) != 1:
+                    raise self.wrong(key, "needs one of volts and milliamperes")
+                unit = VOLTS if units == ["volts"] else MILLIAMPERES
+                numbers, levels = self.two(key, row, "numbers"), self.two(key, row, units[0])
+                yield AnalogSetting(language, name, AnalogRange(numbers, levels, unit))
+
+    def two(self, key: str, row: dict[str, Value], name: str) -> tuple[float, float]:
+        """Two different numbers."""
+        given = row[name]
+        plain = isinstance(given, list) and all(isinstance(one, int | float) and not isinstance(one, bool)
+                                                and isfinite(one) for one in given)  # fmt: skip
+        if not plain or len(given) != 2 or given[0] == given[1]:
+            raise self.wrong(f"{key}.{name}", f"must be two different numbers, not {given!r}")
+        return float(given[0]), float(given[1])
 
     def joints(self, table: dict[str, Value]) -> tuple[float, ...] | None:
         given = table.get("joints")

@@ -100,7 +100,8 @@ def command(
         report_unknown_signals(read.program, around, diagnostics)
         given = around.variables if around is not None else None
         beside = around.mechanisms if around is not None else ()
-        translation = translate_program(read, target, robot, to_robot, diagnostics, kept, own, given, beside)
+        levels = around.analog if around is not None else ()
+        translation = translate_program(read, target, robot, to_robot, diagnostics, kept, own, given, beside, levels)
     if strict:
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from rpl.ir.analog import AnalogPorts
 from rpl.ir.types import Type
 
 
@@ -206,7 +207,8 @@ class Rules:
     triggers: where actions on the path happen. pulse_step_s: a pulse's length is rounded to this.
     inputs: what the controller makes of motion values that are no good.
     mean_parabolas: a curve through points is the mean of the two parabolas that overlap there, weighted along the way
-    (else it bends continuously; see rpl.passes.curves).
+    (else it bends continuously; see rpl.passes.curves). analog: what numbers of analogue signals stand for, as far as
+    the language fixes it; without a range the I/O configuration alone says it.
     """
 
     name: str
@@ -244,6 +246,7 @@ class Rules:
     pulse_step_s: float = 0.0
     inputs: InputRules = InputRules()
     mean_parabolas: bool = False
+    analog: tuple[AnalogPorts, ...] = ()
 
     def percents_of(self, name: str) -> tuple[float, float]:
         """Least and most that counts of a percentage of acceleration."""

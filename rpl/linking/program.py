@@ -5,14 +5,16 @@ What is made here never changes while a program runs and is shared by all snapsh
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.errors import UsageError
+from rpl.ir.analog import AnalogRange, AnalogSetting
 from rpl.linking.types import Types
+from rpl.passes.analog import AnalogRanges, analog_ranges
 from rpl.passes.scope import Fold, ProgramScope, Scope, rules_of
 from rpl.passes.typing import normalise
 from rpl.runtime.code import Code, Read, Values
@@ -59,6 +61,7 @@ class LinkedProgram:
         self._initialise: dict[str, list[tuple[ir.Module, ir.Assign]]] = {}
         self._aliases: dict[str, SignalRef] = {}
         self._names_of: dict[Key, list[str]] = {}
+        self._analog: dict[str, AnalogRanges] = {}
         self.watched = frozenset(_watched_names(program))
         self.cyclic = tuple(_cyclic_values(program))
         for module in program.modules:
@@ -238,6 +241,14 @@ class LinkedProgram:
 
     def signal_name(self, dialect: str, kind: str, number: int) -> str:
         return registry.dialect(dialect).signal_name(kind, number)
+
+    def analog_range(
+        self, dialect: str, settings: Sequence[AnalogSetting], port: SignalRef, names: Sequence[str]
+    ) -> AnalogRange | None:
+        """What the numbers of an analogue signal stand for; None where only its controller's configuration knows it."""
+        if dialect not in self._analog:
+            self._analog[dialect] = analog_ranges(self.program, dialect, settings)
+        return self._analog[dialect].of(port.kind, port.number, [*names, *([port.name] if port.name else [])])
 
     # ---- dialects
 

@@ -91,7 +91,9 @@ def _happening(event: Event, way: _Way, stuck: Place) -> Happening | None:
             kind, index, last, _ = event.port or (None, None, None, None)
             known = [str(name) for name in (event.data.get("signal"), *event.names) if name]
             names = signal_names(kind, known, index, last)
-            return Happening("output", event.t, _plain(event.data.get("value")), names, place, along, moving)
+            # Of an analogue output the level counts, in V or mA, where it is known: two languages count it differently.
+            value = event.data.get("level", event.data.get("value"))
+            return Happening("output", event.t, _plain(value), names, place, along, moving)
         case "message":
             if event.data.get("type") == "clear":
                 return None

@@ -12,8 +12,10 @@ from dataclasses import replace
 from rpl import ir, registry
 from rpl.cell import Cell
 from rpl.linking import link
+from rpl.passes.analog import AnalogRanges, analog_ranges
 from rpl.proof.record import bits_of
 from rpl.runtime.signals import joined_name, usual_key
+from rpl.runtime.values import SignalRef
 
 _WIRING = "signal_names"
 
@@ -123,8 +125,38 @@ def in_words_of(cell: Cell, first: ir.Program, second: ir.Program) -> Cell:
             return groups[port.kind, port.number][0]
         return spell(port.kind, port.number)
 
+    def level(signal: str, value: object) -> object:
+        return _converted(signal, known(signal), value, here, there)
+
+    here = analog_ranges(first, min(ours), cell.analog) if len(ours) == 1 else None
+    there = analog_ranges(second, min(theirs), cell.analog)
     return replace(
         cell,
-        inputs=tuple(replace(one, signal=named(one.signal)) for one in cell.inputs),
-        reactions=tuple(replace(one, when=named(one.when), signal=named(one.signal)) for one in cell.reactions),
+        inputs=tuple(replace(one, signal=named(one.signal), value=level(one.signal, one.value)) for one in cell.inputs),
+        reactions=tuple(
+            replace(
+                one,
+                when=named(one.when),
+                value=level(one.when, one.value),
+                signal=named(one.signal),
+                result=level(one.signal, one.result),
+            )
+            for one in cell.reactions
+        ),
     )
+
+
+def _converted(
+    signal: str, port: SignalRef | None, value: object, here: AnalogRanges | None, there: AnalogRanges
+) -> object:
+    """A value of an analogue signal as the second language counts it; as it is where that is not known."""
+    if here is None or isinstance(value, bool) or not isinstance(value, int | float):
+        return value
+    kind, number = (port.kind, port.number) if port is not None else usual_key(signal) or ("", None)
+    if not kind.startswith("analog"):
+        return value
+    names = {signal} | ({port.name} if port is not None and port.name else set())
+    one, other = here.of(kind, number, names), there.of(kind, number, names)
+    if one is None or other is None or one.unit != other.unit or one == other:
+        return value
+    return other.number(one.level(value))

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from rpl.emulator.configuration import Notation
+    from rpl.ir.analog import AnalogRange, AnalogSetting
     from rpl.runtime.code import Code, Values
     from rpl.runtime.values import SignalRef
 
@@ -32,6 +34,11 @@ class Linked(Protocol):
 
     def signal_name(self, dialect: str, kind: str, number: int) -> str:
         """How the dialect spells a numbered signal."""
+
+    def analog_range(
+        self, dialect: str, settings: Sequence[AnalogSetting], port: SignalRef, names: Sequence[str]
+    ) -> AnalogRange | None:
+        """What the numbers of an analogue signal stand for; None where only its controller's configuration knows it."""
 
     def notation(self, dialect: str) -> Notation | None:
         """The dialect's arm configuration flags."""

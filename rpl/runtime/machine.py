@@ -368,7 +368,13 @@ class Machine:
         self, task: Task, port: SignalRef, name: str, value: Value, origin: Origin, keys: tuple[Key, ...]
     ) -> None:
         names = (name, *self.linked.alias_names(port))
-        self.event("output", {"signal": name, "value": value}, task, origin, port=port, names=names)
+        data = {"signal": name, "value": value}
+        if port.kind == "analog_out" and isinstance(value, int | float):
+            language = task.frame.code.rules.name
+            found = self.linked.analog_range(language, self.cell.analog, port, names)
+            if found is not None:
+                data |= {"level": round(found.level(value), 9), "unit": found.unit}
+        self.event("output", data, task, origin, port=port, names=names)
         self._react(value, keys)
 
     def _react(self, value: Value, keys: tuple[Key, ...]) -> None:

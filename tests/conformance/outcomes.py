@@ -69,7 +69,10 @@ def outcome_of(
     diagnostics = Diagnostics()
     given = cell.variables if cell is not None else None
     around = cell.mechanisms if cell is not None else ()
-    translation = translate_program(read, target, robot, None, diagnostics, given=given, mechanisms=around)
+    levels = cell.analog if cell is not None else ()
+    translation = translate_program(
+        read, target, robot, None, diagnostics, given=given, mechanisms=around, analog=levels
+    )
     again = Diagnostics()
     sources = [source_from_bytes(file.path, file.data) for file in translation.files]
     back = read_sources(sources, target, again)

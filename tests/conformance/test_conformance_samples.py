@@ -95,7 +95,8 @@ def proof_of(sample: Path, target: str, to_robot: str | None = None) -> tuple[Pr
     wanted, program = expected(sample), programs_of(sample)
     diagnostics = Diagnostics()
     given = wanted.cell.variables if wanted.cell is not None else None
-    translation = translate_program(program, target, wanted.robot, to_robot, diagnostics, given=given)
+    levels = wanted.cell.analog if wanted.cell is not None else ()
+    translation = translate_program(program, target, wanted.robot, to_robot, diagnostics, given=given, analog=levels)
     sources = [source_from_bytes(file.path, file.data) for file in translation.files]
     again = Diagnostics()
     back = read_sources(sources, target, again)

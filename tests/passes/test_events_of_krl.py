@@ -9,6 +9,7 @@ from rpl.project import read_sources
 from rpl.simulation import run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
+from tests.analog_wiring import WIRED
 
 KUKA = "kuka_kr6r900sixx"
 PLACE = "{{X {x},Y {y},Z 400,A 180,B 0,C 180}}"
@@ -30,16 +31,17 @@ def place(x: float, y: float) -> str:
 
 
 def in_rapid(body: str) -> tuple[str, list[tuple[float, float]]]:
-    """The text, and when the analogue output got which value."""
+    """The text, and when the analogue output got which share of its 10 V."""
     sources = [source_from_text("seam.src", f"{HEAD}{body}END\n{CALLED}"), source_from_text("seam.dat", DATA)]
     diagnostics = Diagnostics()
-    files = translate_program(read_sources(sources, "krl", diagnostics), "rapid", KUKA, None, diagnostics).files
+    read = read_sources(sources, "krl", diagnostics)
+    files = translate_program(read, "rapid", KUKA, None, diagnostics, analog=WIRED).files
     back = read_sources([source_from_bytes(one.path, one.data) for one in files], "rapid", diagnostics)
     assert not diagnostics.has_errors, [item.as_text() for item in diagnostics]
     result = run_program(back.program, KUKA, controller="plain")
     assert result.status == "finished", result.fault
     text = "\n".join(one.data.decode("latin-1") for one in files)
-    return text, [(t, float(value)) for t, name, value in result.outputs if name == "ao1"]
+    return text, [(t, float(value) / 10.0) for t, name, value in result.outputs if name == "ao1"]
 
 
 def test_a_corner_does_not_forget_the_event_of_the_move_before() -> None:

@@ -10,6 +10,7 @@ from rpl.proof.prove import prove_programs
 from rpl.simulation import entry_name
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
+from tests.analog_wiring import WIRED
 
 KUKA = "kuka_kr6r900sixx"
 START = """DEF P()
@@ -66,7 +67,7 @@ def test_relative_moves_that_turn_the_tool(name: str, target: str) -> None:
 def moves_are_equal(moves: str, target: str) -> None:
     read = read_sources([source_from_text("p.src", START + moves + "END\n")], "krl", Diagnostics())
     diagnostics = Diagnostics()
-    written = translate_program(read, target, KUKA, None, diagnostics)
+    written = translate_program(read, target, KUKA, None, diagnostics, analog=WIRED)
     assert not [item.as_text() for item in diagnostics.of(Severity.LOSS)]
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
     result = prove_programs(read.program, back.program, KUKA, entry="P", to_entry=entry_name(back.program))

@@ -9,6 +9,7 @@ from rpl.project import read_sources
 from rpl.simulation import run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
+from tests.analog_wiring import WIRED
 
 KUKA = "kuka_kr6r900sixx"
 DATA = """DEFDAT JOB PUBLIC
@@ -35,7 +36,7 @@ def written(body: str) -> tuple[str, set[str], set[int]]:
     diagnostics = Diagnostics()
     sources = [source_from_text("job.src", body), source_from_text("job.dat", DATA)]
     read = read_sources(sources, "krl", diagnostics)
-    translation = translate_program(read, "rapid", KUKA, None, diagnostics)
+    translation = translate_program(read, "rapid", KUKA, None, diagnostics, analog=WIRED)
     assert not diagnostics.of(Severity.LOSS)
     files = [source_from_bytes(file.path, file.data) for file in translation.files]
     result = run_program(read_sources(files, "rapid", Diagnostics()).program, KUKA, None, "job", 60.0)

@@ -171,13 +171,14 @@ def pair_of(name: str, target: str) -> Pair:
     everything = tuple(range(1, project.count + 1))
     diagnostics = Diagnostics()
     try:
-        translation = translate_program(read, target, project.robot, None, diagnostics)
+        cell = cell_of(name)
+        given, levels = (cell.variables, cell.analog) if cell is not None else ({}, ())
+        translation = translate_program(read, target, project.robot, None, diagnostics, given=given, analog=levels)
         again = Diagnostics()
         back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, again)
         if again.has_errors:
             return Pair(everything, end=f"error: {again.of(Severity.ERROR)[0].as_text()}")
         named = behind_stops(with_signal_names(back.program, translation.program))
-        cell = cell_of(name)
         theirs = in_words_of(cell, read.program, named) if cell is not None else None
         entry = entry_name(read.program, project.entry)
         begins = named.entry or translation.renamed.get(entry, entry) if entry else None

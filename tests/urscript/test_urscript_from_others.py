@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from rpl.cell import Cell
+from rpl.cell import Cell, parse_cell
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import read_sources
 from rpl.proof.prove import ProofResult, prove_programs
@@ -32,7 +32,8 @@ def translated(language: str, text: str, cell: Cell | None = None) -> tuple[str,
     assert not read.has_errors, [item.as_text() for item in read]
     diagnostics = Diagnostics()
     robot = ROBOTS[language]
-    result = translate_program(program, "urscript", robot, diagnostics=diagnostics)
+    levels = cell.analog if cell is not None else ()
+    result = translate_program(program, "urscript", robot, diagnostics=diagnostics, analog=levels)
     (file,) = result.files
     again = Diagnostics()
     back = read_sources([source_from_bytes(file.path, file.data)], "urscript", again)
@@ -107,7 +108,8 @@ def test_numbers_out_of_poses_are_those_of_the_source(lines: str) -> None:
     ],
 )
 def test_signals_beyond_the_control_box_are_registers(lines: str) -> None:
-    script = equal("rpl", RPL.format(lines=lines))
+    volts = "[analog.urscript]\nao7 = { numbers = [0, 1], volts = [0, 1] }"  # a register has no unit of its own
+    script = equal("rpl", RPL.format(lines=lines), parse_cell(volts))
     assert "write_output_boolean_register(" in script or "write_output_float_register(" in script
 
 

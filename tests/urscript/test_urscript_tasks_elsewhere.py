@@ -10,6 +10,7 @@ from rpl.runtime.trace import RunResult
 from rpl.simulation import entry_name, run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
+from tests.analog_wiring import WIRED
 
 ARM = "ur5e"
 OTHERS = ("krl", "rapid", "tp", "vplus", "inform", "rpl", "urscript")
@@ -51,7 +52,7 @@ def translated(text: str, target: str) -> tuple[RunResult, list[str], str]:
     """The run of what was written, the losses that were named, and the text."""
     diagnostics = Diagnostics()
     read = read_sources([source_from_text("main.script", text)], "urscript", diagnostics)
-    written = translate_program(read, target, ARM, None, diagnostics)
+    written = translate_program(read, target, ARM, None, diagnostics, analog=WIRED)
     back: ReadProgram = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
     entry = written.renamed.get("main", "main") if target != "rpl" else entry_name(back.program)
     losses = [item.code.name for item in diagnostics.of(Severity.LOSS)]

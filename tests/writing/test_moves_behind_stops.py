@@ -2,6 +2,7 @@
 
 import pytest
 
+from tests.analog_wiring import WIRED
 from tests.there_and_back import there_and_back
 
 PROGRAM = """ENTRY main
@@ -21,7 +22,7 @@ END MODULE
 
 @pytest.mark.parametrize(("target", "stop", "move"), [("tp", "PAUSE", ":C "), ("inform", "PAUSE", "MOVC ")])
 def test_a_move_stands_behind_the_stop_without_its_action(target: str, stop: str, move: str) -> None:
-    journey = there_and_back({"m.rpl": PROGRAM}, "rpl", target, "kuka_kr6r900sixx")
+    journey = there_and_back({"m.rpl": PROGRAM}, "rpl", target, "kuka_kr6r900sixx", WIRED)
     assert [item.origin.line for item in journey.found if item.severity.word == "loss"] == [9]
     before, found, behind = journey.text.partition(stop)
     assert found

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
+from rpl.passes.analog import AnalogRanges
 from rpl.passes.capabilities import Capabilities
 from rpl.passes.scope import Fold, ProgramScope, rules_of
 
@@ -72,7 +73,8 @@ class Context:
     will run the result; either may be None (then what needs it is reported). `taken` are all names in use, folded.
     `register_names`: (bank, number) -> source name for data that has got a number, filled by the passes (types beside);
     `registers`: the numbers that an earlier translation gave, to be honoured. `signal_groups`: groups of signals that
-    had a name and are written by their numbers, and signals of a number that are written by their names."""
+    had a name and are written by their numbers, and signals of a number that are written by their names. `analog`: what
+    is said of analogue signals, by language."""
 
     source: str
     target: str
@@ -85,6 +87,7 @@ class Context:
     register_types: dict[tuple[str, int], str] = field(default_factory=dict)
     registers: Mapping[tuple[str, int], str] = field(default_factory=dict)
     signal_groups: dict[str, ir.Signal] = field(default_factory=dict)
+    analog: Mapping[str, AnalogRanges] = field(default_factory=dict)
 
     @property
     def foreign(self) -> bool:

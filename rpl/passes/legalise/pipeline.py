@@ -11,6 +11,7 @@ from rpl.passes.legalise.aggregates import aggregates
 from rpl.passes.legalise.aheadreadings import ahead_readings
 from rpl.passes.legalise.aliases import without_aliases
 from rpl.passes.legalise.aliasing import without_shared_references
+from rpl.passes.legalise.analogunits import analog_units
 from rpl.passes.legalise.arcdistances import arc_distances
 from rpl.passes.legalise.arcpoints import whole_arc_points
 from rpl.passes.legalise.arithmetic import arithmetic
@@ -345,6 +346,7 @@ PASSES: tuple[Pass, ...] = (
     counted_watches,
     shared_groups_to_bits,
     flags_as_data,
+    analog_units,
     name_signals,
     number_signals,
     name_groups,
