@@ -40,13 +40,17 @@ class RobotError(UsageError):
 
 @dataclass(frozen=True, slots=True)
 class RobotSummary:
-    """What a list of robots shows."""
+    """What a list of robots shows. `reach_mm`: see `reach_mm`; limits in pendant units (degrees, mm), one pair an axis;
+    `payload_kg`: the class that the maker's name of the model says."""
 
     name: str
     maker: str
     title: str
     axes: int
     kind: Kind
+    reach_mm: float | None
+    payload_kg: float | None
+    limits: tuple[Vector, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +108,7 @@ class RobotFile:
     mechanisms: tuple[Mechanism, ...] = ()
     weights: WeightFile | None = None
     lag: Vector | None = None  # time constants of the axes' following behind their command, s
+    payload_kg: float | None = None
 
 
 def robot_names() -> list[str]:
@@ -117,8 +122,25 @@ def robot_summaries() -> list[RobotSummary]:
     summaries = []
     for name in robot_names():
         file = read_robot_file(name)
-        summaries.append(RobotSummary(file.name, file.maker, file.title, len(file.home), file.kind))
+        about = (file.name, file.maker, file.title, len(file.home), file.kind)
+        summaries.append(RobotSummary(*about, reach_mm(file), file.payload_kg, file.limits))
     return summaries
+
+
+def reach_mm(file: RobotFile) -> float | None:
+    """How far from axis 1 the stretched arm brings its wrist, mm: the wrist centre of a spherical wrist, the end of the
+    forearm of a `ur`, the tool axis of a SCARA. From the lengths alone, whatever the limits of joints say. None of
+    an arm from a URDF."""
+    of = file.lengths
+    match file.kind:
+        case "opw":
+            return math.hypot(of["a1"] + of["c2"] + math.hypot(of["a2"], of["c3"]), of["b"])
+        case "ur":
+            return math.hypot(of["a2"] + of["a3"], of["d4"])
+        case "scara":
+            return of["l1"] + of["l2"]
+        case _:
+            return None
 
 
 def read_robot_file(name_or_path: str) -> RobotFile:
@@ -197,6 +219,7 @@ def _parse(text: str, place: str, folder: Path | None) -> RobotFile:
         mechanisms=read_mechanisms(data.get("mechanism", []), f"robot file {place}"),
         weights=_weights(reader, count),
         lag=_lag(axes, count),
+        payload_kg=_payload(reader),
     )
 
 
@@ -311,6 +334,15 @@ def _is_rotation(axes: tuple[Vector, ...]) -> bool:
     units = (sum(a * a for a in axis) for axis in axes)
     apart = max(abs(a - b) for a, b in zip(across, z, strict=True))
     return max(abs(unit - 1.0) for unit in units) < 1e-6 and apart < 1e-6
+
+
+def _payload(reader: "_Reader") -> float | None:
+    if "payload_kg" not in reader.data:
+        return None
+    mass = reader.number("payload_kg")
+    if mass <= 0.0:
+        raise reader.fail("payload_kg", "a number above 0")
+    return mass
 
 
 def _lag(axes: "_Reader", count: int) -> Vector | None:
