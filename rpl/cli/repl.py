@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from rpl.cell import Cell
     from rpl.emulator.model import RobotModel
     from rpl.project import ReadProgram
+    from rpl.runtime.trace import Fault
 
 NATIVE = "rpl"
 _OPEN_BLOCK = "missing-block-end"
@@ -36,7 +37,7 @@ Enter RPL statements; a block ends with its END. Each one runs at once on the em
   where         joints and pose of the robot, and the time
   history       what was entered
   undo          take the last entry back, with all it did
-  help, quit"""
+  help, quit    (Ctrl-D leaves too; Ctrl-C ends what runs or is being entered, and the session goes on)"""
 
 
 @dataclass(slots=True)
@@ -58,10 +59,10 @@ class Session:
         if errors:
             value = self._value(entry)
             return [value] if value is not None else [f"{item.message}" for item in errors]
-        record = self._run(read)
+        record, fault = self._run(read)
         lines = [*_new_moves(self.record, record), *_new_happenings(self.record, record)]
         if record is not None and record.status in ("fault", "deadlock", "limit"):
-            return [*lines, f"{record.status}: the entry is taken back"]
+            return [*lines, *_why(fault), f"{record.status}: the entry is taken back"]
         self.entries.append(entry)
         self.record = record
         return lines
@@ -72,7 +73,7 @@ class Session:
             return "nothing to undo"
         gone = self.entries.pop()
         read, _ = self._read("")
-        self.record = self._run(read) if self.entries else None
+        self.record = self._run(read)[0] if self.entries else None
         return f"took back: {gone.splitlines()[0]}"
 
     def variables(self) -> list[str]:
@@ -104,14 +105,14 @@ class Session:
         text = "\n".join([*self.entries, entry, ""])
         return read_sources([source_from_text("session", text)], NATIVE, diagnostics), diagnostics
 
-    def _run(self, read: ReadProgram) -> Record | None:
+    def _run(self, read: ReadProgram) -> tuple[Record | None, Fault | None]:
         from rpl.proof.recording import record_of
         from rpl.simulation import run_program
 
         if not any(routine.name == "main" for module in read.program.modules for routine in module.routines):
-            return None  # only declarations and routines so far
+            return None, None  # only declarations and routines so far
         result = run_program(read.program, self.robot, self.cell, None, _PATIENCE_S)
-        return record_of(result, read.program, self.robot)
+        return record_of(result, read.program, self.robot), result.fault
 
     def _value(self, expression: str) -> str | None:
         """The value of an expression as the session's next statement would see it; None when it is none."""
@@ -120,7 +121,7 @@ class Session:
         read, diagnostics = self._read(f"MESSAGE value_text({expression.strip()})")
         if diagnostics.has_errors:
             return None
-        record = self._run(read)
+        record, _ = self._run(read)
         said = [event for event in _happenings(record) if event.kind == "message"]
         before = sum(event.kind == "message" for event in _happenings(self.record))
         return str(said[-1].value) if len(said) > before else None
@@ -139,7 +140,16 @@ def _stretches(record: Record | None) -> list[Stretch]:
 
 def _new_happenings(before: Record | None, after: Record | None) -> Iterator[str]:
     for event in _happenings(after)[len(_happenings(before)) :]:
+        if event.kind == "fault":
+            continue  # told with its message
         yield str(event.value) if event.kind == "message" else in_words(event)
+
+
+def _why(fault: Fault | None) -> list[str]:
+    """What ended the run, in the words of the fault."""
+    if fault is None:
+        return []
+    return [line for line in f"{fault.code}: {fault.message}".splitlines() if line]
 
 
 def _new_moves(before: Record | None, after: Record | None) -> Iterator[str]:
@@ -184,22 +194,37 @@ def _entries(session: Session, terminal: bool) -> Iterator[list[str]]:
     while True:
         try:
             line = input(("  ... " if lines else "rpl> ") if terminal else "")
+            lines, shown = _obeyed(session, lines, line, terminal)
         except EOFError:
+            if terminal:
+                click.echo()
             return
-        word = line.strip().lower()
-        if not lines and word in ("quit", "exit"):
+        except KeyboardInterrupt:
+            if not terminal:
+                raise
+            lines, shown = [], ["", "interrupted: what was not finished is taken back (quit or Ctrl-D leaves)"]
+        if shown is None:
             return
-        if not lines and (not word or word in _COMMANDS):
-            yield _COMMANDS[word](session) if word else []
-            continue
-        lines.append(line)
-        try:
-            shown = session.enter("\n".join(lines))
-        except RplError as error:
-            shown = [str(error)]
-        if shown is not None or (terminal and not word):
-            lines = []
-            yield shown if shown is not None else ["the block was not ended: taken back"]
+        yield shown
+
+
+def _obeyed(session: Session, before: list[str], line: str, terminal: bool) -> tuple[list[str], list[str] | None]:
+    """One more line: the lines of a block that is still open, and what to show; None for that when it says to leave."""
+    word = line.strip().lower()
+    if not before and word in ("quit", "exit"):
+        return [], None
+    if not before and (not word or word in _COMMANDS):
+        return [], _COMMANDS[word](session) if word else []
+    lines = [*before, line]
+    try:
+        shown = session.enter("\n".join(lines))
+    except RplError as error:
+        shown = [str(error)]
+    if shown is not None:
+        return [], shown
+    if terminal and not word:
+        return [], ["the block was not ended: taken back"]
+    return lines, []
 
 
 _COMMANDS: dict[str, Callable[[Session], list[str]]] = {
