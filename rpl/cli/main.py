@@ -44,7 +44,9 @@ class LazyGroup(click.Group):
             return None
         found = import_module(f"rpl.cli.{cmd_name}").command
         assert isinstance(found, click.Command)
-        return found
+        from rpl.cli.completion import completed
+
+        return completed(found)
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
