@@ -49,6 +49,7 @@ CAPABILITIES = Capabilities(
     relative_moves=True,
     turned_ways=frozenset(("base", "tool")),
     function_routines=False,
+    faults_outside=False,
     parameters="none",
     locals=False,
     flags=False,

@@ -85,6 +85,7 @@ CAPABILITIES = Capabilities(
     for_looks_once=False,
     for_steps="one",
     function_routines=False,
+    faults_outside=False,
     parameters="numbered",
     locals=False,
     recursion=False,

@@ -77,6 +77,7 @@ CAPABILITIES = Capabilities(
     stopping_reactions=True,
     interrupt_masks=True,
     one_shot_reactions=True,
+    faults_outside=False,
     action_arguments=frozenset(("path", "own")),
     places_in_base=True,
     task_operations=frozenset(("start", "stop")),

@@ -124,6 +124,7 @@ class Capabilities:
     text_parts: without numbered storage as well, helpers read numbers from texts and search them by cutting and
     comparing parts.
     truth: `minus_one` when TRUE is the number -1 and there is no type of truth values.
+    faults_outside: the controller stops at an index outside of an array (else the program looks first).
     index_base: where arrays start; None: anywhere. expressions: `steps` when an assignment has one operator or function
     of constants and variables. calculated_places: moves, signals, waits take any expression. conditions: `comparisons`
     of two simple operands, joined by and/or.
@@ -288,6 +289,7 @@ class Capabilities:
     text_ordering: bool = False
     truth: str = "bool"
     index_base: int | None = 1
+    faults_outside: bool = True
     expressions: str = "any"
     calculated_places: bool = True
     arcs_by_angle: bool = False

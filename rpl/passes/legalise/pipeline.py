@@ -172,6 +172,7 @@ from rpl.passes.legalise.stoppedtasks import stopped_tasks
 from rpl.passes.legalise.storedpaths import stored_paths
 from rpl.passes.legalise.strengths import strengths
 from rpl.passes.legalise.structure import labels_to_structure
+from rpl.passes.legalise.subscriptchecks import checked_subscripts
 from rpl.passes.legalise.subscripts import joined_subscripts
 from rpl.passes.legalise.switches import unroll_switches
 from rpl.passes.legalise.targets import whole_targets
@@ -359,6 +360,7 @@ PASSES: tuple[Pass, ...] = (
     given_arrays,
     asked_elements,
     copy_value_arrays,
+    checked_subscripts,
     array_sizes,
     check_errors,
     labels_to_structure,
