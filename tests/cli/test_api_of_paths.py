@@ -8,6 +8,7 @@ import rpl
 from rpl.errors import SourceError, UsageError
 
 SAMPLE = Path(__file__).parents[2] / "samples/krl/palletiser"
+MOVES = Path(__file__).parents[1] / "selfcheck/moves.src"
 ROBOT = "kuka_kr6r900sixx"
 
 
@@ -22,7 +23,7 @@ def test_every_word_takes_paths(demo: Path) -> None:
     assert rpl.run(str(demo)).status == "finished"
     assert rpl.run([demo]).outputs == rpl.run(rpl.read(demo)).outputs == ((0.0, "$OUT[1]", True),)
     assert [file.path for file in rpl.translate(str(demo), "abb").files] == ["demo.mod"]
-    assert rpl.prove(demo, str(demo)).equal
+    assert rpl.prove(MOVES, str(MOVES), ROBOT).equal
 
 
 def test_a_cell_is_taken_by_its_path(demo: Path, tmp_path: Path) -> None:
@@ -31,7 +32,9 @@ def test_a_cell_is_taken_by_its_path(demo: Path, tmp_path: Path) -> None:
     cell.write_text('[[input]]\ntime = 1.0\nsignal = "di1"\nvalue = true\n')
     assert rpl.run(demo).status == "deadlock"
     assert rpl.run(demo, cell=cell).status == "finished"
-    assert rpl.prove(demo, demo, cell=str(cell)).equal
+    moving = demo.read_text().replace("$OUT[1]", "PTP {A1 10,A2 -80,A3 95,A4 0,A5 30,A6 0}\n$OUT[1]")
+    demo.write_text(moving)
+    assert rpl.prove(demo, demo, ROBOT, str(cell)).equal
 
 
 def test_a_program_with_errors_is_refused_with_their_places(demo: Path) -> None:

@@ -7,7 +7,7 @@ import pytest
 
 from rpl.cli.main import run
 
-PROGRAM = "DEF demo()\n$OUT[1]=TRUE\nEND\n"
+PROGRAM = "DEF demo()\n$OUT[1]=TRUE\nPTP {A1 10,A2 -80,A3 95,A4 0,A5 30,A6 0}\nEND\n"
 
 
 class Unread:
@@ -24,7 +24,14 @@ def given(monkeypatch: pytest.MonkeyPatch, text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "arguments", [["check", "-"], ["run", "-"], ["translate", "-", "--to", "rapid"], ["prove", "-", "{program}"]]
+    "arguments",
+    [
+        ["check", "-"],
+        ["run", "-"],
+        ["translate", "-", "--to", "rapid"],
+        ["prove", "-", "{program}", "--robot", "kuka_kr6r900sixx"],
+        ["prove", "{program}", "-", "--robot", "kuka_kr6r900sixx"],
+    ],
 )
 def test_a_program_comes_from_standard_input(
     arguments: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

@@ -193,6 +193,18 @@ def test_several_programs_need_a_folder(tmp_path: Path, capsys: pytest.CaptureFi
     assert "2 programs would be written (A.LS, B.LS): name a folder with -o" in capsys.readouterr().err
 
 
+def test_the_entry_is_that_of_the_proof(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Without one it cannot be told which of the two is the program."""
+    program = tmp_path / "two.src"
+    move = "PTP {A1 10,A2 -80,A3 95,A4 0,A5 30,A6 0}\n"
+    program.write_text(TWO.replace("$OUT[2]", move + "$OUT[2]"))
+    arguments = ["translate", str(program), "--to", "krl", "--robot", "kuka_kr6r900sixx", "--prove", "--json"]
+    assert run(arguments) == 2
+    assert "name one with --entry" in capsys.readouterr().err
+    assert run([*arguments, "--entry", "b"]) == 0
+    assert json.loads(capsys.readouterr().out)["proof"] is not None
+
+
 TWO = "DEF a()\n$OUT[1]=TRUE\nEND\nDEF b()\n$OUT[2]=TRUE\nEND\n"
 
 
@@ -202,9 +214,9 @@ def test_the_entry_begins_what_is_written_and_the_proof(
 ) -> None:
     program, folder = tmp_path / "two.src", tmp_path / "out"
     program.write_text(TWO)
-    arguments = ["translate", str(program), "--to", "urscript", "-o", str(folder), "--prove", "--json"]
+    arguments = ["translate", str(program), "--to", "urscript", "-o", str(folder), "--json"]
     assert run([*arguments, "--entry", entry]) == 0
-    assert json.loads(capsys.readouterr().out)["proof"]["equal"]
+    assert json.loads(capsys.readouterr().out)["losses"] == []
     assert [file.name for file in folder.iterdir()] == [f"{entry.lower()}.script"]
     assert run(["run", str(folder), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["outputs"] == [[0.0, f"digital_out[{output}]", True]]
