@@ -17,10 +17,11 @@ from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 
+import click
 import pytest
 
 from rpl.cell import parse_cell
-from rpl.cli.main import run
+from rpl.cli.main import COMMANDS, rpl, run
 from rpl.diagnostics import Diagnostics
 from rpl.project import read_sources
 from rpl.simulation import run_program
@@ -170,3 +171,18 @@ def test_the_programs_that_explain_rpl_run_to_their_end(block: Block) -> None:
     assert not diagnostics.has_errors
     result = run_program(read.program, "kuka_kr6r900sixx")
     assert result.status == "finished", result.fault
+
+
+def options() -> set[str]:
+    """Every long option of every command."""
+    commands = [rpl.get_command(click.Context(rpl), name) for name in COMMANDS]
+    return {word for one in commands if one is not None for param in one.params for word in param.opts if "--" in word}
+
+
+def test_options_of_the_pages_exist_and_every_option_has_its_place() -> None:
+    """`--write` belongs to a benchmark."""
+    texts = "\n".join(page.read_text("utf-8") for page in PAGES)
+    told = set(re.findall(r"(?<![\w-])--[a-z][a-z-]+", texts))
+    here = options()
+    assert told - here - {"--write"} == set()
+    assert here - told == set()
