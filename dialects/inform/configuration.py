@@ -16,6 +16,7 @@ from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel
 from rpl.emulator.postures import UNKNOWN_BUILD, has_flags, sides
 from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
+from rpl.emulator.rounding import settled
 from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
 
@@ -37,8 +38,8 @@ _POINT = re.compile(
 def is_flip(joints: FloatArray, by: str = FLIP_BY) -> BoolArray:
     """Flip (...) of joints (..., n) by the sign of B, or by the quadrant of R."""
     if by == "b":  # arms whose wrist turns further: the sign within half a turn
-        return np.asarray((joints[..., 4] + 180.0) % 360.0 >= 180.0)
-    turned = joints[..., 3] % 360.0
+        return np.asarray((settled(joints[..., 4]) + 180.0) % 360.0 >= 180.0)
+    turned = settled(joints[..., 3]) % 360.0
     return np.asarray((turned <= 90.0) | (turned > 270.0))
 
 

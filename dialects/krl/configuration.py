@@ -16,6 +16,7 @@ from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel, Solution
 from rpl.emulator.postures import UNKNOWN_BUILD, has_flags, sides
 from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
+from rpl.emulator.rounding import settled
 from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
 
@@ -54,7 +55,7 @@ class KrlNotation:
 
     def encode_all(self, model: RobotModel, joints: FloatArray) -> IntArray:
         """S and T (k, 2) at joints (k, n)."""
-        turn = ((joints < 0.0) * (1 << np.arange(model.axes))).sum(axis=-1)
+        turn = ((settled(joints) < 0.0) * (1 << np.arange(model.axes))).sum(axis=-1)
         return np.stack([_status(sides(model, joints)), turn], axis=-1)
 
     def select(self, model: RobotModel, flange: FloatArray, flags: Flags, reference: FloatArray | None) -> Selection:

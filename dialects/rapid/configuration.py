@@ -16,6 +16,7 @@ from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel, Solution
 from rpl.emulator.postures import UNKNOWN_BUILD, has_flags, sides
 from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_quaternion, pose_matrix, quaternion_to_matrix
+from rpl.emulator.rounding import settled
 from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
 
@@ -55,7 +56,7 @@ class RapidNotation:
         flags = np.zeros((len(joints), 4), dtype=np.int64)
         for place, axis in enumerate(QUARTERS.values()):
             if axis < model.axes:
-                flags[:, place] = np.floor(joints[:, axis] / 90.0)
+                flags[:, place] = np.floor(settled(joints[:, axis]) / 90.0)
         if model.name not in CFX_UNUSED:
             flags[:, 3] = sides(model, joints) @ CFX_WEIGHTS
         return flags

@@ -31,6 +31,8 @@ ROUNDING_COSINE = 4e-15
 # pose is missed by as much; rounding stays a hundred times below.
 STILL_MM = 5e-10
 STILL_RAD = 1e-9
+# Rounding in double precision: a wrist centre this close to axis 1, an angle this close to its boundary, is on it.
+ON_AXIS_MM, ON_LINE_RAD = 1e-9, 1e-10
 # Where axis 4 passes beside axis 1, front and back are one posture with the wrist centre as near as it can come.
 SAME_MM = 1e-6
 
@@ -94,7 +96,7 @@ class Arm(Protocol):
         """All branches for flanges (k, 4, 4); free joints of singular postures follow `reference` (k, n)."""
 
     def branch(self, theta: FloatArray) -> Branch:
-        """The branch that one joint vector (n,) lies on, by strict signs."""
+        """The branch that one joint vector (n,) lies on; on a boundary within rounding: the near side of it."""
 
 
 def _rows(flange: FloatArray) -> FloatArray:
@@ -303,7 +305,7 @@ class OpwArm:
     def branch(self, theta: FloatArray) -> Branch:
         reach, _ = self.in_plane(theta)
         bend = _wrap(theta[2] + self.elbow_angle)
-        return Branch(int(reach < 0.0), int(bend < 0.0), int(_wrap(theta[4]) < 0.0))
+        return Branch(int(reach < -ON_AXIS_MM), int(bend < -ON_LINE_RAD), int(_wrap(theta[4]) < -ON_LINE_RAD))
 
 
 def _wrap(angle: FloatArray | float) -> FloatArray:
@@ -453,7 +455,8 @@ class UrArm:
     def branch(self, theta: FloatArray) -> Branch:
         reach, _, total = self._in_plane(theta)
         along = reach + self.d5 * np.sin(total)
-        return Branch(int(along < 0.0), int(_wrap(theta[2]) < 0.0), int(_wrap(theta[4]) < 0.0))
+        bend, wrist = _wrap(theta[2]), _wrap(theta[4])
+        return Branch(int(along < -ON_AXIS_MM), int(bend < -ON_LINE_RAD), int(wrist < -ON_LINE_RAD))
 
 
 @dataclass(frozen=True, slots=True)
@@ -508,4 +511,4 @@ class ScaraArm:
         return Branches(theta, valid, np.broadcast_to(singular[:, None], q1.shape).copy())
 
     def branch(self, theta: FloatArray) -> Branch:
-        return Branch(0, int(_wrap(theta[1]) < 0.0), 0)
+        return Branch(0, int(_wrap(theta[1]) < -ON_LINE_RAD), 0)

@@ -26,7 +26,7 @@ from rpl.emulator.cornerpaths import (
 from rpl.emulator.mechanisms import Carried
 from rpl.emulator.model import RobotModel
 from rpl.emulator.paths import Path
-from rpl.emulator.planner import Geometry, JointGeometry, PathGeometry, PlannedMove, flanges_of
+from rpl.emulator.planner import NO_WAY, Geometry, JointGeometry, PathGeometry, PlannedMove, flanges_of
 from rpl.emulator.rotations import FloatArray
 from rpl.emulator.timelaw import Profile, TimeLaw
 from rpl.emulator.tracking import MotionFault, track_flanges
@@ -99,6 +99,8 @@ def blend(
     gap = np.abs(first.end_joints - second.start_joints)
     if gap.max() > 1e-4:
         return NoBlend("the second move does not start where the first ends")
+    if not (np.isfinite(first.profile.speed) and np.isfinite(second.profile.speed)):
+        return NoBlend("a move without way has no corner")
     seconds = overlapping_s(first, second, size.overlap) if size.overlap is not None else None
     ends = _ends(first, second, size, seconds, alone)
     if isinstance(ends, NoBlend):
@@ -160,7 +162,7 @@ def _ends(
     """Where to leave the first move and to meet the second."""
     if seconds is not None:
         shares = [0.5 * each * seconds * seconds for each in _beside_corner(first, second)]
-        if min(shares) <= 1e-9 or not np.isfinite(shares).all():
+        if min(shares) <= 1e-9:
             return NoBlend("the moves do not overlap")
         return _plain(1.0 - min(shares[0], MOST), min(shares[1], MOST))
     if size.fraction is not None:
@@ -169,7 +171,7 @@ def _ends(
         return _plain(1.0 - out, into) if min(out, into) > 0.0 else NoBlend("the blend distance is zero")
     whole = [whole_mm(move) for move in (first, second)]
     distance = _reduced(first, second, size.distance_mm or 0.0, alone)
-    if distance < 1e-6:
+    if distance < NO_WAY:
         return NoBlend("the blend distance is zero" if not size.distance_mm else "a move without way has no corner")
     return _plain(first.geometry.fraction_at(whole[0] - distance), second.geometry.fraction_at(distance))
 

@@ -31,6 +31,7 @@ from rpl.emulator.robotfile import (
     robot_summaries,
 )
 from rpl.emulator.rotations import FloatArray
+from rpl.emulator.rounding import NOISE, whole_turns
 
 __all__ = [
     "BatchSolutions",
@@ -172,7 +173,8 @@ class RobotModel:
         return self._pendant(theta.copy(order="K"))
 
     def canonical(self, joints: ArrayLike) -> FloatArray:
-        """Joints (..., n) with whole turns taken off: revolute ones in (-180, 180], rounding noise at 90s removed."""
+        """Joints (..., n) with whole turns taken off: revolute ones in (-180, 180], rounding noise at 90s removed. Half a
+        turn is +180 also where rounding has left a little more noise than that."""
         return self._reduced(np.array(joints, dtype=np.float64))
 
     def _pendant(self, theta: FloatArray) -> FloatArray:
@@ -193,7 +195,7 @@ class RobotModel:
         off = joints - work
         np.copyto(joints, work, where=np.abs(off, out=off) < SNAP_DEG)
         # Not a remainder: taking whole turns off leaves every bit of an angle that is already inside.
-        np.subtract(joints, 180.0, out=work)
+        np.subtract(joints, 180.0 + NOISE, out=work)
         work *= 1.0 / 360.0
         np.ceil(work, out=work)
         work *= 360.0
@@ -232,7 +234,7 @@ class RobotModel:
     def turns(self, joints: ArrayLike) -> np.ndarray[tuple[int, ...], np.dtype[np.int64]]:
         """Whole turns (..., n) by which each joint differs from its value in (-180, 180]; 0 for prismatic ones."""
         q = np.asarray(joints, dtype=np.float64)
-        return np.where(self.revolute, np.round((q - self.canonical(q)) / 360.0), 0.0).astype(np.int64)
+        return np.where(self.revolute, whole_turns(q - self.canonical(q)), 0.0).astype(np.int64)
 
     def expand_turns(self, solution: Solution | ArrayLike) -> FloatArray:
         """All joint vectors (m, n) inside the limits that differ from the given one by whole turns; m may be 0."""
@@ -254,10 +256,10 @@ class RobotModel:
         """
         q, near = np.asarray(joints, dtype=np.float64), np.asarray(reference, dtype=np.float64)
         low, high = self.limits[:, 0] - LIMIT_SLACK, self.limits[:, 1] + LIMIT_SLACK
-        best = q + 360.0 * np.round((near - q) / 360.0)
-        best = np.where(best > high, best - 360.0 * np.ceil((best - high) / 360.0), best)
+        nearest = q + 360.0 * whole_turns(near - q)
+        best = np.where(nearest > high, nearest - 360.0 * np.ceil((nearest - high) / 360.0), nearest)
         best = np.where(best < low, best + 360.0 * np.ceil((low - best) / 360.0), best)
-        best = np.where(best > high, q + 360.0 * np.round((near - q) / 360.0), best)
+        best = np.where(best > high, nearest, best)
         return np.where(self.revolute, best, q)
 
     def nearest(self, flange: ArrayLike, reference: ArrayLike) -> FloatArray | None:
@@ -283,7 +285,8 @@ class RobotModel:
         return [int(axis) for axis in np.flatnonzero(outside | np.isnan(q))]
 
     def posture(self, joints: ArrayLike) -> Posture:
-        """The posture of one joint vector (n,), computed from the geometry by strict signs."""
+        """The posture of one joint vector (n,), computed from the geometry; what lies on a boundary within rounding is on
+        its near side."""
         branch = self.arm.branch(self.theta(joints))
         return Posture(bool(branch.shoulder), not branch.elbow, bool(branch.elbow), bool(branch.wrist))
 

@@ -19,6 +19,7 @@ from rpl.emulator.mechanisms import Carried, Carrier, ExternalWay, along
 from rpl.emulator.model import RobotModel
 from rpl.emulator.paths import Arc, Line, Path, arc_through
 from rpl.emulator.rotations import FloatArray, invert_pose, pose_matrix, rotation_angle
+from rpl.emulator.rounding import NOISE, first_least, steps_of
 from rpl.emulator.timelaw import Profile, TimeLaw, mean_acceleration, of_constant_time, slowed_to
 from rpl.emulator.tracking import MotionFault, Track, solve_arm_joints, track_flanges, track_wrist_joints
 
@@ -32,6 +33,8 @@ SPEED_SLACK = 1e-3
 SINGULAR_CONDITION = 25.0
 # Where a flange on a carried path is looked at first, to tell how finely the path has to be followed.
 _ROUGH = np.linspace(0.0, 1.0, 17)
+# Shorter ways (mm) and smaller turns (degrees) of a path are what rounding leaves of none.
+NO_WAY = 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -156,7 +159,7 @@ class PathGeometry:
         off -= 360.0 * np.rint(off * (1.0 / 360.0))
         largest = np.abs(off, out=off)[self.model.revolute].max(axis=0)
         largest[~found.valid.T] = np.inf
-        best, rows = largest.argmin(axis=0), np.arange(len(near))
+        best, rows = first_least(largest, 0), np.arange(len(near))
         joints = found.joints[rows, best]
         joints += np.where(self.model.revolute, 360.0 * np.rint((near - joints) / 360.0), 0.0)
         return np.where(((largest[best, rows] < 5.0) & ~ends)[:, None], joints, near)
@@ -345,6 +348,8 @@ def _plan_joint(model: RobotModel, start: FloatArray, request: MoveRequest) -> P
     end = joint_target(model, start, request)
     if isinstance(end, MotionFault):
         return end
+    if np.abs(end - start).max() < NOISE:  # else rounding alone would be a way, with a speed and corners
+        end = start
     geometry = joint_geometry(model, start, end, request.tool, request.carried())
     way = np.abs(end - start)
     with np.errstate(divide="ignore"):
@@ -352,7 +357,7 @@ def _plan_joint(model: RobotModel, start: FloatArray, request: MoveRequest) -> P
         strength = request.controller.joint_acceleration_share
         acceleration = float(np.min(model.accelerations * strength * request.joint_acc / way))
     length = float(geometry.travelled[-1])
-    if request.tcp_speed_for_joint_move is not None and length > 1e-6:
+    if request.tcp_speed_for_joint_move is not None and length > NO_WAY:
         speed = min(speed, request.tcp_speed_for_joint_move / length)
     ramp, smoothing = _joint_ramp_s(model, request.controller, way), request.controller.joint_smoothing_s
     return finished(request, geometry, _profile(request, speed, acceleration, ramp, smoothing))
@@ -378,7 +383,7 @@ def joint_geometry(
     turn = np.abs(end - start).max()
     if carried is not None:
         turn = max(turn, np.abs(carried.control[-1] - carried.control[0]).max())
-    count = int(np.clip(np.ceil(turn / 4.0), 8, 120)) + 1
+    count = steps_of(turn, 4.0, 8, 120) + 1
     knots = np.linspace(0.0, 1.0, count)
     empty = JointGeometry(model, start, end, tool, knots, np.zeros(count), carried)
     points = empty.tcp(knots)[:, :3, 3]
@@ -461,7 +466,7 @@ def _plan_path(model: RobotModel, start: FloatArray, request: MoveRequest) -> Pl
 
 
 def _over(rate: float, way: float) -> float:
-    return rate / way if way > 1e-9 else np.inf
+    return rate / way if way > NO_WAY else np.inf
 
 
 def tool_at(model: RobotModel, joints: FloatArray, request: MoveRequest, fraction: float) -> FloatArray:
@@ -498,9 +503,9 @@ def path_track(model: RobotModel, start: FloatArray, path: Path, request: MoveRe
     carried = request.carried()
     if carried is not None:
         length, turn = _swept(carried.flanges(path.poses(_ROUGH), _ROUGH), length, turn)
-    if length < 1e-9 and turn < 1e-9:
+    if length <= NO_WAY and turn <= NO_WAY:
         return Track(np.array([0.0, 1.0]), np.stack([start, start]))
-    samples = int(np.clip(np.ceil(max(length / 10.0, turn / 3.0)), 8, 400)) + 1
+    samples = max(steps_of(length, 10.0, 8, 400), steps_of(turn, 3.0, 8, 400)) + 1
     inverse_tool = invert_pose(request.tool)
     if request.orientation == "wrist_joints":
         if model.axes < 6:
@@ -533,7 +538,7 @@ def within_axis_speeds(
         with np.errstate(divide="ignore"):
             ceilings = np.min(model.speeds * gaps[:, None] / np.maximum(steps, 1e-12), axis=1)
         return replace(profile, knots=track.fractions, ceilings=ceilings)
-    place, axis = (int(i) for i in np.unravel_index(np.argmax(excess), excess.shape))
+    place, axis = (int(i) for i in np.unravel_index(first_least(-excess.ravel()), excess.shape))
     kind: Literal["singularity", "axis_speed"] = "singularity" if _ill(model, track.joints[place]) else "axis_speed"
     return MotionFault(
         kind,

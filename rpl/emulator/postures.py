@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rpl.emulator.arms import OpwArm, ScaraArm, UrArm
+from rpl.emulator.arms import ON_AXIS_MM, ON_LINE_RAD, OpwArm, ScaraArm, UrArm
 from rpl.emulator.recognise import PlacedArm
 
 if TYPE_CHECKING:
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from rpl.emulator.rotations import FloatArray, IntArray
 
 ASKED_POSTURES = ("posture_shoulder", "posture_elbow", "posture_wrist")
-# Rounding in double precision: a wrist centre this close to axis 1, an angle this close to its boundary, is on it.
-ON_AXIS_MM, ON_LINE_RAD = 1e-9, 1e-12
 # Which side of a branch a word asks for: 1 is behind axis 1, elbow down (seen from outside), wrist turned over.
 _SIDES = {"front": 0, "back": 1, "up": 0, "down": 1, "noflip": 0, "flip": 1}
 

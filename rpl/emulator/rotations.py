@@ -20,6 +20,8 @@ IntArray = NDArray[np.int64]
 
 # Below this sine the axis that an angle turns about has no direction left in double precision.
 GIMBAL = 1e-9
+# Half a turn backwards, within rounding (degrees): it is written as half a turn forwards.
+HALF_TURN_BACK = -180.0 + 1e-9
 
 
 def _stack(rows: list[list[FloatArray]]) -> FloatArray:
@@ -148,9 +150,9 @@ def matrix_to_xyz_moving(rotation: ArrayLike) -> FloatArray:
 
 
 def _degrees(*angles_rad: FloatArray) -> FloatArray:
-    """Stack radians as degrees in (-180, 180], without negative zeros."""
+    """Stack radians as degrees in (-180, 180], without negative zeros; -180 within rounding is 180."""
     d = np.rad2deg(np.stack(np.broadcast_arrays(*angles_rad), axis=-1))
-    return np.asarray(np.where(d <= -180.0, d + 360.0, d) + 0.0)
+    return np.asarray(np.where(d <= HALF_TURN_BACK, np.minimum(d + 360.0, 180.0), d) + 0.0)
 
 
 def quaternion_to_matrix(quaternion_wxyz: ArrayLike) -> FloatArray:

@@ -19,6 +19,7 @@ from rpl.emulator.model import LIMIT_SLACK, BatchSolutions
 from rpl.emulator.postures import same_posture, sides
 from rpl.emulator.recognise import PlacedArm
 from rpl.emulator.rotations import invert_pose
+from rpl.emulator.rounding import NOISE, PLACES, first_least
 
 if TYPE_CHECKING:
     from rpl.emulator.arms import BoolArray
@@ -159,8 +160,8 @@ def choose(model: RobotModel, flanges: FloatArray, near: FloatArray, rule: Rule)
             distance = np.linalg.norm(away / model.speeds, axis=-1)
     allowed = allowed & np.isfinite(cost)
     # Rounding must not decide between equal ways: the first branch of the fixed order wins.
-    equal = np.where(allowed, np.round(distance, 9), np.inf)
-    rank = np.lexsort((equal, np.where(allowed, cost, np.inf)), axis=1)[:, 0]
+    equal = np.where(allowed, np.round(distance, PLACES), np.inf)
+    rank = np.lexsort((equal, np.where(allowed, np.round(cost, PLACES), np.inf)), axis=1)[:, 0]
     rows = np.arange(len(flanges))
     taken = np.where(allowed[rows, rank, None], joints[rows, rank], np.nan)
     return Chosen(taken, np.asarray(found.valid.any(axis=1)))
@@ -186,7 +187,8 @@ def _turned(
         inside = (values >= low[axis]) & (values <= high[axis])
         cost = np.where(inside, 0.0 if asked is None else asked, np.inf)
         least = cost.min(axis=-1, keepdims=True)
-        best = np.where(cost <= least, np.abs(values - here[..., axis, None]), np.inf).argmin(axis=-1)[..., None]
+        away = np.where(cost <= least + NOISE, np.abs(values - here[..., axis, None]), np.inf)
+        best = first_least(away)[..., None]
         taken[..., axis] = np.take_along_axis(values, best, axis=-1)[..., 0]
         worst = np.maximum(worst, least[..., 0])
     inside = ((taken >= low) & (taken <= high)).all(axis=-1)

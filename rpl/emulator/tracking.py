@@ -15,6 +15,7 @@ import numpy as np
 
 from rpl.emulator.model import RobotModel
 from rpl.emulator.rotations import FloatArray
+from rpl.emulator.rounding import NOISE, first_least, whole_turns
 
 STEP_DEG = 2.0
 # Samples closer than this fraction of the path are not split again: what still jumps there, jumps.
@@ -135,13 +136,13 @@ def _refined(model: RobotModel, solve: Solver, samples: int) -> Track | MotionFa
         if outside is not None:
             return outside
         steps = np.abs(np.diff(joints, axis=0)) * model.revolute
-        coarse = np.flatnonzero(steps.max(axis=1) > STEP_DEG)
+        coarse = np.flatnonzero(steps.max(axis=1) > STEP_DEG + NOISE)
         if len(coarse) == 0:
             return Track(fractions, joints)
         gaps = fractions[coarse + 1] - fractions[coarse]
         if np.any(gaps < FINEST) or len(fractions) > MOST_SAMPLES:
-            worst = int(coarse[np.argmin(gaps)])
-            axis = int(np.argmax(steps[worst]))
+            worst = int(coarse[first_least(gaps)])
+            axis = int(first_least(-steps[worst]))
             return MotionFault(
                 "singularity",
                 f"joint {axis + 1} would have to jump by {steps[worst, axis]:.1f} degrees",
@@ -198,7 +199,7 @@ def _step_by_step(
             choices = here.joints[0][here.valid[0]]
         if len(choices) == 0:
             return MotionFault("unreachable", "the path leaves the reach of the arm", None, float(fractions[k]))
-        near = np.where(model.revolute, choices + 360.0 * np.round((previous - choices) / 360.0), choices)
-        previous = near[np.argmin(np.abs((near - previous) * model.revolute).max(axis=1))]
+        near = np.where(model.revolute, choices + 360.0 * whole_turns(previous - choices), choices)
+        previous = near[first_least(np.abs((near - previous) * model.revolute).max(axis=1))]
         joints[k] = previous
     return joints

@@ -13,6 +13,10 @@ Triple = tuple[float, float, float]
 Quadruple = tuple[float, float, float, float]
 # Below this cosine of b the first and last angle turn about the same axis.
 GIMBAL = 1e-9
+# Half a turn backwards, within rounding (degrees): it is written as half a turn forwards.
+HALF_TURN_BACK = -180.0 + 1e-9
+# A smaller component of a unit quaternion is what rounding leaves of zero.
+NOISE = 1e-13
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,20 +205,15 @@ def _exact_sine(degrees: float) -> float:
 
 
 def _unit(q: Quadruple) -> Quadruple:
-    """Unit length, w >= 0, and the first component that is not zero positive when w is."""
-    w, x, y, z = q
-    length = math.sqrt(w * w + x * x + y * y + z * z) or 1.0
-    w, x, y, z = w / length, x / length, y / length, z / length
-    if w < 1e-16:  # nothing, or negative: look for the component that leads
-        w, x, y, z = (0.0 if abs(part) < 1e-16 else part for part in (w, x, y, z))
-        if (w or x or y or z) < 0.0:
-            return 0.0 - w, 0.0 - x, 0.0 - y, 0.0 - z
-        return w + 0.0, x + 0.0, y + 0.0, z + 0.0
-    return (
-        *(w, 0.0 if abs(x) < 1e-16 else x + 0.0, 0.0 if abs(y) < 1e-16 else y + 0.0),
-        0.0 if abs(z) < 1e-16 else z + 0.0,
-    )
+    """Unit length, w >= 0, and the first component that is not zero positive when w is. What rounding leaves of a zero
+    is zero, so that it chooses no sign."""
+    length = math.sqrt(sum(part * part for part in q)) or 1.0
+    w, x, y, z = (0.0 if abs(part) < NOISE * length else part / length for part in q)
+    if (w or x or y or z) < 0.0:
+        return 0.0 - w, 0.0 - x, 0.0 - y, 0.0 - z
+    return w, x, y, z
 
 
 def _half_open(degrees: float) -> float:
-    return degrees + 360.0 if degrees <= -180.0 else degrees
+    """Within (-180, 180]; -180 within rounding is 180."""
+    return min(degrees + 360.0, 180.0) if degrees <= HALF_TURN_BACK else degrees

@@ -1,6 +1,6 @@
 """The machine that a program runs on: clock, agenda of events, signals, messages, trace, and how a run ends.
 
-The agenda is a heap ordered by (time, phase, priority, task, sequence): two runs of one program give equal events. All
+The agenda is a heap ordered by (moment, phase, priority, task, sequence): two runs of one program give equal events. All
 state is plain data; what never changes (linked program, robot model, cell) is shared between snapshots.
 """
 
@@ -36,7 +36,9 @@ if TYPE_CHECKING:
 # Phases of one moment, in order.
 INPUTS, ARRIVALS, TIMERS, TASKS, MOTION = range(5)
 MOST_CALLS_SHOWN = 100_000
-Entry = tuple[float, int, int, int, int, str, tuple[Any, ...]]
+# Moments that differ by less (s) are one: how the arithmetic of two ways to one moment rounds decides no order.
+SAME_MOMENT_PLACES = 9
+Entry = tuple[float, int, int, int, int, float, str, tuple[Any, ...]]
 
 
 class Machine:
@@ -108,7 +110,8 @@ class Machine:
     def schedule(self, time: float, phase: int, kind: str, task: int, *data: Any, priority: int = 0) -> None:
         """Put an event on the agenda."""
         self.sequence += 1
-        heappush(self.agenda, (time, phase, priority, task, self.sequence, kind, data))
+        moment = round(time, SAME_MOMENT_PLACES)
+        heappush(self.agenda, (moment, phase, priority, task, self.sequence, time, kind, data))
 
     def token(self) -> int:
         """A number that no other wait has."""
@@ -144,7 +147,7 @@ class Machine:
         if not self.agenda:
             self._stuck()
             return False
-        time, _, _, index, _, kind, data = heappop(self.agenda)
+        _, _, _, index, _, time, kind, data = heappop(self.agenda)
         if time > self.now:
             if time > self.limits.time_s:
                 self.now = max(self.now, self.limits.time_s)

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from rpl.runtime.pieces import Corner, Piece
 
 SAMPLES = 129
-SMALL = 1e-12
+# Moments (s), ways (mm) and fractions of moves that differ by less are one.
+SMALL = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,8 +132,9 @@ def _on_move(piece: Piece, place: Place, trigger: TriggerOrder, rules: TriggerRu
     if place.part in ("into", "back") or (place.part == "move" and place.at < begin):
         return piece.start_s - 1.0
     if place.part == "move" and place.at <= end + SMALL:
-        share = (place.at - begin) / (end - begin) if end > begin else 1.0
-        return piece.start_s + float(piece.plan.law.time_of(min(share, 1.0)))
+        if place.at >= end - SMALL or end <= begin:  # at rest there: a last bit of way would be 1e-8 s
+            return piece.end_s
+        return piece.start_s + float(piece.plan.law.time_of((place.at - begin) / (end - begin)))
     if piece.ahead is not None:
         if rules.end_at_joint_corner and _is_left_for_joints(piece, piece.ahead):
             return piece.end_s

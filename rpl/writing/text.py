@@ -72,9 +72,13 @@ def _with_exponent(exact: Decimal, style: NumberStyle) -> str:
 
 
 def round_decimal(value: Decimal, decimals: int) -> Decimal:
-    """Rounded to a count of places, whatever the size of the number."""
+    """Rounded to a count of places, whatever the size of the number. A value on the line between two of them is taken as
+    just there before it is rounded: the noise of its last places decides no digit."""
     if value.adjusted() + decimals > 25:  # far more digits than a float has: nothing to round
         return value
+    finer = min(decimals + 6, 11 - value.adjusted())
+    if finer > decimals:
+        value = value.quantize(Decimal(1).scaleb(-finer), ROUND_HALF_EVEN)
     return value.quantize(Decimal(1).scaleb(-decimals), ROUND_HALF_EVEN)
 
 
