@@ -20,6 +20,7 @@ from rpl.emulator.rotations import FloatArray, IntArray, pose_matrix, zyx_to_mat
 from rpl.emulator.rotations import matrix_to_zyz as all_zyz
 from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
+from rpl.passes.rigid import angle_of
 
 WORDS: Final = {"shoulder": ("RIGHTY", "LEFTY"), "elbow": ("ABOVE", "BELOW"), "wrist": ("NOFLIP", "FLIP")}
 _TRANS = re.compile(r"TRANS\s*\(([^()]*)\)", re.IGNORECASE)
@@ -132,11 +133,10 @@ def matrix_to_zyz(matrix: FloatArray) -> tuple[float, float, float]:
     sine = float(np.hypot(turn[0, 2], turn[1, 2]))
     if sine < 1e-9:
         down = bool(turn[2, 2] < 0.0)
-        across = turn[0, 1] if down else -turn[0, 1]
-        return 0.0, 180.0 if down else 0.0, float(np.degrees(np.arctan2(across, turn[1, 1])))
-    yaw = float(np.degrees(np.arctan2(turn[1, 2], turn[0, 2])))
-    roll = float(np.degrees(np.arctan2(turn[2, 1], -turn[2, 0])))
-    return yaw, float(np.degrees(np.arctan2(sine, turn[2, 2]))), roll
+        across = float(turn[0, 1] if down else -turn[0, 1])
+        return 0.0, 180.0 if down else 0.0, angle_of(across, float(turn[1, 1]))
+    yaw, roll = angle_of(float(turn[1, 2]), float(turn[0, 2])), angle_of(float(turn[2, 1]), -float(turn[2, 0]))
+    return yaw, angle_of(sine, float(turn[2, 2])), roll
 
 
 NOTATION: Final = VplusNotation()

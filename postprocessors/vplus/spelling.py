@@ -34,10 +34,8 @@ def zyz(rotation: rigid.Rotation) -> tuple[float, float, float]:
     sine = math.hypot(xz, yz)
     if sine < rigid.GIMBAL:
         down = zz < 0.0
-        turn = math.degrees(math.atan2(xy if down else -xy, yy))
-        return 0.0, 180.0 if down else 0.0, rigid.clean(turn)
-    yaw, roll = math.degrees(math.atan2(yz, xz)), math.degrees(math.atan2(zy, -zx))
-    return rigid.clean(yaw), rigid.clean(math.degrees(math.atan2(sine, zz))), rigid.clean(roll)
+        return 0.0, 180.0 if down else 0.0, rigid.angle_of(xy if down else -xy, yy)
+    return rigid.angle_of(yz, xz), rigid.angle_of(sine, zz), rigid.angle_of(zy, -zx)
 
 
 def components(pose: rigid.Pose) -> list[str]:

@@ -173,8 +173,10 @@ class RobotModel:
         return self._pendant(theta.copy(order="K"))
 
     def canonical(self, joints: ArrayLike) -> FloatArray:
-        """Joints (..., n) with whole turns taken off: revolute ones in (-180, 180], rounding noise at 90s removed. Half a
-        turn is +180 also where rounding has left a little more noise than that."""
+        """Joints (..., n) with whole turns taken off: revolute ones in (-180, 180], rounding noise at 90s removed.
+
+        Half a turn is +180 also where rounding has left a little more noise than that.
+        """
         return self._reduced(np.array(joints, dtype=np.float64))
 
     def _pendant(self, theta: FloatArray) -> FloatArray:
@@ -285,8 +287,7 @@ class RobotModel:
         return [int(axis) for axis in np.flatnonzero(outside | np.isnan(q))]
 
     def posture(self, joints: ArrayLike) -> Posture:
-        """The posture of one joint vector (n,), computed from the geometry; what lies on a boundary within rounding is on
-        its near side."""
+        """The posture of one joint vector (n,), from the geometry; on a boundary within rounding: its near side."""
         branch = self.arm.branch(self.theta(joints))
         return Posture(bool(branch.shoulder), not branch.elbow, bool(branch.elbow), bool(branch.wrist))
 

@@ -68,6 +68,12 @@ class Rotation:
         w, x, y, z = self.quaternion
         return Rotation((w, -x, -y, -z))
 
+    @property
+    def angle(self) -> float:
+        """By how much it turns, degrees in 0..180; exact for small turns too."""
+        w, *rest = self.quaternion
+        return math.degrees(2.0 * math.atan2(math.hypot(*rest), abs(w)))
+
     def turn(self, vector: Vector) -> Vector:
         """The vector turned by this rotation."""
         rows = self.rows
@@ -117,7 +123,10 @@ IDENTITY = Pose(Vector(0.0, 0.0, 0.0), NO_TURN)
 def rotation_of_quaternion(w: float, x: float, y: float, z: float) -> Rotation | None:
     """The rotation of a quaternion of any length; None for one of length zero."""
     length = math.sqrt(w * w + x * x + y * y + z * z)
-    return None if length < 1e-12 else Rotation((w / length, x / length, y / length, z / length))
+    if length < 1e-12:
+        return None
+    w, x, y, z = (0.0 if abs(part) < NOISE * length else part / length for part in (w, x, y, z))
+    return Rotation((w, x, y, z))
 
 
 def rotation_of_zyx(a: float, b: float, c: float) -> Rotation:
@@ -159,16 +168,17 @@ def quaternion_to_zyx(quaternion: Quadruple) -> Triple:
     (xx, xy, xz), (yx, yy, yz), (zx, _, _) = Rotation(quaternion).rows
     cosine = math.hypot(xx, yx)
     if cosine < GIMBAL:
-        return clean(_half_open(math.degrees(math.atan2(-xy, yy)))), math.copysign(90.0, -zx), 0.0
+        return angle_of(-xy, yy), math.copysign(90.0, -zx), 0.0
     a = math.atan2(yx, xx)
     s, k = math.sin(a), math.cos(a)
     c = math.atan2(s * xz - k * yz, k * yy - s * xy)
     b = math.atan2(-zx, cosine)
-    return (
-        clean(_half_open(math.degrees(a))),
-        clean(math.degrees(b)),
-        clean(_half_open(math.degrees(c))),
-    )
+    return clean(_half_open(math.degrees(a))), clean(math.degrees(b)), clean(_half_open(math.degrees(c)))
+
+
+def angle_of(sine: float, cosine: float) -> float:
+    """The angle in (-180, 180] degrees of a sine and a cosine times one length, without noise in its last places."""
+    return clean(_half_open(math.degrees(math.atan2(sine, cosine))))
 
 
 def clean(value: float) -> float:

@@ -15,6 +15,7 @@ from rpl.passes import rigid
 from rpl.runtime import leftout
 from rpl.runtime.chain import Planning, request_of
 from rpl.runtime.orders import BlendOrder, Drive, Order, PathRuleOrder, TriggerOrder
+from rpl.runtime.pathevents import SMALL
 from rpl.runtime.pieces import Piece
 from rpl.runtime.ranges import outside
 
@@ -201,9 +202,9 @@ def _triggers(move: PlannedMove, marks: Sequence[float], orders: Sequence[Order]
             place = float(ways[number] if begins else ways[number + 1]) + (trigger.distance or 0.0)
             moved = trigger.copy()
             moved.reference, moved.distance = "start", place
-            if place <= 0.0:
+            if place <= SMALL:
                 moved.distance = None
-            elif place >= whole:
+            elif place >= whole - SMALL:
                 moved.reference, moved.distance = trigger.reference if not begins else "end", None
             done.append(moved)
     return done
@@ -219,7 +220,7 @@ def look_ahead(queue: MotionQueue, piece: Piece) -> None:
         return
     begin, end = piece.plan.span
     mark = drive.marks[drive.passed]
-    if mark > end or end <= begin:
+    if mark > end - SMALL or end <= begin:  # a point at the very end is passed with it
         return
     share = max((mark - begin) / (end - begin), 0.0)
     due = piece.start_s + float(piece.plan.law.time_of(share))

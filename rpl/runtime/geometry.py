@@ -133,10 +133,8 @@ def zyz_angles(turn: rigid.Rotation) -> rigid.Triple:
     sine = math.hypot(xz, yz)
     if sine < 1e-9:
         down = zz < 0.0
-        roll = math.degrees(math.atan2(xy if down else -xy, yy))
-        return 0.0, 180.0 if down else 0.0, rigid.clean(roll)
-    yaw, roll = math.degrees(math.atan2(yz, xz)), math.degrees(math.atan2(zy, -zx))
-    return rigid.clean(yaw), rigid.clean(math.degrees(math.atan2(sine, zz))), rigid.clean(roll)
+        return 0.0, 180.0 if down else 0.0, rigid.angle_of(xy if down else -xy, yy)
+    return rigid.angle_of(yz, xz), rigid.angle_of(sine, zz), rigid.angle_of(zy, -zx)
 
 
 def rotation_of_zyz(yaw: float, pitch: float, roll: float) -> rigid.Rotation:
@@ -177,7 +175,7 @@ def _aligned(value: Value) -> PoseValue:
     here = pose.rigid()
     z = here.rotation.turn(rigid.Vector(0.0, 0.0, 1.0))
     parts = (z.x, z.y, z.z)
-    longest = max(range(3), key=lambda axis: abs(parts[axis]))
+    longest = max(range(3), key=lambda axis: round(abs(parts[axis]), 9))  # of equals the first
     goal = rigid.Vector(*(math.copysign(1.0, parts[axis]) if axis == longest else 0.0 for axis in range(3)))
     across = z.cross(goal)
     angle = math.degrees(math.atan2(across.length, z.dot(goal)))

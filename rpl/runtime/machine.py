@@ -1,7 +1,7 @@
 """The machine that a program runs on: clock, agenda of events, signals, messages, trace, and how a run ends.
 
-The agenda is a heap ordered by (moment, phase, priority, task, sequence): two runs of one program give equal events. All
-state is plain data; what never changes (linked program, robot model, cell) is shared between snapshots.
+The agenda is a heap ordered by (moment, phase, priority, task, sequence): two runs of one program give equal events.
+All state is plain data; what never changes (linked program, robot model, cell) is shared between snapshots.
 """
 
 from __future__ import annotations

@@ -72,8 +72,8 @@ def _with_exponent(exact: Decimal, style: NumberStyle) -> str:
 
 
 def round_decimal(value: Decimal, decimals: int) -> Decimal:
-    """Rounded to a count of places, whatever the size of the number. A value on the line between two of them is taken as
-    just there before it is rounded: the noise of its last places decides no digit."""
+    """Rounded to a count of places, whatever the size of the number. What lies between two of them within the noise
+    of its last places lies just there before it is rounded: noise decides no digit."""
     if value.adjusted() + decimals > 25:  # far more digits than a float has: nothing to round
         return value
     finer = min(decimals + 6, 11 - value.adjusted())

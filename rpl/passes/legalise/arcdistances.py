@@ -15,6 +15,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes import rigid
+from rpl.passes.curves import circle_through
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.beside import closure, moves_or_waits, tidy
 from rpl.passes.legalise.context import Context
@@ -266,20 +267,8 @@ def written(move: ir.Move, triggers: Sequence[ir.Trigger], editor: Editor, uncha
 
 def _arc(points: list[rigid.Vector]) -> tuple[float, float] | None:
     """Radius and length of an arc through three points, mm; None where they are on a line."""
-    start, via, end = ((one.x, one.y, one.z) for one in points)
-    a, b, c = math.dist(via, end), math.dist(start, end), math.dist(start, via)
-    square = (a + b + c) * (b + c - a) * (a + c - b) * (a + b - c)
-    if square <= 1e-9:
-        return None
-    radius = a * b * c / math.sqrt(square)
-    halves = (math.asin(min(side / (2.0 * radius), 1.0)) for side in (c, a))
-    # an angle on the circle is twice that over its chord; the larger of two chords may lie over more than half of it
-    first, second = halves
-    if c * c > a * a + b * b:
-        first = math.pi - first
-    if a * a > b * b + c * c:
-        second = math.pi - second
-    return radius, 2.0 * radius * (first + second)
+    circle = circle_through(*points)
+    return None if circle is None else (circle.radius, circle.radius * circle.sweep)
 
 
 def _constant(trigger: ir.Trigger, distance: float, radius: float, length: float) -> ir.Trigger:

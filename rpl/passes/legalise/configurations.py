@@ -415,7 +415,7 @@ class _Configurations(Rewriter):
         if joints is None:
             return _Refused(selection.reason)
         if self.near:
-            return {name: round(float(value)) for name, value in zip(_AXES, joints, strict=False)}
+            return {name: round(round(float(value), 6)) for name, value in zip(_AXES, joints, strict=False)}
         wanted = _notation(self.target_notation)
         return wanted.encode(_any(self.to_arm), joints) if wanted is not None else {}
 
@@ -444,7 +444,7 @@ class _Configurations(Rewriter):
             # whole turns leave the posture as it is
             differing = 0 if posture is None else _differing(posture, arm.posture(solution.joints).branch)
             for choice in arm.expand_turns(solution):
-                travel = float(abs(choice - near).sum())
+                travel = round(float(abs(choice - near).sum()), 6)  # of equals the first
                 if (differing, travel) < rank:
                     best, rank = choice, (differing, travel)
         return best

@@ -43,6 +43,7 @@ _KNOWN = " and the usual acceleration"
 _TIME, _SPEED, _PERCENT = ir.System("move_duration"), ir.System("path_speed"), ir.System("joint_speed")
 _ROTATION = "swivel_speed"
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
+_MORE = 1.0 + 1e-9  # times what rounding may add
 _SHORT_MM, _SMALL_DEG = 0.05, 0.05  # less than this is no way and no turn
 # How fast the tool turns, and how that begins and ends, where nothing is said: the emulator's values, deg/s and deg/s2.
 _TURN_SPEED, _TURN_ACCELERATION = 180.0, 600.0
@@ -165,7 +166,7 @@ class _Times:
         if natural is None or not isinstance(seconds, int | float):
             if (shown := self.slowed(move)) is not None:
                 self.editor.context.diagnostics.report(LEAST, move.origin, speed=shown)
-        elif natural > seconds:
+        elif natural > seconds * _MORE:
             return replace(move, settings=kept)
         return replace(move, settings=kept, speed=replace(move.speed or ir.Speed(), duration=time))
 
@@ -176,7 +177,7 @@ class _Times:
         found, full = _number(state[name]), _number(self.flow.start.get(name))
         if found is None:
             return "which hangs on the run"
-        return None if full is not None and found >= full else f"{found:g}{unit}"
+        return None if full is not None and found * _MORE >= full else f"{found:g}{unit}"
 
     def natural(self, move: ir.Move) -> float | None:
         """Seconds that the move takes at the speed in force, its ramps left out; None where that is not known."""

@@ -207,7 +207,7 @@ class _Arcs:
         apart = 0.0
         for count in _COUNTS if splits else (1,):
             apart = _apart(circle, angle / count, start.rotation, rotations(1.0 / count))
-            if apart <= _NOTICED_DEG and _turn(start.rotation, rotations(1.0 / count)) <= _MOST_TURN_DEG:
+            if apart <= _NOTICED_DEG and _turn(start.rotation, rotations(1.0 / count)) <= _MOST_TURN_DEG + 1e-6:
                 break
         else:
             self.context.diagnostics.report(TURNS_OTHERWISE, move.origin, how=f"by {apart:.3g} degrees between")
@@ -388,7 +388,7 @@ def _written(place: rigid.Vector, rotation: rigid.Rotation, notation: str) -> ir
 
 def _turn(one: rigid.Rotation, other: rigid.Rotation) -> float:
     """The shortest turn from one rotation to the other, in degrees."""
-    return 2.0 * math.degrees(math.acos(min(1.0, abs(one.inverse.then(other).quaternion[0]))))
+    return one.inverse.then(other).angle
 
 
 def _apart(circle: Circle, angle: float, begin: rigid.Rotation, end: rigid.Rotation) -> float:

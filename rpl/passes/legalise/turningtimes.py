@@ -6,13 +6,13 @@ target makes of it is named later.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes import rigid
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
@@ -101,8 +101,7 @@ class _Turns:
         here, there = pose_of(self.known(before.target)), pose_of(self.known(move.target))
         if here is None or there is None:
             return None
-        w, *rest = here.rotation.inverse.then(there.rotation).quaternion
-        angle = math.degrees(2.0 * math.atan2(math.hypot(*rest), abs(w)))
+        angle = rigid.clean(here.rotation.inverse.then(there.rotation).angle)
         return angle if angle >= _SMALLEST_DEG else None
 
 

@@ -37,6 +37,7 @@ EXTENDED = code(
 # Smaller turns (degrees) beside a zone make no difference worth telling.
 _TOLD_TURN = 1.0
 _NO_WAY, _NO_TURN = 1e-3, 1e-3
+_ROUNDING = 1e-6  # what rounding may add to a size, deg or thousandths
 
 
 def reduced_zones(program: ir.Program, context: Context) -> ir.Program:
@@ -69,9 +70,11 @@ def full_zones(program: ir.Program, context: Context) -> ir.Program:
     def change(zone: _Zone, beside: list[_Leg]) -> ir.Blend:
         needed = max((min(zone.path / leg.way, 0.5) * leg.turn for leg in beside if leg.turn > _NO_TURN), default=0.0)
         value = zone.blend.zone
-        if needed <= zone.rotation or not isinstance(value, ir.Aggregate):
+        if needed <= zone.rotation + _ROUNDING or not isinstance(value, ir.Aggregate):
             return zone.blend
-        new: dict[str | None, ir.Expression] = {"rotation": ir.RealLiteral(math.ceil(needed * 1000.0) / 1000.0)}
+        new: dict[str | None, ir.Expression] = {
+            "rotation": ir.RealLiteral(math.ceil(needed * 1000.0 - _ROUNDING) / 1000.0)
+        }
         new["rotation_path"] = dict(value.entries)["path"]
         entries = tuple((name, new.get(name, part)) for name, part in value.entries)
         return replace(zone.blend, zone=replace(value, entries=entries))
@@ -182,8 +185,7 @@ def _leg(start: _Place | None, end: _Place | None) -> _Leg | None:
     if start is None or end is None or start.frames != end.frames:
         return None
     way = end.pose.position.plus(start.pose.position, -1.0).length
-    turned = start.pose.rotation.inverse.then(end.pose.rotation).quaternion
-    turn = math.degrees(2.0 * math.acos(min(abs(turned[0]), 1.0)))
+    turn = start.pose.rotation.inverse.then(end.pose.rotation).angle
     return _Leg(way, turn) if way > _NO_WAY else None
 
 

@@ -274,8 +274,7 @@ def arc_length(start: rigid.Vector, via: rigid.Vector, end: rigid.Vector) -> flo
 
 
 def _angle(one: rigid.Rotation, two: rigid.Rotation) -> float:
-    w, *rest = one.inverse.then(two).quaternion
-    return math.degrees(2.0 * math.atan2(math.hypot(*rest), abs(w)))
+    return one.inverse.then(two).angle
 
 
 def _far(one: rigid.Vector, two: rigid.Vector) -> float:
