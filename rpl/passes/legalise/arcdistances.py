@@ -267,7 +267,8 @@ def written(move: ir.Move, triggers: Sequence[ir.Trigger], editor: Editor, uncha
 
 def _arc(points: list[rigid.Vector]) -> tuple[float, float] | None:
     """Radius and length of an arc through three points, mm; None where they are on a line."""
-    circle = circle_through(*points)
+    start, via, end = points
+    circle = circle_through(start, via, end)
     return None if circle is None else (circle.radius, circle.radius * circle.sweep)
 
 
