@@ -26,8 +26,9 @@ from rpl.emulator.cornerpaths import (
 from rpl.emulator.mechanisms import Carried
 from rpl.emulator.model import RobotModel
 from rpl.emulator.paths import Path
-from rpl.emulator.planner import NO_WAY, Geometry, JointGeometry, PathGeometry, PlannedMove, flanges_of
+from rpl.emulator.planner import Geometry, JointGeometry, PathGeometry, PlannedMove, flanges_of
 from rpl.emulator.rotations import FloatArray
+from rpl.emulator.rounding import NO_WAY
 from rpl.emulator.timelaw import Profile, TimeLaw
 from rpl.emulator.tracking import MotionFault, track_flanges
 

@@ -19,7 +19,7 @@ from rpl.emulator.mechanisms import Carried, Carrier, ExternalWay, along
 from rpl.emulator.model import RobotModel
 from rpl.emulator.paths import Arc, Line, Path, arc_through
 from rpl.emulator.rotations import FloatArray, invert_pose, pose_matrix, rotation_angle
-from rpl.emulator.rounding import NOISE, first_least, steps_of
+from rpl.emulator.rounding import NO_WAY, NOISE, first_least, steps_of
 from rpl.emulator.timelaw import Profile, TimeLaw, mean_acceleration, of_constant_time, slowed_to
 from rpl.emulator.tracking import MotionFault, Track, solve_arm_joints, track_flanges, track_wrist_joints
 
@@ -33,8 +33,6 @@ SPEED_SLACK = 1e-3
 SINGULAR_CONDITION = 25.0
 # Where a flange on a carried path is looked at first, to tell how finely the path has to be followed.
 _ROUGH = np.linspace(0.0, 1.0, 17)
-# Shorter ways (mm) and smaller turns (degrees) of a path are what rounding leaves of none.
-NO_WAY = 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -348,8 +346,7 @@ def _plan_joint(model: RobotModel, start: FloatArray, request: MoveRequest) -> P
     end = joint_target(model, start, request)
     if isinstance(end, MotionFault):
         return end
-    if np.abs(end - start).max() < NOISE:  # else rounding alone would be a way, with a speed and corners
-        end = start
+    end = start if np.abs(end - start).max() < NOISE else end  # rounding alone is no way, with a speed and corners
     geometry = joint_geometry(model, start, end, request.tool, request.carried())
     way = np.abs(end - start)
     with np.errstate(divide="ignore"):
@@ -392,13 +389,10 @@ def joint_geometry(
 
 def joint_target(model: RobotModel, start: FloatArray, request: MoveRequest) -> FloatArray | MotionFault:
     """The joints (n,) in which a joint move ends, within their limits."""
-    if request.target_joints is not None:
-        joints = np.asarray(request.target_joints, dtype=np.float64)
-    else:
-        found = _pose_target(model, start, request)
-        if isinstance(found, MotionFault):
-            return found
-        joints = found
+    given = request.target_joints
+    joints = _pose_target(model, start, request) if given is None else np.asarray(given, dtype=np.float64)
+    if isinstance(joints, MotionFault):
+        return joints
     outside = model.within_limits(joints)
     if outside:
         axis = outside[0]

@@ -13,6 +13,8 @@ from rpl.emulator.rotations import FloatArray
 # Far above the noise of double precision in mm, degrees, seconds and shares, and far below what a robot repeats.
 PLACES = 9
 NOISE = 1e-9
+# Shorter ways (mm) and smaller turns (degrees) of a path are what rounding leaves of none.
+NO_WAY = 1e-6
 
 
 def steps_of(whole: float, each: float, fewest: int, most: int) -> int:
