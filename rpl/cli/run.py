@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -149,6 +150,14 @@ def _not_started(diagnostics: Diagnostics, as_json: bool) -> int:
     return 1
 
 
+def _warnings(result: RunResult) -> Iterator[str]:
+    """What the controller would have logged on the way, each with its place."""
+    for event in result.trace:
+        if event.kind == "warning":
+            data, origin = event.data, event.origin
+            yield f"{origin.file}:{origin.line}: warning {data['code']} {data['text']} (task {event.task})"
+
+
 def show(result: RunResult) -> None:
     """The run for people."""
     document = result.as_json()
@@ -158,12 +167,8 @@ def show(result: RunResult) -> None:
         click.echo(f"{t:9.3f} s  {name} = {str(value).upper() if isinstance(value, bool) else value}")
     for message in messages:
         click.echo(f"message    {message}")
-    for event in result.trace:
-        if event.kind == "warning":
-            data, origin = event.data, event.origin
-            click.echo(
-                f"{origin.file}:{origin.line}: warning {data['code']} {data['text']} (task {event.task})", err=True
-            )
+    for text, times in Counter(_warnings(result)).items():
+        click.echo(f"{text} [{times} times]" if times > 1 else text, err=True)
     click.echo(f"{result.status} after {result.time_s:.3f} s, {result.moves} moves, {result.statements} statements")
     if isinstance(fault, dict):
         place = f"{fault['file']}:{fault['line']}: " if fault["file"] else ""

@@ -63,3 +63,16 @@ def test_the_command_line_folds_and_json_does_not(tmp_path: Path, capsys: pytest
     assert len(json.loads(captured.out)["diagnostics"]) == 40
     assert run(["check", str(program)]) == 1
     assert "1 files, 40 errors" in capsys.readouterr().out
+
+
+def test_what_a_run_warns_of_in_every_pass_is_told_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A UR leaves out a move whose blend is longer than what the one before leaves of the way, in each pass."""
+    program = tmp_path / "loop.script"
+    moves = "".join(
+        f"    movel(p[{x}, -0.2, 0.3, 0, 3.14159, 0], a=1.2, v=0.25, r={r})\n"
+        for x, r in ((0.30, 0.0), (0.35, 0.04), (0.40, 0.04), (0.45, 0.0))
+    )
+    program.write_text(f"def loop():\n  i = 0\n  while i < 3:\n{moves}    i = i + 1\n  end\nend\n")
+    run(["run", str(program), "--robot", "ur5e"])
+    warned = [line for line in capsys.readouterr().err.splitlines() if " warning overlapping-blends " in line]
+    assert warned and all(line.endswith("[3 times]") for line in warned), warned

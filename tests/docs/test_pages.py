@@ -32,6 +32,8 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").g
 NOT_RUN = "# (not run by the tests:"
 # Blocks that install or run the tests themselves.
 HOW_MANY_NOT_RUN = 3
+# Languages of fenced blocks; the first two are run.
+KNOWN = ("sh", "python", "rpl", "toml", "json", "csv", "text")
 # As asked, or with what the exit status says: written with guarded stops, alike and not equal.
 DONE = (0, 3)
 
@@ -146,7 +148,7 @@ def test_commands_stand_in_blocks_that_are_run(page: Path) -> None:
     outside = re.sub(r"^```.*?^```$", "", page.read_text("utf-8"), flags=re.DOTALL | re.MULTILINE)
     hidden = re.findall(r"^(?: {4}|\t)(?:\$ )?(?:rpl|pip|make|python\d?) .*", outside, re.MULTILINE)
     assert hidden == []
-    unknown = [block.line for block in blocks(page) if block.language not in ("sh", "python", "rpl", "toml", "text")]
+    unknown = [block.line for block in blocks(page) if block.language not in KNOWN]
     assert unknown == []
 
 
