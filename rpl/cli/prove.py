@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from rpl.cli.limits import limit_options, limits_of
@@ -16,8 +18,13 @@ from rpl.cli.output import (
     robots_exist,
     waiting,
 )
+from rpl.cli.verdicts import accepting, status_of
 from rpl.diagnostics import Severity
 from rpl.errors import UsageError
+
+if TYPE_CHECKING:
+    from rpl import ir
+    from rpl.proof.tolerance import Accepted
 
 
 @click.command("prove")
@@ -36,7 +43,7 @@ from rpl.errors import UsageError
     default="plain",
     help="Who moves both robots: a language's controller or a file; else constant accelerations.",
 )
-@click.option("--tolerance", type=float, metavar="MM", help="Distance of the tool paths that still counts as equal.")
+@accepting
 @limit_options
 @json_option
 def command(
@@ -50,7 +57,7 @@ def command(
     dialect: str | None,
     other: str | None,
     controller: str,
-    tolerance: float | None,
+    accepted: Accepted,
     max_time: float | None,
     max_steps: int | None,
     max_events: int | None,
@@ -58,27 +65,20 @@ def command(
 ) -> int:
     """Decide by running both whether the programs A and B (each a file, folder or archive) mean the same.
 
-    Exit status 0 when they do, 1 when they do not; the first difference is shown with both source lines.
+    The first line is the verdict: equal (exit status 0), alike (3: the same events in the same order, but measures
+    deviate, each is named), different (1: the first difference is shown with both lines), or undecided (1: the runs do
+    not show enough).
     """
     from rpl.controllers import controller_named
-    from rpl.project import read_program
     from rpl.proof.cellnames import report_unknown_signals
     from rpl.proof.prove import load_cell, prove_programs
+    from rpl.proof.tolerance import accepted_kinds
 
-    if tolerance is not None and not tolerance >= 0:
-        raise UsageError(f"--tolerance: {tolerance:g} is not a distance")
+    accepted_kinds(accepted.kinds)
     limits, driver = limits_of(max_time, max_steps, max_events), controller_named(controller)
     robots_exist(robot, to_robot)
-    surroundings, sources, unknown = load_cell(cell), opened([a, b]), collector()
-    programs = []
-    for path, source, language in zip((a, b), sources, (dialect, other), strict=True):
-        diagnostics = collector()
-        with waiting("reading"):
-            read = read_program([source], dialect_exists(language), diagnostics)
-        print_diagnostics(diagnostics, Severity.WARNING)
-        if not read.files:
-            raise UsageError(f"no robot program in {path}; name the language with --from or --to if there is one")
-        programs.append(read.program)
+    surroundings, unknown = load_cell(cell), collector()
+    programs = _both((a, b), (dialect, other))
     report_unknown_signals(programs[0], surroundings, unknown)
     print_diagnostics(unknown, Severity.WARNING)
     with waiting("proving"):
@@ -90,7 +90,7 @@ def command(
             surroundings,
             entry=entry,
             to_entry=to_entry or entry,
-            path_mm=tolerance,
+            accepted=accepted,
             controller=driver,
             limits=limits,
         )
@@ -98,4 +98,20 @@ def command(
         print_json(result.as_json())
     else:
         click.echo(result.as_text())
-    return 0 if result.equal else 1
+    return status_of(result)
+
+
+def _both(paths: tuple[str, str], languages: tuple[str | None, str | None]) -> list[ir.Program]:
+    """The programs that are compared. Raises UsageError for a path without one."""
+    from rpl.project import read_program
+
+    programs = []
+    for path, source, language in zip(paths, opened(paths), languages, strict=True):
+        diagnostics = collector()
+        with waiting("reading"):
+            read = read_program([source], dialect_exists(language), diagnostics)
+        print_diagnostics(diagnostics, Severity.WARNING)
+        if not read.files:
+            raise UsageError(f"no robot program in {path}; name the language with --from or --to if there is one")
+        programs.append(read.program)
+    return programs

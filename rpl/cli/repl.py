@@ -17,7 +17,7 @@ from rpl import ir
 from rpl.cli.output import robot_named, robot_option
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.errors import RplError
-from rpl.proof.compare import in_words
+from rpl.proof.events import in_words
 from rpl.proof.record import Happening, Record, Stretch
 from rpl.source import source_from_text
 

@@ -11,7 +11,6 @@ import click
 
 from rpl import registry
 from rpl.cli.output import (
-    accept_option,
     collector,
     from_option,
     json_option,
@@ -24,12 +23,14 @@ from rpl.cli.output import (
     waiting,
     write_file,
 )
+from rpl.cli.verdicts import accepting, status_of
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.errors import InternalError, UsageError
 
 if TYPE_CHECKING:
     from rpl.project import ReadProgram
-    from rpl.proof.prove import ProofResult
+    from rpl.proof.tolerance import Accepted
+    from rpl.proof.verdict import ProofResult
     from rpl.translation import Translation
     from rpl.writing.target import OutputFile
 
@@ -58,7 +59,7 @@ OK, NO, GUARDED = 0, 1, 3
     "--option", "options", multiple=True, metavar="NAME=VALUE", help="An option of the target language; repeatable."
 )
 @click.option("--strict", is_flag=True, help="Take every approximation for an error.")
-@accept_option
+@accepting
 @json_option
 def command(
     paths: Sequence[str],
@@ -73,13 +74,14 @@ def command(
     registers: Path | None,
     options: Sequence[str],
     strict: bool,
-    accepted: Sequence[str],
+    accepted: Accepted,
     as_json: bool,
 ) -> int:
     """Write programs in another controller's language.
 
     What the target cannot say becomes a comment and the target's own stop, is listed, and gives exit status 3. Without
-    -o the program is printed.
+    -o the program is printed. With --prove the first line is the verdict: equal, alike (exit status 3), different or
+    undecided (1); --accept takes measures of the proof too.
     """
     from rpl.cell import read_cell
     from rpl.proof.cellnames import report_unknown_signals
@@ -91,7 +93,7 @@ def command(
     robots_exist(robot, to_robot)
     kept = read_registers(registers) if registers is not None else None
     around = read_cell(cell) if cell is not None else None
-    diagnostics = collector(accepted)
+    diagnostics = collector(sorted(accepted.kinds))
     read = read_paths(paths, dialect, diagnostics)
     if diagnostics.has_errors:
         return _refuse(diagnostics, as_json)
@@ -110,15 +112,14 @@ def command(
     written = _write(_printed(translation, target, proving) if alone else translation.files, output)
     if output is not None and translation.registers:
         written.append(_write_registers(translation, output))
-    proof = _prove(read, translation, target, robot, to_robot or robot, cell, entry) if proving else None
+    proof = _prove(read, translation, target, robot, to_robot or robot, cell, accepted, entry) if proving else None
     print_diagnostics(diagnostics)
     if as_json:
         print_json(_document(translation, written, diagnostics, proof))
     else:
-        _print(translation, written, output, proof)
-    if proof is not None and not proof.equal:
-        return NO
-    return GUARDED if diagnostics.has_losses else OK
+        _print(translation, written, output, proof, len(diagnostics.of(Severity.WARNING)))
+    proved = status_of(proof) if proof is not None else OK
+    return proved if proved != OK or not diagnostics.has_losses else GUARDED
 
 
 def _target(word: str, options: dict[str, str]) -> str:
@@ -231,6 +232,7 @@ def _prove(
     robot: str | None,
     to_robot: str | None,
     cell: str | None,
+    accepted: Accepted,
     entry: str | None = None,
 ) -> ProofResult:
     """Read the written files back and compare the runs of both programs."""
@@ -252,7 +254,14 @@ def _prove(
         # A script begins with itself, also where the first routine is called besides and stands in it as one of many.
         to_entry = back.program.entry or translation.renamed.get(entry, entry) if entry else None
         return prove_programs(
-            read.program, again_named, robot, to_robot, load_cell(cell), entry=entry, to_entry=to_entry
+            read.program,
+            again_named,
+            robot,
+            to_robot,
+            load_cell(cell),
+            entry=entry,
+            to_entry=to_entry,
+            accepted=accepted,
         )
 
 
@@ -272,8 +281,15 @@ def _document(
 
 
 def _print(
-    translation: Translation, written: Sequence[dict[str, object]], output: Path | None, proof: ProofResult | None
+    translation: Translation,
+    written: Sequence[dict[str, object]],
+    output: Path | None,
+    proof: ProofResult | None,
+    warnings: int,
 ) -> None:
+    """The verdict first, if there is one; then what was written and how much of it is not as it was."""
+    if proof is not None:
+        click.echo(proof.as_text(), err=output is None)
     if output is None:
         for row in written:
             click.echo(row["text"], nl=False)
@@ -282,8 +298,11 @@ def _print(
             click.echo(f"wrote {row['written']}")
         for old, new in translation.renamed.items():
             click.echo(f"renamed {old} to {new}")
-        losses = len(translation.losses)
-        said = f"{losses} losses, listed above; what could not be said stops the program there"
-        click.echo(said if losses else "nothing was lost")
-    if proof is not None:
-        click.echo(proof.as_text(), err=output is None)
+        click.echo(_summary(len(translation.losses), warnings))
+
+
+def _summary(losses: int, warnings: int) -> str:
+    """How much of a translation is not as it was in the source."""
+    said = [f"{losses} losses, listed above: what could not be said stops the program there"] if losses else []
+    said += [f"{warnings} approximations or remarks, listed above"] if warnings else []
+    return "; ".join(said) if said else "every statement was written"

@@ -219,7 +219,8 @@ def _timed_output(statement: ir.Pulse | ir.SetAfter, linker: RoutineLinker) -> M
             if pulse:
                 write(f, level)
             later = (not level) if pulse else level
-            task.machine.output_later(task, physical, later, _in_steps(seconds(f), step), task.frame.code, here)
+            timed = ("pulse" if pulse else "delay", _in_steps(seconds(f), step))
+            task.machine.output_later(task, physical, later, timed, task.frame.code, here)
             return next if not task.interrupts.pending else task.attention(next)
 
         return switch

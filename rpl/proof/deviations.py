@@ -13,8 +13,11 @@ from rpl.proof.difference import Side
 
 # kind -> (what differs, in words for people with {amount} and {count}, unit). The order is that of the verdict's line.
 KINDS: dict[str, tuple[str, str]] = {
+    "path": ("tool paths up to {amount} apart at {count} moves", "mm"),
     "corner": ("tool paths up to {amount} apart at {count} corners", "mm"),
-    "turning": ("tool turned up to {amount} apart at {count} moves", "deg"),
+    "turning": ("the tool turned up to {amount} apart at {count} corners", "deg"),
+    "stop": ("one robot stops where the other passes at {count} points", ""),
+    "sensed": ("moves that a sensor ends are left up to {amount} apart at {count} places", "mm"),
     "place": ("outputs switch up to {amount} apart along the path at {count} places", "mm"),
     "path-speed": ("path speeds differ by up to {amount} at {count} moves", "%"),
     "turning-speed": ("turning speeds differ by up to {amount} at {count} moves", "%"),
@@ -22,11 +25,10 @@ KINDS: dict[str, tuple[str, str]] = {
     "move-time": ("programmed times of moves differ by up to {amount} at {count} moves", "%"),
     "acceleration": ("accelerations differ by up to {amount} at {count} moves", "%"),
     "corner-size": ("programmed corners differ by up to {amount} at {count} moves", "mm"),
-    "corner-measure": ("corners measured in another way at {count} moves", ""),
     "load": ("loads differ by up to {amount} at {count} moves", "kg"),
+    "load-centre": ("centres of loads differ by up to {amount} at {count} moves", "mm"),
     "tool": ("tools differ by up to {amount} at {count} moves", "mm"),
     "frame": ("work objects differ by up to {amount} at {count} moves", "mm"),
-    "turns": ("axes stand up to {amount} apart by whole turns at {count} moves", "deg"),
     "wait": ("waits differ by up to {amount} at {count} places", "s"),
     "pulse": ("pulses differ by up to {amount} at {count} places", "s"),
     "time": ("moments differ by up to {amount} at {count} places", "s"),
@@ -36,7 +38,8 @@ KINDS: dict[str, tuple[str, str]] = {
 @dataclass(frozen=True, slots=True)
 class Deviation:
     """One place where a measure differs. `amount` in the unit of its kind (KINDS), never negative; a and b: both sides
-    with their places; `explanation`: one line for people with both values."""
+    with their places; `explanation`: one line for people with both values. `share`: of a moment, the deviation as a
+    share of the time since the start."""
 
     kind: str
     amount: float
@@ -44,6 +47,7 @@ class Deviation:
     a: Side
     b: Side
     task: str = ""
+    share: float = 0.0
 
     def as_json(self) -> dict[str, object]:
         """A stable document: kind, amount, unit, explanation, task, a, b."""
@@ -74,6 +78,12 @@ class Measure:
             text = text.removesuffix("s") if words.endswith("s") else text
         lines = [f"line {side.place.line}" for side in (self.worst.a, self.worst.b) if side.place.line]
         return f"{text} (worst: {' / '.join(lines)})" if lines else text
+
+    def as_lines(self) -> list[str]:
+        """The worst of them with both places."""
+        worst = self.worst
+        places = [f"  {name}: {side.place}" for name, side in (("A", worst.a), ("B", worst.b)) if side.place.line]
+        return [f"{self.kind}: {worst.explanation}", *places]
 
 
 def measures(deviations: Iterable[Deviation]) -> tuple[Measure, ...]:

@@ -9,16 +9,19 @@ reader and our writer of one language share a misunderstanding, both runs share 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.controllers import PLAIN_NAME
 from rpl.proof.bits import with_wired_groups
-from rpl.proof.compare import Tolerance, Verdict, compare
-from rpl.proof.difference import Difference
+from rpl.proof.compare import Comparison, compare
+from rpl.proof.paths import TURN_LEVER_MM
 from rpl.proof.record import Record
 from rpl.proof.recording import record_of
+from rpl.proof.tolerance import Accepted, Tolerance
+from rpl.proof.verdict import ProofResult
 from rpl.proof.wiring import in_words_of, wired_bits
 from rpl.runtime.limits import DEFAULTS, Limits
 
@@ -28,36 +31,7 @@ if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
 
 
-@dataclass(frozen=True, slots=True)
-class ProofResult:
-    """The verdict. `level`: the highest of none, events, geometry, time at which the runs agree. `notes`: what the
-    reader of the verdict should know, such as how far the runs came."""
-
-    equal: bool
-    level: str
-    difference: Difference | None
-    max_path_mm: float
-    max_joint_deg: float
-    max_time_s: float
-    notes: tuple[str, ...] = ()
-
-    def as_json(self) -> dict[str, object]:
-        return {
-            "equal": self.equal,
-            "level": self.level,
-            "first_difference": self.difference.as_json() if self.difference else None,
-            "max_path_mm": round(self.max_path_mm, 6),
-            "max_joint_deg": round(self.max_joint_deg, 6),
-            "max_time_s": round(self.max_time_s, 6),
-            "notes": list(self.notes),
-        }
-
-    def as_text(self) -> str:
-        lines = [f"{'equal' if self.equal else 'not equal'} (agree on: {self.level})"]
-        if self.difference is not None:
-            lines.append(self.difference.as_text())
-        lines.append(f"greatest distance {self.max_path_mm:.4f} mm, {self.max_joint_deg:.4f} deg")
-        return "\n".join((*lines, *(f"note: {note}" for note in self.notes)))
+NOTHING_ACCEPTED = Accepted()
 
 
 def prove_programs(
@@ -69,14 +43,14 @@ def prove_programs(
     *,
     entry: str | None = None,
     to_entry: str | None = None,
-    path_mm: float | None = None,
+    accepted: Accepted = NOTHING_ACCEPTED,
     limits: Limits = DEFAULTS,
     controller: str | MotionModel = PLAIN_NAME,
 ) -> ProofResult:
     """Run two normalised programs and compare them. `robot_b` None: the same arm as A's. `controller` drives
     both.
 
-    `path_mm` overrides how far apart the tool paths may be (see compare.Tolerance). Raises UsageError for an unknown
+    `accepted`: what may deviate and is equal still. Raises UsageError for an unknown
     robot or an entry that cannot be found.
     """
     first, second = _model(robot_a), _model(robot_b)
@@ -91,7 +65,7 @@ def prove_programs(
         second,
         cell,
         to_entry=to_entry,
-        path_mm=path_mm,
+        accepted=accepted,
         limits=limits,
         controller=controller,
     )
@@ -105,7 +79,7 @@ def prove_against(
     cell: Cell | None = None,
     *,
     to_entry: str | None = None,
-    path_mm: float | None = None,
+    accepted: Accepted = NOTHING_ACCEPTED,
     limits: Limits = DEFAULTS,
     controller: str | MotionModel = PLAIN_NAME,
 ) -> ProofResult:
@@ -116,18 +90,31 @@ def prove_against(
         with_wired_groups(record_a, wired_bits(program_b)),
         with_wired_groups(record_b, wired_bits(program_a)),
     )
-    tolerance = Tolerance() if path_mm is None else replace(Tolerance(), path_mm=path_mm)
-    verdict = compare(record_a, record_b, tolerance)
-    refuted = verdict.difference is not None
+    tolerance, limit = _tolerance(accepted)
+    found = compare(record_a, record_b, tolerance, limit)
+    reason = "" if found.difference is not None else _undecided(record_a, record_b, program_a, program_b, found)
     return ProofResult(
-        not refuted,
-        verdict.level,
-        verdict.difference,
-        verdict.max_path_mm,
-        verdict.max_joint_deg,
-        verdict.max_time_s,
-        (*_notes(record_a, record_b, refuted), *_corner_note(verdict)),
+        found.level,
+        found.difference,
+        found.max_path_mm,
+        found.max_joint_deg,
+        found.max_time_s,
+        found.deviations,
+        reason,
+        _notes(record_a, record_b),
+        tolerance,
+        accepted,
     )
+
+
+def _tolerance(accepted: Accepted) -> tuple[Tolerance, float]:
+    """The tolerances, tightened where less is accepted than they leave, and how far apart ways may be at most."""
+    usual = Tolerance()
+    if accepted.path_mm is None:
+        return usual, 0.0
+    turned = math.degrees(accepted.path_mm / TURN_LEVER_MM)  # joints of a tool that may be so far off
+    path_mm, joint_deg = min(usual.path_mm, accepted.path_mm), max(usual.joint_deg, turned)
+    return replace(usual, path_mm=path_mm, joint_deg=joint_deg), accepted.path_mm
 
 
 def load_cell(path: str | None) -> Cell | None:
@@ -162,28 +149,47 @@ def recorded_run(
     return record_of(result, program, robot)
 
 
-_REACH = {
-    "fault": "both runs end in the same fault",
-    "deadlock": "both runs end waiting for something that never comes; a cell file can give the inputs",
-    "limit": "both runs were ended by a limit",
+_ENDED = {
+    "fault": "both runs end in a fault{where}: what lies behind was not compared",
+    "deadlock": "both runs end waiting for something that never comes{where}: a cell file can give the inputs",
+    "limit": "both runs were ended by a limit before their end: what lies behind was not compared",
 }
 
 
-def _corner_note(verdict: Verdict) -> list[str]:
-    if not verdict.corners:
-        return []
-    return [
-        "another controller measures the blends of joint moves differently: at these corners the programmed points were"
-        f" compared, the tool went up to {verdict.max_corner_mm:.1f} mm apart there"
-    ]
+def _undecided(a: Record, b: Record, program_a: ir.Program, program_b: ir.Program, found: Comparison) -> str:
+    """Why runs without a difference decide nothing; empty where they do."""
+    if a.status in _ENDED:
+        return _ENDED[a.status].format(where=_where(a))
+    moves = any(_has_moves(program) for program in (program_a, program_b))
+    if moves and not (a.robot and b.robot):
+        return "there is no robot, so that no motion was compared: name an arm with --robot"
+    if moves and not any(a.motion.values()):
+        return "nothing moved in these runs, although the programs have moves"
+    return "" if found.compared else "nothing was compared: the programs do nothing that can be seen"
 
 
-def _notes(a: Record, b: Record, refuted: bool) -> list[str]:
+def _where(record: Record) -> str:
+    """The place of the fault or of the wait in A."""
+    ends = [happenings[-1] for happenings in record.tasks.values() if happenings]
+    place = next((one.place for one in ends if one.place.line), None)
+    fault = next((one.value for one in ends if one.kind == "fault"), None)
+    words = f" ({fault})" if fault else ""
+    return f"{words} at {place}" if place is not None else words
+
+
+def _has_moves(program: ir.Program) -> bool:
+    from rpl.ir.walk import walk
+
+    return any(isinstance(node, ir.Move | ir.Spline | ir.MoveExternal) for node in walk(program))
+
+
+def _notes(a: Record, b: Record) -> tuple[str, ...]:
     notes = []
-    if not refuted and a.status in _REACH:
-        notes.append(f"{_REACH[a.status]}: what lies behind was not compared")
     if a.robot != b.robot:
         notes.append("another arm: tool paths are compared instead of joints, of joint moves only their ends")
     if a.language != b.language:
         notes.append("another controller: moments in time are not compared, only their order")
-    return notes
+    return tuple(notes)
+
+
+__all__ = ["ProofResult", "load_cell", "prove_against", "prove_programs", "recorded_run"]

@@ -15,6 +15,8 @@ from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.emulator.rotations import FloatArray
+    from rpl.runtime.payloads import Payload
+    from rpl.runtime.programmed import Programmed
 
 Value = bool | int | float | str | None
 
@@ -91,7 +93,8 @@ class Happening:
     the status at the end. `along` is how far the tool had travelled on its whole path, mm; `moving` whether it moved.
     Timed waits in a row are one wait for their sum: so many `times`, the longest of them `longest_s`.
     `named`: what names a value in the text of a message. `number`: its place among all events of the run, which tells
-    what comes first where several tasks do something at one moment.
+    what comes first where several tasks do something at one moment. `at`: where the tool was (mm), None without a
+    robot. `timed`: of an output switched after a time, whether that ends a `pulse` or a `delay`, and its seconds.
     """
 
     kind: str
@@ -105,6 +108,8 @@ class Happening:
     longest_s: float = 0.0
     named: Named = Named()
     number: int = 0
+    at: tuple[float, float, float] | None = None
+    timed: tuple[str, float] | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -113,7 +118,8 @@ class Stretch:
     at its end. motion: joint, linear, circular, spline. `stops`: the robot came to rest at its end. `goal`: the
     programmed end, x y z in mm and the quaternion w x y z (7,), which a blended move passes at a distance. `cut`: an
     interrupt or a search ended it on its way. `own_measure`: its corner is as large as the controller's speed or
-    percent make it, not a length."""
+    percent make it, not a length. `corner_at`: the pose with which the corner at its end begins, None without one.
+    `asked`: what the program asks of it. `loads`: what the robot carries in it, as the program says."""
 
     motion: str
     times: FloatArray
@@ -124,6 +130,9 @@ class Stretch:
     goal: FloatArray | None = None
     cut: bool = False
     own_measure: bool = False
+    corner_at: int | None = None
+    asked: Programmed | None = None
+    loads: tuple[Payload, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -84,7 +84,7 @@ def _happening(event: Event, way: _Way, stuck: Place) -> Happening | None:
     """The event as a happening; None when it does not count. `stuck`: where the run could not go on, if so."""
     if event.kind not in _COUNTED:
         return None
-    along, moving = way.at(event.t)
+    along, moving, at = way.at(event.t)
     place = place_of(event.origin)
     match event.kind:
         case "output":
@@ -92,8 +92,8 @@ def _happening(event: Event, way: _Way, stuck: Place) -> Happening | None:
             known = [str(name) for name in (event.data.get("signal"), *event.names) if name]
             names = signal_names(kind, known, index, last)
             # Of an analogue output the level counts, in V or mA, where it is known: two languages count it differently.
-            value = event.data.get("level", event.data.get("value"))
-            return Happening("output", event.t, _plain(value), names, place, along, moving)
+            value = _plain(event.data.get("level", event.data.get("value")))
+            return Happening("output", event.t, value, names, place, along, moving, at=at, timed=event.timed)
         case "message":
             if event.data.get("type") == "clear":
                 return None
@@ -156,16 +156,18 @@ class _Way:
         for leg in self.legs:
             self.before.append(self.before[-1] + _travelled(leg, leg.duration_s))
 
-    def at(self, time_s: float) -> tuple[float, bool]:
-        """Millimetres travelled until then, and whether the tool moves (not: stands, or is just starting or ending)."""
+    def at(self, time_s: float) -> tuple[float, bool, tuple[float, float, float] | None]:
+        """Millimetres travelled until then, whether the tool moves (not: stands, or is just starting or ending), and
+        where it is."""
         index = bisect_right(self.starts, time_s) - 1
         if index < 0:
-            return 0.0, False
+            return 0.0, False, _point(self.legs[0], 0.0) if self.legs else None
         leg = self.legs[index]
         gone = time_s - leg.start_s
         speed = float(leg.plan.law.speed_at(leg.offset_s + min(gone, leg.duration_s)))
         moving = 1e-9 < gone < leg.duration_s - 1e-9 or (gone <= leg.duration_s + 1e-9 and speed > _SLOW)
-        return self.before[index] + _travelled(leg, min(gone, leg.duration_s)), moving
+        done = min(gone, leg.duration_s)
+        return self.before[index] + _travelled(leg, done), moving, _point(leg, done)
 
     def stretches(self) -> tuple[Stretch, ...]:
         return tuple(_stretch(event) for event in self.moves)
@@ -184,6 +186,12 @@ def _travelled(leg: Leg, gone_s: float) -> float:
     return float(distance[1] - distance[0])
 
 
+def _point(leg: Leg, gone_s: float) -> tuple[float, float, float]:
+    """Where the tool is so many seconds after the leg's start, mm."""
+    pose = leg.plan.geometry.tcp(np.array([_fractions(leg, gone_s)[1]]))[0]
+    return float(pose[0, 3]), float(pose[1, 3]), float(pose[2, 3])
+
+
 def _stretch(event: Event) -> Stretch:
     """A move with its way sampled evenly by its geometry, so that two time laws give the same points."""
     poses = [_sampled(leg) for leg in event.legs]
@@ -198,16 +206,36 @@ def _stretch(event: Event) -> Stretch:
     if "xyz_mm" in event.data and "quat_wxyz" in event.data:
         goal = np.array([*event.data["xyz_mm"], *event.data["quat_wxyz"]], dtype=float)
     way, when = np.concatenate(poses), np.concatenate(times)
-    cut = bool(event.data.get("interrupted"))
-    own_measure = event.blend in ("percent", "speed")
-    return Stretch(motion, when, way, joints, event.stops, place_of(event.origin), goal, cut, own_measure)
+    return Stretch(
+        motion,
+        when,
+        way,
+        joints,
+        event.stops,
+        place_of(event.origin),
+        goal,
+        cut=bool(event.data.get("interrupted")),
+        own_measure=event.blend in ("percent", "speed"),
+        corner_at=_corner_at(event.legs, poses),
+        asked=event.programmed,
+        loads=event.payloads,
+    )
+
+
+def _corner_at(legs: Sequence[Leg], poses: Sequence[FloatArray]) -> int | None:
+    """The pose with which the corner at the end begins: the first of the corner's legs, which are the last ones."""
+    straight = len(legs)
+    while straight > 0 and legs[straight - 1].plan.kind == "corner":
+        straight -= 1
+    return sum(len(way) for way in poses[:straight]) if straight < len(legs) else None
 
 
 def _sampled(leg: Leg) -> FloatArray:
     first, last = _fractions(leg, leg.duration_s)
     rough = leg.plan.geometry.tcp(np.linspace(first, last, _FEWEST))
     turned = float(turn_deg(rough[:-1, :3, :3], rough[1:, :3, :3]).sum())
-    count = int(max(turned / _STEP_DEG, 0.0 if leg.plan.kind == "linear" else length_mm(rough) / _STEP_MM))
+    steps = max(turned / _STEP_DEG, 0.0 if leg.plan.kind == "linear" else length_mm(rough) / _STEP_MM)
+    count = int(np.ceil(steps - 1e-6))  # a way of whole steps has as many, whatever its last bit says
     if count <= _FEWEST:
         return rough
     return leg.plan.geometry.tcp(np.linspace(first, last, min(count, _MOST)))

@@ -17,6 +17,7 @@ from rpl.runtime.chain import Planning, request_of
 from rpl.runtime.orders import BlendOrder, Drive, Order, PathRuleOrder, TriggerOrder
 from rpl.runtime.pathevents import SMALL
 from rpl.runtime.pieces import Piece
+from rpl.runtime.programmed import programmed_of
 from rpl.runtime.ranges import outside
 
 if TYPE_CHECKING:
@@ -96,6 +97,7 @@ def _asked(queue: MotionQueue, orders: Sequence[Order]) -> list[_Asked]:
         controller = queue.controller_of(order.rules)
         plan = Planning(queue.model, joints, external, queue.task.modal, notation, controller)
         request, moving, goal, external = request_of(order, plan)
+        order.programmed = programmed_of(order, request, plan, None)
         done.append(_Asked(order, request, moving, goal, external))
         joints = _behind(queue.model, request, joints)
     return done

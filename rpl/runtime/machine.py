@@ -81,6 +81,7 @@ class Machine:
         self.stepping = False
         self.happened = 0  # at this moment: entries of the agenda and of the trace
         self.timed_outputs = 0
+        self.timed: tuple[str, float] | None = None  # what the output that is switched now was told
         self.calls = 0
         self.tokens = 0
         self.answered = 0
@@ -176,7 +177,9 @@ class Machine:
                 self.set_input(data[0], data[1])
             case "output":
                 self.timed_outputs -= 1
+                self.timed = data[4]
                 self.set_output(self.tasks[index], data[0], data[1], data[2].origin(data[3]))
+                self.timed = None
             case "motion":
                 self.happened += EVENTS_OF_MOTION if self.model is not None else 0
                 robot = tasks.robot_of(self.tasks[index])  # the one that asked may have given it to another task
@@ -377,7 +380,7 @@ class Machine:
             found = self.linked.analog_range(language, self.cell.analog, port, names)
             if found is not None:
                 data |= {"level": round(found.level(value), 9), "unit": found.unit}
-        self.event("output", data, task, origin, port=port, names=names)
+        self.event("output", data, task, origin, port=port, names=names, timed=self.timed)
         self._react(value, keys)
 
     def _react(self, value: Value, keys: tuple[Key, ...]) -> None:
@@ -394,12 +397,14 @@ class Machine:
             self.names[key] = name
         return name
 
-    def output_later(self, task: Task, port: SignalRef, value: Value, seconds: float, code: Code, at: int) -> None:
-        """Write a signal after a time, whatever the program does meanwhile."""
+    def output_later(
+        self, task: Task, port: SignalRef, value: Value, timed: tuple[str, float], code: Code, at: int
+    ) -> None:
+        """Write a signal after a time (s), whatever the program does meanwhile: the end of a `pulse`, or a `delay`."""
         self.timed_outputs += 1
         if self.timed_outputs > MOST_WAITING:
             raise ProgramError("internal_limit", f"more than {MOST_WAITING} outputs wait to be switched later")
-        self.schedule(self.now + max(seconds, 0.0), INPUTS, "output", task.index, port, value, code, at)
+        self.schedule(self.now + max(timed[1], 0.0), INPUTS, "output", task.index, port, value, code, at, timed)
 
     def set_input(self, signal: str, value: Value) -> None:
         """The cell switches a signal: by any of its names."""

@@ -21,6 +21,7 @@ from rpl.runtime.faults import ProgramError
 from rpl.runtime.orders import Drive, Order, TriggerOrder
 from rpl.runtime.payloads import payloads_of
 from rpl.runtime.pieces import Piece
+from rpl.runtime.programmed import programmed_of
 from rpl.runtime.robotstate import RobotState
 from rpl.runtime.scene import External
 from rpl.runtime.trace import Leg
@@ -122,6 +123,7 @@ class MotionQueue(RobotState):
         if pieces.is_fault(planned):
             return planned
         assert pieces.is_planned(planned)  # it is either
+        order.programmed = programmed_of(order, request, plan, planned)
         self.planned_joints, self.planned_external = planned.end_joints, external
         drive = Drive(number, order, planned, moving, goal, external)
         drive.blending = order.search is None and pieces.may_blend(order.blend, planned)
@@ -467,8 +469,8 @@ class MotionQueue(RobotState):
         if interrupted:
             data["interrupted"] = True
         self.machine.moves += 1
-        origin, blend, payloads = order.code.origin(order.at), order.blend.kind, order.payloads
-        self.machine.event("move", data, self.task, origin, legs=legs, stops=stops, blend=blend, payloads=payloads)
+        asked = {"blend": order.blend.kind, "payloads": order.payloads, "programmed": order.programmed}
+        self.machine.event("move", data, self.task, order.code.origin(order.at), legs=legs, stops=stops, **asked)
 
     # ---- triggers
 

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from rpl.ir.rules import Rules
     from rpl.passes import rigid
     from rpl.runtime.payloads import Payload
+    from rpl.runtime.programmed import Programmed
     from rpl.runtime.velocities import Rate
 
 Modal = dict[str, Value]
@@ -102,7 +103,8 @@ class Order:
     """One move as the program asks for it. `modal` overlays the task's system variables for this move; `once` is what
     of it statements before the move have set. `block`: of the last move of a spline block those before it, and
     `path_rules`: how the block is driven. `together`: the tasks whose moves of the
-    same `identity` go with it; `agreed`: when it begins and ends is settled."""
+    same `identity` go with it; `agreed`: when it begins and ends is settled. `programmed`: what is asked of the
+    move, once it is planned."""
 
     kind: str
     target: Value
@@ -134,6 +136,7 @@ class Order:
     identity: str | None = None
     together: frozenset[int] = frozenset()
     agreed: bool = False
+    programmed: Programmed | None = None
 
 
 @dataclass(slots=True, eq=False)

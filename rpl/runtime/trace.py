@@ -13,6 +13,7 @@ from rpl.source import NOWHERE, Origin
 if TYPE_CHECKING:
     from rpl.emulator.planner import PlannedMove
     from rpl.runtime.payloads import Payload
+    from rpl.runtime.programmed import Programmed
     from rpl.runtime.reached import Reached
 
 KINDS = ("move", "output", "input", "message", "warning", "wait", "call", "fault", "end")
@@ -37,7 +38,9 @@ class Event:
     """One happening. `data` is what the trace prints beside time, task, kind and place. For comparing runs: `port` is
     the signal of an output or input, `names` all its names; `legs` is how a move was driven (empty without a robot) and
     `stops` whether it ended in rest; `blend` the kind of its corner (see orders.BlendOrder); `payloads` what it
-    carries in it, as the program says."""
+    carries in it, as the program says; `programmed` what the program asks of it (None without a robot).
+    `timed`: of an output that is switched after a time, whether that is the end of a `pulse` or a `delay`, and its
+    seconds."""
 
     t: float
     task: str
@@ -50,6 +53,8 @@ class Event:
     stops: bool = True
     blend: str = ""
     payloads: tuple[Payload, ...] = ()
+    programmed: Programmed | None = None
+    timed: tuple[str, float] | None = None
 
     def __deepcopy__(self, memo: object) -> Event:
         return self

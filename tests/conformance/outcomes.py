@@ -35,16 +35,17 @@ HERE = Path(__file__).parent
 FILE = HERE / "outcomes.json"
 PAGE = HERE.parents[1] / "docs" / "support.md"
 
-EXACT, NOTED, REFUSED, DIFFERENT = "exact", "noted", "refused", "different"
-_ORDER = (EXACT, NOTED, REFUSED, DIFFERENT)
+EXACT, NOTED, ALIKE, UNDECIDED = "exact", "noted", "alike", "undecided"
+REFUSED, DIFFERENT = "refused", "different"
+_ORDER = (EXACT, NOTED, ALIKE, UNDECIDED, REFUSED, DIFFERENT)
 # Codes that say that something means the same in other words, or that concern a name only.
 _HARMLESS = frozenset(("signal-number-chosen", "skipped-file"))
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """One sample in one target. status: exact, noted (equal, with notes), refused (guarded stops, named), different.
-    `refused`: code and words of each.
+    """One sample in one target. status: exact, noted (equal, with notes), alike (measures deviate), undecided, refused
+    (guarded stops, named), different. `refused`: code and words of each. `deviations`: the kinds of measures.
     `constructs`: word of a construct -> the worst that happened to it. `why`: the first difference."""
 
     status: str
@@ -52,11 +53,13 @@ class Outcome:
     refused: tuple[str, ...] = ()
     constructs: dict[str, str] = field(default_factory=dict)
     why: str = ""
+    deviations: tuple[str, ...] = ()
 
     def as_json(self) -> dict[str, object]:
         return {
             "status": self.status,
             "notes": list(self.notes),
+            "deviations": list(self.deviations),
             "refused": list(self.refused),
             "constructs": dict(sorted(self.constructs.items())),
         }
@@ -88,13 +91,14 @@ def outcome_of(
     notes = sorted({item.code.name for item in diagnostics.of(Severity.WARNING)} - _HARMLESS)
     if refused:
         status = REFUSED
-    elif not result.equal:
-        status = DIFFERENT
+    elif result.verdict in (DIFFERENT, UNDECIDED, ALIKE):
+        status = result.verdict
     else:
         status = NOTED if notes else EXACT
-    constructs = _constructs(read.program, diagnostics) if result.equal or refused else {}
-    why = "" if result.equal else result.as_text()
-    return Outcome(status, tuple(notes), tuple(refused), constructs, why), diagnostics
+    constructs = _constructs(read.program, diagnostics) if result.agrees or refused else {}
+    why = "" if result.agrees else result.as_text()
+    kinds = tuple(one.kind for one in result.open)
+    return Outcome(status, tuple(notes), tuple(refused), constructs, why, kinds), diagnostics
 
 
 model_of = cache(load_robot)
@@ -251,7 +255,8 @@ def page(outcomes: dict[str, dict[str, dict[str, object]]]) -> str:
         "",
         "## Pairs",
         "",
-        "Per pair: programs written exactly / with a note / with a guarded stop, of all samples of the source.",
+        "Per pair, of all samples of the source: programs that are equal / alike (the same events in the same order,",
+        "but measures such as joint speeds or corners deviate) / with a guarded stop.",
         "",
         "| from \\ to | " + " | ".join(targets) + " |",
         "|---|" + "---|" * len(targets),
@@ -276,7 +281,8 @@ def _cell(outcomes: dict[str, dict[str, dict[str, object]]], language: str, targ
     for found in _of(outcomes, language).values():
         if target in found:
             counts[str(found[target]["status"])] += 1
-    text = f"{counts[EXACT]} / {counts[NOTED]} / {counts[REFUSED]}"
+    text = f"{counts[EXACT] + counts[NOTED]} / {counts[ALIKE]} / {counts[REFUSED]}"
+    text += f", {counts[UNDECIDED]} undecided" if counts[UNDECIDED] else ""
     return text + (f", {counts[DIFFERENT]} differ" if counts[DIFFERENT] else "")
 
 

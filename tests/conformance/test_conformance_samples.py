@@ -182,4 +182,4 @@ def test_it_means_the_same_on_another_arm(sample: Path) -> None:
         for target in TARGETS:
             if expected(sample).divergence(target) is None:
                 result, _ = proof_of(sample, target, arm)
-                assert result.equal, f"{target} on {arm}: {result.as_text()}"
+                assert result.agrees, f"{target} on {arm}: {result.as_text()}"

@@ -30,7 +30,7 @@ def jobs_of(
     assert not again.has_errors, [item.as_text() for item in again]
     if not diagnostics.of(Severity.LOSS):
         result = prove_programs(read.program, back.program, robot, robot, None)
-        assert result.equal, result.as_text()
+        assert result.agrees, result.as_text()
     run = run_program(back.program, robot, None, entry, controller="plain")
     state: dict[int, bool] = {}
     for _, name, value in run.outputs:

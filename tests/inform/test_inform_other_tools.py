@@ -67,7 +67,7 @@ def translated(lines: str) -> tuple[Translation, str, Diagnostics]:
     translation = translate_program(read, "inform", ARM, None, diagnostics)
     back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], "inform", Diagnostics())
     result = prove_programs(read.program, back.program, ARM, None, entry="MAIN", to_entry="MAIN")
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
     text = next(f.data.decode() for f in translation.files if f.path.startswith("MAIN"))
     return translation, text, diagnostics
 

@@ -85,6 +85,6 @@ def test_such_a_bank_elsewhere(target: str) -> None:
     assert outputs(run_program(journey.source.program, ARM)) == [("OT#(1)", True)]
     assert not journey.found.has_errors and not journey.losses
     result = journey.prove("TABLE")
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
     larger = [one for one in journey.found.of(Severity.WARNING) if one.code.name == "registers-set-up"]
     assert bool(larger) == (target == "tp")  # 128 positions, and the controller has 100 as delivered

@@ -37,7 +37,7 @@ def codes(more: str, z: int) -> set[str]:
     back = read_sources([source_from_bytes(f.path, f.data) for f in files], "inform", Diagnostics())
     if not more:
         result = prove_programs(read.program, back.program, ARM, None, entry="MAIN", to_entry="MAIN")
-        assert result.equal, result.as_text()
+        assert result.agrees, result.as_text()
         assert "///TOOL 1" in next(f.data.decode() for f in files if f.path.startswith("LOOK"))
     return {item.code.name for item in diagnostics}
 

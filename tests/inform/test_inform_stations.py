@@ -146,7 +146,7 @@ def test_the_station_comes_through(body: str, target: str) -> None:
     back = read_sources([source_from_bytes(file.path, file.data) for file in done.files], target, Diagnostics())
     to_entry = done.renamed.get("SEAM", "SEAM")
     result = prove_programs(job(body).program, back.program, ARM, ARM, CELL, entry="SEAM", to_entry=to_entry)
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
     if target == "tp":
         assert "DEFAULT_GROUP\t= 1,1,*,*,*" in text
         assert "COORD" in text and "J1=    90.000 deg" in text
@@ -179,7 +179,7 @@ def test_external_axes_of_others_become_pulses_of_a_station() -> None:
     assert "///GROUP2 ST1" in text
     back = read_sources([source_from_bytes(file.path, file.data) for file in done.files], "inform", Diagnostics())
     result = prove_programs(read.program, back.program, arm, arm, CELL, entry="seam", to_entry="SEAM")
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
 
 
 def test_a_track_becomes_base_axes() -> None:
@@ -195,7 +195,7 @@ def test_a_track_becomes_base_axes() -> None:
     result = prove_programs(
         read.program, back.program, "kuka_kr10r1420", "kuka_kr10r1420", rail, entry="seam", to_entry="SEAM"
     )
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
 
 
 def test_unknown_pulses_of_a_station_are_not_guessed() -> None:

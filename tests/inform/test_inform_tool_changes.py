@@ -45,4 +45,4 @@ def test_the_tool_in_force_counts(lines: str, most: int) -> None:
     assert not diagnostics.of(Severity.LOSS)
     back = read_sources([source_from_bytes(one.path, one.data) for one in files], "inform", Diagnostics())
     result = prove_programs(read.program, back.program, ARM, None, entry="MAIN", to_entry="MAIN")
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()

@@ -50,4 +50,4 @@ def test_a_changed_place_is_reached_with_the_posture_there_is(lines: str, flags:
     assert ("changed-target-nearest" not in {one.code.name for one in diagnostics.of(Severity.INFO)}) == flags
     back = read_sources([source_from_text(one.path, one.data.decode()) for one in done.files], "krl", Diagnostics())
     result = prove_programs(read.program, back.program, FANUC, None)
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()

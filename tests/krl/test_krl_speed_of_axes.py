@@ -31,4 +31,4 @@ def test_what_is_written_sets_the_same(steps: str, lines: list[str]) -> None:
     assert all(line in written for line in lines), journey.text
     assert ("BAS(" in journey.text) == lines[0].startswith("BAS")
     proof = journey.prove("M")
-    assert proof.equal, proof.difference
+    assert proof.agrees, proof.difference

@@ -49,7 +49,7 @@ def translated(text: str, arm: str, target: str) -> tuple[bool, list[str]]:
     written = translate_program(read, target, arm, None, diagnostics)
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
     result = prove_programs(read.program, back.program, arm, entry="main", to_entry=entry_name(back.program))
-    return result.equal, [item.code.name for item in diagnostics.of(Severity.LOSS)]
+    return result.agrees, [item.code.name for item in diagnostics.of(Severity.LOSS)]
 
 
 @pytest.mark.parametrize("place", ["#left", "safe", "SHIFT(safe BY 0,30,0)"])

@@ -50,7 +50,7 @@ def _translated(text: str, target: str) -> tuple[object, object, Diagnostics]:
     written = translate_program(read, target, "ur5e", None, diagnostics)
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
     result = prove_programs(read.program, back.program, "ur5e", entry="main", to_entry=entry_name(back.program))
-    return result.equal, result.as_text(), diagnostics
+    return result.agrees, result.as_text(), diagnostics
 
 
 CASES = [

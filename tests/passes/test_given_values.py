@@ -76,7 +76,7 @@ def test_another_controller_drives_to_the_same_place(language: str, target: str)
     back = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, again)
     entry = written.renamed.get("GLUE", "GLUE")
     result = prove_programs(read.program, back.program, robot, robot, cell, entry="GLUE", to_entry=entry)
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
 
 
 @pytest.mark.parametrize(

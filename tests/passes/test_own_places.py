@@ -60,4 +60,4 @@ def test_the_tool_of_one_move_is_not_the_one_that_is_set(target: str, setting: s
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
     entry = written.renamed.get("main", "main")
     result = prove_programs(read.program, back.program, KUKA, entry="main", to_entry=entry_name(back.program, entry))
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()

@@ -100,5 +100,5 @@ def test_places_of_some_components_are_driven_to_in_every_language(target: str) 
     named = with_signal_names(back.program, written.program)
     result = prove_programs(read.program, named, ARM, ARM, None, entry="a", to_entry=written.renamed.get("a", "a"))
     assert not again.has_errors
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
     assert "arc-angle-lost" not in {item.code.name for item in told}

@@ -77,4 +77,4 @@ def test_records_with_arrays_keep_their_values(target: str) -> None:
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, again)
     assert not [item.as_text() for item in again.of(Severity.ERROR)]
     result = prove_programs(read.program, back.program, KUKA, entry="JOB", to_entry=entry_name(back.program, "JOB"))
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()

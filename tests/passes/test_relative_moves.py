@@ -71,4 +71,4 @@ def moves_are_equal(moves: str, target: str) -> None:
     assert not [item.as_text() for item in diagnostics.of(Severity.LOSS)]
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
     result = prove_programs(read.program, back.program, KUKA, entry="P", to_entry=entry_name(back.program))
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()

@@ -67,4 +67,4 @@ def test_a_tool_with_a_computed_component_is_set_as_a_whole(target: str) -> None
     entry = made.renamed.get("main", "main")
     entry = entry_name(again.program, entry) or entry
     result = prove_programs(source.program, again.program, KUKA.name, entry="main", to_entry=entry)
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()

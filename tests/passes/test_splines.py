@@ -69,7 +69,7 @@ def translated(path: str, text: str, language: str, target: str, arm: str) -> tu
 @pytest.mark.parametrize("target", ["rapid", "tp", "urscript"])
 def test_a_block_is_written_as_arcs_along_its_curve(target: str) -> None:
     result, told, _ = translated("way.src", SPLINES, "krl", target, ARM)
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
     assert result.max_path_mm < 0.01
     assert told.count("spline-as-arcs") == 1 and "spline-as-lines" not in told
     assert not [one for one in told if "guarded" in one or "lost" in one]
@@ -80,7 +80,7 @@ def test_the_way_is_the_curve_where_outputs_are_switched_beside_their_point(targ
     """These controllers switch it at the beginning or behind the end of a corner, or stop for it."""
     without = "\n".join(line for line in SPLINES.splitlines() if "TRIGGER" not in line)
     result, told, _ = translated("way.src", without, "krl", target, ARM)
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
     assert "spline-as-arcs" in told and result.max_path_mm < 0.01
 
 
@@ -114,7 +114,7 @@ def test_a_block_whose_points_are_not_known_is_written_as_straight_moves(known: 
 def test_points_of_a_spline_in_a_job(target: str) -> None:
     """The way to the first point is straight, the others make a block; each says its own speed."""
     result, told, _ = translated("WAY.JBI", JOB, "inform", target, "motoman_gp7")
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
     assert "spline-as-arcs" in told
 
 
@@ -123,7 +123,7 @@ def test_points_of_a_spline_stay_a_spline_where_there_are_blocks(end: str) -> No
     """The speed of each point is a setting of it; the tool is set in front of the block."""
     job = JOB.replace("MOVS C00001 V=100.0 PL=0", f"MOVS C00001 V=100.0{end}")
     result, told, text = translated("WAY.JBI", job, "inform", "krl", "motoman_gp7")
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
     assert "spline-as-arcs" not in told and "spline-as-lines" not in told
     lines = [line.strip() for line in text.splitlines()]
     at = lines.index("SPLINE")
@@ -136,7 +136,7 @@ def test_a_corner_into_a_block_is_as_large_as_the_first_arc_allows(target: str) 
     """It is told; behind the corner the way is the curve."""
     job = JOB.replace("MOVS C00001 V=100.0 PL=0", "MOVS C00001 V=100.0 PL=3")
     result, told, _ = translated("WAY.JBI", job, "inform", target, "motoman_gp7")
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
     assert "spline-corner-smaller" in told
 
 
@@ -148,14 +148,14 @@ RULED = SPLINES.replace("    TRIGGER", "    CONST_VEL START=+5 ONSTART\n    TIME
 @pytest.mark.parametrize("target", ["rapid", "tp", "urscript"])
 def test_rules_about_speeds_are_told_and_the_path_stays(target: str) -> None:
     result, told, _ = translated("way.src", RULED, "krl", target, ARM)
-    assert result.equal and result.max_path_mm < 0.01, result.as_text()
+    assert result.agrees and result.max_path_mm < 0.01, result.as_text()
     assert told.count("spline-speed-rule") == 2 and "spline-as-arcs" in told
 
 
 @pytest.mark.parametrize("target", ["krl", "rpl"])
 def test_rules_about_speeds_stay_where_there_are_such(target: str) -> None:
     result, told, text = translated("way.src", RULED, "krl", target, ARM)
-    assert result.equal and "spline-speed-rule" not in told, result.as_text()
+    assert result.agrees and "spline-speed-rule" not in told, result.as_text()
     wanted = {
         "krl": ["CONST_VEL START=5 ONSTART", "TIME_BLOCK START", "TIME_BLOCK PART=2", "TIME_BLOCK END=1.5"],
         "rpl": ["PATH RULE constant_start AT 5 BEHIND START", "PATH RULE time_start", "PATH RULE time_part AT 2"],
@@ -183,7 +183,7 @@ def test_points_of_a_block_are_those_of_a_curve_in_a_job_where_both_are_the_same
 ) -> None:
     """Three points make one parabola in both; through more, the two curves differ by less than 0.05 mm."""
     result, told, text = translated("way.src", block_of(*points), "krl", "inform", ARM)
-    assert result.equal and result.max_path_mm < 0.06, result.as_text()
+    assert result.agrees and result.max_path_mm < 0.06, result.as_text()
     assert "spline-as-points" in told and "spline-as-arcs" not in told, what
     said = [line.split()[2:] for line in text.splitlines() if line.startswith("MOVS ")]
     speeds = ["V=200.0", "V=200.0", "V=100.0", *["V=200.0"] * (len(points) - 2)]
@@ -193,7 +193,7 @@ def test_points_of_a_block_are_those_of_a_curve_in_a_job_where_both_are_the_same
 
 def test_points_far_apart_stay_arcs_along_the_curve() -> None:
     result, told, text = translated("way.src", block_of(*COARSE), "krl", "inform", ARM)
-    assert result.equal and result.max_path_mm < 0.02, result.as_text()
+    assert result.agrees and result.max_path_mm < 0.02, result.as_text()
     assert "spline-as-arcs" in told and "MOVS" not in text
 
 
@@ -205,7 +205,7 @@ def test_two_blocks_in_a_row_are_two_curves() -> None:
     result, told, _ = translated(
         "way.src", text.replace("  $OUT", second + "\n  ENDSPLINE\n  $OUT"), "krl", "inform", ARM
     )
-    assert result.equal and result.max_path_mm < 0.01, result.as_text()
+    assert result.agrees and result.max_path_mm < 0.01, result.as_text()
     assert told.count("spline-as-points") == 2
 
 
@@ -216,5 +216,5 @@ def test_a_job_through_points_far_apart_is_written_as_arcs_along_its_own_curve()
     )
     job = job.replace("DOUT", "MOVS C00004 V=100.0 PL=0\nDOUT").replace("C00003 V=50.0 PL=0", "C00003 V=50.0")
     result, told, _ = translated("WAY.JBI", job, "inform", "krl", "motoman_gp7")
-    assert result.equal and result.max_path_mm < 0.02, result.as_text()
+    assert result.agrees and result.max_path_mm < 0.02, result.as_text()
     assert "spline-as-arcs" in told

@@ -56,7 +56,7 @@ def test_nothing_comes_before_the_robot_stands(behind: str, holds: str) -> None:
     assert not [item.as_text() for item in diagnostics.of(Severity.LOSS)]
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], "krl", Diagnostics())
     result = prove_programs(read.program, back.program, KUKA, entry="main", to_entry=entry_name(back.program))
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
 
 
 FLAGS = """/PROG  MAIN

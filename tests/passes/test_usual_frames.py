@@ -35,4 +35,4 @@ def test_the_frame_of_one_move_is_not_the_next_one_s(target: str) -> None:
     assert not [item.as_text() for item in diagnostics.of(Severity.LOSS)]
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
     result = prove_programs(read.program, back.program, KUKA, entry="main", to_entry=entry_name(back.program))
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()

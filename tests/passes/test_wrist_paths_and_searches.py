@@ -56,11 +56,11 @@ def test_the_tool_goes_the_same_way_and_may_turn_otherwise(target: str) -> None:
     result, codes = _proved(WRIST, target)
     evenly = target in ("rapid", "urscript", "vplus", "inform")
     assert ("wrist-path-turned" in codes) == evenly
-    assert result.level == "events" if evenly else result.equal
+    assert result.level == "events" if evenly else result.agrees
     assert result.max_path_mm < 0.01
 
 
 @pytest.mark.parametrize("target", ["krl", "tp", "urscript", "vplus", "rpl"])
 def test_there_is_no_move_where_the_condition_holds_at_once(target: str) -> None:
     result, _ = _proved(ALREADY, target)
-    assert result.equal
+    assert result.agrees

@@ -89,10 +89,10 @@ def test_other_geometry_is_refuted_with_both_lines(other: Record, kind: str) -> 
 def test_time_counts_between_programs_of_one_language_only() -> None:
     slower = changed(*(replace(event, t=event.t * 1.5) for event in RUN.tasks["main"]))
     verdict = compare(RUN, slower, TOLERANCE)
-    assert verdict.level == "geometry"
-    assert verdict.difference is not None and verdict.difference.kind == "time"
+    assert (verdict.level, verdict.difference) == ("geometry", None)
+    assert {one.kind for one in verdict.deviations} == {"time"}
     foreign = compare(RUN, replace(slower, language="rapid"), TOLERANCE)
-    assert (foreign.level, foreign.difference) == ("geometry", None)
+    assert (foreign.level, foreign.difference, foreign.deviations) == ("geometry", None, ())
 
 
 def test_one_cycle_of_another_controller_s_waiting_loop_is_no_event() -> None:
@@ -119,7 +119,8 @@ def test_places_on_joint_moves_are_each_controller_s_own() -> None:
     run = replace(RUN, motion={"main": (way,)}, tasks={"main": (replace(OUT, along=50.0), END)})
     other = replace(run, tasks={"main": (replace(OUT, along=60.0), END)}, language="rapid")
     verdict = compare(run, other, TOLERANCE)
-    assert verdict.difference is None and verdict.max_corner_mm == 10.0
+    assert verdict.difference is None
+    assert [(one.kind, one.amount) for one in verdict.deviations] == [("place", 10.0)]
     assert compare(run, replace(other, language="krl"), TOLERANCE).difference is not None
 
 

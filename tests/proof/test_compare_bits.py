@@ -28,7 +28,8 @@ def record(*said: Said, language: str = "a", **tasks: tuple[Said, ...]) -> Recor
 
 
 def equal(a: Record, b: Record) -> bool:
-    return compare(a, b, Tolerance()).difference is None
+    found = compare(a, b, Tolerance())
+    return found.difference is None and not found.deviations
 
 
 TEN = record((1.0, (33, 36), 10))

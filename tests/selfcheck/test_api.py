@@ -20,7 +20,7 @@ def test_read_run_translate_prove() -> None:
     assert not written.losses
     sources = [source_from_bytes(file.path, file.data) for file in written.files]
     back = read_sources(sources, "rapid", Diagnostics())
-    assert rpl.prove(program, back, ROBOT).equal
+    assert rpl.prove(program, back, ROBOT).agrees
 
 
 def test_a_changed_millimetre_is_refuted() -> None:
@@ -35,6 +35,6 @@ def test_a_changed_millimetre_is_refuted() -> None:
         Diagnostics(),
     )
     result = rpl.prove(program, other, ROBOT)
-    assert not result.equal
+    assert not result.agrees
     assert result.difference is not None
     assert (result.difference.a.place.line, result.difference.b.place.line) != (0, 0)

@@ -111,7 +111,7 @@ def test_the_word_comes_through(target: str, word: str) -> None:
     back = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, Diagnostics())
     to_entry = written.renamed.get("COORDT", "COORDT")
     result = prove_programs(read.program, back.program, ARM, ARM, cell, entry="COORDT", to_entry=to_entry)
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
 
 
 @pytest.mark.parametrize("target", ["rapid", "krl", "urscript", "vplus"])
@@ -176,7 +176,7 @@ def test_rtcp_comes_through(target: str, word: str) -> None:
     assert word in "\n".join(file.data.decode("latin-1") for file in written.files)
     back = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, Diagnostics())
     result = prove_programs(read.program, back.program, ARM, ARM, cell, entry="COORDT", to_entry="COORDT")
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
 
 
 @pytest.mark.parametrize("target", ["rapid", "krl", "inform", "urscript", "vplus"])

@@ -29,6 +29,6 @@ def same_in_tp(language: str, text: str, cell: str = "") -> tuple[dict[str, str]
     to_entry = written.renamed.get(entry or "", entry)
     around = parse_cell(cell) if cell else None
     proof = prove_programs(read.program, back, robot, cell=around, entry=entry, to_entry=to_entry)
-    assert proof.equal, proof.as_text()
+    assert proof.agrees, proof.as_text()
     shown = {file.path: file.data.decode("ascii") for file in written.files if file.path.endswith(".LS")}
     return shown, [item.code.name for item in diagnostics]

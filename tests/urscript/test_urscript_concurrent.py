@@ -34,7 +34,7 @@ def script_of(lines: str) -> tuple[str, set[str]]:
     journey = there_and_back({"MAIN.JBI": JOB.format(lines=lines)}, "inform", "urscript", ROBOT)
     assert not journey.losses
     proof = journey.prove("MAIN")
-    assert proof.equal, proof.as_text()
+    assert proof.agrees, proof.as_text()
     return journey.text, {item.code.name for item in journey.found}
 
 

@@ -47,7 +47,7 @@ def equal(language: str, text: str, cell: Cell | None = None) -> str:
     """The script of a program that has to mean the same, without a loss."""
     script, losses, proof = translated(language, text, cell)
     assert not losses, script
-    assert proof.equal, f"{proof.as_text()}\n{script}"
+    assert proof.agrees, f"{proof.as_text()}\n{script}"
     return script
 
 

@@ -42,4 +42,4 @@ def test_computed_poses(target: str) -> None:
     written = [source_from_bytes(file.path, file.data) for file in result.files]
     again = read_sources(written, target, Diagnostics())
     proof = prove_programs(program.program, again.program, "ur5e", entry="poses")
-    assert proof.equal, proof.difference
+    assert proof.agrees, proof.difference

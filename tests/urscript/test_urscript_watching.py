@@ -64,7 +64,7 @@ def test_actions_come_at_their_place_on_the_path(lines: str) -> None:
 def test_an_action_that_moves_is_refused_by_name() -> None:
     lines = f"TRIGGER WHEN PATH=-30 DELAY=0 DO AWAY() PRIO=-1\n{LIN}"
     _, losses, proof = translated("krl", KRL.format(lines=lines) + AWAY)
-    assert "path-event-lost" in losses and not proof.equal
+    assert "path-event-lost" in losses and not proof.agrees
 
 
 def cell(*inputs: tuple[float, str, bool]) -> Cell:

@@ -47,4 +47,4 @@ def test_an_arc_between_long_places() -> None:
     assert sum(line.strip().startswith("MOVEC p") for line in lines) == 2, text
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], "vplus", Diagnostics())
     result = prove_programs(read.program, back.program, "kuka_kr6r900sixx", entry="main", to_entry="main")
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()

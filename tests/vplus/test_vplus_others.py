@@ -24,7 +24,7 @@ def proved(text: str, name: str, dialect: str, robot: str | None, entry: str) ->
     back = read_sources([source_from_bytes(one.path, one.data) for one in files], "vplus", Diagnostics())
     result = prove_programs(read.program, back.program, robot, robot, None, entry=entry, to_entry=entry)
     lines = [line.strip() for line in files[0].data.decode("ascii").split("\r\n")]
-    return lines, "" if result.equal else result.as_text()
+    return lines, "" if result.agrees else result.as_text()
 
 
 @pytest.mark.parametrize(

@@ -29,7 +29,7 @@ def translated(body: str) -> tuple[list[str], set[str], bool]:
     lines = lines[: lines.index(".END")]
     start = next(at for at, line in enumerate(lines) if "400, -100" in line) + 2
     found = [line for line in lines[start:-2] if not line.startswith(("SPEED", "RIGHTY", "LEFTY", "ABOVE", "NOFLIP"))]
-    return found, {item.code.name for item in diagnostics}, result.equal
+    return found, {item.code.name for item in diagnostics}, result.agrees
 
 
 MOVES = "MOVES TRANS(400, 0, 300, 0, 180)"

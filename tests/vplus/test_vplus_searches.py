@@ -38,7 +38,7 @@ def proved(
     named = with_signal_names(back.program, translation.program)
     found = prove_programs(read.program, named, robot, robot, parse_cell(cell), entry=entry, to_entry=entry)
     lines = [line.strip() for line in files[0].data.decode("ascii").split("\r\n")]
-    return lines, diagnostics, found.equal
+    return lines, diagnostics, found.agrees
 
 
 def rapid(body: str, cell: str = "") -> tuple[list[str], Diagnostics, bool]:

@@ -26,4 +26,4 @@ def test_a_computed_shift() -> None:
     assert not diagnostics.of(Severity.LOSS)
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], "vplus", Diagnostics())
     result = prove_programs(read.program, back.program, "kuka_kr6r900sixx", entry="main", to_entry="main")
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()

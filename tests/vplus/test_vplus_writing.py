@@ -91,7 +91,7 @@ def test_read_back_and_run_the_same(text: str) -> None:
     sources = [source_from_bytes(file.path, file.data) for file in translation.files]
     back = read_sources(sources, "vplus", diagnostics)
     assert not diagnostics.of(Severity.ERROR)
-    assert prove_programs(read.program, back.program, ARM, ARM).equal
+    assert prove_programs(read.program, back.program, ARM, ARM).agrees
 
 
 def test_lines_are_short_and_ascii() -> None:

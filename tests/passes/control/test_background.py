@@ -167,7 +167,7 @@ def test_controllers_with_background_programs_read_and_run_them(text: str, langu
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], language, diagnostics)
     assert not diagnostics.has_errors, [item.as_text() for item in diagnostics]
     verdict = prove_programs(first.program, back.program)
-    assert verdict.equal, verdict.as_text()
+    assert verdict.agrees, verdict.as_text()
 
 
 def test_variables_that_outlive_their_routine_become_data_of_the_module() -> None:

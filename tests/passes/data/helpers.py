@@ -73,7 +73,7 @@ def means_the_same(text: str, target: str, robot: str = "kuka_kr6r900sixx") -> N
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
     entry = entry_name(back.program, written.renamed.get("main", "main"))
     result = prove_programs(read.program, back.program, robot, entry="main", to_entry=entry)
-    assert result.equal, result.as_text()
+    assert result.agrees, result.as_text()
 
 
 def context(program: ir.Program, source: str, robot: object = None, to_robot: object = None) -> Context:

@@ -157,7 +157,7 @@ def test_the_proof_knows_where_these_groups_are_wired() -> None:
     other = replace(after, modules=tuple(replace(one, dialect="krl") for one in after.modules))
     cell = parse_cell('[[input]]\nsignal = "gi[1]"\nvalue = 7\ntime = 1.0\n')
     verdict = prove_programs(program, other, cell=cell)
-    assert verdict.equal, verdict.as_text()
+    assert verdict.agrees, verdict.as_text()
 
 
 WAITS = """PROCEDURE main()

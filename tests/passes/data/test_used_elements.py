@@ -29,7 +29,7 @@ def registers(number: str) -> set[str]:
     written = translate_program(read, "tp", ARM, None, Diagnostics())
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], "tp", Diagnostics())
     result = prove_programs(read.program, back.program, ARM, entry="a", to_entry=entry_name(back.program))
-    assert result.equal, result.difference
+    assert result.agrees, result.difference
     text = "".join(file.data.decode() for file in written.files)
     return set(re.findall(r"PR\[\d+:\w+_DATA\d+\]", text))
 

@@ -1,0 +1,63 @@
+"""What commands that prove have in common: the options that accept deviations, and the exit status of a verdict."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import wraps
+from typing import TYPE_CHECKING, Any, TypeVar, cast
+
+import click
+
+from rpl.errors import UsageError
+
+if TYPE_CHECKING:
+    from rpl.proof.verdict import ProofResult
+
+Decorated = TypeVar("Decorated", bound=Callable[..., Any])
+# 3: done, but there is something that you must look at.
+_STATUS = {"equal": 0, "alike": 3, "different": 1, "undecided": 1}
+
+
+def accepting(command: Decorated) -> Decorated:
+    """The options that say how far measures may deviate; the command gets them checked, as `accepted`."""
+
+    @wraps(command)
+    def with_limits(
+        path_mm: float | None, corner_mm: float | None, time_share: float | None, accept: tuple[str, ...], **values: Any
+    ) -> Any:
+        from rpl.proof.tolerance import Accepted
+
+        for name, limit in (("--path-mm", path_mm), ("--corner-mm", corner_mm), ("--time-share", time_share)):
+            if limit is not None and not (limit >= 0.0 and math.isfinite(limit)):
+                raise UsageError(f"{name}: {limit:g} is no limit; it takes a number from 0 on")
+        return command(accepted=Accepted(frozenset(accept), path_mm, corner_mm, time_share), **values)
+
+    options = (
+        click.option(
+            "--accept", multiple=True, metavar="WORD", help="Accept a measure of the proof or a report's code."
+        ),
+        click.option(
+            "--path-mm",
+            "--tolerance",
+            type=float,
+            metavar="MM",
+            help="Accept tool paths that far apart outside of corners (usually 0.01 counts as equal).",
+        ),
+        click.option("--corner-mm", type=float, metavar="MM", help="Accept tool paths that far apart in corners."),
+        click.option(
+            "--time-share", type=float, metavar="SHARE", help="Accept moments that differ by this share of the time."
+        ),
+    )
+    decorated: Any = with_limits
+    for option in reversed(options):
+        decorated = option(decorated)
+    return cast(Decorated, decorated)
+
+
+def status_of(result: ProofResult) -> int:
+    """Exit status: 0 only for equal programs."""
+    return _STATUS[result.verdict]
+
+
+__all__ = ["accepting", "status_of"]

@@ -1,0 +1,84 @@
+"""The moves of two runs side by side: move against move, or from stop to stop where one language says with several
+moves what another says with one (splines, relative moves).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from rpl.proof.record import Stretch
+
+# Moves of two programs whose goals are that near to each other head for one point.
+SAME_GOAL_MM = 0.1
+
+Group = tuple[Sequence[Stretch], Sequence[Stretch]]
+
+
+def aligned(a: Sequence[Stretch], b: Sequence[Stretch]) -> list[Group]:
+    """The moves of two runs, without those to where the robot already is, in groups that belong together."""
+    return _grouped(
+        _rejoined([one for one in a if not _stands(one)]), _rejoined([one for one in b if not _stands(one)])
+    )
+
+
+def _grouped(a: Sequence[Stretch], b: Sequence[Stretch]) -> list[Group]:
+    """Move against move where both have the same; else, from the first two that differ in kind or goal, up to the next
+    stop, because one language says with several moves what another says with one (splines, relative moves)."""
+    if [stretch.motion for stretch in a] == [stretch.motion for stretch in b]:
+        return [([one], [other]) for one, other in zip(a, b, strict=True)]
+    groups: list[Group] = []
+    at, there = 0, 0
+    while at < len(a) or there < len(b):
+        end, other = _behind_stop(a, at), _behind_stop(b, there)
+        if end > at and other > there and _alike(a[at], b[there]):
+            end, other = at + 1, there + 1
+        groups.append((a[at:end], b[there:other]))
+        at, there = end, other
+    return groups
+
+
+def _alike(one: Stretch, other: Stretch) -> bool:
+    """Two moves of one kind that head for the same point and both stop there, or both do not."""
+    if one.motion != other.motion or one.stops != other.stops or one.goal is None or other.goal is None:
+        return False
+    return float(np.linalg.norm(one.goal[:3] - other.goal[:3])) < SAME_GOAL_MM
+
+
+def _behind_stop(stretches: Sequence[Stretch], begin: int) -> int:
+    """Where the next move begins at rest, from a place of the row on."""
+    for number in range(begin, len(stretches)):
+        if stretches[number].stops:
+            return number + 1
+    return len(stretches)
+
+
+def _rejoined(stretches: list[Stretch]) -> list[Stretch]:
+    """A move that was stopped on its way and begun again from there to the same point is one move."""
+    done: list[Stretch] = []
+    for stretch in stretches:
+        last = done[-1] if done else None
+        if last is not None and last.cut and _goes_on(last, stretch):
+            poses, times = np.concatenate((last.poses, stretch.poses)), np.concatenate((last.times, stretch.times))
+            corner_at = None if stretch.corner_at is None else stretch.corner_at + len(last.poses)
+            done[-1] = replace(stretch, poses=poses, times=times, corner_at=corner_at)
+        else:
+            done.append(stretch)
+    return done
+
+
+def _goes_on(cut: Stretch, stretch: Stretch) -> bool:
+    """Does a straight move go on from where another one was cut, in its direction?"""
+    if not cut.motion == stretch.motion == "linear" or np.abs(cut.poses[-1] - stretch.poses[0]).max() > 1e-3:
+        return False
+    before, behind = (one.poses[-1, :3, 3] - one.poses[0, :3, 3] for one in (cut, stretch))
+    lengths = float(np.linalg.norm(before) * np.linalg.norm(behind))
+    return lengths > 0.0 and float(before @ behind) > (1.0 - 1e-8) * lengths
+
+
+def _stands(stretch: Stretch) -> bool:
+    """A move to where the robot already is."""
+    apart = np.abs(stretch.poses[:, :3, :] - stretch.poses[:1, :3, :]).max(initial=0.0)
+    return bool(apart < 1e-6)

@@ -1,0 +1,233 @@
+"""The way of the tool in two runs: the same way, the same joints, the same that is asked of each move.
+
+Between two controllers corners are measured (corners.py): what they make different is a deviation. Everything else that
+is apart is a difference.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rpl.proof.asked import compare_asked
+from rpl.proof.corners import Corner, aside, between, corner_behind, ways
+from rpl.proof.difference import Difference, Side
+from rpl.proof.findings import Findings
+from rpl.proof.groups import Group, aligned
+from rpl.proof.paths import Gap, gap
+from rpl.proof.record import Record, Stretch
+from rpl.proof.tolerance import Tolerance
+
+
+@dataclass(frozen=True, slots=True)
+class Pairing:
+    """What two records have in common, and how far their ways may be apart. limit_mm: a way that is further apart is
+    another one; up to there it deviates."""
+
+    same_arm: bool
+    same_language: bool
+    tolerance: Tolerance
+    limit_mm: float
+
+
+@dataclass(frozen=True, slots=True)
+class Driven:
+    """The moves of one task, side by side; the numbers of the groups behind which a corner deviates."""
+
+    groups: tuple[Group, ...]
+    loose: frozenset[int]
+
+    def near_corner(self, *numbers: int) -> bool:
+        """Does a corner that deviates lie at the beginning or end of one of these groups?"""
+        return any(one in self.loose or one - 1 in self.loose for one in range(min(numbers), max(numbers) + 1))
+
+
+def compare_motion(
+    a: Record, b: Record, pairing: Pairing, found: Findings
+) -> tuple[Difference | None, dict[str, Driven]]:
+    """The first difference of the ways, and the moves by the task of A; deviations go to `found`."""
+    driven: dict[str, Driven] = {}
+    first: Difference | None = None
+    for task in dict.fromkeys((*a.motion, *b.motion)):
+        ours, theirs = _of(a, b, task), _of(b, a, task)
+        if task not in a.motion and ours:
+            continue  # the only robot of B, which A calls otherwise: compared there
+        difference, driven[task] = _task(task, ours, theirs, pairing, found)
+        first = first or difference
+    return first, driven
+
+
+def _of(record: Record, other: Record, task: str) -> Sequence[Stretch]:
+    """The moves of a task; of the only robot where the task is another's name for it."""
+    if task in record.motion:
+        return record.motion[task]
+    alone = len(record.motion) == 1 and len(other.motion) == 1
+    return next(iter(record.motion.values())) if alone else ()
+
+
+def _task(
+    task: str, ours: Sequence[Stretch], theirs: Sequence[Stretch], pairing: Pairing, found: Findings
+) -> tuple[Difference | None, Driven]:
+    groups = aligned(ours, theirs)
+    loose: set[int] = set()
+    first: Difference | None = None
+    for number, (a, b) in enumerate(groups):
+        found.compared += 1
+        difference = _group(task, groups, number, pairing, found, loose)
+        if a and b and len(a) == len(b) == 1:
+            asked = compare_asked(task, (a[0], b[0]), pairing.same_arm, pairing.tolerance, found)
+            difference = difference or asked
+        first = first or difference
+    for number in sorted(loose):
+        _measure(task, groups, number, pairing.tolerance, found)
+    return first, Driven(tuple(groups), frozenset(loose))
+
+
+def _group(
+    task: str, groups: Sequence[Group], number: int, pairing: Pairing, found: Findings, loose: set[int]
+) -> Difference | None:
+    """Compare one group. Corners that make its ways differ are added to `loose`."""
+    a, b = groups[number]
+    if not a or not b:
+        return Difference("move", "geometry", f"only {'A' if a else 'B'} moves here", move_side(a), move_side(b), task)
+    tolerance = pairing.tolerance
+    foreign = not pairing.same_language
+    corners = (corner_behind(groups, number - 1), corner_behind(groups, number)) if foreign else (None, None)
+    for place, corner in zip((number - 1, number), corners, strict=True):
+        if corner is not None and corner.stops[0] != corner.stops[1]:
+            loose.add(place)
+    if foreign and _sensed(groups, number):
+        worst = gap(*ways(groups[number]))
+        found.apart(worst.mm)
+        if worst.mm > tolerance.path_mm:
+            text = f"where a sensor ends the move, or behind it, the tool is up to {worst.mm:.3f} mm apart"
+            found.deviates("sensed", worst.mm, text, move_side(a), move_side(b), task)
+        return None
+    joint_way = any(stretch.motion == "joint" for stretch in (*a, *b))
+    if joint_way and not pairing.same_arm:  # two arms bend differently between the same points
+        return _ends(task, groups[number], corners[1], pairing, found)
+    worst = gap(*ways(groups[number]))
+    if not _apart(worst, tolerance):
+        found.apart(worst.mm)
+    elif any(corner is not None for corner in corners):
+        loose |= {place for place, one in zip((number - 1, number), corners, strict=True) if one is not None}
+        rest = between(groups[number], *corners)
+        left = gap(*rest) if rest is not None else None
+        difference = _goals(task, a[-1], b[-1], corners[1], pairing, found)
+        if difference is not None:
+            return difference
+        if left is not None and _apart(left, tolerance):
+            return _another_way(task, groups[number], left, pairing, found)
+    else:
+        difference = _another_way(task, groups[number], worst, pairing, found)
+        if difference is not None:
+            return difference
+    return _joints(task, a, b, pairing, found)
+
+
+def _apart(worst: Gap, tolerance: Tolerance) -> bool:
+    return worst.mm > tolerance.path_mm or worst.deg > tolerance.turn_deg
+
+
+def _another_way(task: str, group: Group, worst: Gap, pairing: Pairing, found: Findings) -> Difference | None:
+    """Ways that are apart: a deviation as far as somebody accepts that, else a difference."""
+    found.apart(worst.mm)
+    text = (
+        f"the tool goes another way: {worst.mm:.3f} mm and {worst.deg:.3f} deg apart"
+        f" at ({_xyz(worst.a)}) in A, ({_xyz(worst.b)}) in B"
+    )
+    sides = move_side(group[0]), move_side(group[1])
+    if worst.mm <= pairing.limit_mm and worst.deg <= pairing.tolerance.turn_deg:
+        found.deviates("path", worst.mm, text, *sides, task)
+        return None
+    return Difference("path", "geometry", text, *sides, task)
+
+
+def _ends(task: str, group: Group, corner: Corner | None, pairing: Pairing, found: Findings) -> Difference | None:
+    """Of joint moves of two arms: where they end, or head for where one of them passes."""
+    a, b = group[0][-1], group[1][-1]
+    if corner is not None or not (a.stops and b.stops):
+        return _goals(task, a, b, corner, pairing, found)
+    worst = gap(a.poses[-1:], b.poses[-1:])
+    if not _apart(worst, pairing.tolerance):
+        found.apart(worst.mm)
+        return None
+    return _another_way(task, group, worst, pairing, found)
+
+
+def _goals(
+    task: str, a: Stretch, b: Stretch, corner: Corner | None, pairing: Pairing, found: Findings
+) -> Difference | None:
+    """Moves at a corner: both must head for the same point."""
+    if corner is None or a.goal is None or b.goal is None or (a.cut and b.cut):
+        return None
+    apart = float(np.linalg.norm(a.goal[:3] - b.goal[:3]))
+    chord = min(float(np.linalg.norm(a.goal[3:] - b.goal[3:])), float(np.linalg.norm(a.goal[3:] + b.goal[3:])))
+    turn = float(np.degrees(4.0 * np.arcsin(min(0.5 * chord, 1.0))))
+    found.apart(apart)
+    if apart <= pairing.tolerance.path_mm and turn <= pairing.tolerance.turn_deg:
+        return None
+    text = f"the moves head for points that are {apart:.3f} mm and {turn:.3f} deg apart"
+    return Difference("path", "geometry", text, move_side([a]), move_side([b]), task)
+
+
+def _measure(task: str, groups: Sequence[Group], number: int, tolerance: Tolerance, found: Findings) -> None:
+    """How far apart two controllers pass a corner."""
+    corner = corner_behind(groups, number)
+    if corner is None:
+        return
+    (a, b), behind = groups[number], groups[number + 1]
+    sides = move_side(a), move_side(b)
+    if corner.stops[0] != corner.stops[1]:
+        text = f"{'A' if corner.stops[0] else 'B'} comes to rest where the other goes on"
+        found.deviates("stop", 1.0, text, *sides, task)
+    mm, deg = aside(groups, number, corner)
+    found.apart(mm)
+    if mm > tolerance.path_mm:
+        then = " / ".join(f"line {one[0].place.line}" for one in behind if one[0].place.line)
+        text = f"the tool passes the corner {mm:.3f} mm and {deg:.3f} deg apart" + (f", before {then}" if then else "")
+        found.deviates("corner", mm, text, *sides, task)
+    elif deg > tolerance.turn_deg:
+        found.deviates("turning", deg, f"in the corner the tool is turned {deg:.3f} deg apart", *sides, task)
+
+
+def _sensed(groups: Sequence[Group], number: int) -> bool:
+    """A move that both programs leave on the way when a sensor answers, or one from there: where that was depends on
+    how fast each controller accelerates."""
+    near = [groups[place] for place in (number - 1, number) if place >= 0]
+    return any(a and b and a[-1].cut and b[-1].cut for a, b in near)
+
+
+def _joints(
+    task: str, a: Sequence[Stretch], b: Sequence[Stretch], pairing: Pairing, found: Findings
+) -> Difference | None:
+    first, second = a[-1], b[-1]
+    if not (pairing.same_arm and len(first.joints) == len(second.joints) and first.stops and second.stops):
+        return None
+    apart = np.abs(first.joints - second.joints)
+    found.max_joint_deg = max(found.max_joint_deg, float(apart.max(initial=0.0)))
+    if apart.max(initial=0.0) <= pairing.tolerance.joint_deg:
+        return None
+    axis = int(np.argmax(apart))
+    text = (
+        f"the arm stands differently: axis {axis + 1} at {first.joints[axis]:.3f} in A, {second.joints[axis]:.3f} in B"
+    )
+    return Difference("joints", "geometry", text, move_side(a), move_side(b), task)
+
+
+def _xyz(point: tuple[float, float, float]) -> str:
+    return ", ".join(f"{value:.3f}" for value in point)
+
+
+def move_side(group: Sequence[Stretch]) -> Side:
+    """The last move of a group, in words and with its place."""
+    if not group:
+        return Side(None)
+    last = group[-1]
+    x, y, z = (float(value) for value in last.poses[-1, :3, 3])
+    return Side(f"{last.motion} move to ({x:.3f}, {y:.3f}, {z:.3f})", last.place, float(last.times[0]))
+
+
+__all__ = ["Driven", "Pairing", "compare_motion", "move_side"]

@@ -1,0 +1,109 @@
+"""The verdict in words: equal, alike, different or undecided, and everything that stands behind the word."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from rpl.proof.deviations import Deviation, Measure, measures
+from rpl.proof.difference import Difference
+from rpl.proof.tolerance import Accepted, Tolerance
+
+EQUAL, ALIKE, DIFFERENT, UNDECIDED = "equal", "alike", "different", "undecided"
+VERDICTS = (EQUAL, ALIKE, DIFFERENT, UNDECIDED)
+
+
+@dataclass(frozen=True)
+class ProofResult:
+    """Whether two programs mean the same, as far as their runs tell.
+
+    equal: everything compared lies within the tolerance, or deviates as somebody accepts. alike: the same events in the
+    same order, but measures deviate. different: there is a difference. undecided: no difference was found, and the runs
+    do not show enough (`reason`). `level`: the highest of none, events, geometry, time at which the runs agree. Maxima
+    leave nothing out. `notes`: what the reader of the verdict should know besides.
+    """
+
+    level: str
+    difference: Difference | None
+    max_path_mm: float
+    max_joint_deg: float
+    max_time_s: float
+    deviations: tuple[Deviation, ...] = ()
+    reason: str = ""
+    notes: tuple[str, ...] = ()
+    tolerance: Tolerance = field(default_factory=Tolerance)
+    acceptance: Accepted = field(default_factory=Accepted)
+
+    @cached_property
+    def accepted(self) -> tuple[Measure, ...]:
+        """What deviates and is accepted."""
+        return measures(one for one in self.deviations if self.acceptance.takes(one))
+
+    @cached_property
+    def open(self) -> tuple[Measure, ...]:
+        """What deviates and is not accepted."""
+        return measures(one for one in self.deviations if not self.acceptance.takes(one))
+
+    @property
+    def verdict(self) -> str:
+        """One of VERDICTS."""
+        if self.difference is not None:
+            return DIFFERENT
+        if self.reason:
+            return UNDECIDED
+        return ALIKE if self.open else EQUAL
+
+    @property
+    def equal(self) -> bool:
+        return self.verdict == EQUAL
+
+    @property
+    def agrees(self) -> bool:
+        """Was no difference found? Measures may deviate, and the runs may not show enough."""
+        return self.difference is None
+
+    def as_json(self) -> dict[str, object]:
+        """A stable document."""
+        return {
+            "verdict": self.verdict,
+            "equal": self.equal,
+            "level": self.level,
+            "reason": self.reason,
+            "first_difference": self.difference.as_json() if self.difference else None,
+            "deviations": [one.as_json() | {"accepted": self.acceptance.takes(one)} for one in self.deviations],
+            "max_path_mm": round(self.max_path_mm, 6),
+            "max_joint_deg": round(self.max_joint_deg, 6),
+            "max_time_s": round(self.max_time_s, 6),
+            "notes": list(self.notes),
+        }
+
+    def headline(self) -> str:
+        """The first line."""
+        deviating = ", ".join(one.as_text() for one in self.open)
+        accepted = ", ".join(one.as_text() for one in self.accepted)
+        beside = f"; accepted: {accepted}" if accepted else ""
+        match self.verdict:
+            case "different":
+                assert self.difference is not None  # that is what makes it different
+                return f"different: {self.difference.explanation}"
+            case "undecided":
+                return f"undecided: {self.reason}" + (f"; {deviating}" if deviating else "") + beside
+            case "alike":
+                return f"alike: {deviating}{beside}"
+            case _:
+                return f"equal: everything that was compared lies within {self.tolerance.as_text()}{beside}"
+
+    def as_text(self) -> str:
+        """The verdict for people: its line, what stands behind it, notes."""
+        lines = [self.headline()]
+        if self.difference is not None:
+            lines += self.difference.as_text().splitlines()[1:]
+            lines += [f"besides: {one.as_text()}" for one in self.open]
+        else:
+            lines += [line for one in self.open for line in one.as_lines()]
+        distance = f"greatest distance {self.max_path_mm:.4f} mm, {self.max_joint_deg:.4f} deg"
+        lines.append(f"{distance}; agree on: {self.level}")
+        return "\n".join((*lines, *(f"note: {note}" for note in self.notes)))
+
+
+__all__ = ["ALIKE", "DIFFERENT", "EQUAL", "UNDECIDED", "VERDICTS", "ProofResult"]
