@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.errors import RunError, UsageError
+from rpl.ir.walk import bodies
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.limits import DEFAULTS, Limits
 from rpl.runtime.machine import Machine
@@ -360,7 +361,7 @@ def _called(program: ir.Program, caller: ir.Routine) -> set[str]:
         for routine in module.routines:
             if routine is caller:
                 continue
-            for node in walk(routine.body, tuple(handler.body for handler in routine.handlers), routine.undo):
+            for node in walk(*bodies(routine)):
                 match node:
                     case ir.CallRoutine(name=name) | ir.Call(name=name):
                         names.add(name.lower())

@@ -8,6 +8,7 @@ from functools import cache
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.walk import bodies
 from rpl.reading.assemble import assemble
 from rpl.reading.ledger import FileReport
 from rpl.reading.pieces import Attribute, Item, ModulePart
@@ -153,7 +154,9 @@ def _tasks(modules: list[ir.Module]) -> tuple[ir.Task, ...]:
     tasks = []
     for name, members in sorted(names.items()):
         routines = (routine for module in members for routine in module.routines)
-        moves = (alone and len(names) == 1) or any(_has_motion(routine.body) for routine in routines)
+        moves = (alone and len(names) == 1) or any(
+            _has_motion(body) for routine in routines for body in bodies(routine)
+        )
         kind = "motion" if moves else "background"
         listed = tuple(module.name for module in members)
         tasks.append(ir.Task(name, "main", kind, cyclic=not moves, modules=listed))

@@ -58,7 +58,7 @@ from rpl.ir.statements import (
     While,
 )
 from rpl.ir.types import SIGNAL_KINDS, SignalType
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.source import NOWHERE, Origin
 
 UNKNOWN_WORD = code("unknown-word", Severity.ERROR, "{what} {word!r} does not exist")
@@ -182,11 +182,11 @@ class _Checker:
         self.names("parameter", ((parameter.name, routine.origin) for parameter in routine.parameters))
         self.declared(routine.declarations)
         self.words(routine, routine.origin)
-        bodies = (routine.body, *(handler.body for handler in routine.handlers), routine.undo, routine.backward)
-        labels = [node for body in bodies for node in walk(body) if isinstance(node, Label)]
+        every = bodies(routine)
+        labels = [node for body in every for node in walk(body) if isinstance(node, Label)]
         self.names("label", ((label.name, label.origin) for label in labels))
         known = {label.name.lower() for label in labels}
-        for node in (node for body in bodies for node in walk(body)):
+        for node in (node for body in every for node in walk(body)):
             if isinstance(node, Goto) and node.label.lower() not in known:
                 self.diagnostics.report(NO_LABEL, node.origin, name=node.label)
             if isinstance(node, Return) and node.value is None and routine.kind == "function" and routine.returns:

@@ -12,7 +12,8 @@ from operator import attrgetter, is_
 from typing import TypeGuard, TypeVar, cast, get_args
 
 from rpl.ir.expressions import Expression
-from rpl.ir.statements import Statement
+from rpl.ir.modules import Routine
+from rpl.ir.statements import Body, Statement
 from rpl.source import Origin
 
 Node = TypeVar("Node")
@@ -146,6 +147,11 @@ def is_expression(node: object) -> TypeGuard[Expression]:
 
 def is_statement(node: object) -> TypeGuard[Statement]:
     return node.__class__ in _STATEMENTS
+
+
+def bodies(routine: Routine) -> list[Body]:
+    """All bodies of a routine: its own, its handlers, undo, backward. What a routine does is in all of them."""
+    return [routine.body, *(handler.body for handler in routine.handlers), routine.undo, routine.backward]
 
 
 def rewrite(node: Node, change: Callable[[object], object]) -> Node:

@@ -13,6 +13,7 @@ from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.errors import UsageError
 from rpl.ir.analog import AnalogRange, AnalogSetting
+from rpl.ir.walk import bodies
 from rpl.linking.types import Types
 from rpl.passes.analog import AnalogRanges, analog_ranges
 from rpl.passes.scope import Fold, ProgramScope, Scope, rules_of
@@ -314,8 +315,7 @@ def _watched_names(program: ir.Program) -> Iterator[str]:
     """Names of variables that some waiting condition, interrupt or search reads."""
     for module in program.modules:
         for routine in module.routines:
-            parts: list[Any] = [routine.body, *(handler.body for handler in routine.handlers), routine.undo]
-            for statement in _statements(parts):
+            for statement in _statements(list(bodies(routine))):
                 conditions: list[ir.Expression | None] = []
                 match statement:
                     case ir.WaitUntil(condition=condition) | ir.DeclareInterrupt(condition=condition):
@@ -335,7 +335,7 @@ def _cyclic_values(program: ir.Program) -> Iterator[ir.Expression]:
     """What the program gives cyclic flags to evaluate."""
     for module in program.modules:
         for routine in module.routines:
-            for statement in _statements([routine.body, *(handler.body for handler in routine.handlers), routine.undo]):
+            for statement in _statements(list(bodies(routine))):
                 match statement:
                     case ir.Assign(target=ir.System(name="cyclic_flag"), value=value):
                         yield value

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.rules import QUANTITIES, Range, refusal
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.scope import ProgramScope, Scope
@@ -89,7 +89,8 @@ def motion_values(program: ir.Program, diagnostics: Diagnostics) -> None:
             inner = scopes.routine(module, routine)
             for declaration in routine.declarations:
                 checked.declaration(declaration, inner)
-            checked.body(routine.body, inner)
+            for body in bodies(routine):
+                checked.body(body, inner)
         checked.ended()
     _tool_set(program, scopes, diagnostics)
 
@@ -345,7 +346,7 @@ def _tool_set(program: ir.Program, scopes: ProgramScope, diagnostics: Diagnostic
     routines = [routine for module in modules for routine in module.routines]
     first: ir.Move | None = None
     for routine in routines:
-        for node in walk(routine.body):
+        for node in walk(*bodies(routine)):
             match node:
                 case ir.Assign(target=ir.System(name="tool")) | ir.CallRoutine() | ir.Vendor():
                     return  # set here, or perhaps in what is called

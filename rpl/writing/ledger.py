@@ -12,12 +12,13 @@ from collections.abc import Iterable, Iterator
 
 from rpl import ir
 from rpl.errors import InternalError
+from rpl.ir.walk import bodies
 
 Node = ir.Module | ir.Routine | ir.Declaration | ir.Statement
 _SHOWN = 10
 
 
-def bodies(node: ir.Statement | ir.Handler) -> tuple[ir.Body, ...]:
+def blocks(node: ir.Statement | ir.Handler) -> tuple[ir.Body, ...]:
     """The statement lists directly inside a statement."""
     match node:
         case ir.If(branches=branches, otherwise=otherwise):
@@ -46,7 +47,7 @@ def inside(node: Node) -> Iterator[Node]:
                 yield from inside(routine)
         case ir.Routine():
             yield from node.declarations
-            for body in (node.body, *(handler.body for handler in node.handlers), node.undo, node.backward):
+            for body in bodies(node):
                 yield from _inside_body(body)
         case (
             ir.Variable()
@@ -60,7 +61,7 @@ def inside(node: Node) -> Iterator[Node]:
         ):
             return
         case _:
-            for body in bodies(node):
+            for body in blocks(node):
                 yield from _inside_body(body)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from rpl import ir
+from rpl.ir.walk import bodies
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
@@ -81,7 +82,7 @@ class _Collector:
                     self.own(parameter.name)
                 for declaration in routine.declarations:
                     self.declaration(declaration)
-                for body in (routine.body, routine.undo, routine.backward, *(h.body for h in routine.handlers)):
+                for body in bodies(routine):
                     self.body(body)
 
     def declaration(self, declaration: ir.Declaration) -> None:

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from rpl import ir
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.effects import blocks, children, everything
-from rpl.passes.legalise.usage import bodies
 from rpl.passes.scope import ProgramScope, Scope
 
 

@@ -15,13 +15,12 @@ from typing import cast, get_args
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import children
+from rpl.ir.walk import bodies, children
 from rpl.passes.legalise.activations import Activations
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.effects import blocks
 from rpl.passes.legalise.jumps import inside
-from rpl.passes.legalise.usage import bodies
 from rpl.passes.scope import ProgramScope, Scope
 
 ALIASED = code(

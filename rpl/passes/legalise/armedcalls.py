@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.usage import each_expression
 from rpl.passes.rewrite import rewrite_parts
 
@@ -16,7 +16,7 @@ from rpl.passes.rewrite import rewrite_parts
 def armed_calls(routine: ir.Routine, resuming: set[str], elsewhere: ArmedElsewhere) -> set[str] | None:
     """Folded names of what is called while an interrupt of the `resuming` routines may be on; None: any call."""
     numbers: set[int] = set()
-    for node in walk(*routine.body):
+    for node in walk(*bodies(routine)):
         match node:
             case ir.Label() | ir.Goto():
                 return None
@@ -29,6 +29,9 @@ def armed_calls(routine: ir.Routine, resuming: set[str], elsewhere: ArmedElsewhe
         return None
     flow = _Flow(frozenset(numbers))
     flow.body(routine.body)
+    for other in bodies(routine)[1:]:  # an error comes anywhere in the body
+        flow.armed = True
+        flow.body(other)
     return flow.found
 
 
@@ -46,8 +49,7 @@ class ArmedElsewhere:
         computed: set[str] = set()
         for routine in routines:
             key = routine.name.lower()
-            bodies = (*routine.body, *(one for handler in routine.handlers for one in handler.body))
-            for node in walk(*bodies):
+            for node in walk(*bodies(routine)):
                 if not isinstance(node, ir.ControlInterrupt) or node.op in ("off", "disable", "mask", "delete"):
                     continue
                 number = _number(node.handle) if node.handle is not None else None

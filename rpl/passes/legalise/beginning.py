@@ -14,7 +14,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, Value, constant
 from rpl.passes.legalise.datalists import calls_of, moving_entries, reached, routines_beside
@@ -241,7 +241,7 @@ class _Start:
             raise _EndError
         scope = self.scopes.routine(home, routine)
         given = {one.name.lower() for one in routine.parameters if one.mode == "reference"}
-        for node in walk(routine.body):
+        for node in walk(*bodies(routine)):
             target = base_name(node.target) if isinstance(node, ir.Assign) else ""
             symbol = scope.value(target) if target else None
             foreign = isinstance(node, ir.Assign) and (symbol is None or symbol.routine is None or target in given)

@@ -15,7 +15,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.beside import Beside, tidy
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.editing import Editor, edit_all, edit_bodies, edit_routines
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.lookahead import touches
 from rpl.passes.legalise.stepsbeside import StepsBeside
@@ -37,11 +37,7 @@ def begun_moves(program: ir.Program, context: Context) -> ir.Program:
     source, target = (rules_of(one).advance.runs_ahead_of for one in (context.source, context.target))
     if source != "begun" or target == "begun":
         return program
-    modules = tuple(
-        replace(module, routines=tuple(edit_bodies(routine, _begun) for routine in module.routines))
-        for module in program.modules
-    )
-    return replace(program, modules=modules)
+    return edit_all(program, _begun)
 
 
 def _begun(body: ir.Body) -> ir.Body:

@@ -12,13 +12,12 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.begunmoves import looks
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.effects import blocks, is_constant
 from rpl.passes.legalise.jumps import inside
-from rpl.passes.legalise.usage import bodies
 
 LATE = code(
     "begun-output",

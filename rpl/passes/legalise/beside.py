@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor
 from rpl.passes.legalise.usage import Usage, doing, usage_of
@@ -26,7 +26,7 @@ def tidy(origin: Origin) -> Origin:
 def local_names(routine: ir.Routine) -> frozenset[str]:
     """The parameters and variables of a routine, folded."""
     own = [d.name.lower() for d in routine.declarations if isinstance(d, ir.Variable)]
-    counters = [node.counter.lower() for node in walk(*routine.body) if isinstance(node, ir.For) and node.scoped]
+    counters = [node.counter.lower() for node in walk(*bodies(routine)) if isinstance(node, ir.For) and node.scoped]
     return frozenset((*own, *counters, *(parameter.name.lower() for parameter in routine.parameters)))
 
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.beside import closure, local_names, tidy
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import edit_bodies, expansion, map_body
@@ -142,7 +142,7 @@ class _Called:
     # ---- the routines that start it
 
     def routine(self, routine: ir.Routine) -> ir.Routine:
-        if not any(isinstance(n, ir.TaskControl) and n.task.lower() == self.name for n in walk(*routine.body)):
+        if not any(isinstance(n, ir.TaskControl) and n.task.lower() == self.name for n in walk(*bodies(routine))):
             return routine
         if routine.name.lower() == self.name:
             raise UnfitError("it controls itself")

@@ -14,6 +14,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import edit_bodies, edit_each
 from rpl.passes.legalise.usage import base_name
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
@@ -51,14 +52,9 @@ def changed_places(program: ir.Program, context: Context) -> ir.Program:
             context.diagnostics.report(FLAGS_LEFT_OUT, one.origin)
             return replace(one, target=ir.Builtin("pose_of", (one.target,), origin=one.target.origin))
 
-        handlers = tuple(replace(handler, body=body(handler.body)) for handler in routine.handlers)
-        return replace(routine, body=body(routine.body), undo=body(routine.undo), handlers=handlers)
+        return edit_bodies(routine, body)
 
-    modules = tuple(
-        replace(module, routines=tuple(work(one, scopes.routine(module, one)) for one in module.routines))
-        for module in program.modules
-    )
-    return replace(program, modules=modules)
+    return edit_each(program, lambda module, one: work(one, scopes.routine(module, one)))
 
 
 def _stale(target: ir.Expression, changed: frozenset[str], scope: Scope) -> bool:

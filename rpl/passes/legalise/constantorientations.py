@@ -16,6 +16,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.fixedarcs import FixedArcs, is_fixed
 from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.rewrite import rewrite_parts
@@ -96,8 +97,8 @@ class _Paths:
 
     def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
         self.scope, self.reports = self.scopes.routine(module, routine), True
-        body = self.body(routine.body, _State())
-        return replace(routine, body=body, declarations=(*routine.declarations, *self.arcs.taken()))
+        done = edit_bodies(routine, lambda body: self.body(body, _State()))
+        return replace(done, declarations=(*routine.declarations, *self.arcs.taken()))
 
     def body(self, body: ir.Body, state: _State) -> ir.Body:
         done: list[ir.Statement] = []

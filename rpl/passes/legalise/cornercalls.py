@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.effects import blocks, statements_in
 from rpl.passes.legalise.lookahead import touches
@@ -32,7 +33,8 @@ def corner_calls(program: ir.Program, context: Context) -> ir.Program:
         looker = _Looker(program, context, target.stop_statements)
         for module in program.modules:
             for routine in module.routines:
-                looker.look(module, routine, routine.body)
+                for body in bodies(routine):
+                    looker.look(module, routine, body)
     return program
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.effects import blocks
 
@@ -26,7 +26,8 @@ def corner_leads(program: ir.Program, context: Context) -> ir.Program:
     if {source.runs_ahead_of, target.runs_ahead_of} == {"fly_by"} and target.lead_s > source.lead_s:
         for module in program.modules:
             for routine in module.routines:
-                _look(routine.body, target.lead_s - source.lead_s, context)
+                for body in bodies(routine):
+                    _look(body, target.lead_s - source.lead_s, context)
     return program
 
 

@@ -13,7 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.editing import edit_bodies, map_body
+from rpl.passes.legalise.editing import edit_all, map_body
 from rpl.passes.legalise.explicit import JOINT_SPEED_BLEND
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.modal import JOINT_BLEND, ZONE_MM_PER_PERCENT
@@ -33,12 +33,7 @@ def corners(program: ir.Program, context: Context) -> ir.Program:
     """The program with corners that the target can measure."""
     if context.capabilities.move_settings or not any(_foreign(node) for node in walk(*program.modules)):
         return program
-    worker = _Corners(program, context)
-    modules = []
-    for module in program.modules:
-        routines = tuple(edit_bodies(routine, worker.body) for routine in module.routines)
-        modules.append(replace(module, routines=routines))
-    return replace(program, modules=tuple(modules))
+    return edit_all(program, _Corners(program, context).body)
 
 
 def _foreign(node: object) -> bool:

@@ -56,9 +56,10 @@ class Ways:
             routines = []
             for routine in module.routines:
                 way = _Way(self, self.scopes.routine(module, routine), routine.name.lower())
-                body = way.routine(routine.body)
+                done = replace(routine, body=way.routine(routine.body))
+                done = replace(done, handlers=tuple(map(way.handler, routine.handlers)))
                 self.ends[routine.name.lower()] = way.end
-                routines.append(replace(routine, body=body) if self.telling else routine)
+                routines.append(done if self.telling else routine)
             modules.append(replace(module, routines=tuple(routines)))
         return replace(self.program, modules=tuple(modules))
 
@@ -84,6 +85,12 @@ class _Way:
         done, state = self.body(body, frozenset((ENTRY,)))
         self.end = (state or frozenset()) | self.end
         return done
+
+    def handler(self, handler: ir.Handler) -> ir.Handler:
+        """The handler, which begins wherever the error came; the routine may end behind it too."""
+        done, state = self.body(handler.body, frozenset((STOPPING,)))
+        self.end |= state or frozenset()
+        return replace(handler, body=done)
 
     def body(self, body: ir.Body, state: State) -> tuple[ir.Body, State]:
         done: list[ir.Statement] = []

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.editing import Editor, expansion
 from rpl.passes.legalise.jumps import leaves, opposite
 
@@ -197,7 +197,7 @@ def _is_one_of(node: object, names: dict[str, float]) -> bool:
 def _only_there(counts: dict[str, float], loop: ir.Statement, limits: list[ir.Expression], around: Around) -> bool:
     """Are the counters of the loop asked for nothing but their limit, and set before? What a search has counted when it
     finds is not the number of passes."""
-    nodes = list(walk(around.routine.body) if counts.keys() <= around.own() else walk(*around.program.modules))
+    nodes = list(walk(*bodies(around.routine)) if counts.keys() <= around.own() else walk(*around.program.modules))
     asked = [n for n in nodes if _is_one_of(n, counts)]
     there = sum(_is_one_of(n, counts) for n in walk(loop))
     sets = [n for n in nodes if isinstance(n, ir.Assign) and _is_one_of(n.target, counts)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from rpl import ir
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.effects import children, everything, root, statements_in
 from rpl.passes.legalise.usage import base_name
 from rpl.passes.rewrite import rewrite_parts
@@ -27,7 +28,7 @@ def used_outside_loops(routine: ir.Routine) -> set[str]:
             rewrite_parts(statement, lambda part: names(part, counting), _looking(look, inner))
         return body
 
-    for body in (routine.body, *(handler.body for handler in routine.handlers), routine.undo, routine.backward):
+    for body in bodies(routine):
         look(body, frozenset())
     for declaration in routine.declarations:
         if isinstance(declaration, ir.Variable) and declaration.initial is not None:
@@ -36,7 +37,7 @@ def used_outside_loops(routine: ir.Routine) -> set[str]:
 
 
 def jumps_about(routine: ir.Routine) -> bool:
-    return any(isinstance(statement, ir.Goto) for statement in statements_in(routine.body))
+    return any(isinstance(one, ir.Goto) for body in bodies(routine) for one in statements_in(body))
 
 
 def overwritten(routine: ir.Routine) -> set[int]:

@@ -11,11 +11,11 @@ from collections import Counter
 from collections.abc import Iterator
 
 from rpl import ir
-from rpl.ir.walk import children, walk
+from rpl.ir.walk import bodies, children, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies, map_body
 from rpl.passes.legalise.jumps import inside
-from rpl.passes.legalise.usage import base_name, bodies
+from rpl.passes.legalise.usage import base_name
 from rpl.passes.rewrite import changed
 from rpl.source import NOWHERE
 

@@ -9,9 +9,10 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.heldtexts import named_by_texts
-from rpl.passes.legalise.usage import bodies, each_expression, each_statement
+from rpl.passes.legalise.usage import each_expression, each_statement
 from rpl.source import NOWHERE
 
 SET_AT_START = code(

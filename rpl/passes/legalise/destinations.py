@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.activations import Activations, called
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.effects import statements_in
-from rpl.passes.legalise.usage import assigned_in, base_name, bodies, each_expression
+from rpl.passes.legalise.usage import assigned_in, base_name, each_expression
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
 

@@ -11,7 +11,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import edit_bodies, map_body
+from rpl.passes.legalise.editing import edit_all, map_body
 from rpl.passes.legalise.jumps import inside
 
 KEYS = code(
@@ -42,13 +42,7 @@ def number_dialogs(program: ir.Program, context: Context) -> ir.Program:
                 return _asked(statement, context)
         return (inside(statement, lambda inner: map_body(inner, change)),)
 
-    modules = tuple(
-        replace(
-            module, routines=tuple(edit_bodies(one, lambda body: map_body(body, change)) for one in module.routines)
-        )
-        for module in program.modules
-    )
-    return replace(program, modules=modules)
+    return edit_all(program, lambda body: map_body(body, change))
 
 
 def _asked(dialog: ir.Dialog, context: Context) -> ir.Body:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from operator import is_
 from typing import TypeVar
 
 from rpl import ir
@@ -73,17 +74,12 @@ def edit_routines(
     """The program with each routine rewritten by `work`; temporaries are declared in the routine."""
     scopes = ProgramScope(program)
     effects = Effects(program)
-    modules = []
-    for module in program.modules:
-        routines = []
-        for routine in module.routines:
-            editor = Editor(context, effects, scopes.routine(module, routine))
-            routines.append(editor.closed(work(editor, routine)))
-        same = all(new is old for new, old in zip(routines, module.routines, strict=True))
-        modules.append(module if same else replace(module, routines=tuple(routines)))
-    if all(new is old for new, old in zip(modules, program.modules, strict=True)):
-        return program
-    return replace(program, modules=tuple(modules))
+
+    def edited(module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        editor = Editor(context, effects, scopes.routine(module, routine))
+        return editor.closed(work(editor, routine))
+
+    return edit_each(program, edited)
 
 
 def edit_bodies(routine: ir.Routine, on_body: Callable[[ir.Body], ir.Body]) -> ir.Routine:
@@ -101,6 +97,21 @@ def edit_bodies(routine: ir.Routine, on_body: Callable[[ir.Body], ir.Body]) -> i
     ):
         return routine
     return replace(routine, body=body, undo=undo, backward=backward, handlers=handlers)
+
+
+def edit_all(program: ir.Program, on_body: Callable[[ir.Body], ir.Body]) -> ir.Program:
+    """The program with each body of each routine rewritten; the same object when nothing changed."""
+    return edit_each(program, lambda module, routine: edit_bodies(routine, on_body))
+
+
+def edit_each(program: ir.Program, work: Callable[[ir.Module, ir.Routine], ir.Routine]) -> ir.Program:
+    """The program with each routine rewritten; the same object when nothing changed."""
+    modules = []
+    for module in program.modules:
+        routines = tuple(work(module, routine) for routine in module.routines)
+        same = all(map(is_, routines, module.routines))
+        modules.append(module if same else replace(module, routines=routines))
+    return program if all(map(is_, modules, program.modules)) else replace(program, modules=tuple(modules))
 
 
 def expansion(origin: Origin, statements: Sequence[ir.Statement]) -> ir.Body:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rpl import ir
+from rpl.ir.walk import bodies
 from rpl.passes.rewrite import visit_parts
 
 # Built-in functions that fail for some arguments (a root of a negative number, a text that is no number, ...).
@@ -91,7 +92,8 @@ class Effects:
     def _calls_quiet(self, routine: ir.Routine) -> bool:
         return all(
             not isinstance(one, ir.Call) or one.name.lower() in self._quiet
-            for statement in statements_in(routine.body)
+            for body in bodies(routine)
+            for statement in statements_in(body)
             for child in children(statement)
             for one in everything(child)
         )

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
@@ -70,8 +71,7 @@ class _Worker:
         def body(statements: ir.Body) -> ir.Body:
             return tuple(parts(statement) for statement in statements)
 
-        handlers = tuple(replace(handler, body=body(handler.body)) for handler in routine.handlers)
-        return replace(routine, body=body(routine.body), undo=body(routine.undo), handlers=handlers)
+        return edit_bodies(routine, body)
 
     def moves(self, target: ir.Builtin) -> bool:
         """Does a move of the target's say this itself?"""

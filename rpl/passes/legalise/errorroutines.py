@@ -11,14 +11,13 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.activations import Activations
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import edit_bodies, expansion, map_body
+from rpl.passes.legalise.editing import edit_all, expansion, map_body
 from rpl.passes.legalise.effects import statements_in
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.support import with_support
-from rpl.passes.legalise.usage import bodies
 from rpl.passes.scope import ProgramScope
 
 LOST = code(
@@ -163,11 +162,4 @@ def _without(program: ir.Program, flag: ir.Name | None = None) -> ir.Program:
             return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
         return (inside(statement, lambda inner: map_body(inner, change)),)
 
-    modules = tuple(
-        replace(
-            module,
-            routines=tuple(edit_bodies(one, lambda body: map_body(body, change)) for one in module.routines),
-        )
-        for module in program.modules
-    )
-    return replace(program, modules=modules)
+    return edit_all(program, lambda body: map_body(body, change))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
@@ -16,6 +17,7 @@ from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise import carriedframes
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.datalists import moving_entries
+from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.helpers import Helpers
 from rpl.passes.legalise.modal import DROPPED, JOINT_BLEND, MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
 from rpl.passes.legalise.strengths import is_usual_ramp
@@ -86,8 +88,7 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
                 routine = _looking_ahead(routine, rules_of(context.target).advance.moves)
                 routine = _slowing(routine, context) if on_paths else routine
             worker = Modal(context, scopes.routine(module, routine), assigned, reported, usual, quiet, below)
-            handlers = tuple(replace(handler, body=worker.body(handler.body, {})) for handler in routine.handlers)
-            routines.append(replace(routine, body=worker.body(routine.body, {}), handlers=handlers))
+            routines.append(edit_bodies(routine, partial(worker.body, known={})))
         modules.append(replace(module, routines=tuple(routines)))
     return _with_least(replace(program, modules=tuple(modules)), context)
 

@@ -13,10 +13,11 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from rpl import ir
+from rpl.ir.walk import bodies
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import ProgramScope
 from rpl.passes.legalise.flow import Uses
-from rpl.passes.legalise.usage import bodies, each_statement
+from rpl.passes.legalise.usage import each_statement
 from rpl.passes.scope import Scope
 from rpl.passes.values import Target
 

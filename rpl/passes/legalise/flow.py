@@ -12,11 +12,11 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant, element_key
 from rpl.passes.legalise.context import ProgramScope
-from rpl.passes.legalise.usage import base_name, bodies, each_expression, each_statement
+from rpl.passes.legalise.usage import base_name, each_expression, each_statement
 from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope

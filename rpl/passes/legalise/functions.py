@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import (
     Editor,
@@ -24,7 +25,6 @@ from rpl.passes.legalise.editing import (
 )
 from rpl.passes.legalise.effects import blocks, children, everything, statements_in
 from rpl.passes.legalise.jumps import inside
-from rpl.passes.legalise.usage import bodies
 from rpl.passes.rewrite import rewrite_parts
 
 CALL_LEFT = code(

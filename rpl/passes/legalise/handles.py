@@ -4,16 +4,16 @@ several of them: where the last number is known, the statement names its thread 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.beside import local_names
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import edit_bodies, expansion
+from rpl.passes.legalise.editing import edit_all, expansion
 from rpl.passes.legalise.effects import statements_in
 from rpl.passes.legalise.jumps import LOOPS
-from rpl.passes.legalise.usage import assigned_in, bodies
+from rpl.passes.legalise.usage import assigned_in
 from rpl.passes.rewrite import rewrite_parts
 
 
@@ -29,15 +29,11 @@ def known_handles(program: ir.Program, context: Context) -> ir.Program:
             for name in {one for body in bodies(routine) for one in assigned_in(body)} & shared:
                 setters[name] = setters.get(name, 0) + 1
     worker = _Handles(frozenset(name for name in chosen if setters.get(name) == 1))
-    modules = tuple(
-        replace(module, routines=tuple(edit_bodies(routine, worker.outer) for routine in module.routines))
-        for module in program.modules
-    )
-    return replace(program, modules=modules)
+    return edit_all(program, worker.outer)
 
 
 def _chooses(routine: ir.Routine) -> bool:
-    return any(_choice(one) is not None for one in walk(*routine.body))
+    return any(_choice(one) is not None for one in walk(*bodies(routine)))
 
 
 def _choice(one: object) -> str | None:

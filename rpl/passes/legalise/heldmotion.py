@@ -12,7 +12,7 @@ from functools import partial
 
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.beside import closure, tidy
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
@@ -157,7 +157,7 @@ class _Held:
         last: dict[str, int] = {}
         for module in program.modules:
             for routine in module.routines:
-                for node in walk(*routine.body):
+                for node in walk(*bodies(routine)):
                     if isinstance(node, ir.CallRoutine):
                         calls[node.name.lower()] = calls.get(node.name.lower(), 0) + 1
                 if routine.name.lower() in roots:

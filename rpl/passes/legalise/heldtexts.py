@@ -10,7 +10,8 @@ from collections.abc import Set
 from dataclasses import dataclass, replace
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import bodies, rewrite, walk
+from rpl.passes.legalise.editing import edit_all
 from rpl.passes.legalise.effects import blocks
 from rpl.passes.legalise.usage import assigned_in
 from rpl.passes.rewrite import rewrite_parts
@@ -40,7 +41,7 @@ class HeldTexts:
         for module in program.modules:
             for routine in module.routines:
                 rest = rewrite(routine, _without_literals)
-                for body in (rest.body, rest.undo, *(handler.body for handler in rest.handlers)):
+                for body in bodies(rest):
                     unknown |= {name.lower() for name in assigned_in(body)}
         return HeldTexts({name: frozenset(texts) for name, texts in found.items()}, frozenset(unknown))
 
@@ -122,12 +123,7 @@ def _told_texts(program: ir.Program) -> ir.Program:
                 done.append(rewrite_parts(one, lambda part: part, body) if blocks(one) else one)
         return tuple(done)
 
-    def routine(one: ir.Routine) -> ir.Routine:
-        handlers = tuple(replace(handler, body=body(handler.body)) for handler in one.handlers)
-        return replace(one, body=body(one.body), undo=body(one.undo), handlers=handlers)
-
-    modules = (replace(one, routines=tuple(map(routine, one.routines))) for one in program.modules)
-    return replace(program, modules=tuple(modules))
+    return edit_all(program, body)
 
 
 def as_written_before(text: ir.Expression, before: ir.Body) -> ir.Expression:

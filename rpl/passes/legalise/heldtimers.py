@@ -10,8 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import edit_all, edit_bodies
 from rpl.passes.legalise.usage import base_name, called_below, doing
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.values import real
@@ -36,20 +37,7 @@ def held_timers(program: ir.Program, context: Context, only: frozenset[int] | No
     worker = _Held(context, stopped, doing(program, lambda node: _sets(node) is not None))
     worker.apart = _apart(program)
     worker.never = never
-    modules = [
-        replace(
-            module,
-            routines=tuple(
-                replace(
-                    routine,
-                    body=worker.body(routine.body, {}),
-                    handlers=tuple(replace(one, body=worker.body(one.body, {})) for one in routine.handlers),
-                )
-                for routine in module.routines
-            ),
-        )
-        for module in program.modules
-    ]
+    modules = list(edit_all(program, lambda body: worker.body(body, {})).modules)
     unread = {runs.id for _, runs in worker.kept.values()} - worker.asked
     modules = [replace(one, routines=tuple(_without(routine, unread) for routine in one.routines)) for one in modules]
     first = modules[0]
@@ -114,7 +102,7 @@ def _set_ahead(program: ir.Program) -> set[int]:
 
     for module in program.modules:
         for routine in module.routines:
-            for body in (routine.body, *(one.body for one in routine.handlers)):
+            for body in bodies(routine):
                 look(body)
     return found
 
@@ -144,8 +132,7 @@ def _without(routine: ir.Routine, unread: set[str]) -> ir.Routine:
         kept = [one for one in statements if not (isinstance(one, ir.Assign) and base_name(one.target) in unread)]
         return tuple(rewrite_parts(one, lambda value: value, body) for one in kept)
 
-    handlers = tuple(replace(one, body=body(one.body)) for one in routine.handlers)
-    return replace(routine, body=body(routine.body), handlers=handlers)
+    return edit_bodies(routine, body)
 
 
 def _apart(program: ir.Program) -> set[int]:

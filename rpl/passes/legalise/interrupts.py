@@ -8,8 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.changes import watched_changes
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import edit_all
 from rpl.passes.legalise.interruptnumbers import known_interrupts
 from rpl.passes.legalise.orderways import one_way_each
 from rpl.passes.legalise.reconnected import one_trap_each
@@ -34,25 +36,6 @@ def interrupts(program: ir.Program, context: Context) -> ir.Program:
     return program
 
 
-def _map_bodies(program: ir.Program, on_body: object) -> ir.Program:
-    assert callable(on_body)
-    modules = tuple(
-        replace(
-            module,
-            routines=tuple(
-                replace(
-                    routine,
-                    body=on_body(routine.body),
-                    handlers=tuple(replace(handler, body=on_body(handler.body)) for handler in routine.handlers),
-                )
-                for routine in module.routines
-            ),
-        )
-        for module in program.modules
-    )
-    return replace(program, modules=modules)
-
-
 @dataclass(slots=True)
 class _Priorities:
     source: ir.Program
@@ -73,10 +56,11 @@ class _Priorities:
 
         for module in self.source.modules:
             for routine in module.routines:
-                each_statement(routine.body, find)
+                for body in bodies(routine):
+                    each_statement(body, find)
         if not self.routine_of:
             return self.source
-        program = _map_bodies(self.source, self.body)
+        program = edit_all(self.source, self.body)
         modules = []
         for module in program.modules:
             declarations = tuple(

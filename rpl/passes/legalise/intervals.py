@@ -13,10 +13,10 @@ from collections.abc import Generator, Iterable
 from dataclasses import dataclass, replace
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.effects import blocks, children, statements_in
-from rpl.passes.legalise.usage import assigned_in, base_name, bodies
+from rpl.passes.legalise.usage import assigned_in, base_name
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 

@@ -13,14 +13,14 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.editing import edit_bodies, map_body
+from rpl.passes.legalise.editing import edit_all, map_body
 from rpl.passes.legalise.effects import blocks
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.modalflow import Flow
 from rpl.passes.legalise.support import with_support
-from rpl.passes.legalise.usage import bodies, called_names
+from rpl.passes.legalise.usage import called_names
 
 STANDS = code(
     "relative-move-stands",
@@ -69,13 +69,8 @@ def joined_moves(program: ir.Program, context: Context) -> ir.Program:
         blend: ir.Blend = ir.BlendSpeed(ir.IntLiteral(100)) if joined else ir.BlendStop()
         return replace(node, settings=kept, blend=blend if node.blend is None else node.blend)
 
-    modules = tuple(
-        replace(
-            module, routines=tuple(edit_bodies(one, lambda body: map_body(body, change)) for one in module.routines)
-        )
-        for module in program.modules
-    )
-    done = replace(program, modules=tuple(rewrite(module, moved) for module in modules))
+    changed = edit_all(program, lambda body: map_body(body, change))
+    done = replace(program, modules=tuple(rewrite(module, moved) for module in changed.modules))
     if kept_in is None:
         return done
     data = ir.Variable(kept_in.id, ir.BoolType(), usual, scope="global")
@@ -131,11 +126,7 @@ def stand_before_ways(program: ir.Program, context: Context) -> ir.Program:
             else tuple(done)
         )
 
-    modules = tuple(
-        replace(module, routines=tuple(edit_bodies(one, stood) for one in module.routines))
-        for module in program.modules
-    )
-    return replace(program, modules=modules)
+    return edit_all(program, stood)
 
 
 def _found(program: ir.Program, context: Context, start: bool) -> dict[int, ir.Expression | None] | None:

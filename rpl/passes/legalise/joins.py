@@ -12,7 +12,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies, map_body
-from rpl.passes.legalise.jumps import inside
+from rpl.passes.legalise.jumps import inside, left_with
 from rpl.passes.legalise.support import with_support
 
 
@@ -47,25 +47,10 @@ def joins(program: ir.Program, context: Context) -> ir.Program:
         for routine in module.routines:
             done = edit_bodies(routine, lambda body: map_body(body, change))
             flag = flags.get(routine.name.lower())
-            routines.append(done if flag is None else _ending(done, flag))
+            routines.append(done if flag is None else left_with(done, (ir.Assign(flag, ir.BoolLiteral(False)),)))
         modules.append(replace(module, routines=tuple(routines)))
     data = [ir.Variable(flag.id, ir.BoolType(), ir.BoolLiteral(False), scope="global") for flag in flags.values()]
     return with_support(replace(program, modules=tuple(modules)), context, data, (), modules[0].task)
-
-
-def _ending(routine: ir.Routine, flag: ir.Name) -> ir.Routine:
-    """The routine with the flag taken back wherever it ends."""
-
-    def change(statement: ir.Statement) -> ir.Body:
-        if isinstance(statement, ir.Return):
-            later = replace(statement.origin, comments=())
-            return (ir.Assign(flag, ir.BoolLiteral(False), origin=statement.origin), replace(statement, origin=later))
-        return (inside(statement, lambda inner: map_body(inner, change)),)
-
-    body = map_body(routine.body, change)
-    if body and isinstance(body[-1], ir.Return):
-        return replace(routine, body=body)
-    return replace(routine, body=(*body, ir.Assign(flag, ir.BoolLiteral(False))))
 
 
 __all__ = ["joins"]

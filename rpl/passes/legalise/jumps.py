@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 from rpl import ir
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import exits, map_body, negation, passes_on
+from rpl.passes.legalise.editing import exits, expansion, map_body, negation, passes_on
 from rpl.passes.legalise.effects import blocks, statements_in
-from rpl.passes.legalise.usage import bodies
 from rpl.passes.rewrite import rewrite_parts
 
 LOOPS = (ir.For, ir.While, ir.Repeat, ir.Loop)
@@ -117,6 +117,22 @@ class LabelNames:
 def inside(statement: ir.Statement, on_body: Callable[[ir.Body], ir.Body]) -> ir.Statement:
     """The statement with its bodies rewritten."""
     return rewrite_parts(statement, lambda expression: expression, on_body) if blocks(statement) else statement
+
+
+def left_with(routine: ir.Routine, steps: ir.Body) -> ir.Routine:
+    """The routine with these steps wherever it ends: at each return, and behind its body and its handlers."""
+
+    def change(statement: ir.Statement) -> ir.Body:
+        if isinstance(statement, ir.Return):
+            return expansion(statement.origin, (*steps, statement))
+        return (inside(statement, lambda body: map_body(body, change)),)
+
+    def whole(body: ir.Body) -> ir.Body:
+        done = map_body(body, change)
+        return done if body and (leaves(body[-1]) or isinstance(body[-1], ir.Raise)) else (*done, *steps)
+
+    handlers = tuple(replace(one, body=whole(one.body)) for one in routine.handlers)
+    return replace(routine, body=whole(routine.body), handlers=handlers)
 
 
 def without_labels(body: ir.Body, unused: Iterable[str]) -> ir.Body:

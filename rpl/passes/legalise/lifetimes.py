@@ -10,9 +10,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.effects import blocks, children, everything
-from rpl.passes.legalise.usage import bodies
 
 # What is looked at when the program has gone on.
 _LATER = (ir.Trigger, ir.DefineTrigger, ir.DeclareInterrupt, ir.OrderInterrupt, ir.Pulse, ir.SetAfter, ir.Move)

@@ -12,14 +12,14 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.criticals import Facts
-from rpl.passes.legalise.editing import edit_bodies, map_body
+from rpl.passes.legalise.editing import edit_all, edit_bodies, map_body
 from rpl.passes.legalise.effects import blocks
 from rpl.passes.legalise.jumps import inside, leaves
 from rpl.passes.legalise.support import with_support
-from rpl.passes.legalise.usage import base_name, bodies
+from rpl.passes.legalise.usage import base_name
 from rpl.source import Origin
 
 LOCKED = code(
@@ -73,14 +73,7 @@ def _opened(program: ir.Program, context: Context) -> ir.Program:
             return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
         return (inside(statement, lambda body: map_body(body, change)),)
 
-    modules = tuple(
-        replace(
-            module,
-            routines=tuple(edit_bodies(one, lambda body: map_body(body, change)) for one in module.routines),
-        )
-        for module in program.modules
-    )
-    return replace(program, modules=modules)
+    return edit_all(program, lambda body: map_body(body, change))
 
 
 def _first(facts: Facts) -> str:

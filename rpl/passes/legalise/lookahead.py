@@ -11,6 +11,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
+from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.usage import each_expression
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
@@ -34,7 +35,7 @@ def stop_blends(program: ir.Program, context: Context) -> ir.Program:
         routines = []
         for routine in module.routines:
             worker = _Stops(context, scopes.routine(module, routine), rules.stop_statements, keeps_marks)
-            routines.append(replace(routine, body=worker.body(routine.body)))
+            routines.append(edit_bodies(routine, worker.body))
         modules.append(replace(module, routines=tuple(routines)))
     return replace(program, modules=tuple(modules))
 

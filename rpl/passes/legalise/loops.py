@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.counters import declared_loops, jumps_about, overwritten, used_outside_loops
@@ -63,7 +63,7 @@ class _Loops:
         }
         self.outside = used_outside_loops(routine)
         self.overwritten = set() if jumps_about(routine) else overwritten(routine)
-        self.entered = entered(routine.body)
+        self.entered = {one for body in bodies(routine) for one in entered(body)}
         self.counters: dict[str, tuple[ir.Name, ir.Type]] = {}
         self.active: list[str] = []
         self.implicit: set[str] = set()

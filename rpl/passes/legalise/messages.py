@@ -13,7 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.editing import Editor, edit_all, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.jumps import inside
 
 SPLIT = code(
@@ -54,14 +54,7 @@ def message_lines(program: ir.Program, context: Context) -> ir.Program:
             return _lines(statement)
         return (inside(statement, lambda inner: map_body(inner, change)),)
 
-    modules = tuple(
-        replace(
-            module,
-            routines=tuple(edit_bodies(one, lambda body: map_body(body, change)) for one in module.routines),
-        )
-        for module in program.modules
-    )
-    return replace(program, modules=modules)
+    return edit_all(program, lambda body: map_body(body, change))
 
 
 def senders_as_texts(program: ir.Program, context: Context) -> ir.Program:

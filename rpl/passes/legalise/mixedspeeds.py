@@ -12,7 +12,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.editing import edit_bodies, map_body
+from rpl.passes.legalise.editing import edit_all, map_body
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.modalflow import Flow
 
@@ -48,14 +48,7 @@ def mixed_speeds(program: ir.Program, context: Context) -> ir.Program:
             return (statement,)
         return (replace(statement, speed=ir.Speed(path=found) if kind == "path" else ir.Speed(joint=found)),)
 
-    modules = tuple(
-        replace(
-            module,
-            routines=tuple(edit_bodies(one, lambda body: map_body(body, change)) for one in module.routines),
-        )
-        for module in program.modules
-    )
-    return replace(program, modules=modules)
+    return edit_all(program, lambda body: map_body(body, change))
 
 
 def _kind(move: ir.Move) -> str:

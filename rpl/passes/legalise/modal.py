@@ -15,6 +15,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.carriedframes import ROOT, UNIT
 from rpl.passes.legalise.circles import has_arcs
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.editing import edit_all
 from rpl.passes.legalise.tooldata import HOME, PLACES, tool_of, work_object_of
 from rpl.passes.legalise.usage import Usage, each_expression, usage_of
 from rpl.passes.rewrite import rewrite_parts
@@ -99,21 +100,7 @@ def modal_to_explicit(program: ir.Program, context: Context) -> ir.Program:
         return program
     usage = usage_of(program)
     worker = _Explicit(program, context, usage)
-    modules = tuple(
-        replace(
-            module,
-            routines=tuple(
-                replace(
-                    routine,
-                    body=worker.routine(routine.body),
-                    handlers=tuple(replace(handler, body=worker.routine(handler.body)) for handler in routine.handlers),
-                )
-                for routine in module.routines
-            ),
-        )
-        for module in program.modules
-    )
-    program = worker.without_dead_settings(replace(program, modules=modules))
+    program = worker.without_dead_settings(edit_all(program, worker.routine))
     declarations = worker.declarations()
     if declarations:
         task = next((module.task for module in program.modules), "")
@@ -172,18 +159,7 @@ class _Explicit:
                         done.append(rewrite_parts(statement, lambda expression: expression, body))
             return tuple(done)
 
-        modules = []
-        for module in program.modules:
-            routines = tuple(
-                replace(
-                    routine,
-                    body=body(routine.body),
-                    handlers=tuple(replace(handler, body=body(handler.body)) for handler in routine.handlers),
-                )
-                for routine in module.routines
-            )
-            modules.append(replace(module, routines=routines))
-        return replace(program, modules=tuple(modules)) if dead else program
+        return edit_all(program, body) if dead else program
 
     def default(self, name: str, fallback: float) -> float:
         value = self.defaults.get(name, fallback)

@@ -16,6 +16,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.coordinatedmoves import REMOTE
 from rpl.passes.legalise.coordinatedmoves import SETTING as COORDINATED
+from rpl.passes.legalise.editing import edit_all
 from rpl.passes.legalise.modal import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, ZONE_MM_PER_PERCENT, says
 from rpl.passes.legalise.modalflow import SETTINGS, Flow, State
 from rpl.passes.legalise.saidaccelerations import SAID, Accelerations
@@ -92,20 +93,7 @@ class _Settings:
         return only_served(program, self.variables.values())
 
     def modules(self) -> tuple[ir.Module, ...]:
-        return tuple(
-            replace(
-                module,
-                routines=tuple(
-                    replace(
-                        routine,
-                        body=self.body(routine.body),
-                        handlers=tuple(replace(one, body=self.body(one.body)) for one in routine.handlers),
-                    )
-                    for routine in module.routines
-                ),
-            )
-            for module in self.source.modules
-        )
+        return edit_all(self.source, self.body).modules
 
     def declared(self, name: str, variable: str) -> ir.Variable:
         initial = self.flow.start.get(name)

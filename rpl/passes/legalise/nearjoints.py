@@ -8,15 +8,16 @@ What stays is refused by `refuse`.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import edit_bodies, edit_each
 from rpl.passes.legalise.flow import ModalFlow
-from rpl.passes.legalise.usage import bodies
 from rpl.passes.legalise.walk import Rewriter, unchanged_in
 from rpl.passes.values import Record, Value, component, pose_of, real
 
@@ -123,8 +124,11 @@ def _direct(program: ir.Program, functions: set[str]) -> ir.Program:
         def alone(name: str, rest: ir.Body) -> bool:
             return (name in own or shared.get(name) == {id(routine)}) and _dead(name, rest)
 
+        return edit_bodies(routine, lambda body: direct(body, alone, _mentioned(routine, besides=body)))
+
+    def direct(whole: ir.Body, alone: Callable[[str, ir.Body], bool], elsewhere: set[str]) -> ir.Body:
         done: list[ir.Statement] = []
-        body = list(routine.body)
+        body = list(whole)
         while body:
             first, *rest = body
             match first, rest:
@@ -135,6 +139,7 @@ def _direct(program: ir.Program, functions: set[str]) -> ir.Program:
                     function in functions
                     and len(given) == _GIVEN[function]
                     and goal.lower() == name.lower()
+                    and name.lower() not in elsewhere
                     and alone(name.lower(), tuple(behind))
                 ):
                     comments = (*first.origin.comments, *move.origin.comments)
@@ -143,14 +148,15 @@ def _direct(program: ir.Program, functions: set[str]) -> ir.Program:
                 case _:
                     done.append(first)
                     body = rest
-        return replace(routine, body=tuple(done))
+        return tuple(done)
 
-    modules = tuple(replace(module, routines=tuple(map(work, module.routines))) for module in program.modules)
-    return replace(program, modules=modules)
+    return edit_each(program, lambda _, routine: work(routine))
 
 
-def _mentioned(routine: ir.Routine) -> set[str]:
-    return {one.id.lower() for body in bodies(routine) for one in walk(*body) if isinstance(one, ir.Name)}
+def _mentioned(routine: ir.Routine, besides: ir.Body | None = None) -> set[str]:
+    """Names in the routine, in all bodies but that one."""
+    parts = [body for body in bodies(routine) if body is not besides]
+    return {one.id.lower() for body in parts for one in walk(*body) if isinstance(one, ir.Name)}
 
 
 def _declared(routine: ir.Routine) -> set[str]:

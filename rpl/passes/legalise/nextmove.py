@@ -11,13 +11,13 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import bodies
 from rpl.passes.capabilities import Capabilities
 from rpl.passes.legalise.activations import Activations, called
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.effects import blocks, is_constant, statements_in
 from rpl.passes.legalise.jumps import inside, leaves
-from rpl.passes.legalise.usage import bodies
 
 UNCERTAIN = code(
     "next-move-uncertain",

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.activations import Activations, called
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.datalists import never_called
@@ -16,7 +17,6 @@ from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, map_
 from rpl.passes.legalise.effects import blocks, statements_in
 from rpl.passes.legalise.jumps import inside, leaves
 from rpl.passes.legalise.nextmove import fixed_setting, moves, set_at_move
-from rpl.passes.legalise.usage import bodies
 
 # Calls in calls that a setting goes through.
 _DEEPEST = 6

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import bodies
 from rpl.passes.capabilities import Bank
 from rpl.passes.fold import Unchanged, constant, literal
 from rpl.passes.legalise.banks import MIXED, NO_BANK, Numbers, Wanted, enlarged, fits, held, main_types, sizes_of
@@ -19,7 +20,7 @@ from rpl.passes.legalise.operands import is_operand
 from rpl.passes.legalise.parameters import ARGUMENTS
 from rpl.passes.legalise.points import Points
 from rpl.passes.legalise.startdata import INITIALISE, assigned_at_start
-from rpl.passes.legalise.usage import bodies, each_expression, each_statement
+from rpl.passes.legalise.usage import each_expression, each_statement
 from rpl.passes.legalise.walk import Rewriter, unchanged_in
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typewords import word_type

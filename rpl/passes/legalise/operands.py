@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.editing import negation
 from rpl.passes.legalise.effects import is_constant
-from rpl.passes.legalise.usage import bodies, each_statement, usage_of
+from rpl.passes.legalise.usage import each_statement, usage_of
 
 _LITERALS = (ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.EnumLiteral)
 _BY_TIME = frozenset(("clock_seconds", "time_text", "date_text", "random", "text_value"))

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.errornames import spelled_among
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import NameRules
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.datalists import calls_of, never_called, reached
@@ -21,7 +21,6 @@ from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expa
 from rpl.passes.legalise.effects import blocks, children, everything, statements_in
 from rpl.passes.legalise.heldtexts import HeldTexts, as_written_before, text_beginning
 from rpl.passes.legalise.support import default_value
-from rpl.passes.legalise.usage import bodies
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 

@@ -13,7 +13,7 @@ from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.editing import edit_bodies
+from rpl.passes.legalise.editing import edit_bodies, edit_each
 from rpl.passes.legalise.effects import blocks
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.scope import ProgramScope, Scope
@@ -226,27 +226,18 @@ def _size(blend: ir.Blend | None, scope: Scope) -> float | None:
 
 def _rewritten(program: ir.Program, change: Callable[[Scope, ir.Body], ir.Body]) -> ir.Program:
     scopes = ProgramScope(program)
-    modules = []
-    for module in program.modules:
-        routines = []
-        for routine in module.routines:
-            scope = scopes.routine(module, routine)
 
-            def on_body(body: ir.Body, scope: Scope = scope) -> ir.Body:
-                inner = [
-                    statement if isinstance(statement, ir.Move) else inside(statement, on_body) for statement in body
-                ]
-                same = all(new is old for new, old in zip(inner, body, strict=True))
-                return change(scope, body if same else tuple(inner))
+    def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        scope = scopes.routine(module, routine)
 
-            routines.append(edit_bodies(routine, on_body))
-        modules.append(replace(module, routines=tuple(routines)))
-    same = all(
-        new is old
-        for made, module in zip(modules, program.modules, strict=True)
-        for new, old in zip(made.routines, module.routines, strict=True)
-    )
-    return program if same else replace(program, modules=tuple(modules))
+        def on_body(body: ir.Body) -> ir.Body:
+            inner = [statement if isinstance(statement, ir.Move) else inside(statement, on_body) for statement in body]
+            same = all(new is old for new, old in zip(inner, body, strict=True))
+            return change(scope, body if same else tuple(inner))
+
+        return edit_bodies(routine, on_body)
+
+    return edit_each(program, work)
 
 
 __all__ = ["fitting_corners", "left_out_moves"]

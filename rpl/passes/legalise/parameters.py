@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.activations import Activations
 from rpl.passes.legalise.arraycopies import array_copy
 from rpl.passes.legalise.context import Context
@@ -19,7 +20,7 @@ from rpl.passes.legalise.jumps import goes_on, inside
 from rpl.passes.legalise.lists import sized
 from rpl.passes.legalise.references import fixed_place, is_open
 from rpl.passes.legalise.support import with_support
-from rpl.passes.legalise.usage import base_name, bodies
+from rpl.passes.legalise.usage import base_name
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 

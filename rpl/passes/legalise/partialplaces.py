@@ -13,6 +13,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.rigid import Pose
@@ -67,7 +68,7 @@ class _Places:
             routines = []
             for routine in module.routines:
                 self.scope = scopes.routine(module, routine)
-                routines.append(replace(routine, body=self.body(routine.body, {})))
+                routines.append(edit_bodies(routine, lambda body: self.body(body, {})))
             modules.append(replace(module, routines=tuple(routines)))
         return replace(self.source, modules=tuple(modules))
 

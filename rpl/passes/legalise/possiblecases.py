@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import expansion
+from rpl.passes.legalise.editing import edit_all, expansion
 from rpl.passes.rewrite import rewrite_parts
 
 _READERS = frozenset(("parse_value",))  # procedures that fill data of any type
@@ -38,11 +38,7 @@ def possible_cases(program: ir.Program, context: Context) -> ir.Program:
         same = len(done) == len(statements) and all(a is b for a, b in zip(done, statements, strict=True))
         return statements if same else tuple(done)
 
-    modules = tuple(
-        replace(module, routines=tuple(replace(routine, body=body(routine.body)) for routine in module.routines))
-        for module in program.modules
-    )
-    return replace(program, modules=modules)
+    return edit_all(program, body)
 
 
 def _left(choice: ir.Switch, members: frozenset[str]) -> ir.Body:

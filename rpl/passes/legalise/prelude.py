@@ -66,9 +66,7 @@ def _inlined(modules: list[ir.Module], prelude: ir.Module, assigned: set[str]) -
             uses.routine(routine)
     inliner = _Inliner(prelude, own, assigned, uses.names)
     return [
-        replace(
-            module, routines=tuple(replace(routine, body=inliner.body(routine.body)) for routine in module.routines)
-        )
+        replace(module, routines=tuple(edit_bodies(routine, inliner.body) for routine in module.routines))
         if module.dialect == prelude.dialect
         else module
         for module in modules

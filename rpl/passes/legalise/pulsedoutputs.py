@@ -13,11 +13,10 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.jumps import inside
-from rpl.passes.legalise.usage import bodies
 from rpl.passes.scope import Scope
 
 PULSED = code(

@@ -14,13 +14,13 @@ from functools import partial
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.beside import tidy
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.effects import blocks
 from rpl.passes.legalise.jumps import LOOPS, inside
-from rpl.passes.legalise.usage import assigned_in, bodies, doing
+from rpl.passes.legalise.usage import assigned_in, doing
 
 PAUSED_FIRST = code(
     "pause-first",

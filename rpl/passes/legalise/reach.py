@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.effects import children, everything
 
 
@@ -40,8 +40,10 @@ def armed_statements(program: ir.Program, keys: Keys) -> frozenset[int]:
         before = (set(reach.entries), dict(reach.exits), len(reach.marked))
         for name, routine in routines.items():
             for armed in (False, True) if name in reach.entries else (False,):
-                reach.leaving = False
+                reach.leaving = reach.switched = False
                 end = reach.body(routine.body, armed)
+                for other in bodies(routine)[1:]:  # an error may come where it was armed, or before
+                    end = reach.body(other, end or armed or reach.switched) or end
                 reach.exits[name, armed] = reach.exits.get((name, armed), False) or end or reach.leaving
         if before == (reach.entries, reach.exits, len(reach.marked)):
             return frozenset(reach.marked)
@@ -52,13 +54,13 @@ def with_calls(program: ir.Program, marked: frozenset[int], declaring: frozenset
     to the routine that declares it (by folded name)."""
     routines = {routine.name.lower(): routine for module in program.modules for routine in module.routines}
     calls = {
-        name: [node for node in walk(*routine.body) if isinstance(node, ir.CallRoutine)]
+        name: [node for node in walk(*bodies(routine)) if isinstance(node, ir.CallRoutine)]
         for name, routine in routines.items()
     }
     ways = {
         name
         for name, routine in routines.items()
-        if name not in declaring and any(id(node) in marked for node in walk(*routine.body))
+        if name not in declaring and any(id(node) in marked for node in walk(*bodies(routine)))
     }
     while True:
         more = {
@@ -75,13 +77,14 @@ def with_calls(program: ir.Program, marked: frozenset[int], declaring: frozenset
 @dataclass(slots=True)
 class _Reach:
     """`exits`: routine (folded) and whether it was armed at its call -> may it be armed behind. `entries`: routines
-    that are called while it is armed."""
+    that are called while it is armed. `switched`: is it armed anywhere in the routine at hand?"""
 
     keys: Keys
     exits: dict[tuple[str, bool], bool]
     entries: set[str] = field(default_factory=set)
     marked: set[int] = field(default_factory=set)
     leaving: bool = False
+    switched: bool = False
 
     def body(self, body: ir.Body, armed: bool) -> bool:
         for statement in body:
@@ -104,9 +107,11 @@ class _Reach:
         match statement:
             case ir.ControlInterrupt():
                 told = self.keys.arms(statement)
+                self.switched = self.switched or bool(told)
                 return armed if told is None else told
             case ir.OrderInterrupt(handle=handle):
                 told = self.keys.arms(ir.ControlInterrupt("on", handle))
+                self.switched = self.switched or bool(told)
                 return armed if told is None else told
             case ir.CallRoutine(name=name):
                 return self.called(name, armed)

@@ -13,6 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.rewrite import rewrite_parts
 
 SEVERAL = code(
@@ -81,9 +82,7 @@ class _Split:
         used = {_name(one.handle) for one in nodes if isinstance(one, _HANDLED)} & self.names
         if used and any(isinstance(one, ir.Goto) for one in nodes):
             self.failed |= used
-        body = self.body(routine.body, {}, nested=False)
-        handlers = (replace(one, body=self.body(one.body, {}, nested=True)) for one in routine.handlers)
-        return replace(routine, body=body, handlers=tuple(handlers))
+        return edit_bodies(routine, lambda body: self.body(body, {}, nested=body is not routine.body))
 
     def body(self, body: ir.Body, now: dict[str, ir.Name], nested: bool) -> ir.Body:
         done: list[ir.Statement] = []

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import bodies
 from rpl.passes.fold import constant
 from rpl.passes.legalise.activations import Activations, called
 from rpl.passes.legalise.context import Context
@@ -20,7 +21,6 @@ from rpl.passes.legalise.effects import blocks, statements_in
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.liveness import wanted_behind_calls
 from rpl.passes.legalise.support import with_support
-from rpl.passes.legalise.usage import bodies
 from rpl.passes.scope import ProgramScope, Scope
 
 KEPT = code(

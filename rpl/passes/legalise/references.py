@@ -9,10 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.effects import blocks, is_constant, statements_in
-from rpl.passes.legalise.usage import base_name, bodies
+from rpl.passes.legalise.usage import base_name
 from rpl.passes.rewrite import changed, rewrite_parts
 from rpl.passes.scope import ProgramScope
 from rpl.passes.typing import type_of

@@ -11,11 +11,12 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.effects import statements_in
 from rpl.passes.legalise.jumps import inside
-from rpl.passes.legalise.usage import bodies, each_expression, each_statement
+from rpl.passes.legalise.usage import each_expression, each_statement
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 from rpl.source import Comment

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import edit_all
 from rpl.passes.rewrite import rewrite_parts
 
 
@@ -16,21 +17,7 @@ def stopped_resets(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose stop watches count on when they are set to zero."""
     if context.capabilities.reset_stops:
         return program
-    modules = tuple(
-        replace(
-            module,
-            routines=tuple(
-                replace(
-                    routine,
-                    body=_body(routine.body),
-                    handlers=tuple(replace(handler, body=_body(handler.body)) for handler in routine.handlers),
-                )
-                for routine in module.routines
-            ),
-        )
-        for module in program.modules
-    )
-    return replace(program, modules=modules)
+    return edit_all(program, _body)
 
 
 def _body(body: ir.Body) -> ir.Body:

@@ -11,9 +11,10 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.armedcalls import ArmedElsewhere, armed_calls
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.usage import each_expression, each_statement
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import Origin
@@ -100,7 +101,8 @@ class _Facts:
             if isinstance(expression, ir.Call):
                 calls.add(expression.name.lower())
 
-        each_statement(routine.body, look)
+        for body in bodies(routine):
+            each_statement(body, look)
 
     def closure(self, names: set[str]) -> set[str]:
         """The routines that call one of these, directly or not, and these."""
@@ -151,11 +153,11 @@ class _Resumes:
             at_once = next((one for one in walk(*body) if isinstance(one, ir.ResumeLevel)), None)
             if at_once is not None and not any(isinstance(one, ir.StopMotion) for one in walk(*body)):
                 self.diagnostics.report(NOT_BRAKED, at_once.origin, routine=routine.name)
-            return replace(routine, body=self.handler(body))
+            return edit_bodies(replace(routine, body=body), self.handler)
         if key in self.declaring:
-            return replace(routine, body=self.level(routine.body))
+            return edit_bodies(routine, self.level)
         if key in self.watched and routine.kind == "procedure":
-            return replace(routine, body=self.interruptible(routine.body))
+            return edit_bodies(routine, self.interruptible)
         return routine
 
     def handler(self, body: ir.Body) -> ir.Body:

@@ -4,12 +4,10 @@ one where another has one number for all. What the source itself says twice stay
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import edit_bodies
+from rpl.passes.legalise.editing import edit_all
 from rpl.passes.rewrite import rewrite_parts
 
 __all__ = ["said_once"]
@@ -19,11 +17,7 @@ _CHANGING = (ir.Call, ir.Builtin, ir.VendorValue, ir.Signal, ir.System)
 
 def said_once(program: ir.Program, context: Context) -> ir.Program:
     """The program without assignments that the one in front of them, of the same statement of the source, has made."""
-    modules = (
-        replace(module, routines=tuple(edit_bodies(routine, _body) for routine in module.routines))
-        for module in program.modules
-    )
-    return replace(program, modules=tuple(modules))
+    return edit_all(program, _body)
 
 
 def _body(body: ir.Body) -> ir.Body:

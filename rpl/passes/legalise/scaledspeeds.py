@@ -13,6 +13,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.datalists import started_first
+from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.usage import doing
 from rpl.passes.rewrite import rewrite_parts
 
@@ -105,10 +106,8 @@ class _Factor:
                     continue  # nobody is known to have come here
                 known = self.starts.get(routine.name.lower())
                 body, _ = self.body(routine.body, known)
-                others = (routine.undo, routine.backward)
-                undo, backward = (self.body(one, None)[0] for one in others)
-                handlers = tuple(replace(one, body=self.body(one.body, None)[0]) for one in routine.handlers)
-                routines.append(replace(routine, body=body, undo=undo, backward=backward, handlers=handlers))
+                others = edit_bodies(replace(routine, body=()), lambda other: self.body(other, None)[0])
+                routines.append(replace(others, body=body))
             found.append(replace(module, routines=tuple(routines)))
         return found
 

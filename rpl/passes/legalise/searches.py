@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
@@ -65,7 +66,7 @@ class _Searches:
 
     def routine(self, routine: ir.Routine, scope: Scope) -> ir.Routine:
         self.typed = lambda value: type_of(value, scope)
-        return replace(routine, body=self.body(routine.body, _local_names(routine)))
+        return edit_bodies(routine, lambda body: self.body(body, _local_names(routine)))
 
     def body(self, body: ir.Body, local: frozenset[str]) -> ir.Body:
         done: list[ir.Statement] = []

@@ -11,10 +11,9 @@ from collections.abc import Iterator
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.jumps import LOOPS
-from rpl.passes.legalise.usage import bodies
 
 MAYBE = code(
     "task-started-again",

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.beside import Beside, closure, tidy
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, expansion, map_body, negation
@@ -91,7 +91,7 @@ class Served:
         found = set()
         for module in self.program.modules:
             for routine in module.routines:
-                for node in walk(*routine.body):
+                for node in walk(*bodies(routine)):
                     match node:
                         case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)) if name.lower() in resuming:
                             found.add(routine.name.lower())
@@ -331,7 +331,7 @@ def _may_go_on(program: ir.Program, action: ir.Assign | ir.CallRoutine, stopping
     for module in program.modules:
         for routine in module.routines:
             if routine.name.lower() == action.name.lower():
-                ways_out = any(isinstance(node, ir.Return | ir.Goto) for node in walk(*routine.body))
+                ways_out = any(isinstance(node, ir.Return | ir.Goto) for node in walk(*bodies(routine)))
                 said = [one for one in routine.body if not isinstance(one, ir.Nothing)]
                 return ways_out or not said or not isinstance(said[-1], ir.ResumeLevel)
     return True

@@ -7,11 +7,10 @@ The passes that make such a variable set it at every change, as they do not know
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import walk
-from rpl.passes.legalise.editing import edit_bodies
+from rpl.ir.walk import bodies, walk
+from rpl.passes.legalise.editing import edit_all
 from rpl.passes.legalise.effects import blocks
 from rpl.passes.legalise.jumps import inside
 
@@ -30,12 +29,12 @@ def _without(program: ir.Program, name: str) -> ir.Program:
     needed: set[int] = set()
     served = 0
     for node in nodes:
-        bodies: Iterator[ir.Body] = iter(())
+        parts: Iterator[ir.Body] = iter(())
         if isinstance(node, ir.Routine):
-            bodies = iter((node.body, *(one.body for one in node.handlers), node.undo, node.backward))
+            parts = iter(bodies(node))
         elif isinstance(node, ir.Statement):
-            bodies = iter(blocks(node))
-        for body in bodies:
+            parts = iter(blocks(node))
+        for body in parts:
             served += _served(body, name, needed)
     if served != reads or len(needed) == stores:
         return program
@@ -50,11 +49,7 @@ def _without(program: ir.Program, name: str) -> ir.Program:
         same = len(done) == len(body) and all(new is old for new, old in zip(done, body, strict=True))
         return body if same else tuple(done)
 
-    modules = tuple(
-        replace(module, routines=tuple(edit_bodies(routine, change) for routine in module.routines))
-        for module in program.modules
-    )
-    return replace(program, modules=modules)
+    return edit_all(program, change)
 
 
 def _stores(node: object, name: str) -> bool:

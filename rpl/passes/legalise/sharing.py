@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
+from rpl.ir.walk import bodies
 from rpl.passes.capabilities import Bank
 from rpl.passes.legalise.activations import Activations
 from rpl.passes.legalise.banks import sizes_of
@@ -24,7 +25,6 @@ from rpl.passes.legalise.liveness import wanted_at_start
 from rpl.passes.legalise.locals import renamed
 from rpl.passes.legalise.parameters import ARGUMENTS
 from rpl.passes.legalise.support import with_support
-from rpl.passes.legalise.usage import bodies
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.source import NOWHERE
 

@@ -14,8 +14,9 @@ from dataclasses import replace
 
 from rpl import ir, registry
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
+from rpl.passes.legalise.editing import edit_all, edit_bodies
 from rpl.passes.legalise.groupwidths import TOO_NARROW, WIDTH, group_widths
 from rpl.passes.legalise.signalnumbers import numbers_as_arguments, parameters_as_numbers
 from rpl.passes.rewrite import rewrite_parts
@@ -48,10 +49,8 @@ def name_signals(program: ir.Program, context: Context) -> ir.Program:
         declarations = tuple(d for d in module.declarations if not isinstance(d, ir.SignalDeclaration))
         routines = tuple(
             replace(
-                routine,
+                edit_bodies(routine, worker.in_scope(scopes.routine(module, routine)).body),
                 declarations=tuple(d for d in routine.declarations if not isinstance(d, ir.SignalDeclaration)),
-                body=worker.in_scope(scopes.routine(module, routine)).body(routine.body),
-                handlers=tuple(replace(h, body=worker.body(h.body)) for h in routine.handlers),
             )
             for routine in module.routines
         )
@@ -137,7 +136,8 @@ class _Named:
                     if isinstance(signal.index, ir.IntLiteral) and signal.last is None:
                         self.aliases.setdefault((signal.kind, signal.index.value), declaration.name)
             for routine in module.routines:
-                deeper(routine.body)
+                for body in bodies(routine):
+                    deeper(body)
 
     def note(self, statement: ir.Statement) -> None:
         """Note what a variable or an element is set to, or counts to."""
@@ -336,18 +336,7 @@ def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str
     def replaced_body(body: ir.Body) -> ir.Body:
         return tuple(rewrite_parts(statement, replaced, replaced_body) for statement in body)
 
-    modules = []
-    for module in program.modules:
-        routines = tuple(
-            replace(
-                routine,
-                body=replaced_body(routine.body),
-                undo=replaced_body(routine.undo),
-                handlers=tuple(replace(handler, body=replaced_body(handler.body)) for handler in routine.handlers),
-            )
-            for routine in module.routines
-        )
-        modules.append(replace(module, routines=routines))
+    modules = list(edit_all(program, replaced_body).modules)
     if declared:
         name = context.fresh("rpl_signals")
         modules.append(ir.Module(name, modules[0].dialect, tuple(declared), task=modules[0].task, public=True))

@@ -12,13 +12,13 @@ from dataclasses import replace
 
 from rpl import ir, registry
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.flow import Frames, ModalFlow, Uses
 from rpl.passes.legalise.helpers import Helpers
 from rpl.passes.legalise.solvertexts import FLANGE, NEAR, REACHED, solver_texts
-from rpl.passes.legalise.usage import bodies, each_expression, each_statement
+from rpl.passes.legalise.usage import each_expression, each_statement
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.values import literal

@@ -11,12 +11,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
-from rpl.passes.legalise.editing import exits
+from rpl.passes.legalise.editing import edit_bodies, exits
 from rpl.passes.legalise.lookahead import is_flag, touches
 from rpl.passes.legalise.resumes import left_by_resumes
-from rpl.passes.legalise.usage import base_name, bodies, each_expression, each_statement
+from rpl.passes.legalise.usage import base_name, each_expression, each_statement
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 
@@ -43,7 +43,7 @@ def stand_first(program: ir.Program, context: Context) -> ir.Program:
                 continue
             left = routine.name.lower() in facts.left
             worker = _Standing(facts, scopes.routine(module, routine), target.stop_statements, left)
-            routines.append(replace(routine, body=worker.whole(routine.body)[0]))
+            routines.append(worker.routine(routine))
         modules.append(replace(module, routines=tuple(routines)))
     return replace(program, modules=tuple(modules))
 
@@ -138,7 +138,7 @@ def _with_ends(program: ir.Program, facts: _Facts, scopes: ProgramScope, stops: 
             for routine in module.routines:
                 left = routine.name.lower() in facts.left
                 worker = _Standing(facts, scopes.routine(module, routine), stops, left)
-                if routine.name.lower() in facts.movers and worker.whole(routine.body)[1]:
+                if routine.name.lower() in facts.movers and worker.ends_moving(routine):
                     halting.add(routine.name.lower())
         if halting <= facts.halting:
             return facts
@@ -150,11 +150,23 @@ class _Standing:
         self.facts, self.scope, self.stops, self.left = facts, scope, stops, left
         self.jumps: dict[str, bool] = {}  # label -> does a jump come there while the target still moves?
 
-    def whole(self, body: ir.Body) -> tuple[ir.Body, bool]:
+    def routine(self, routine: ir.Routine) -> ir.Routine:
+        """With its other bodies: what comes to those may come from a move."""
+        return edit_bodies(routine, lambda body: self.whole(body, body is not routine.body)[0])
+
+    def ends_moving(self, routine: ir.Routine) -> bool:
+        """May the target still move when the routine ends?"""
+        ways_out = [routine.body, *(handler.body for handler in routine.handlers)]
+        return any(self.whole(body, body is not routine.body)[1] for body in ways_out)
+
+    def whole(self, body: ir.Body, moving: bool) -> tuple[ir.Body, bool]:
         """The body of a routine; again where a jump back turns out to come from a move."""
+        if not body:
+            return body, moving
+        begins = moving
         while True:
             known = dict(self.jumps)
-            done, moving = self.body(body, False)
+            done, moving = self.body(body, begins)
             if known == self.jumps:
                 return ((*done, ir.WaitForMotion()), False) if moving and self.left else (done, moving)
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.effects import children, statements_in
 from rpl.source import NOWHERE, Origin
@@ -42,7 +42,7 @@ def _first(program: ir.Program) -> Origin:
     """The first statement that asks for the cycle."""
     for module in program.modules:
         for routine in module.routines:
-            for statement in statements_in(routine.body):
+            for statement in (one for body in bodies(routine) for one in statements_in(body)):
                 if _STEP in list(walk(*children(statement))):
                     return statement.origin
     return NOWHERE

@@ -14,7 +14,7 @@ from rpl.passes.legalise.background import leaving_at, waits
 from rpl.passes.legalise.beside import closure
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies, expansion, map_body
-from rpl.passes.legalise.jumps import inside
+from rpl.passes.legalise.jumps import inside, left_with
 from rpl.passes.legalise.support import with_support
 from rpl.source import NOWHERE
 
@@ -37,7 +37,9 @@ def stopped_tasks(program: ir.Program, context: Context) -> ir.Program:
         flags = worker.flags.get(one.name.lower())
         if flags is not None:
             runs, stop = flags
-            one = leaving_at(_ended(one, runs), ir.Name(stop), context, (_set(runs, _FALSE), ir.Return()))
+            one = leaving_at(
+                left_with(one, (_set(runs, _FALSE),)), ir.Name(stop), context, (_set(runs, _FALSE), ir.Return())
+            )
         return edit_bodies(one, lambda body: map_body(body, worker.statement))
 
     modules = tuple(replace(module, routines=tuple(map(routine, module.routines))) for module in program.modules)
@@ -69,17 +71,6 @@ def _stopped(program: ir.Program) -> set[str]:
 
 def _set(name: str, value: ir.Expression) -> ir.Assign:
     return ir.Assign(ir.Name(name), value)
-
-
-def _ended(routine: ir.Routine, runs: str) -> ir.Routine:
-    """The routine with the flag taken back wherever it ends."""
-
-    def change(one: ir.Statement) -> ir.Body:
-        if isinstance(one, ir.Return):
-            return expansion(one.origin, (_set(runs, _FALSE), one))
-        return (inside(one, lambda body: map_body(body, change)),)
-
-    return replace(routine, body=(*map_body(routine.body, change), _set(runs, _FALSE)))
 
 
 @dataclass(slots=True)

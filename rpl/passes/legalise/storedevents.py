@@ -10,12 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.effects import blocks
 from rpl.passes.legalise.support import with_support
-from rpl.passes.legalise.usage import base_name, bodies
+from rpl.passes.legalise.usage import base_name
 from rpl.passes.rewrite import rewrite_parts
 
 _Known = dict[str, ir.DefineTrigger]

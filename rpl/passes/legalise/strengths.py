@@ -15,7 +15,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.editing import edit_bodies, map_body
+from rpl.passes.legalise.editing import edit_all, map_body
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.modal import DROPPED
 from rpl.passes.legalise.modalflow import Flow
@@ -38,12 +38,7 @@ def strengths(program: ir.Program, context: Context) -> ir.Program:
         return program
     if not any(_says(node) for node in walk(*program.modules)):
         return program
-    worker = _Strengths(program, context)
-    modules = []
-    for module in program.modules:
-        routines = tuple(edit_bodies(routine, worker.body) for routine in module.routines)
-        modules.append(replace(module, routines=routines))
-    return replace(program, modules=tuple(modules))
+    return edit_all(program, _Strengths(program, context).body)
 
 
 def has_both(dialect: str) -> bool:

@@ -15,7 +15,7 @@ from functools import reduce
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import Editor, edit_routines, expansion, passes_on
+from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, passes_on
 from rpl.passes.legalise.effects import statements_in
 from rpl.passes.legalise.flowgraph import Builder
 from rpl.passes.legalise.jumps import entered, goes_on, inside, labels, opposite, without_labels
@@ -38,10 +38,8 @@ def labels_to_structure(program: ir.Program, context: Context) -> ir.Program:
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         plain = routine.returns is None and routine.kind != "function"
         body = _restructured(editor, routine.body, bool(routine.handlers), plain)
-        handlers = tuple(replace(one, body=_restructured(editor, one.body, False, False)) for one in routine.handlers)
-        undo = _restructured(editor, routine.undo, False, False)
-        backward = _restructured(editor, routine.backward, False, False)
-        return replace(routine, body=body, handlers=handlers, undo=undo, backward=backward)
+        others = edit_bodies(replace(routine, body=()), lambda other: _restructured(editor, other, False, False))
+        return replace(others, body=body)
 
     return edit_routines(program, context, work)
 

@@ -15,7 +15,7 @@ from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context, ProgramScope
-from rpl.passes.legalise.editing import map_body
+from rpl.passes.legalise.editing import edit_bodies, map_body
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.rewrite import rewrite_parts
@@ -54,9 +54,8 @@ def whole_targets(program: ir.Program, context: Context) -> ir.Program:
         routines = []
         for routine in module.routines:
             worker = Whole(context, scopes.routine(module, routine), unchanged, goes_on)
-            body = worker.body(routine.body)
-            declarations = (*routine.declarations, *worker.declared)
-            routines.append(replace(routine, body=body, declarations=declarations))
+            done = edit_bodies(routine, worker.body)
+            routines.append(replace(done, declarations=(*routine.declarations, *worker.declared)))
         modules.append(replace(module, routines=tuple(routines)))
     return replace(program, modules=tuple(modules))
 

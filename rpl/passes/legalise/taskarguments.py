@@ -8,9 +8,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import expansion, map_body
+from rpl.passes.legalise.editing import edit_all, edit_bodies, expansion, map_body
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.usage import assigned_in
 
@@ -48,11 +48,7 @@ def task_arguments(program: ir.Program, context: Context) -> ir.Program:
             return expansion(statement.origin, (*before, replace(statement, arguments=())))
         return (inside(statement, lambda body: map_body(body, change)),)
 
-    done = tuple(
-        replace(module, routines=tuple(replace(r, body=map_body(r.body, change)) for r in module.routines))
-        for module in modules
-    )
-    return replace(program, modules=done)
+    return edit_all(replace(program, modules=tuple(modules)), lambda body: map_body(body, change))
 
 
 def _possible(routine: ir.Routine, starts: list[ir.TaskControl]) -> bool:
@@ -63,7 +59,7 @@ def _possible(routine: ir.Routine, starts: list[ir.TaskControl]) -> bool:
             plain = all(one.value is not None and not one.name for one in start.arguments)
             if not plain or len(start.arguments) != len(own):
                 return False
-    return not assigned_in(routine.body) & own
+    return not assigned_in(*bodies(routine)) & own
 
 
 def _without(routine: ir.Routine, variables: list[ir.Variable]) -> ir.Routine:
@@ -78,8 +74,8 @@ def _without(routine: ir.Routine, variables: list[ir.Variable]) -> ir.Routine:
     kept = tuple(
         one for one in routine.declarations if not (isinstance(one, ir.Variable) and one.name.lower() in names)
     )
-    body = tuple(rewrite(one, change) for one in routine.body)
-    return replace(routine, parameters=(), declarations=kept, body=body)
+    done = edit_bodies(routine, lambda body: tuple(rewrite(one, change) for one in body))
+    return replace(done, parameters=(), declarations=kept)
 
 
 __all__ = ["task_arguments"]

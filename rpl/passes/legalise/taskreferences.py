@@ -11,10 +11,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes.legalise.beside import local_names
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import map_body
+from rpl.passes.legalise.editing import edit_bodies, map_body
 from rpl.passes.legalise.effects import statements_in
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.usage import assigned_in, base_name
@@ -53,7 +53,7 @@ def _starts(program: ir.Program) -> dict[str, list[_Start]]:
     found: dict[str, list[_Start]] = {}
     for module in program.modules:
         for routine in module.routines:
-            for statement in statements_in(routine.body):
+            for statement in (one for body in bodies(routine) for one in statements_in(body)):
                 if isinstance(statement, ir.TaskControl) and statement.op == "start":
                     start = _Start(statement, routine, scopes.routine(module, routine))
                     found.setdefault(statement.task.lower(), []).append(start)
@@ -72,7 +72,7 @@ class _References:
         plain = all(not one.name and one.value is not None for start in starts for one in start.control.arguments)
         if not plain or any(len(start.control.arguments) != len(routine.parameters) for start in starts):
             return
-        written = assigned_in(routine.body)
+        written = assigned_in(*bodies(routine))
         for at, parameter in enumerate(routine.parameters):
             if parameter.mode != "reference":
                 continue
@@ -104,9 +104,9 @@ class _References:
             declarations = tuple(
                 one for one in routine.declarations if not (isinstance(one, ir.Variable) and one.name.lower() in names)
             )
-            body = tuple(rewrite(one, renamed) for one in routine.body)
-            routine = replace(routine, parameters=parameters, declarations=declarations, body=body)
-        return replace(routine, body=map_body(routine.body, self.statement))
+            done = edit_bodies(routine, lambda body: tuple(rewrite(one, renamed) for one in body))
+            routine = replace(done, parameters=parameters, declarations=declarations)
+        return edit_bodies(routine, lambda body: map_body(body, self.statement))
 
     def statement(self, statement: ir.Statement) -> ir.Body:
         if isinstance(statement, ir.TaskControl) and statement.op == "start":
@@ -136,7 +136,10 @@ def _settled(value: ir.Expression | None, start: _Start) -> bool:
     if name is None or symbol is None or symbol.routine is None:
         return False
     set_in = Counter(
-        one for statement in statements_in(start.routine.body) for one in {*assigned_in((_alone(statement),))}
+        one
+        for body in bodies(start.routine)
+        for statement in statements_in(body)
+        for one in {*assigned_in((_alone(statement),))}
     )
     return set_in[name] <= 1
 

@@ -13,7 +13,7 @@ from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies, expansion, map_body
-from rpl.passes.legalise.jumps import inside
+from rpl.passes.legalise.jumps import inside, left_with
 from rpl.passes.legalise.support import with_support
 
 ASKS = "task_runs"
@@ -48,7 +48,7 @@ def task_states(program: ir.Program, context: Context) -> ir.Program:
     def routine(one: ir.Routine) -> ir.Routine:
         done = edit_bodies(one, lambda body: map_body(body, change))
         flag = flags.get(one.name.lower())
-        return done if flag is None else _ending(done, flag)
+        return done if flag is None else left_with(done, (_set(flag, False),))
 
     modules = [
         rewrite(replace(module, routines=tuple(map(routine, module.routines))), answer) for module in program.modules
@@ -67,20 +67,6 @@ def _asked(node: object) -> str | None:
 
 def _set(flag: ir.Name, value: bool) -> ir.Assign:
     return ir.Assign(flag, ir.BoolLiteral(value))
-
-
-def _ending(routine: ir.Routine, flag: ir.Name) -> ir.Routine:
-    """The routine with the flag taken back wherever it ends."""
-
-    def change(statement: ir.Statement) -> ir.Body:
-        if isinstance(statement, ir.Return):
-            return expansion(statement.origin, (_set(flag, False), statement))
-        return (inside(statement, lambda inner: map_body(inner, change)),)
-
-    body = map_body(routine.body, change)
-    if body and isinstance(body[-1], ir.Return):
-        return replace(routine, body=body)
-    return replace(routine, body=(*body, _set(flag, False)))
 
 
 __all__ = ["task_states"]

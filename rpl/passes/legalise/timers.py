@@ -8,8 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.editing import edit_all
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import Origin
@@ -28,26 +29,13 @@ def timers_to_clocks(program: ir.Program, context: Context) -> ir.Program:
     worker = _Clocks(context)
     for module in program.modules:  # which timers are asked whether they run
         for routine in module.routines:
-            for body in (routine.body, *(handler.body for handler in routine.handlers)):
+            for body in bodies(routine):
                 worker.body(body)
     worker.kept = worker.asked
-    modules = tuple(
-        replace(
-            module,
-            routines=tuple(
-                replace(
-                    routine,
-                    body=worker.body(routine.body),
-                    handlers=tuple(replace(handler, body=worker.body(handler.body)) for handler in routine.handlers),
-                )
-                for routine in module.routines
-            ),
-        )
-        for module in program.modules
-    )
+    done = edit_all(program, worker.body)
     if not worker.watches:
         return program
-    first = modules[0]
+    first = done.modules[0]
     declarations = tuple(
         one
         for watch in worker.watches.values()
@@ -55,7 +43,7 @@ def timers_to_clocks(program: ir.Program, context: Context) -> ir.Program:
         if one.name != watch.running or watch.running in worker.asked
     )
     home = ir.Module(context.fresh("rpl_timers"), first.dialect, declarations, task=first.task, public=True)
-    return replace(program, modules=(*modules, home))
+    return replace(program, modules=(*done.modules, home))
 
 
 def _switched(setting: ir.Assign, beside: ir.Body) -> bool | None:

@@ -12,7 +12,7 @@ from types import UnionType
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.beside import local_names
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies
@@ -85,7 +85,8 @@ class _Traps:
                     if isinstance(statement, ir.DeclareInterrupt):
                         declared.append((statement, home, own))
 
-                each_statement(routine.body, find)
+                for body in bodies(routine):
+                    each_statement(body, find)
         for one, module_name, names in declared:
             priority = priority_of(one.priority)
             if priority is not None and priority not in self.traps and self.add(priority, one, names):
@@ -282,7 +283,8 @@ class _Traps:
         for module in self.source.modules:
             for routine in module.routines:
                 if routine.name.lower() == action.name.lower():
-                    each_statement(routine.body, look)
+                    for body in bodies(routine):
+                        each_statement(body, look)
         return found
 
     # ---- statements

@@ -12,6 +12,7 @@ from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.earlyways import by_way
+from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.modalflow import Flow
 from rpl.passes.legalise.movesettings import plain
 from rpl.passes.legalise.storedevents import events_before_moves
@@ -78,7 +79,7 @@ class _Stored:
 
     def routine(self, routine: ir.Routine, scope: Scope) -> ir.Routine:
         self.scope = scope
-        return replace(routine, body=self.body(routine.body))
+        return edit_bodies(routine, self.body)
 
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
@@ -197,7 +198,8 @@ class _AtMoves:
         self.scope, self.unchanged, self.starts, self.noted = scope, unchanged, starts, noted
 
     def routine(self, routine: ir.Routine) -> ir.Routine:
-        return replace(routine, body=self.body(routine.body, routine.name.lower()))
+        begins = routine.name.lower()
+        return edit_bodies(routine, lambda body: self.body(body, begins if body is routine.body else ""))
 
     def called(self, statement: ir.Statement, begins: _Begin | None) -> None:
         """Notes where the robot is at the calls of a statement; a call within another statement may be anywhere."""

@@ -14,6 +14,7 @@ from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.explicit import usual_places
 from rpl.passes.legalise.targets import Whole, here
 from rpl.passes.legalise.walk import unchanged_in
@@ -38,9 +39,8 @@ def turned_ways(program: ir.Program, context: Context) -> ir.Program:
         routines = []
         for routine in module.routines:
             worker = _Turned(context, scopes.routine(module, routine), unchanged, usual)
-            body = worker.body(routine.body)
-            declarations = (*routine.declarations, *worker.declared)
-            routines.append(replace(routine, body=body, declarations=declarations))
+            done = edit_bodies(routine, worker.body)
+            routines.append(replace(done, declarations=(*routine.declarations, *worker.declared)))
         modules.append(replace(module, routines=tuple(routines)))
     return replace(program, modules=tuple(modules))
 

@@ -17,7 +17,7 @@ from rpl.diagnostics import Severity, code
 from rpl.passes import rigid
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.editing import edit_bodies
+from rpl.passes.legalise.editing import edit_bodies, edit_each
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Record, pose_of
@@ -113,15 +113,7 @@ _Change = Callable[[_Zone, list[_Leg]], ir.Blend]
 
 def _rewritten(program: ir.Program, change: _Change) -> ir.Program:
     scopes = ProgramScope(program)
-    modules = []
-    for module in program.modules:
-        routines = tuple(
-            edit_bodies(routine, _Bodies(scopes.routine(module, routine), change).body) for routine in module.routines
-        )
-        same = all(new is old for new, old in zip(routines, module.routines, strict=True))
-        modules.append(module if same else replace(module, routines=routines))
-    same = all(new is old for new, old in zip(modules, program.modules, strict=True))
-    return program if same else replace(program, modules=tuple(modules))
+    return edit_each(program, lambda module, one: edit_bodies(one, _Bodies(scopes.routine(module, one), change).body))
 
 
 @dataclass(frozen=True, slots=True)

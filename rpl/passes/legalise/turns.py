@@ -13,7 +13,7 @@ from typing import Any
 
 from rpl import ir, registry
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.walk import Rewriter
@@ -64,7 +64,7 @@ class _Turns(Rewriter):
         near: list[Joints | None] = []
         for module, routine in self.scopes.routines():
             scope = self.scopes.routine(module, routine)
-            near += [_near(one, scope) for one in walk(*routine.body) if isinstance(one, ir.Move)]
+            near += [_near(one, scope) for one in walk(*bodies(routine)) if isinstance(one, ir.Move)]
         rows = _array([self.arm.home, *(one for one in (*known, *near) if one and len(one) == self.arm.axes)])
         return rows.min(axis=0), rows.max(axis=0)
 

@@ -11,10 +11,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.definite import Definite
-from rpl.passes.legalise.usage import assigned_in, base_name, bodies
+from rpl.passes.legalise.usage import assigned_in, base_name
 from rpl.passes.scope import ProgramScope, Scope
 
 _ASKED = "is_uninitialised"

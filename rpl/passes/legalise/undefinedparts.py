@@ -10,11 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies, expansion, map_body
 from rpl.passes.legalise.jumps import inside
-from rpl.passes.legalise.usage import assigned_in, bodies
+from rpl.passes.legalise.usage import assigned_in
 from rpl.passes.scope import ProgramScope, Scope
 
 _MOST = 512  # elements of a list that is written out

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.rewrite import visit_parts
 
 
@@ -37,11 +37,6 @@ def each_expression(statement: ir.Statement, visit: Callable[[ir.Expression], No
             visit_parts(one, look, deeper)
 
     visit_parts(statement, look, deeper if inner else None)
-
-
-def bodies(routine: ir.Routine) -> list[ir.Body]:
-    """All bodies of a routine: main, handlers, undo, backward."""
-    return [routine.body, *(handler.body for handler in routine.handlers), routine.undo, routine.backward]
 
 
 def _nothing(expression: ir.Expression) -> None:
@@ -121,7 +116,7 @@ def _changed(own: Usage, unchanging: dict[str, frozenset[int]]) -> set[str]:
     return {name for routine, at, name in own.passed if at is None or at not in unchanging.get(routine, ())}
 
 
-def assigned_in(body: ir.Body) -> set[str]:
+def assigned_in(*found_in: ir.Body) -> set[str]:
     """Names that the statements assign or pass where they could be changed (not what called routines assign)."""
     usage = Usage()
 
@@ -133,7 +128,8 @@ def assigned_in(body: ir.Body) -> set[str]:
         if isinstance(expression, ir.Call):
             _arguments(expression.name, expression.arguments, usage)
 
-    each_statement(body, look)
+    for body in found_in:
+        each_statement(body, look)
     return usage.assigned | _changed(usage, {})
 
 
@@ -259,7 +255,7 @@ def called_below(program: ir.Program, roots: set[str]) -> frozenset[str]:
     found, waiting = set(roots), list(roots)
     while waiting:
         routine = routines.get(waiting.pop())
-        for node in walk(*routine.body) if routine is not None else ():
+        for node in walk(*bodies(routine)) if routine is not None else ():
             match node:
                 case ir.CallRoutine(name=name) | ir.Call(name=name) if name.lower() not in found:
                     found.add(name.lower())
@@ -289,5 +285,6 @@ def called_names(routines: Iterable[ir.Routine]) -> set[str]:
             found.add(statement.name.lower())
 
     for routine in routines:
-        each_statement(routine.body, look)
+        for body in bodies(routine):
+            each_statement(body, look)
     return found

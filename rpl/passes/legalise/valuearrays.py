@@ -11,10 +11,10 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.parameters import ArraySizes
-from rpl.passes.legalise.usage import assigned_in, bodies
+from rpl.passes.legalise.usage import assigned_in
 from rpl.passes.scope import ProgramScope
 from rpl.source import Origin
 

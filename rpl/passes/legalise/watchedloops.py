@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.beside import moves_or_waits
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import map_body, negation
@@ -58,7 +58,7 @@ class WatchedTask:
     events: list[Event] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.own = frozenset(assigned_in(self.routine.body))
+        self.own = frozenset(assigned_in(*bodies(self.routine)))
         tail: list[ir.Statement] = []
         for statement in reversed(self.routine.body):
             if self.takes_time(statement):

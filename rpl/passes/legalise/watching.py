@@ -12,13 +12,13 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.beside import Beside, closure, local_names, tidy
 from rpl.passes.legalise.concurrentmoves import ConcurrentMoves, has_concurrent
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.endedmoves import EndedMoves, unending
-from rpl.passes.legalise.jumps import inside
+from rpl.passes.legalise.jumps import inside, left_with
 from rpl.passes.legalise.movers import Movers
 from rpl.passes.legalise.reach import Armed, armed_statements, with_calls
 from rpl.passes.legalise.searchtasks import SearchTasks
@@ -159,7 +159,7 @@ class _Watches:
                 self.periods.setdefault(number_of(node.handle) or 0, []).append(node.time)
         for module in self.program.modules:
             for routine in module.routines:
-                for node in walk(*routine.body):
+                for node in walk(*bodies(routine)):
                     if isinstance(node, ir.DeclareInterrupt):
                         self.add(node, routine, module, ops)
 
@@ -373,13 +373,7 @@ class _Watches:
         keys = sorted(self.declaring[routine.name.lower()] & set(self.watches))
         off: ir.Body = tuple(ir.Assign(ir.Name(self.watches[key].armed), ir.BoolLiteral(False)) for key in keys)
 
-        def change(statement: ir.Statement) -> ir.Body:
-            if isinstance(statement, ir.Return):
-                return (*off, statement)
-            return (inside(statement, lambda inner: map_body(inner, change)),)
-
-        body = map_body(routine.body, change)
-        return replace(routine, body=(*body, *off))
+        return left_with(routine, off)
 
 
 _NO_MASK = 1000

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from rpl import ir, registry
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Arm, Context
@@ -76,7 +76,8 @@ class Whereabouts:
         if not self.displaced:
             for module, routine in self.scopes.routines():
                 self.scope: Scope = self.scopes.routine(module, routine)
-                self.body(routine.body, NOWHERE_KNOWN)
+                for body in bodies(routine):
+                    self.body(body, NOWHERE_KNOWN)
 
     def of(self, move: ir.Move) -> Way:
         return self.ways.get(id(move), Way(None, None, None))

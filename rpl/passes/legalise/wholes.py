@@ -11,8 +11,8 @@ from collections import defaultdict
 from dataclasses import dataclass, field
 
 from rpl import ir
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.context import ProgramScope
-from rpl.passes.legalise.usage import bodies
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import component_names

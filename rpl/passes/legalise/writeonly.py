@@ -9,10 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies, expansion, map_body
 from rpl.passes.legalise.effects import blocks
-from rpl.passes.legalise.usage import bodies, each_statement
+from rpl.passes.legalise.usage import each_statement
 from rpl.passes.rewrite import rewrite_parts
 
 _Key = tuple[str, int]
