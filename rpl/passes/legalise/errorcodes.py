@@ -20,14 +20,15 @@ def name_errors(program: ir.Program, context: Context) -> ir.Program:
     if not context.capabilities.error_handlers:
         return program
     ours, theirs = rules_of(context.source).errors, rules_of(context.target).errors
+    linked = [one for module in program.modules if is_linked(module, context) for one in module.declarations]
+    errors = {one.name: one for one in linked if isinstance(one, ir.Variable) and one.name in ours}
     spelled: dict[int, str] = {}
     for module in program.modules:
-        if is_linked(module, context):
-            for one in module.declarations:
-                if isinstance(one, ir.Variable) and one.name in ours:
-                    found = spelled_among(one.name, theirs)
-                    if found is not None:
-                        spelled[id(one)] = found
+        for one in module.declarations:
+            if isinstance(one, ir.Variable) and errors.get(one.name) == one:  # a task of its own has a copy
+                found = spelled_among(one.name, theirs)
+                if found is not None:
+                    spelled[id(one)] = found
     bare = {name: found for name in ours if (found := spelled_among(name, theirs)) is not None}
     return _Named(program, context, spelled, bare).program() if spelled or bare else program
 

@@ -42,7 +42,7 @@ def armed_statements(program: ir.Program, keys: Keys) -> frozenset[int]:
             for armed in (False, True) if name in reach.entries else (False,):
                 reach.leaving = reach.switched = False
                 end = reach.body(routine.body, armed)
-                for other in bodies(routine)[1:]:  # an error may come where it was armed, or before
+                for other in filter(None, bodies(routine)[1:]):  # an error may come where it was armed, or before
                     end = reach.body(other, end or armed or reach.switched) or end
                 reach.exits[name, armed] = reach.exits.get((name, armed), False) or end or reach.leaving
         if before == (reach.entries, reach.exits, len(reach.marked)):
