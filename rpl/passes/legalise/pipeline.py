@@ -164,6 +164,7 @@ from rpl.passes.legalise.speedshares import speed_shares
 from rpl.passes.legalise.spelling import one_spelling
 from rpl.passes.legalise.splines import straight_splines, without_path_rules
 from rpl.passes.legalise.standing import stand_first
+from rpl.passes.legalise.startbases import start_bases
 from rpl.passes.legalise.startedtasks import started_tasks
 from rpl.passes.legalise.statics import static_variables
 from rpl.passes.legalise.steps import steps
@@ -402,6 +403,7 @@ PASSES: tuple[Pass, ...] = (
     corner_steps,
     moves_ahead,
     explicit_to_modal,
+    start_bases,
     kept_corners,
     settings_at_moves,
     scaled_override,

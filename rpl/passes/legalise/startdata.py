@@ -7,8 +7,10 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.datalists import never_called, started_tasks
+from rpl.passes.legalise.datalists import moving_entries, never_called, started_tasks
 from rpl.passes.legalise.heldtexts import named_by_texts
+from rpl.passes.legalise.usage import base_name, doing
+from rpl.source import NOWHERE
 
 # So many assignments may stand in the routine that starts; more go into a routine of their own.
 _INLINE = 8
@@ -23,10 +25,11 @@ def assigned_at_start(
     assigns: Sequence[ir.Statement],
     declarations: tuple[ir.Declaration, ...] = (),
 ) -> ir.Program:
-    """The program whose entries make these assignments first; `declarations` are data that only they use."""
+    """The program whose entries make these assignments first, with the routines that a person may start alone and that
+    use such data; `declarations` are data that only they use."""
     if not assigns:
         return program
-    entries = entries_of(program)
+    entries = entries_of(program) | _using(program, assigns)
     first: ir.Body = tuple(assigns)
     modules = program.modules
     if len(first) > _INLINE or len(entries) > 1 or declarations:
@@ -45,6 +48,17 @@ def assigned_at_start(
         for module in modules
     )
     return replace(program, modules=modules)
+
+
+def _using(program: ir.Program, assigns: Sequence[ir.Statement]) -> set[str]:
+    """Routines beside `main` that may be started alone and use, also by what they call, data that is set here."""
+    places = [base_name(one.target) for one in assigns if isinstance(one, ir.Assign)]
+    data = {name for name in places if name is not None}
+    own = {one.name.lower() for module in program.modules for one in module.routines if one.origin is not NOWHERE}
+    alone = moving_entries(program) & own - entries_of(program) - named_by_texts(program)
+    return (
+        alone & doing(program, lambda node: isinstance(node, ir.Name) and node.id.lower() in data) if alone else set()
+    )
 
 
 def entries_of(program: ir.Program) -> set[str]:
