@@ -125,8 +125,61 @@ AGAIN = """MODULE Again
 ENDMODULE
 """
 
+# ISleep: what comes meanwhile is lost, what comes after IWatch is not. IDisable: what comes meanwhile waits for IEnable
+# (RAPID reference manual, "ISleep - Deactivates an interrupt", "IDisable - Disables interrupts").
+ASLEEP = """MODULE Asleep
+  PERS num pCount:=0;
+  VAR intnum iCount;
+  VAR intnum iEdge;
+  VAR num nCount;
+  VAR num nEdge;
+  PROC main()
+    Reset do31;
+    CONNECT iCount WITH tCount;
+    IPers pCount,iCount;
+    CONNECT iEdge WITH tEdge;
+    ISignalDO do31,edge,iEdge;
+    ISleep iCount;
+    ISleep iEdge;
+    pCount:=1;
+    Set do31;
+    WaitTime 0.3;
+    IWatch iCount;
+    IWatch iEdge;
+    WaitTime 0.3;
+    IF nCount=0 SetDO do1,1;
+    IF nEdge=0 SetDO do2,1;
+    pCount:=2;
+    Reset do31;
+    WaitTime 0.3;
+    IF nCount=1 SetDO do3,1;
+    IF nEdge=1 SetDO do4,1;
+    IDisable;
+    pCount:=3;
+    Set do31;
+    WaitTime 0.3;
+    IF nCount=1 AND nEdge=1 SetDO do5,1;
+    IEnable;
+    WaitTime 0.3;
+    pCount:=4;
+    WaitTime 0.3;
+    Reset do31;
+    WaitTime 0.3;
+    IF nCount=3 AND nEdge=3 SetDO do6,1;
+  ENDPROC
+  TRAP tCount
+    Incr nCount;
+  ENDTRAP
+  TRAP tEdge
+    Incr nEdge;
+  ENDTRAP
+ENDMODULE
+"""
 
-@pytest.mark.parametrize(("program", "count"), [(PROGRAM, 4), (AGAIN, 2)], ids=["changes", "again"])
+
+@pytest.mark.parametrize(
+    ("program", "count"), [(PROGRAM, 4), (AGAIN, 2), (ASLEEP, 6)], ids=["changes", "again", "asleep"]
+)
 @pytest.mark.parametrize("target", sorted(set(registry.target_names()) - {"rapid"}))
 def test_changes_and_numbers_of_interrupts_in_every_language(target: str, program: str, count: int) -> None:
     diagnostics = Diagnostics()

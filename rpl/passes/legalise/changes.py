@@ -12,7 +12,8 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import edit_bodies
+from rpl.passes.legalise.editing import edit_all, edit_bodies, edit_each, expansion, map_body
+from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.usage import base_name
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
@@ -21,7 +22,8 @@ from rpl.passes.typing import type_of
 SEEN = code(
     "interrupt-at-difference",
     Severity.WARNING,
-    "the target compares the value with the one seen last; what changes and changes back at once may be missed",
+    "the target compares the value with the one seen last; what changes and changes back at once may be missed, and"
+    " several changes while interrupts are disabled come as one, or as none where the value is the old one again",
 )
 _PLAIN = ir.BoolType | ir.IntType | ir.RealType
 
@@ -35,18 +37,11 @@ def watched_changes(program: ir.Program, context: Context) -> ir.Program:
     for node in walk(*program.modules):
         if isinstance(node, ir.ConnectInterrupt) and (handle := base_name(node.handle)):
             done.traps.setdefault(handle, set()).add(node.routine.lower())
-    modules = [
-        replace(
-            module,
-            routines=tuple(
-                edit_bodies(routine, partial(done.body, scopes.routine(module, routine))) for routine in module.routines
-            ),
-        )
-        for module in program.modules
-    ]
+    ordered = edit_each(program, lambda module, one: edit_bodies(one, partial(done.body, scopes.routine(module, one))))
     if not done.seen:
         return program
-    modules = [replace(module, routines=tuple(map(done.taking_over, module.routines))) for module in modules]
+    watched = edit_all(ordered, done.watching)
+    modules = edit_each(watched, lambda _, routine: done.taking_over(routine)).modules
     first = modules[0]
     made = tuple(ir.Variable(one.last, one.type, scope="global") for one in done.seen)
     home = ir.Module(context.fresh("rpl_seen"), first.dialect, made, task=first.task, public=True)
@@ -103,6 +98,20 @@ class _Changes:
         one = _Seen(handle, value, self.context.fresh(f"seen_{handle}"), type)
         self.seen.append(one)
         return one
+
+    def watching(self, body: ir.Body) -> ir.Body:
+        """What changed while an interrupt was off is lost (RAPID ISleep): when it is switched on again, the value of
+        that moment is the one that was seen."""
+        return map_body(body, self.watched)
+
+    def watched(self, statement: ir.Statement) -> ir.Body:
+        match statement:
+            case ir.ControlInterrupt(op="on", handle=handle):
+                name = None if handle is None else base_name(handle)
+                missed = [one for one in self.seen if name in (None, one.handle)]
+                now = [ir.Assign(ir.Name(one.last), one.value) for one in missed]
+                return expansion(statement.origin, (*now, statement))
+        return (inside(statement, self.watching),)
 
     def taking_over(self, routine: ir.Routine) -> ir.Routine:
         """A trap begins with the values that its interrupts have seen."""
