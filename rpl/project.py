@@ -15,6 +15,7 @@ from io import BytesIO
 from pathlib import Path, PurePosixPath
 
 from rpl import ir, registry
+from rpl.depth import at_any_depth
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.errors import UsageError
 from rpl.passes.collector import paused_cycle_collector
@@ -110,7 +111,7 @@ def read_sources(sources: Sequence[Source], dialect: str, diagnostics: Diagnosti
 
 def _read_groups(groups: dict[str, list[Source]], diagnostics: Diagnostics) -> ReadProgram:
     with paused_cycle_collector():
-        return _read(groups, diagnostics)
+        return at_any_depth(lambda: _read(groups, diagnostics), diagnostics)
 
 
 def _read(groups: dict[str, list[Source]], diagnostics: Diagnostics) -> ReadProgram:

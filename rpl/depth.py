@@ -1,0 +1,98 @@
+"""Room for programs that are nested deeply: work that overflows the usual stack is done once more on a large one.
+
+Readers, passes and writers follow blocks, expressions and chains of calls by calls of their own. Hardly any program
+needs more than the stack that every thread has; what does is worked on in a thread with a large stack of its own, so
+that the depth of a text ends no command. What even that cannot hold is refused by name.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import sys
+import threading
+from collections.abc import Callable
+from typing import TypeVar
+
+from rpl.diagnostics import Diagnostics
+from rpl.errors import SourceError
+
+Result = TypeVar("Result")
+
+# Calls inside each other on the large stack, and its sizes in bytes, the first one that the system grants. A call takes
+# less than 2 KiB of it: most calls of Python's functions take none.
+DEEPEST_CALLS = 400_000
+_STACKS = (1 << 30, 1 << 29, 1 << 28)
+_CALL_BYTES = 2560
+
+_here = threading.local()
+
+
+def at_any_depth(work: Callable[[], Result], diagnostics: Diagnostics | None = None) -> Result:
+    """What `work` gives, tried again with a large stack when it overflows the usual one.
+
+    `work` changes nothing but `diagnostics`, whose reports of the first attempt are taken back. Raises SourceError when
+    the large stack overflows too, and whatever `work` raises.
+    """
+    before = len(diagnostics) if diagnostics is not None else 0
+    try:
+        return work()
+    except RecursionError:
+        if getattr(_here, "deep", False):
+            raise
+    if diagnostics is not None:
+        del diagnostics.items[before:]
+    return deeply(work)
+
+
+def deeply(work: Callable[[], Result]) -> Result:
+    """What `work` gives, done on a large stack. A key that interrupts the program interrupts the work."""
+    if getattr(_here, "deep", False):
+        return work()
+    done: list[Result] = []
+    failed: list[BaseException] = []
+
+    def run() -> None:
+        _here.deep = True
+        try:
+            done.append(work())
+        except RecursionError:
+            failed.append(SourceError("the program is nested too deeply to be worked on"))
+        except BaseException as error:  # noqa: BLE001 (raised again where the work was asked for)
+            failed.append(error)
+
+    usual = sys.getrecursionlimit()
+    try:
+        thread = _started(run)
+        try:
+            thread.join()
+        except BaseException:
+            _interrupt(thread)
+            raise
+    finally:
+        sys.setrecursionlimit(usual)
+    if failed:
+        raise failed[0]
+    return done[0]
+
+
+def _started(run: Callable[[], None]) -> threading.Thread:
+    """A thread that has begun, with the largest stack to be had and as many calls as that holds."""
+    for size in _STACKS:
+        usual = threading.stack_size(size)
+        try:
+            sys.setrecursionlimit(min(size // _CALL_BYTES, DEEPEST_CALLS))
+            thread = threading.Thread(target=run, daemon=True)
+            thread.start()
+        except RuntimeError:  # so much memory is not to be had
+            continue
+        finally:
+            threading.stack_size(usual)
+        return thread
+    raise SourceError("the program is nested too deeply for the memory that there is")
+
+
+def _interrupt(thread: threading.Thread) -> None:
+    """Ends the work of a thread at its next statement."""
+    if thread.ident is not None:
+        ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread.ident), ctypes.py_object(KeyboardInterrupt))
+    thread.join()
