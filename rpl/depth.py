@@ -33,15 +33,24 @@ def at_any_depth(work: Callable[[], Result], diagnostics: Diagnostics | None = N
     `work` changes nothing but `diagnostics`, whose reports of the first attempt are taken back. Raises SourceError when
     the large stack overflows too, and whatever `work` raises.
     """
+    if getattr(_here, "deep", False):
+        return work()
     before = len(diagnostics) if diagnostics is not None else 0
+    outer, _here.guarded = getattr(_here, "guarded", False), True
     try:
         return work()
     except RecursionError:
-        if getattr(_here, "deep", False):
-            raise
+        pass
+    finally:
+        _here.guarded = outer
     if diagnostics is not None:
         del diagnostics.items[before:]
     return deeply(work)
+
+
+def has_more_depth() -> bool:
+    """Will work that overflows the stack here be done again on a larger one?"""
+    return getattr(_here, "guarded", False) and not getattr(_here, "deep", False)
 
 
 def deeply(work: Callable[[], Result]) -> Result:

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rpl import ir
+from rpl.depth import at_any_depth
 from rpl.errors import RunError, UsageError
 from rpl.ir.walk import bodies
 from rpl.runtime.faults import ProgramError
@@ -48,11 +49,26 @@ def run_program(
     Raises UsageError for an unknown robot or when the entry cannot be found (the candidates are listed), RunError when
     the cell file does not fit the program. A fault inside the program is part of the result.
     """
-    simulation = Simulation(
-        program, robot, cell, entry, max_time_s, max_statements, on_event, limits, controller, further
-    )
-    simulation.run()
-    return simulation.result()
+    told = 0
+
+    def run() -> RunResult:
+        shown = 0
+
+        def tell(event: Event) -> None:
+            nonlocal told, shown
+            shown += 1
+            if on_event is not None and shown > told:  # a run that begins again has been told of its first events
+                told = shown
+                on_event(event)
+
+        listener = tell if on_event is not None else None
+        simulation = Simulation(
+            program, robot, cell, entry, max_time_s, max_statements, listener, limits, controller, further
+        )
+        simulation.run()
+        return simulation.result()
+
+    return at_any_depth(run)
 
 
 class Simulation(Machine):

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from rpl import ir, registry
+from rpl.depth import at_any_depth
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity
 from rpl.emulator.mechanismfile import Mechanism
 from rpl.emulator.model import RobotModel, load_robot
@@ -74,18 +75,30 @@ def translate_program(
     What the target cannot say is written as a guarded stop and listed in `losses`.
     """
     collector = diagnostics if diagnostics is not None else Diagnostics()
-    target = registry.target_called(target_name)
-    target_name = target.name
+    target_name = registry.target_called(target_name).name
     first = _load(robot, mechanisms)
     second = _load(to_robot, mechanisms) if to_robot and to_robot != robot else first
     source = read.dialects[0] if read.dialects else target_name
-    capabilities = target.capabilities_under(options or {})
-    context = Context(source, target_name, capabilities, collector, first, second)
-    context.registers = registers or {}
-    languages = (*(module.dialect for module in read.program.modules), target_name)
-    context.analog = {one: analog_ranges(read.program, one, analog) for one in dict.fromkeys(languages)}
+    own = options or {}
+    capabilities = registry.target(target_name).capabilities_under(own)
+
+    def translated() -> Translation:
+        context = Context(source, target_name, capabilities, collector, first, second)
+        context.registers = registers or {}
+        languages = (*(module.dialect for module in read.program.modules), target_name)
+        context.analog = {one: analog_ranges(read.program, one, analog) for one in dict.fromkeys(languages)}
+        whole = with_given(read.program, given) if given and source != target_name else read.program
+        return _translated(whole, context, second, own)
+
+    return at_any_depth(translated, collector)
+
+
+def _translated(
+    whole: ir.Program, context: Context, robot: RobotModel | None, options: Mapping[str, str]
+) -> Translation:
+    source, target_name, capabilities = context.source, context.target, context.capabilities
+    collector, target = context.diagnostics, registry.target(context.target)
     before = len(collector)
-    whole = with_given(read.program, given) if given and source != target_name else read.program
     renamed: dict[str, str] = {}
     if source != target_name:
         whole, hiding = rename_hiding(whole, capabilities.names)
@@ -94,7 +107,7 @@ def translate_program(
     else:
         program = legalise(whole, context)
     legalised = len(collector)
-    asked = WriteContext(collector, second, options or {}, context.register_names, context.foreign)
+    asked = WriteContext(collector, robot, options, context.register_names, context.foreign)
     files = target.write(program, asked)
     collector.drop_repeated(before, legalised)
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)

@@ -45,7 +45,7 @@ TOO_DEEP = code(
 )
 UNCLAIMED = code("unclaimed-text", Severity.ERROR, "this text was not accounted for: {text}")
 
-DEEPEST_BLOCK = 1000
+DEEPEST_BLOCK = 1_100
 
 Lower = Callable[[SyntaxTree, tuple[str, ...], Origin], Element | tuple[Element, ...]]
 """lower(tree, numbers, origin): numbers[slot.index] is the spelling of a number. May raise StatementError."""

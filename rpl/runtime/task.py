@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from rpl.depth import has_more_depth
 from rpl.runtime.code import ATTEND, BLOCKED, SWITCHED, Code, Frame, Handling, Read, Values, Write
 from rpl.runtime.faults import FATAL, ProgramError, name_of, number_of
 from rpl.runtime.interrupts import Interrupt, Interrupts
@@ -509,5 +510,7 @@ def _as_program_error(error: Exception) -> ProgramError:
         case MemoryError():
             return ProgramError("internal_limit", "the program's data do not fit into memory")
         case RecursionError():
+            if has_more_depth():
+                raise error
             return ProgramError("too_deep", "expressions that use each other are nested too deep")
     return ProgramError("wrong_kind", f"an operation does not fit its values: {error}")

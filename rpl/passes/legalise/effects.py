@@ -54,10 +54,16 @@ def blocks(statement: ir.Statement) -> list[ir.Body]:
 
 def statements_in(body: ir.Body) -> Iterator[ir.Statement]:
     """Every statement of a body, outer before inner."""
-    for statement in body:
-        yield statement
-        for inner in blocks(statement):
-            yield from statements_in(inner)
+    ahead = [iter(body)]
+    while ahead:
+        for statement in ahead[-1]:
+            yield statement
+            inner = blocks(statement)
+            if inner:
+                ahead += [iter(part) for part in reversed(inner) if part]
+                break
+        else:
+            ahead.pop()
 
 
 def is_constant(expression: ir.Expression) -> bool:
