@@ -252,7 +252,7 @@ class Modal:
 
     def passed(self, statement: ir.Statement, known: Environment) -> None:
         """What is still known behind a statement that may set something, itself or in what it calls."""
-        if not self.leaves_modal_state(statement):
+        if not known or not self.leaves_modal_state(statement):
             known.clear()
         elif calls := [node for node in walk(statement) if isinstance(node, ir.CallRoutine | ir.Call | ir.Do)]:
             changed = assigned_in((statement,))

@@ -68,7 +68,8 @@ def left_out_moves(program: ir.Program, context: Context) -> ir.Program:
 def fitting_corners(program: ir.Program, context: Context) -> ir.Program:
     """For controllers that would leave out a move: two corners that overlap get half of the way between them each."""
     source, target = (bool(rules_of(one).inputs.overlapping_blends) for one in (context.source, context.target))
-    if source or not target:
+    cornered = any(isinstance(node, ir.Move) and node.blend is not None for node in walk(program.modules))
+    if source or not target or not cornered:
         return program
 
     told: list[ir.Move] = []
