@@ -10,7 +10,15 @@ import re
 from lark import Token, Tree
 from lark.exceptions import UnexpectedInput
 
-from rpl.reading.shapes import LONGEST_STATEMENT, ShapeParser, Slot, StatementError, SyntaxTree, load_grammar
+from rpl.reading.shapes import (
+    DEEPEST_EXPRESSION,
+    LONGEST_STATEMENT,
+    ShapeParser,
+    Slot,
+    StatementError,
+    SyntaxTree,
+    load_grammar,
+)
 
 from .words import PLACEHOLDERS, RESERVED
 
@@ -25,7 +33,6 @@ _PARTS = re.compile(
 )
 _LEAVES = frozenset(("NAME", "STRING", "INT", "REAL"))
 _CACHED_SHAPES = 50_000
-_DEEPEST_EXPRESSION = 150
 
 
 class RapidParser(ShapeParser):
@@ -125,7 +132,7 @@ def _check_depth(text: str) -> None:
         sign = match.group()
         if sign in "([{":
             depth += 1
-            if depth > _DEEPEST_EXPRESSION:
-                raise StatementError(f"brackets nested more than {_DEEPEST_EXPRESSION} deep", match.start())
+            if depth > DEEPEST_EXPRESSION:
+                raise StatementError(f"brackets nested more than {DEEPEST_EXPRESSION} deep", match.start())
         elif sign in ")]}":
             depth -= 1

@@ -39,7 +39,7 @@ def _gathered(declarations: tuple[ir.Declaration, ...]) -> tuple[ir.Declaration,
         if len(bounds) != 1 or not isinstance(bounds[0], ir.IntLiteral):
             continue
         places = range(one.type.base, bounds[0].value + 1)
-        if set(found) == set(places):
+        if found and set(found) == set(places):
             lists[one.name] = ir.Aggregate(tuple((None, found[at].assign.value) for at in places))
     gone = {id(one) for name in lists for one in given[name].values()}
     return tuple(

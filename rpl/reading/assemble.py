@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
+from rpl.depth import has_more_depth
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.passes.collector import paused_cycle_collector
 from rpl.reading.ledger import LOWERED, REPORTED, TRIVIA, FileReport, Ledger
@@ -136,6 +137,8 @@ class _Assembler:
             tree, numbers = self.parser.parse(piece.text)
             return self.lower(tree, numbers, origin)
         except RecursionError:  # costs its statement like any other damage
+            if has_more_depth():
+                raise
             raise StatementError("the expression is nested too deep", 0) from None
 
     def place(self, element: Element, behind: str | None) -> None:

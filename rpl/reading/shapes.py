@@ -30,8 +30,8 @@ NUMBERS = re.compile(
     r"|(?P<int>\d+)"
 )
 LONGEST_STATEMENT = 2_000_000
-DEEPEST_EXPRESSION = 150
-DEEPEST_TREE = 200
+DEEPEST_EXPRESSION = 1_000
+DEEPEST_TREE = 2_100
 _CACHED_SHAPES = 50_000
 # What stands for a taken-out piece in a shape: pattern group -> terminal and its stand-in text.
 NUMBER_SLOTS: Mapping[str, tuple[str, str]] = {"real": ("REAL", "0.5"), "int": ("INT", "0")}

@@ -384,7 +384,11 @@ class Task:
             return
         while True:
             frame = self.frame
-            start = None if error.name in FATAL else self._handler(frame, 0 if number is None else number)
+            try:
+                start = None if error.name in FATAL else self._handler(frame, 0 if number is None else number)
+            except ProgramError as unknown:  # a handler that names what has no value
+                self._unhandled(unknown, None, origin, rules)
+                return
             if start is not None:
                 retry, following = frame.code.statements[frame.at]
                 name = name_of(number, rules.errors) if number is not None else error.name
