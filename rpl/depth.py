@@ -11,6 +11,7 @@ import ctypes
 import sys
 import threading
 from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from typing import TypeVar
 
 from rpl.diagnostics import Diagnostics
@@ -57,51 +58,47 @@ def deeply(work: Callable[[], Result]) -> Result:
     """What `work` gives, done on a large stack. A key that interrupts the program interrupts the work."""
     if getattr(_here, "deep", False):
         return work()
-    done: list[Result] = []
-    failed: list[BaseException] = []
+    idents: list[int] = []
 
-    def run() -> None:
+    def run() -> Result:
         _here.deep = True
-        try:
-            done.append(work())
-        except RecursionError:
-            failed.append(SourceError("the program is nested too deeply to be worked on"))
-        except BaseException as error:  # noqa: BLE001 (raised again where the work was asked for)
-            failed.append(error)
+        idents.append(threading.get_ident())
+        return work()
 
     usual = sys.getrecursionlimit()
     try:
-        thread = _started(run)
+        begun = _begun(run)
         try:
-            thread.join()
-        except BaseException:
-            _interrupt(thread)
-            raise
+            return begun.result()
+        except RecursionError:
+            raise SourceError("the program is nested too deeply to be worked on") from None
+        except (KeyboardInterrupt, SystemExit) as stop:
+            if not begun.done():
+                _interrupt(idents)
+                wait((begun,))
+            ended = begun.exception()
+            raise ended if isinstance(ended, KeyboardInterrupt) else stop from None
     finally:
         sys.setrecursionlimit(usual)
-    if failed:
-        raise failed[0]
-    return done[0]
 
 
-def _started(run: Callable[[], None]) -> threading.Thread:
-    """A thread that has begun, with the largest stack to be had and as many calls as that holds."""
+def _begun(run: Callable[[], Result]) -> Future[Result]:
+    """Work that has begun in a thread with the largest stack to be had, and as many calls as that holds."""
     for size in _STACKS:
         usual = threading.stack_size(size)
+        executor = ThreadPoolExecutor(1)
         try:
             sys.setrecursionlimit(min(size // _CALL_BYTES, DEEPEST_CALLS))
-            thread = threading.Thread(target=run, daemon=True)
-            thread.start()
+            return executor.submit(run)
         except RuntimeError:  # so much memory is not to be had
             continue
         finally:
             threading.stack_size(usual)
-        return thread
+            executor.shutdown(wait=False)
     raise SourceError("the program is nested too deeply for the memory that there is")
 
 
-def _interrupt(thread: threading.Thread) -> None:
+def _interrupt(idents: list[int]) -> None:
     """Ends the work of a thread at its next statement."""
-    if thread.ident is not None:
-        ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread.ident), ctypes.py_object(KeyboardInterrupt))
-    thread.join()
+    for ident in idents:
+        ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(ident), ctypes.py_object(KeyboardInterrupt))

@@ -1,0 +1,156 @@
+"""Programs nested deeply are read, run and written; what is nested beyond all sense is refused at its place."""
+
+import threading
+
+import pytest
+
+from rpl import registry
+from rpl.depth import at_any_depth, deeply
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.errors import SourceError
+from rpl.project import ReadProgram, read_sources
+from rpl.simulation import run_program
+from rpl.source import source_from_text
+from rpl.translation import translate_program
+
+# Per language: the file, the text around a body, how an assignment of a value looks, a block's beginning and end.
+FORMS = {
+    "rapid": ("d.mod", "MODULE d\nVAR num x;\nPROC main()\n{}\nENDPROC\nENDMODULE\n", "x:={};", "IF x>0 THEN", "ENDIF"),
+    "krl": ("d.src", "DEF d()\nDECL INT X\n{}\nEND\n", "X={}", "IF X>0 THEN", "ENDIF"),
+    "rpl": ("d.rpl", "VAR x: INT\n{}\n", "x = {}", "IF x > 0 THEN", "END IF"),
+    "urscript": ("d.script", "def d():\n{}\nend\n", "x={}", "if x>0:", "end"),
+    "vplus": ("d.v2", ".PROGRAM d()\n{}\n.END\n", "x = {}", "IF x > 0 THEN", "END"),
+    "inform": (
+        "D.JBI",
+        "/JOB\n//NAME D\n//POS\n///NPOS 0,0,0,0,0,0\n//INST\n///DATE 2020/01/01 10:00\n///ATTR SC,RW\n"
+        "///GROUP1 RB1\nNOP\n{}\nEND\n",
+        "SET I000 EXPRESS {}",
+        "IFTHEN I000>0",
+        "ENDIF",
+    ),
+    "tp": ("D.LS", "/PROG D\n/ATTR\n/MN\n{}\n/POS\n/END\n", "R[1]=({})", "IF (R[1]>0) THEN", "ENDIF"),
+}
+
+
+def program(language: str, statements: list[str]) -> tuple[ReadProgram, Diagnostics]:
+    path, around, *_ = FORMS[language]
+    if language == "tp":
+        statements = [f"{number:4}:  {one} ;" for number, one in enumerate(statements, 1)]
+    diagnostics = Diagnostics()
+    text = around.format("\n".join(statements))
+    return read_sources([source_from_text(path, text)], language, diagnostics), diagnostics
+
+
+def nested_blocks(language: str, depth: int) -> tuple[ReadProgram, Diagnostics]:
+    _, _, assignment, begin, end = FORMS[language]
+    inner = assignment.format("7")
+    return program(language, [assignment.format("1"), *[begin] * depth, inner, *[end] * depth])
+
+
+def of_severity(diagnostics: Diagnostics, severity: Severity) -> list[str]:
+    return [item.as_text() for item in diagnostics.of(severity)]
+
+
+@pytest.mark.parametrize("language", FORMS)
+def test_a_thousand_nested_blocks_are_read_and_run(language: str) -> None:
+    read, diagnostics = nested_blocks(language, 1000)
+    assert of_severity(diagnostics, Severity.ERROR) == []
+    result = run_program(read.program)
+    assert (result.status, result.fault) == ("finished", None)
+    assert result.statements >= 1002
+
+
+@pytest.mark.parametrize("target", registry.target_names())
+def test_nested_blocks_are_written_in_every_language(target: str) -> None:
+    read, diagnostics = nested_blocks("rapid", 150)
+    written = translate_program(read, target, diagnostics=diagnostics)
+    assert written.losses == ()
+    again = Diagnostics()
+    sources = [source_from_text(file.path, file.data.decode("utf-8")) for file in written.files]
+    back = read_sources(sources, target, again)
+    assert of_severity(again, Severity.ERROR) == []
+    assert run_program(back.program).status == "finished"
+
+
+def test_blocks_beyond_all_sense_are_refused_at_their_place() -> None:
+    read, diagnostics = nested_blocks("krl", 1300)
+    refused = of_severity(diagnostics, Severity.ERROR)
+    assert len(refused) == 1
+    assert refused[0].startswith("d.src:1103:1: error blocks-too-deep")
+    assert run_program(read.program).fault is not None  # it stops there
+
+
+@pytest.mark.parametrize("language", FORMS)
+def test_a_thousand_brackets_are_read_and_run(language: str) -> None:
+    assignment = FORMS[language][2]
+    for value in ("(" * 990 + "5" + ")" * 990, "(1+" * 500 + "1" + ")" * 500):
+        read, diagnostics = program(language, [assignment.format(value)])
+        assert of_severity(diagnostics, Severity.ERROR) == []
+        assert run_program(read.program).status == "finished"
+
+
+@pytest.mark.parametrize("language", FORMS)
+def test_ten_thousand_brackets_cost_their_statement_alone(language: str) -> None:
+    assignment = FORMS[language][2]
+    value = "(" * 10_000 + "5" + ")" * 10_000
+    read, diagnostics = program(language, [assignment.format("1"), assignment.format(value), assignment.format("2")])
+    refused = of_severity(diagnostics, Severity.ERROR)
+    assert len(refused) == 1
+    assert "brackets nested more than 1000 deep" in refused[0]
+    path, around, *_ = FORMS[language]
+    line = around.partition("{}")[0].count("\n") + 2
+    assert refused[0].startswith(f"{path}:{line}:")
+    assert [report.opaque for report in read.files] == [1]
+
+
+def test_long_chains_of_operators_are_written() -> None:
+    read, diagnostics = program("krl", [FORMS["krl"][2].format("+".join("1" * 300))])
+    written = translate_program(read, "urscript", diagnostics=diagnostics)
+    assert written.losses == ()
+    assert b"+ 1 + 1" in written.files[0].data or b"300" in written.files[0].data
+
+
+def test_work_that_overflows_is_done_once_more_and_reports_once() -> None:
+    note = code("test-depth-note", Severity.INFO, "seen")
+    diagnostics = Diagnostics()
+
+    def down(levels: int) -> int:
+        return 0 if levels == 0 else 1 + down(levels - 1)
+
+    def work() -> int:
+        diagnostics.report(note)
+        return down(50_000)
+
+    assert at_any_depth(work, diagnostics) == 50_000
+    assert len(diagnostics) == 1
+
+
+def test_work_without_end_is_refused_by_name() -> None:
+    def down() -> int:
+        return 1 + down()
+
+    with pytest.raises(SourceError, match="nested too deeply"):
+        at_any_depth(down)
+
+
+def test_large_stacks_are_given_back() -> None:
+    before, size = threading.active_count(), threading.stack_size()
+    assert deeply(lambda: 5) == 5
+    assert threading.stack_size() == size
+    assert threading.active_count() <= before + 1
+
+
+def test_an_array_without_elements_is_no_list_to_gather() -> None:
+    text = 'MODULE d\nCONST num none{0}:=[];\nPROC main()\nTPWrite "ok";\nENDPROC\nENDMODULE\n'
+    read = read_sources([source_from_text("d.mod", text)], "rapid", Diagnostics())
+    assert translate_program(read, "urscript").files
+
+
+def test_a_handler_that_names_what_is_not_declared_is_a_fault() -> None:
+    """A controller refuses such a module when it is loaded; a run of what was read stops where it asks."""
+    text = "MODULE d\nPROC main()\nVAR num x;\nx:=1/0;\nERROR(NOT_DECLARED)\nTRYNEXT;\nENDPROC\nENDMODULE\n"
+    read = read_sources([source_from_text("d.mod", text)], "rapid", Diagnostics())
+    fault = run_program(read.program).fault
+    assert fault is not None
+    assert "NOT_DECLARED is not declared" in fault.message
+    assert fault.origin.line == 4
