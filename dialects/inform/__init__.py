@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rpl.diagnostics import Diagnostics
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from rpl.ir.rules import Rules
 
 _JOB = re.compile(r"^\ufeff?\s*/JOB[ \t]*$", re.MULTILINE)
+_DUMP = re.compile(r"\ufeff?\s*//(?:VAR|TOOL[ \t]+\d+|UFRAME[ \t]+\d+)[ \t]*$", re.MULTILINE)
+_DUMPS = ("VAR.DAT", "TOOL.CND", "UFRAME.CND")
 _SECTIONS = re.compile(r"^(?://NAME\b|//POS\b|//INST\b|///NPOS\b|///POSTYPE\b|///ATTR\b)", re.MULTILINE)
 _LINES = re.compile(
     r"^[ \t]*(?:S?MOV[JLCS][ \t]+L?[A-Z]+\d+|DOUT[ \t]+OT#\(|JUMP[ \t]+\*|CALL[ \t]+JOB:|TIMER[ \t]+T=)", re.MULTILINE
@@ -24,7 +27,10 @@ _LINES = re.compile(
 
 
 def _recognise(path: str, text: str) -> int:
-    """How sure the content is a job: its header, then the share of typical lines."""
+    """How sure the content is a job, or a file of its controller's values (VAR.DAT, TOOL.CND, UFRAME.CND): by its
+    header, then by the share of typical lines."""
+    if _DUMP.match(text[:200]):
+        return 96
     head = text[:100_000]
     if _JOB.search(head[:2_000]):
         return 97 if _SECTIONS.search(head) else 85
@@ -32,6 +38,14 @@ def _recognise(path: str, text: str) -> int:
         return 80
     typical = len(_LINES.findall(head))
     return 45 if typical >= 2 and typical * 5 >= head.count("\n") else 0
+
+
+def _companions(path: str) -> tuple[str, ...]:
+    """The files beside a job that have what its controller keeps: variables, tools, user frames."""
+    file = Path(path)
+    if file.suffix.lower() != ".jbi":
+        return ()
+    return tuple(str(file.with_name(name)) for dump in _DUMPS for name in (dump, dump.lower()))
 
 
 def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
@@ -59,7 +73,7 @@ def _notation() -> Notation:
 DIALECT = Dialect(
     name="inform",
     title="Yaskawa INFORM",
-    extensions=(".jbi",),
+    extensions=(".jbi", ".dat", ".cnd"),
     recognise=_recognise,
     read=_read,
     rules=_rules,
@@ -67,5 +81,6 @@ DIALECT = Dialect(
     notation=_notation,
     notation_fields=("noflip", "lower", "rear", "r180", "t180", "s180"),
     signal_name=signal_name,
+    companions=_companions,
     aliases=("yaskawa", "motoman"),
 )

@@ -17,6 +17,7 @@ from rpl.registry import ReadResult
 from rpl.source import Origin, Source
 
 from .control import START, Control
+from .dumps import Dump, is_dump, read_dump
 from .jobs import Frame, Job, JobReader, Point, commands
 from .kinds import JOINTS, Kind, Project, frame_of, kind_of_point, settle
 from .operands import TYPES, Shared, Used, plain_bank
@@ -39,6 +40,7 @@ NOT_GIVEN = code(
     "give them in the cell file, for example {name} = {{ x = 0.0, y = 0.0, z = 120.0, a = 0.0, b = 0.0, c = 0.0 }}",
 )
 REGISTERS = "registers"
+_KEPT = frozenset(("B", "I", "D", "R", "S", "TL", "UF"))
 _IDENTITY = ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ("x", "y", "z", "a", "b", "c")))
 
 
@@ -53,7 +55,11 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     further: list[Job] = []
     home: dict[int, int] = {}
     reports: list[FileReport] = []
+    dump = Dump()
     for number, source in enumerate(sources):
+        if is_dump(source.text):
+            reports.append(FileReport(source.path, "inform", read_dump(source, dump, diagnostics), 0))
+            continue
         done = assemble(source, "inform", split(source), _parser(), lower, build, diagnostics)
         reports.append(done.report)
         for job in JobReader(source, diagnostics).read(done.items):
@@ -63,13 +69,31 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
                 further.append(job)
             else:
                 jobs[job.name.upper()] = job
-    modules = _Lowering(jobs, diagnostics)
+    _with_positions(jobs, dump)
+    modules = _Lowering(jobs, dump, diagnostics)
     for job in (*jobs.values(), *further):
         unread = modules.job(job)
         report = reports[home[id(job)]]
         texts = (*report.unread, *unread)
         reports[home[id(job)]] = replace(report, opaque=report.opaque + len(unread), unread=texts)
     return ReadResult(modules.program(), tuple(reports))
+
+
+def _with_positions(jobs: dict[str, Job], dump: Dump) -> None:
+    """Position variables of the controller that jobs use and none has the value of: the first job has it then."""
+    mentioned: set[int] = set()
+    every = False
+    for job in jobs.values():
+        for _, nodes in job.mentions():
+            for node in nodes:
+                if isinstance(node, ir.Index) and isinstance(node.base, ir.Name) and node.base.id in ("P", "P[]"):
+                    index = node.indices[0]
+                    every = every or not isinstance(index, ir.IntLiteral)
+                    mentioned |= {index.value} if isinstance(index, ir.IntLiteral) else set()
+    known = {number for job in jobs.values() for bank, number in job.points if bank == "P"}
+    for number, point in dump.positions.items():
+        if jobs and number not in known and (every or number in mentioned):
+            next(iter(jobs.values())).points["P", number] = point
 
 
 def _indirect(job: Job, local: bool) -> frozenset[str]:
@@ -90,8 +114,8 @@ def _indirect(job: Job, local: bool) -> frozenset[str]:
 class _Lowering:
     """Gives the jobs their meaning, one after the other, and collects what they use together."""
 
-    def __init__(self, jobs: dict[str, Job], diagnostics: Diagnostics) -> None:
-        self.jobs, self.diagnostics = jobs, diagnostics
+    def __init__(self, jobs: dict[str, Job], dump: Dump, diagnostics: Diagnostics) -> None:
+        self.jobs, self.dump, self.diagnostics = jobs, dump, diagnostics
         shared_banks: frozenset[str] = frozenset().union(*(_indirect(job, False) for job in jobs.values()))
         self.project = Project(jobs, shared_banks)
         self.flows = settle(self.project, {name: _indirect(job, True) for name, job in jobs.items()})
@@ -166,8 +190,8 @@ class _Lowering:
             found = values.get(variable.name)
             if found is not None:
                 variable = replace(variable, type=found[0], initial=found[1])
-            elif isinstance(variable.type, ir.PoseType):  # a tool, a user frame, the shift
-                variable = replace(variable, initial=_IDENTITY)
+            else:
+                variable = replace(variable, initial=self.kept(variable))
             declarations.append(variable)
         declarations.extend(self.saved_elements())
         declarations.extend(self.direct_inputs())
@@ -176,6 +200,24 @@ class _Lowering:
         if declarations:
             modules = (ir.Module(REGISTERS, "inform", tuple(declarations)), *modules)
         return without_pulse_banks(ir.Program(modules))
+
+    def kept(self, variable: ir.Variable) -> ir.Expression | None:
+        """The value that the controller keeps: from its files, else it is named for who can give it."""
+        bank, number = variable.name.rstrip("0123456789"), variable.name[len(variable.name.rstrip("0123456789")) :]
+        if bank not in _KEPT:
+            return _IDENTITY if isinstance(variable.type, ir.PoseType) else None  # of the reader: the shift, flags
+        if number:
+            return self.kept_one(bank, int(number), variable.type)
+        if not isinstance(variable.type, ir.ArrayType) or not isinstance(variable.type.dimensions[0], ir.IntLiteral):
+            return None
+        last, element = variable.type.dimensions[0].value, variable.type.element
+        return ir.Aggregate(tuple((None, self.kept_one(bank, number, element)) for number in range(last + 1)))
+
+    def kept_one(self, bank: str, number: int, type: ir.Type) -> ir.Expression:
+        if bank in ("TL", "UF"):
+            return self.dump.poses.get((bank, number), _IDENTITY)
+        found = self.dump.values.get((bank, number))
+        return found if found is not None else ir.VendorValue("inform", f"{bank}{number:03d}", type)
 
     def tell_what_is_not_given(self, modules: tuple[ir.Module, ...]) -> None:
         """Tools and user frames that moves use and no SETTOOL or MFRAME of the project sets."""
@@ -187,7 +229,8 @@ class _Lowering:
         for bank, what in (("TL", "tool"), ("UF", "user frame")):
             given = [(key, place) for key, (_, place) in used.scalars.items() if key[:2] == bank and key[2:].isdigit()]
             given.extend((key, place) for key, (_, _, place) in used.arrays.items() if key == bank)
-            unset = [(key, place) for key, place in given if key not in names]
+            known = {f"{word}{number}" for word, number in self.dump.poses} | {word for word, _ in self.dump.poses}
+            unset = [(key, place) for key, place in given if key not in names and key not in known]
             if unset:
                 listed = ", ".join(f"{bank}#({key[2:] or 'n'})" for key, _ in sorted(unset, key=lambda one: one[0]))
                 words = f"{what} {listed} is" if len(unset) == 1 else f"{what}s {listed} are"

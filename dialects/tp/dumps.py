@@ -10,11 +10,18 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 
+from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.source import Origin, Source
 
 from .configuration import parse_config
 from .positions import Group, Position
 
+BAD_VALUE = code(
+    "tp-bad-value",
+    Severity.ERROR,
+    "the value of {name} cannot be read: {text}",
+    "take the dump from the controller anew",
+)
 _VARIABLE = re.compile(r"^\s*\[\*?(\w+)\*?\]\s*(\$\w+)([^\n]*)", re.MULTILINE)
 _ELEMENT = re.compile(r"^\s*\[\s*([\d, ]+)\]\s*=?([^\n]*)", re.MULTILINE)
 _QUOTED = re.compile(r"'([^']*)'")
@@ -45,8 +52,8 @@ def is_dump(text: str) -> bool:
                      text, re.MULTILINE) is not None  # fmt: skip
 
 
-def read_dump(source: Source, into: Dump) -> int:
-    """Take over what a dump says. Gives the number of values read."""
+def read_dump(source: Source, into: Dump, diagnostics: Diagnostics) -> int:
+    """Take over what a dump says. Gives the number of values read; one that cannot be read is reported."""
     text = source.text
     heads = list(_VARIABLE.finditer(text))
     count = 0
@@ -54,7 +61,7 @@ def read_dump(source: Source, into: Dump) -> int:
         end = heads[place + 1].start() if place + 1 < len(heads) else len(text)
         name = head[2].upper()
         if name in ("$NUMREG", "$STRREG", "$POSREG", "$MNUFRAME", "$MNUTOOL", "$MNUFRAMENUM", "$MNUTOOLNUM"):
-            count += _elements(source, name, head.end(), end, into)
+            count += _elements(source, name, head.end(), end, into, diagnostics)
         elif name == "$PLST_GRP1":
             count += _loads(text[head.end() : end], into)
     return count
@@ -70,24 +77,27 @@ def _loads(text: str, into: Dump) -> int:
     return len(fields)
 
 
-def _elements(source: Source, name: str, begin: int, end: int, into: Dump) -> int:
+def _elements(source: Source, name: str, begin: int, end: int, into: Dump, diagnostics: Diagnostics) -> int:
     text = source.text
     marks = list(_ELEMENT.finditer(text, begin, end))
     for place, mark in enumerate(marks):
         stop = marks[place + 1].start() if place + 1 < len(marks) else end
         indices = [int(number) for number in re.findall(r"\d+", mark[1])]
         origin = Origin(source, mark.start() + len(mark[0]) - len(mark[0].lstrip()), mark.end())
-        _take(name, indices, mark[2], text[mark.end() : stop], origin, into)
+        if not _take(name, indices, mark[2], text[mark.end() : stop], origin, into):
+            diagnostics.report(BAD_VALUE, origin, name=f"{name}[{mark[1].strip()}]", text=mark[2].strip()[:60])
     return len(marks)
 
 
-def _take(name: str, indices: list[int], line: str, rest: str, origin: Origin, into: Dump) -> None:
+def _take(name: str, indices: list[int], line: str, rest: str, origin: Origin, into: Dump) -> bool:
+    """Take over one element; False when its value cannot be read."""
     number = indices[-1]
     quoted = _QUOTED.findall(line)
     if name == "$NUMREG":
         found = _NUMBER.match(line.strip())
-        if found:
-            into.numbers[number] = (float(found[0]), "." not in found[0], origin)
+        if found is None or ((behind := line.strip()[found.end() :]) and behind[0] not in " \t'"):
+            return not line.strip() or "Uninitialized" in line or line.strip().startswith("*")
+        into.numbers[number] = (float(found[0]), "." not in found[0], origin)
         _label(into, "R", number, quoted)
     elif name == "$STRREG":
         if quoted and "Uninitialized" not in line:
@@ -105,6 +115,8 @@ def _take(name: str, indices: list[int], line: str, rest: str, origin: Origin, i
                 into.positions[number] = (position, origin)
         elif position is not None:
             into.frames["UFRAME" if name == "$MNUFRAME" else "UTOOL", number] = (position, origin)
+        return position is not None or "Uninitialized" in line + rest or "*" in rest
+    return True
 
 
 def _label(into: Dump, bank: str, number: int, quoted: list[str]) -> None:

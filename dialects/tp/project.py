@@ -70,7 +70,7 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     names: set[str] = set()
     for source in sources:
         if is_dump(source.text) and "/PROG" not in source.text:
-            reports[source.path] = FileReport(source.path, "tp", read_dump(source, dump), 0)
+            reports[source.path] = FileReport(source.path, "tp", read_dump(source, dump, diagnostics), 0)
         else:
             files.append(_opened(source, names, diagnostics))
     _look_over(files, facts, dump, diagnostics)

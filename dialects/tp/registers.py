@@ -327,17 +327,25 @@ def _one(bank: str, number: int, facts: Facts, dump: Dump) -> tuple[ir.Type, ir.
         case "R":
             given = dump.numbers.get(number)
             if given is None:
-                return tables.NUMBER, ir.IntLiteral(0)
+                return tables.NUMBER, _kept(bank, number, facts, tables.NUMBER)
             value, is_whole, origin = given
             if is_whole:
                 return tables.NUMBER, ir.IntLiteral(int(value), origin=origin)
             return tables.NUMBER, ir.RealLiteral(value, origin=origin)
         case "SR":
             text = dump.texts.get(number)
-            return ir.StringType(), ir.TextLiteral(text[0] if text else "")
+            if text is None:
+                return ir.StringType(), _kept(bank, number, facts, ir.StringType())
+            return ir.StringType(), ir.TextLiteral(text[0])
     kind = facts.register_kind(number)
     dumped = dump.positions.get(number)
     return type_of_kind(kind), value_of(*dumped) if dumped is not None and dumped[0].kind == kind else None
+
+
+def _kept(bank: str, number: int, facts: Facts, type: ir.Type) -> ir.VendorValue:
+    """The value that the controller keeps and no dump gives; on a new one it is 0, or the empty text."""
+    label = facts.labels.get((bank, number), "")
+    return ir.VendorValue("tp", f"{bank}[{number}:{label}]" if label else f"{bank}[{number}]", type)
 
 
 def _frame_bank(bank: str, facts: Facts, dump: Dump) -> Iterable[ir.Variable]:

@@ -107,6 +107,8 @@ def command(
 
 def _robot_in(robot: str | None, surroundings: Cell | None, program: ir.Program) -> RobotModel | None:
     """The arm with the mechanisms around it; what the run takes for granted about the program is said."""
+    from rpl.passes.given import with_given
+    from rpl.passes.kept import report_taken_as_zero
     from rpl.proof.cellnames import report_unknown_signals
 
     model, assumptions = robot_named(robot), collector()
@@ -115,6 +117,8 @@ def _robot_in(robot: str | None, surroundings: Cell | None, program: ir.Program)
         report_assumed(program, model, assumptions)
         report_stations(program, model, assumptions)
     report_unknown_signals(program, surroundings, assumptions)
+    given = surroundings.variables if surroundings is not None else {}
+    report_taken_as_zero(with_given(program, given), assumptions)
     print_diagnostics(assumptions, Severity.WARNING)
     return model
 

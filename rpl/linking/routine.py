@@ -13,6 +13,7 @@ from rpl.linking.expressions import Compiler, Place
 from rpl.linking.flatten import Flattener
 from rpl.linking.places import writer
 from rpl.linking.statements import Statements
+from rpl.passes.kept import zero_of
 from rpl.runtime import answers
 from rpl.runtime.code import Code, HandlerCode, Instruction, Read, Values
 from rpl.runtime.faults import ProgramError
@@ -229,6 +230,15 @@ class _Tracking(Compiler):
             raise InternalError("a scope is needed")
         super().__init__(linked, scope)
         self.used: set[int] = set()
+
+    def value(self, expression: ir.Expression) -> Read:
+        """A value that the controller keeps and no file gives: zero, as on a controller on which nobody has set it."""
+        if not isinstance(expression, ir.VendorValue):
+            return super().value(expression)
+        zero = zero_of(expression.type)
+        if zero is not None:
+            return super().value(zero)
+        return lambda f: self.types.initial(expression.type, lambda bound: 0)
 
     def place_of(self, name: str) -> Place | ir.SignalDeclaration | None:
         place = super().place_of(name)

@@ -43,7 +43,7 @@ CASES = [
     ("L", "mm/sec", "FINE", ""),
     ("J", "%", "CNT100", ""),
     ("J", "%", "FINE", "DO[3]=ON"),
-    ("L", "mm/sec", "FINE", "R[4]=R[3]+1"),
+    ("L", "mm/sec", "FINE", "R[4]=1"),
 ]
 
 

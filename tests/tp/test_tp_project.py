@@ -67,9 +67,9 @@ def test_registers_start_with_the_values_of_the_dumps() -> None:
         "R1: REAL = 12",
         "R2: REAL = -2.7",
         "R3: REAL = 0.5",
-        "R4: REAL = 0",
+        'R4: REAL = VENDOR(tp, "R[4]", REAL)',
         'SR1: STRING = "PICK_A"',
-        'SR3: STRING = ""',
+        'SR3: STRING = VENDOR(tp, "SR[3]", STRING)',
         "PR1: JOINTS = joints {j1: 9.998, j2: (-45.0), j3: 30.0, j4: 24.998, j5: (-90.0), j6: (-90.0), e1: 40.492}",
     ):
         assert line in found.replace("= (-2.7)", "= -2.7"), line

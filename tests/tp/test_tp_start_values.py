@@ -11,10 +11,13 @@ from rpl.translation import translate_program
 HEAD = "/JOB\n//NAME SUMS\n//POS\n///NPOS 0,0,0,0,0,0\n//INST\n///DATE 2025/05/14 10:22\n///ATTR SC,RW\n///GROUP1 RB1\n"
 FURTHER = "".join(f"INC I{number:03d}\n" for number in range(10, 22))
 JOB = f"{HEAD}NOP\nSET D003 5\nFOR I000 = 0 TO 5\nADD D007 D[I000]\nNEXT I000\n{FURTHER}DOUT OT#(1) ON\nEND\n"
+ZEROS = "0,0,0,0,0,0,0,0,0,0\n" * 10
+KEPT = f"//VAR\n///I\n{ZEROS}///D\n{ZEROS}"
 
 
 def test_the_program_itself_begins_with_its_steps() -> None:
-    read = read_sources([source_from_text("SUMS.JBI", JOB)], "inform", Diagnostics())
+    files = [source_from_text("SUMS.JBI", JOB), source_from_text("VAR.DAT", KEPT)]
+    read = read_sources(files, "inform", Diagnostics())
     done = translate_program(read, "tp", None, None, Diagnostics())
     texts = {file.path.rsplit("/", 1)[-1]: file.data.decode() for file in done.files}
     assert "D8]=0" not in texts["SUMS.LS"]

@@ -79,6 +79,7 @@ from rpl.passes.legalise.joins import joins
 from rpl.passes.legalise.jointgoals import joint_goals
 from rpl.passes.legalise.keptcorners import kept_corners
 from rpl.passes.legalise.keptsettings import kept_settings
+from rpl.passes.legalise.keptvalues import kept_values_known
 from rpl.passes.legalise.knownjoints import known_joints
 from rpl.passes.legalise.labelled import labels_as_remarks
 from rpl.passes.legalise.labels import structure_to_labels
@@ -220,6 +221,7 @@ from rpl.passes.typing import normalise
 # whose conditions are opposites), and nothing needs new variables of routines. Numbers are given when nothing has a
 # name to add.
 PASSES: tuple[Pass, ...] = (
+    kept_values_known,
     source_layout,
     drop_untyped,
     grown_arrays,

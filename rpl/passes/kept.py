@@ -1,0 +1,399 @@
+"""Data that a controller keeps and whose value stands in no file of the project: registers, variables, taught frames.
+
+Such a variable's first value, or that of an element, is a `VendorValue` that names it in the controller's words. The
+question here is whether a program may read it before it has set it on some way. A list that is read by a computed
+number counts as one: as set where any of its elements has been set or is known.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.walk import is_statement, walk
+from rpl.passes.rewrite import visit_parts
+from rpl.source import Origin
+
+Keys = frozenset[str]
+_NONE: Keys = frozenset()
+# Built-in procedures that read their first argument before they change it.
+_CHANGING = frozenset(("increment", "decrement", "text_append"))
+
+
+TAKEN_AS_ZERO = code(
+    "kept-value-zero",
+    Severity.WARNING,
+    "{name} is read before the program sets it, and its value stands on the controller only: it begins at zero here",
+    "add the controller's file with the values to the project, or give the value in the cell file:"
+    ' [variables] "{path}" = ...',
+)
+
+
+def report_taken_as_zero(program: ir.Program, diagnostics: Diagnostics) -> None:
+    """What a run takes for granted about data that the controller keeps: once for each."""
+    for one in unset_reads(program):
+        diagnostics.report(TAKEN_AS_ZERO, one.origin, name=one.name, path=one.path)
+
+
+@dataclass(frozen=True, slots=True)
+class UnsetRead:
+    """A kept value that may be read before it is set. `key`: the variable (`R2`) or element (`R[2]`), folded; a whole
+    list ends with `[]`. `name`: in the controller's words. `origin`: a place that reads it. `roots`: the routines that
+    nothing calls and from which that place is reached."""
+
+    key: str
+    name: str
+    path: str
+    origin: Origin
+    roots: tuple[str, ...]
+
+
+def kept_values(program: ir.Program) -> dict[str, tuple[str, str]]:
+    """The kept values that no file gives: key -> name in the controller's words and in a cell file."""
+    found: dict[str, tuple[str, str]] = {}
+    for module in program.modules:
+        for one in module.declarations:
+            if not isinstance(one, ir.Variable) or one.storage != "persistent":
+                continue
+            name = one.name.lower()
+            match one.initial, one.type:
+                case ir.VendorValue(text=text), _:
+                    found[name] = text, one.name
+                case ir.Aggregate(entries=entries), ir.ArrayType(base=base):
+                    unknown = [at for at, (_, value) in enumerate(entries, base) if isinstance(value, ir.VendorValue)]
+                    texts = {at: value.text for at, (_, value) in enumerate(entries, base)
+                             if isinstance(value, ir.VendorValue)}  # fmt: skip
+                    found.update({f"{name}[{at}]": (texts[at], f"{one.name}[{at}]") for at in unknown})
+                    if unknown and len(unknown) >= len(entries) - (base == 0):
+                        found[f"{name}[]"] = f"{one.name}[...]", f"{one.name}[{max(unknown[0], 1)}]"
+    return found
+
+
+def unset_reads(program: ir.Program) -> list[UnsetRead]:
+    """Kept values without a known value that some way of the program reads before it sets them, in order of names."""
+    kept = kept_values(program)
+    if not kept:
+        return []
+    routines = [routine for module in program.modules for routine in module.routines]
+    flows = {routine.name.lower(): _Flow(routine, kept) for routine in routines}
+    changed = True
+    while changed:
+        changed = sum(flow.settle(flows) for flow in flows.values()) > 0
+    called = {name for flow in flows.values() for name in flow.runs}
+    roots = [flow for name, flow in flows.items() if name not in called] or list(flows.values())
+    found: dict[str, tuple[Origin, list[str]]] = {}
+    for flow in roots:
+        for key, origin in flow.needs.items():
+            found.setdefault(key, (origin, []))[1].append(flow.name)
+    return [UnsetRead(key, *kept[key], origin, tuple(names)) for key, (origin, names) in sorted(found.items())]
+
+
+@dataclass(slots=True)
+class _Step:
+    """One step of a routine's flow. `ways`: the labels to which it may jump; `falls`: it may go on behind."""
+
+    reads: dict[str, Origin] = field(default_factory=dict)
+    sets: Keys = _NONE
+    calls: str = ""
+    starts: str = ""
+    ways: tuple[str, ...] = ()
+    falls: bool = True
+    leaves: bool = False
+
+
+class _Flow:
+    """The flow of one routine through what is kept. `needs`: what it may read before it is set; `gives`: what is
+    certainly set behind it (None: nothing comes back yet). `runs`: the routines that it calls or starts."""
+
+    def __init__(self, routine: ir.Routine, kept: Mapping[str, object]) -> None:
+        self.name = routine.name
+        self.kept = kept
+        own = {one.name.lower() for one in (*routine.parameters, *routine.declarations) if hasattr(one, "name")}
+        self.hidden = own
+        self.steps: list[_Step] = []
+        self.labels: dict[str, int] = {}
+        self.numbers = 0
+        self.runs: set[str] = set()
+        self.needs: dict[str, Origin] = {}
+        self.gives: Keys | None = None
+        self.flatten(routine)
+
+    # ---- from statements to steps
+
+    def fresh(self) -> str:
+        self.numbers += 1
+        return f"#{self.numbers}"
+
+    def flatten(self, routine: ir.Routine) -> None:
+        """All bodies as steps; nested statements are put on a stack of work, not entered."""
+        further = [body for body in (*(one.body for one in routine.handlers), routine.undo, routine.backward) if body]
+        work: list[object] = [("end",)]
+        for body in further:
+            label = self.fresh()
+            self.steps.append(_Step(ways=(label,)))
+            work += [*reversed(body), ("label", label), ("end",)]
+        work += reversed(routine.body)
+        loops: list[tuple[str, str]] = []
+        while work:
+            item = work.pop()
+            match item:
+                case ("label", str() as name):
+                    self.labels[name] = len(self.steps)
+                case ("jump", str() as name):
+                    self.steps.append(_Step(ways=(name,), falls=False))
+                case ("fork", tuple() as names):
+                    self.steps.append(_Step(ways=names))
+                case ("into", str() as leave, str() as again):
+                    loops.append((leave, again))
+                case ("out",):
+                    loops.pop()
+                case ("end",):
+                    self.steps.append(_Step(falls=False, leaves=True))
+                case ir.ExitLoop() if loops:
+                    self.steps.append(_Step(ways=(loops[-1][0],), falls=False))
+                case ir.NextPass() if loops:
+                    self.steps.append(_Step(ways=(loops[-1][1],), falls=False))
+                case _:
+                    work += reversed(self.statement(item))
+
+    def statement(self, statement: object) -> list[object]:
+        """Steps for a statement; what is inside is given back as work."""
+        match statement:
+            case ir.If(branches=branches, otherwise=otherwise):
+                end, made = self.fresh(), list[object]()
+                for condition, body in branches:
+                    behind = self.fresh()
+                    look = _Look(condition, statement.origin)
+                    made += [look, ("fork", (behind,)), *body, ("jump", end), ("label", behind)]
+                return [*made, *otherwise, ("label", end)]
+            case ir.Switch(selector=selector, cases=cases, default=default):
+                self.use(selector, statement.origin)
+                end, made = self.fresh(), []
+                names = [self.fresh() for _ in cases]
+                for name, case in zip(names, cases, strict=True):
+                    self.use(case.values, statement.origin)
+                    made += [("label", name), *case.body, ("jump", end)]
+                return [("fork", tuple(names)), *(default or ()), ("jump", end), *made, ("label", end)]
+            case ir.For() | ir.While() | ir.Repeat() | ir.Loop():
+                return self.loop(statement)
+            case ir.Label(name=name):
+                return [("label", name.lower())]
+            case ir.Goto(label=name):
+                return [("jump", name.lower())]
+            case _Look(expression=expression, origin=origin):
+                self.use(expression, origin)
+                return []
+            case ir.Return() | ir.Retry() | ir.TryNext():
+                self.plain(statement)
+                return [("end",)]
+            case ir.Halt(kind="exit" | "cycle") | ir.Raise():
+                self.plain(statement)
+                self.steps.append(_Step(falls=False))
+                return []
+        assert is_statement(statement)
+        self.plain(statement)
+        return []
+
+    def loop(self, loop: ir.For | ir.While | ir.Repeat | ir.Loop) -> list[object]:
+        head, again, leave = self.fresh(), self.fresh(), self.fresh()
+        inside = [("into", leave, again), *loop.body, ("label", again), ("out",)]
+        match loop:
+            case ir.While(condition=condition):
+                look = _Look(condition, loop.origin)
+                return [("label", head), look, ("fork", (leave,)), *inside, ("jump", head), ("label", leave)]
+            case ir.Repeat(until=until):
+                return [("label", head), *inside, _Look(until, loop.origin), ("fork", (head,)), ("label", leave)]
+            case ir.Loop():
+                return [("label", head), *inside, ("jump", head), ("label", leave)]
+        self.use((loop.start, loop.stop, loop.step), loop.origin)
+        counter = loop.counter.lower()
+        self.steps.append(_Step(sets=frozenset((counter,)) & self.kept.keys()))
+        passed = [] if loop.at_least_once or _has_a_pass(loop) else [("fork", (leave,))]
+        return [*passed, ("label", head), *inside, ("fork", (head,)), ("label", leave)]
+
+    def plain(self, statement: ir.Statement) -> None:
+        """A statement without blocks: what it reads, then what it sets, calls and starts."""
+        read: list[object] = []
+        sets: set[str] = set()
+        match statement:
+            case ir.Assign(target=target, value=value):
+                read.append(value)
+                sets |= self.place(target, read)
+            case ir.Do(procedure=procedure, arguments=arguments):
+                read += arguments if procedure in _CHANGING else arguments[1:]
+                if arguments and arguments[0] is not None:
+                    sets |= self.place(arguments[0], [])
+            case ir.WaitUntil(timed_out=flag) if flag is not None:
+                read += [statement.condition, statement.timeout]
+                sets |= self.place(flag, read)
+            case ir.Dialog(answer=answer):
+                read += [statement.text, statement.timeout]
+                sets |= self.place(answer, read)
+            case _:
+                read.append(statement)
+        self.use(tuple(one for one in read if one is not None), statement.origin)
+        if sets:
+            self.steps.append(_Step(sets=frozenset(sets)))
+        for node in walk(statement):
+            match node:
+                case ir.CallRoutine(name=name) if node is statement:
+                    self.run(_Step(calls=name.lower()), name)
+                case ir.CallRoutine(name=name) | ir.TaskControl(op="start", task=name):
+                    self.run(_Step(starts=name.lower()), name)
+                case ir.Call(name=name):
+                    self.run(_Step(calls=name.lower()), name)
+
+    def run(self, step: _Step, name: str) -> None:
+        self.steps.append(step)
+        self.runs.add(name.lower())
+
+    def place(self, target: ir.Expression, read: list[object]) -> set[str]:
+        """What an assignment to the place sets; the numbers of its elements are read."""
+        if isinstance(target, ir.Index):
+            read.extend(target.indices)
+        key = self.key(target)
+        return {key} if key else set()
+
+    def key(self, place: object) -> str:
+        """The key of a variable, element or list; empty for anything else, a component among it."""
+        match place:
+            case ir.Name(id=name) if name.lower() in self.kept and name.lower() not in self.hidden:
+                return name.lower()
+            case ir.Index(base=ir.Name(id=name), indices=(index,)) if name.lower() not in self.hidden:
+                one = f"{name.lower()}[{index.value}]" if isinstance(index, ir.IntLiteral) else ""
+                return one if one else f"{name.lower()}[]"
+        return ""
+
+    def use(self, part: object, origin: Origin) -> None:
+        """A step that reads what stands in the part."""
+        found: dict[str, Origin] = {}
+        for node in _nodes(part):
+            key = self.key(node)
+            if key and key in self.kept:
+                found.setdefault(key, origin)
+        if found:
+            self.steps.append(_Step(reads=found))
+
+    # ---- along the steps
+
+    def settle(self, flows: Mapping[str, _Flow]) -> bool:
+        """Follow the steps with what is known of the routines; True when something new came out."""
+        before = (len(self.needs), self.gives)
+        states: dict[int, Keys] = {0: _NONE}
+        work = [0]
+        gives: Keys | None = None
+        while work:
+            at = work.pop()
+            step, state = self.steps[at], states[at]
+            for key, origin in step.reads.items():
+                if not _is_set(key, state):
+                    self.needs.setdefault(key, origin)
+            behind: Keys | None = state | step.sets
+            flow = flows.get(step.calls or step.starts)
+            if flow is not None:
+                for key, origin in flow.needs.items():
+                    if not _is_set(key, state):
+                        self.needs.setdefault(key, origin)
+                if step.calls:
+                    behind = None if flow.gives is None else state | flow.gives
+            if behind is None:
+                continue
+            if step.leaves:
+                gives = behind if gives is None else gives & behind
+            targets = [self.labels[name] for name in step.ways if name in self.labels]
+            for to in [*targets, *([at + 1] if step.falls else [])]:
+                known = states.get(to)
+                met = behind if known is None else known & behind
+                if known is None or met != known:
+                    states[to] = met
+                    work.append(to)
+        self.gives = gives
+        return before != (len(self.needs), self.gives)
+
+
+@dataclass(frozen=True, slots=True)
+class _Look:
+    """An expression that is looked at between statements."""
+
+    expression: object
+    origin: Origin
+
+
+def _is_set(key: str, state: Keys) -> bool:
+    if key in state:
+        return True
+    name, bracket, _ = key.partition("[")
+    if not bracket:
+        return False
+    # An element of a list that was filled by a computed number; a list of which some element was set.
+    return f"{name}[]" in state or (key.endswith("[]") and any(one.startswith(f"{name}[") for one in state))
+
+
+def _nodes(part: object) -> Iterator[object]:
+    """The expressions in a part that are read; those of bodies inside are not among them."""
+    stack: list[object] = [part]
+    while stack:
+        one = stack.pop()
+        if isinstance(one, tuple):
+            stack.extend(reversed(one))
+            continue
+        if one is None:
+            continue
+        yield one
+        below: list[object] = []
+        visit_parts(one, below.append)
+        stack.extend(reversed(below))
+
+
+def _has_a_pass(loop: ir.For) -> bool:
+    match loop.start, loop.stop, loop.step:
+        case ir.IntLiteral(value=first), ir.IntLiteral(value=last), None:
+            return first <= last or loop.automatic
+        case ir.IntLiteral(value=first), ir.IntLiteral(value=last), ir.IntLiteral(value=step):
+            return first <= last if step > 0 else first >= last
+    return False
+
+
+def without_unknown(program: ir.Program) -> ir.Program:
+    """The program in which kept values without a known value begin at zero, for who has asked about them before."""
+    if not kept_values(program):
+        return program
+
+    def declared(one: ir.Declaration) -> ir.Declaration:
+        if not isinstance(one, ir.Variable) or one.storage != "persistent":
+            return one
+        match one.initial:
+            case ir.VendorValue(type=type):
+                return replace(one, initial=zero_of(type))
+            case ir.Aggregate(entries=entries):
+                if any(isinstance(value, ir.VendorValue) for _, value in entries):
+                    filled = tuple(
+                        (name, (zero_of(value.type) or value) if isinstance(value, ir.VendorValue) else value)
+                        for name, value in entries
+                    )
+                    return replace(one, initial=replace(one.initial, entries=filled))
+        return one
+
+    modules = tuple(
+        replace(module, declarations=tuple(declared(one) for one in module.declarations)) for module in program.modules
+    )
+    return replace(program, modules=modules)
+
+
+def zero_of(type: ir.Type) -> ir.Expression | None:
+    """Zero, the empty text, FALSE or the identity; None for a type that has no such value."""
+    match type:
+        case ir.IntType() | ir.RealType():
+            return ir.IntLiteral(0)
+        case ir.StringType():
+            return ir.TextLiteral("")
+        case ir.BoolType():
+            return ir.BoolLiteral(False)
+        case ir.PoseType():
+            return ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ("x", "y", "z", "a", "b", "c")))
+    return None
+
+
+__all__ = ["UnsetRead", "kept_values", "report_taken_as_zero", "unset_reads", "without_unknown", "zero_of"]
