@@ -438,6 +438,8 @@ class _ToAngles(WantedRewriter):
                 return self.library.call("transform", self.expression(pose), *self.numbers(vector))
             case "distance", (ir.Name(), ir.Name()) if can:
                 return expression
+            case "distance", (ir.Field(base=one, name="trans"), ir.Field(base=other, name="trans")) if can:
+                return replace(expression, arguments=(self.expression(one), self.expression(other)))
             case "distance", (one, other):
                 pairs = zip(self.numbers(one), self.numbers(other), strict=True)
                 return self.library.call("length", *(minus(a, b) for a, b in pairs))

@@ -39,9 +39,10 @@ _ACTIONS = (
 _LEAVING = (ir.Goto, ir.Return, ir.ExitLoop, ir.NextPass, ir.Halt, ir.Raise, ir.Retry, ir.TryNext)
 
 
-def settled_at_start(program: ir.Program, unchanged: Unchanged) -> Settled:
-    """Values of global variables, (folded name, indices of an element), that hold from their first use on."""
-    wanted = _wanted(program) & unchanged.assigned
+def settled_at_start(program: ir.Program, unchanged: Unchanged, places: bool = False) -> Settled:
+    """Values of global variables, (folded name, indices of an element), that hold from their first use on: of those
+    that tool and frame are taken from; `places`: and where moves go."""
+    wanted = _wanted(program, places) & unchanged.assigned
     if not wanted:
         return {}
     wanted -= _changed_otherwise(program, wanted)
@@ -55,16 +56,16 @@ def settled_at_start(program: ir.Program, unchanged: Unchanged) -> Settled:
     return start.untouched(statements) | start.settled(statements)
 
 
-def _wanted(program: ir.Program) -> set[str]:
-    """Variables that tool and frame are taken from."""
+def _wanted(program: ir.Program, places: bool) -> set[str]:
+    """Variables that tool and frame are taken from, and `places`."""
     found: set[str] = set()
     for node in walk(*program.modules):
         values: tuple[ir.Expression | None, ...] = ()
         match node:
             case ir.Assign(target=ir.System(name=name), value=value) if name in _MODAL:
                 values = (value,)
-            case ir.Move(tool=tool, frame=frame):
-                values = (tool, frame)
+            case ir.Move(tool=tool, frame=frame, target=target):
+                values = (tool, frame, target if places else None)
         found |= {one.id.lower() for one in walk(*(v for v in values if v is not None)) if isinstance(one, ir.Name)}
     return found
 

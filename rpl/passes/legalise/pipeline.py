@@ -110,11 +110,12 @@ from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.onceonly import reactions_once, rearmed_reactions
 from rpl.passes.legalise.onemove import settings_of_one_move
 from rpl.passes.legalise.optional import fit_parameters
-from rpl.passes.legalise.overlapping import fitting_corners, left_out_moves
+from rpl.passes.legalise.overlapping import left_out_moves
 from rpl.passes.legalise.overrides import full_override
 from rpl.passes.legalise.ownplaces import own_places
 from rpl.passes.legalise.ownrecords import apart_from_neutral_records
 from rpl.passes.legalise.parameters import fit_arguments
+from rpl.passes.legalise.partedcorners import parted_corners
 from rpl.passes.legalise.partialplaces import partial_places
 from rpl.passes.legalise.pathevents import path_events
 from rpl.passes.legalise.pathpoints import path_points
@@ -398,7 +399,6 @@ PASSES: tuple[Pass, ...] = (
     corner_calls,
     modal_to_explicit,
     full_zones,
-    fitting_corners,
     tool_data,
     own_places,
     mixed_speeds,
@@ -408,6 +408,7 @@ PASSES: tuple[Pass, ...] = (
     start_bases,
     kept_corners,
     settings_at_moves,
+    parted_corners,
     scaled_override,
     stand_first,
     arc_distances,

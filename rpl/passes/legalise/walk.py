@@ -265,8 +265,9 @@ def _in_order(statements: list[ir.Statement], old: ir.Statement) -> list[ir.Stat
     return [replace(one, origin=old.origin if at == 0 else later) for at, one in enumerate(statements)]
 
 
-def unchanged_in(program: ir.Program) -> Unchanged:
-    """Which variables nothing assigns but their declaration and their data list, and what is settled at the start."""
+def unchanged_in(program: ir.Program, places: bool = False) -> Unchanged:
+    """Which variables nothing assigns but their declaration and their data list, and what is settled at the start: of
+    tools and frames, and `places`: of where moves go."""
     bare = tuple(
         replace(module, declarations=tuple(one for one in module.declarations if not isinstance(one, ir.Initialise)))
         for module in program.modules
@@ -278,5 +279,5 @@ def unchanged_in(program: ir.Program) -> Unchanged:
                 name = base_name(one.assign.target)
                 if name is not None:
                     known.initialised.setdefault(name, []).append((one.assign.target, one.assign.value, module))
-    known.settled = settled_at_start(program, known)
+    known.settled = settled_at_start(program, known, places)
     return known

@@ -56,9 +56,10 @@ NOWHERE_KNOWN = Stand()
 
 class Whereabouts:
     """`ways`: the way of each move by identity, where something of it is known. `starts`, `ends`: where the robot
-    stands before each move and behind it. `converted`: the flags of places are the target's already."""
+    stands before each move and behind it. `converted`: the flags of places are the target's already. `settled`: places
+    that the beginning of the program sets once and for all are known, too."""
 
-    def __init__(self, program: ir.Program, context: Context, converted: bool = False) -> None:
+    def __init__(self, program: ir.Program, context: Context, converted: bool = False, settled: bool = False) -> None:
         self.converted = converted
         self.ways: dict[int, Way] = {}
         self.starts: dict[int, Stand] = {}
@@ -68,7 +69,7 @@ class Whereabouts:
         self.arm: Arm | None = arm if other is None or other is arm else None
         self.scopes = ProgramScope(program)
         self.flow = ModalFlow(program, self.scopes)
-        self.unchanged = unchanged_in(program)
+        self.unchanged = unchanged_in(program, places=settled)
         self.moving = doing(program, _moves)
         make = registry.dialect(context.source).notation
         self.notation: Any = None if make is None else make()
