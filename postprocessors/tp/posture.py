@@ -21,13 +21,16 @@ if TYPE_CHECKING:
     from rpl.emulator.rotations import FloatArray
 
 
-def choose_postures(points: Points, frames: Frames, robot: RobotModel) -> list[int]:
-    """Fill in the flags of points without any, in the order of the moves; the numbers of those filled in. A path comes
-    to its point in the turns that the axes are in, whatever the point tells."""
+def choose_postures(points: Points, frames: Frames, robot: RobotModel) -> list[tuple[int, str]]:
+    """Fill in the flags of points without any, in the order of the moves. A path comes to its point in the turns that
+    the axes are in, whatever the point tells.
+
+    The numbers of points of joint moves whose flags the arm cannot follow inside its limits, with the reason."""
     make = registry.dialect("tp").notation
     if make is None:
         return []
-    notation, near, filled = make(), robot.home, []
+    notation, near = make(), robot.home
+    wrong: dict[int, str] = {}
     for number, frame, tool, joint in points.order:
         position = points.found.get(number)
         if position is None:
@@ -40,14 +43,16 @@ def choose_postures(points: Points, frames: Frames, robot: RobotModel) -> list[i
         if flange is None:
             continue
         if position.flags and joint:
-            joints = notation.select(robot, flange, dict(position.flags), near).joints
+            selection = notation.select(robot, flange, dict(position.flags), near)
+            joints = selection.joints
+            if joints is None:
+                wrong.setdefault(number, selection.reason)
         else:
             joints = robot.nearest(flange, near)
             if joints is not None and not position.flags:
                 points.found[number] = position.with_flags(notation.encode(robot, joints))
-                filled.append(number)
         near = near if joints is None else joints
-    return filled
+    return list(wrong.items())
 
 
 _REGISTER = r"PR\[(\d+)(?::[^\]]*)?\]"

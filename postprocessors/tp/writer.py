@@ -46,6 +46,11 @@ ASSUMED = code(
     Severity.INFO,
     "{point} has no posture in the source; it gets the one that the program begins with",
 )
+WRONG_FLAGS = code(
+    "tp-posture-unreachable",
+    Severity.ERROR,
+    "the arm does not come to {point} with the posture and the turns that are written: {reason}",
+)
 SAME_NAME = code(
     "tp-same-name", Severity.ERROR, "two programs would be called {name}", "rename one; TP's programs are all global"
 )
@@ -224,7 +229,8 @@ class _Writer:
                 listing.lines[head:head] = [*first, *self.frames.setup(), *selected, *begin]
             robot = self.context.robot
             if robot is not None and listing.name not in self.from_listings:
-                choose_postures(listing.points, self.frames, robot)
+                for number, reason in choose_postures(listing.points, self.frames, robot):
+                    self.diagnostics.report(WRONG_FLAGS, NOWHERE, point=f"{listing.name} P[{number}]", reason=reason)
                 self.assumed(listing, listings, robot)
             for task in tasks:
                 if task.cyclic and task.entry.upper() == listing.name:

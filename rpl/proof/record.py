@@ -15,6 +15,7 @@ from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.emulator.rotations import FloatArray
+    from rpl.proof.postures import Family, LeftOut
     from rpl.runtime.payloads import Payload
     from rpl.runtime.programmed import Programmed
 
@@ -119,7 +120,8 @@ class Stretch:
     programmed end, x y z in mm and the quaternion w x y z (7,), which a blended move passes at a distance. `cut`: an
     interrupt or a search ended it on its way. `own_measure`: its corner is as large as the controller's speed or
     percent make it, not a length. `corner_at`: the pose with which the corner at its end begins, None without one.
-    `asked`: what the program asks of it. `loads`: what the robot carries in it, as the program says."""
+    `asked`: what the program asks of it. `loads`: what the robot carries in it, as the program says. `family`: the
+    posture of the arm at the programmed goal; `cut_short`: the controller stopped in place of its corner (postures)."""
 
     motion: str
     times: FloatArray
@@ -133,11 +135,14 @@ class Stretch:
     corner_at: int | None = None
     asked: Programmed | None = None
     loads: tuple[Payload, ...] = ()
+    family: Family | None = None
+    cut_short: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Record:
-    """A whole run: how it ended, what happened in each task, and the motion of each robot by task name."""
+    """A whole run: how it ended, what happened in each task, the motion of each robot by task name, and the moves that
+    a controller left out or shortened."""
 
     status: str
     time_s: float
@@ -145,3 +150,4 @@ class Record:
     motion: Mapping[str, tuple[Stretch, ...]]
     robot: str = ""
     language: str = ""
+    left_out: Mapping[str, tuple[LeftOut, ...]] = field(default_factory=dict)

@@ -12,6 +12,7 @@ import numpy as np
 from rpl import ir
 from rpl.passes.scope import rules_of
 from rpl.proof.paths import length_mm, turn_deg
+from rpl.proof.postures import left_out, noted
 from rpl.proof.record import Happening, Named, Place, Record, Stretch, Value, place_of, signal_names
 
 if TYPE_CHECKING:
@@ -48,8 +49,10 @@ def record_of(result: RunResult, program: ir.Program, robot: RobotModel | None =
         ]
         tasks[task] = tuple(_without_polling(kept))
     moving = {way.mover: way for way in ways.values() if way.moves}  # several tasks may see one robot
-    motion = {mover: way.stretches() for mover, way in moving.items()}
-    return Record(result.status, result.time_s, tasks, motion, robot.name if robot else "", language)
+    motion = {mover: noted(way.stretches(), way.moves, result.trace, robot) for mover, way in moving.items()}
+    return Record(
+        result.status, result.time_s, tasks, motion, robot.name if robot else "", language, left_out(result.trace)
+    )
 
 
 def _ways(tasks: dict[str, list[Event]], program: ir.Program) -> dict[str, _Way]:

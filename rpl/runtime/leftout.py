@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rpl.runtime.motion import MotionQueue
     from rpl.runtime.orders import Drive
+    from rpl.runtime.values import Value
 
 CODE = "overlapping-blends"
 _SLACK_MM = 1e-3
@@ -32,5 +33,7 @@ def is_left_out(queue: MotionQueue, now: Drive) -> bool:
     if min(radii) <= 0.0 or way <= _SLACK_MM or sum(radii) <= way + _SLACK_MM:
         return False
     said = text.format(radius=radii[1], before=radii[0], way=round(way, 3))
-    queue.machine.event("warning", {"code": CODE, "text": said}, queue.task, order.code.origin(order.at))
-    return "joint" not in (before.plan.kind, now.plan.kind)
+    left_out = "joint" not in (before.plan.kind, now.plan.kind)
+    data: dict[str, Value] = {"code": CODE, "text": said, "left_out": left_out}
+    queue.machine.event("warning", data, queue.task, order.code.origin(order.at))
+    return left_out

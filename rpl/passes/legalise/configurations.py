@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.walk import walk
 from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Arm, Context, rules_of
+from rpl.passes.legalise.families import changed_posture, differing
 from rpl.passes.legalise.flagwrites import FlagFlow, FlagValues, only_turns
 from rpl.passes.legalise.flow import Use, Uses
 from rpl.passes.legalise.impliedflags import Known, implied_flags
@@ -21,6 +23,7 @@ from rpl.passes.legalise.walk import Rewriter, unchanged_in
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.typewords import component_names, type_word
 from rpl.passes.values import Record, Target, component, moved
+from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
@@ -38,6 +41,12 @@ WITHOUT_TURNS = code(
     "the controller takes the shortest way to it",
 )
 UNREACHABLE = code("unreachable-on-target-arm", Severity.ERROR, "the arm {arm} does not reach this {what}: {reason}")
+POSTURE_CHANGED = code(
+    "posture-changed",
+    Severity.WARNING,
+    "the arm {arm} does not reach this {what} in the posture that it was taught in: {before} becomes {after}",
+    "look at the ways to and from it: the arm goes over, and its cables with it; or move the place",
+)
 JOINTS_LOST = code(
     "joints-not-converted", Severity.LOSS, "these joint values are not constant; they mean another posture on {arm}"
 )
@@ -82,6 +91,8 @@ class _Configurations(Rewriter):
         self.other_arm = bool(self.arm and self.to_arm and self.arm.name != self.to_arm.name)
         self.near = self.foreign and context.capabilities.postures == "joints"
         self.implications: Known = {}
+        self.changed: tuple[str, str] | None = None  # the posture of the place looked at now, on one arm and the other
+        self.around = NOWHERE  # the declaration or statement that is looked at now
         self.unturned = ""  # why the target looked at now has flags, but none of its turns
         self.results: dict[int, dict[str, int] | _Refused] = trial.results if trial else {}
         self.loose: set[int] = trial.loose if trial else set()  # variables whose flags the program sets one by one
@@ -199,6 +210,7 @@ class _Configurations(Rewriter):
         return super().type(type)
 
     def initial(self, value: ir.Expression, declaration: ir.Variable) -> ir.Expression | None:
+        self.around = declaration.origin
         if isinstance(self.scope.resolve(declaration.type), ir.ConfigType) and self.foreign:
             self.context.diagnostics.report(FLAG_ACCESS, declaration.origin, name=declaration.name)
             return None
@@ -206,7 +218,12 @@ class _Configurations(Rewriter):
 
     # ---- access to flags
 
+    def at(self, expression: ir.Expression) -> Origin:
+        """The place of a value, or of the declaration or statement around it."""
+        return self.around if expression.origin is NOWHERE else expression.origin
+
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+        self.around = statement.origin
         if isinstance(statement, ir.Move) and statement.kind == "joint":
             return self.joint_move(statement)
         if isinstance(statement, ir.Move) and self.foreign:
@@ -275,6 +292,12 @@ class _Configurations(Rewriter):
         if not isinstance(base, ir.TargetType | ir.ConfigType):
             return False
         return field.name in registry.dialect(base.notation).notation_fields
+
+    @property
+    def checked(self) -> bool:
+        """Does the source's controller stop at flags that it cannot follow? (RAPID may be told not to.)"""
+        name, nodes = _CHECKS[0], walk(*self.source.modules)
+        return not any(isinstance(one, ir.Assign) and one.target == ir.System(name) for one in nodes)
 
     @property
     def flat(self) -> bool:
@@ -355,9 +378,9 @@ class _Configurations(Rewriter):
         uses = self.uses.found.get(id(expression), set())
         if found.fatal and self.to_arm is not None:
             what = {"arm": self.to_arm.name, "what": "target", "reason": found.reason}
-            self.context.diagnostics.report(UNREACHABLE, expression.origin, **what)
+            self.context.diagnostics.report(UNREACHABLE, self.at(expression), **what)
         elif had and (any(use.joint for use in uses) or (not uses and _is_taught(expression))):
-            self.context.diagnostics.report(NOT_CONVERTED, expression.origin, reason=found.reason)
+            self.context.diagnostics.report(NOT_CONVERTED, self.at(expression), reason=found.reason)
 
     def converted(self, expression: ir.Aggregate, had: bool) -> dict[str, int] | _Refused:
         """The flags of the target's notation."""
@@ -369,7 +392,7 @@ class _Configurations(Rewriter):
         uses = self.uses.found.get(id(expression), set())
         if not uses:
             return _Refused("no move uses it")
-        self.unturned = ""
+        self.unturned, self.changed = "", None
         flags: dict[str, int] | None = None
         refused: _Refused | None = None
         for use in sorted(uses, key=lambda one: (not one.joint, one.moved is not None, self.uses.order.get(one, 0))):
@@ -385,10 +408,12 @@ class _Configurations(Rewriter):
                 flags = {name: number for name, number in flags.items() if found.get(name) == number}
             elif use.joint and found != flags and use.moved is None:
                 return _Refused("it is used with several tools or frames")
+        if self.changed is not None:
+            self.tell_changed("target", expression)
         if not had:
             return _Refused("it has none")
         if flags and self.unturned and any(use.joint for use in uses):
-            self.context.diagnostics.report(WITHOUT_TURNS, expression.origin, reason=self.unturned)
+            self.context.diagnostics.report(WITHOUT_TURNS, self.at(expression), reason=self.unturned)
         return flags if flags else refused or _Refused("it is used with several tools or frames")
 
     def for_use(self, target: Target, use: Use, had: bool) -> dict[str, int] | _Refused:
@@ -408,6 +433,9 @@ class _Configurations(Rewriter):
         joints = selection.joints
         if joints is None and not use.joint:
             joints = self.arm.nearest(matrix, self.arm.home)
+        wrong = joints is None and had and use.joint and use.moved is None and self.checked
+        if wrong and self.arm.nearest(matrix, self.arm.home) is not None:  # there, but not with these flags
+            return _Refused(selection.reason, fatal=True)
         if self.other_arm:
             joints = self.on_other_arm(matrix, joints)
             if joints is None:
@@ -442,12 +470,21 @@ class _Configurations(Rewriter):
         best, rank = None, (9, 0.0)
         for solution in arm.inverse(flange, near):
             # whole turns leave the posture as it is
-            differing = 0 if posture is None else _differing(posture, arm.posture(solution.joints).branch)
+            apart = 0 if posture is None else differing(posture, arm.posture(solution.joints).branch)
             for choice in arm.expand_turns(solution):
-                travel = round(float(abs(choice - near).sum()), 6)  # of equals the first
-                if (differing, travel) < rank:
-                    best, rank = choice, (differing, travel)
+                # of two ways that are equal but for rounding the first one counts
+                travel = round(float(abs(choice - near).sum()), 6)
+                if (apart, travel) < rank:
+                    best, rank = choice, (apart, travel)
+        if rank[0] and best is not None and joints is not None:
+            self.changed = changed_posture(self.arm, _array(joints), arm, best) or self.changed
         return best
+
+    def tell_changed(self, what: str, expression: ir.Expression) -> None:
+        assert self.to_arm is not None and self.changed is not None  # only where it was changed for another arm
+        before, after = self.changed
+        words = {"arm": self.to_arm.name, "what": what, "before": before, "after": after}
+        self.context.diagnostics.report(POSTURE_CHANGED, self.at(expression), **words)
 
     def why_not(self, flange: Any) -> str:
         assert self.to_arm is not None  # only with two arms
@@ -459,13 +496,16 @@ class _Configurations(Rewriter):
         value = constant(expression, self.scope, None)
         given = _joint_values(value) if isinstance(value, Record) else None
         if given is None or len(given) != self.arm.axes or self.to_arm.axes > len(_AXES):
-            self.context.diagnostics.report(JOINTS_LOST, expression.origin, arm=self.to_arm.name)
+            self.context.diagnostics.report(JOINTS_LOST, self.at(expression), arm=self.to_arm.name)
             return super().expression(expression)
         flange = self.arm.forward(_array(given))
+        self.changed = None
         found = self.on_other_arm(flange, _array(given))
+        if self.changed is not None and found is not None:
+            self.tell_changed("joint position", expression)
         if found is None:
             what = {"arm": self.to_arm.name, "what": "joint position", "reason": self.why_not(flange)}
-            self.context.diagnostics.report(UNREACHABLE, expression.origin, **what)
+            self.context.diagnostics.report(UNREACHABLE, self.at(expression), **what)
             return super().expression(expression)
         new = {name: real(float(value)) for name, value in zip(_AXES, found, strict=False)}
         return _with_joints(expression, new, self.named(expression, ir.JointsType()))
@@ -505,11 +545,6 @@ def _inserted(
 ) -> tuple[tuple[str | None, ir.Expression], ...]:
     at = next((i for i, (name, _) in enumerate(entries) if name == "ext" or name in _EXTERNAL), len(entries))
     return (*entries[:at], *extra, *entries[at:])
-
-
-def _differing(one: Any, other: Any) -> int:
-    """In how many names do two postures differ?"""
-    return sum(getattr(one, name) != getattr(other, name) for name in ("shoulder", "elbow", "wrist"))
 
 
 def _is_taught(expression: ir.Aggregate) -> bool:
