@@ -13,9 +13,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from postprocessors.tp.positions import Points, Position, Reached
+from postprocessors.tp.posture import choose_postures
 from rpl.cli.main import run
 from rpl.emulator.model import load_robot
-from rpl.emulator.rotations import matrix_to_quaternion, zyx_to_matrix
+from rpl.emulator.rotations import matrix_to_quaternion, matrix_to_zyx, zyx_to_matrix
 
 # Name, place, turn of the tool about z, and the turn of axis 6.
 TARGETS = [
@@ -56,3 +58,26 @@ def test_axes_of_the_same_posture() -> None:
         assert abb.same_posture(np.array(joints), fanuc) == pytest.approx(wanted)
         assert fanuc.same_posture(np.array(wanted), abb) == pytest.approx(joints)
     assert abb.same_posture(np.zeros(6), load_robot("ur5e")) == pytest.approx(load_robot("ur5e").home)
+
+
+class _Bare:
+    """Frames of a program that has neither a user frame nor a tool."""
+
+    def pose(self, word: str, number: str) -> tuple[float, ...]:
+        return (0.0,) * 6
+
+    def only(self, word: str) -> str:
+        return "0"
+
+
+@pytest.mark.parametrize(("turn", "wrong"), [(0, True), (1, False), (2, True)])
+def test_flags_that_no_joints_have_are_an_error(turn: int, wrong: bool) -> None:
+    """J6 at 180 degrees exactly is turn 1, and the axis ends before turn 2 begins."""
+    robot = load_robot("fanuc_lrmate200id")
+    flange = robot.forward(np.array([0.0, 20.0, -20.0, 0.0, -50.0, 180.0]))
+    values = tuple(float(one) for one in (*flange[:3, 3], *matrix_to_zyx(flange)))
+    flags = {"flip": 0, "down": 0, "back": 0, "t1": 0, "t4": 0, "t6": turn}
+    points = Points({1: Position("pose", values).with_flags(flags)}, order=[Reached(1, "0", "0", True)])
+    found = choose_postures(points, _Bare(), robot)  # type: ignore[arg-type]
+    assert [number for number, _ in found] == ([1] if wrong else [])
+    assert all("cannot be reached" in reason for _, reason in found)
