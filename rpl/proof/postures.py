@@ -159,8 +159,8 @@ def _left_out(task: str, ours: LeftOut | None, theirs: LeftOut | None) -> Differ
     assert one is not None  # one of them is given
     what = "is made with smaller corners than the program says" if one.driven else "is left out by the controller"
     text = f"a move {what} in {'A' if ours is not None else 'B'} only: {one.text}"
-    sides = [Side("makes the move") if side is None else Side(what, side.place, side.t) for side in (ours, theirs)]
-    return Difference("left-out", "geometry", text, *sides, task)
+    a, b = (Side("makes the move") if side is None else Side(what, side.place, side.t) for side in (ours, theirs))
+    return Difference("left-out", "geometry", text, a, b, task)
 
 
 def _side(stretch: Stretch, what: str) -> Side:

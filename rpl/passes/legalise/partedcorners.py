@@ -229,9 +229,11 @@ class _Corners:
 
         done: list[ir.Statement] = []
         for one in body:
-            new = self.move(one, helpers) if isinstance(one, ir.Move) else inside(one, deeper)
-            noted = isinstance(one, ir.Move) and isinstance(new, ir.Move) and id(one) in self.kept
-            done += self.noted(one, new) if noted else (new,)
+            if isinstance(one, ir.Move):
+                new = self.move(one, helpers)
+                done += self.noted(one, new) if id(one) in self.kept else (new,)
+            else:
+                done.append(inside(one, deeper))
         same = len(done) == len(body) and all(new is old for new, old in zip(done, body, strict=True))
         return body if same else tuple(done)
 
