@@ -15,6 +15,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.controllers import controller_named
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import edit_bodies
@@ -54,6 +55,8 @@ _TOLD = 0.999  # what is not made smaller than by this share is a matter of roun
 def parted_corners(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that leave out moves. Behind what gives each move its corner."""
     if not rules_of(context.target).inputs.overlapping_blends:
+        return program
+    if not any(isinstance(node, ir.Move) and _rounds(node) for node in walk(program.modules)):
         return program
     pairs = [one for one in pairs_of(program) if _rounds(one.first) or _rounds(one.second)]
     if not pairs:
