@@ -16,7 +16,7 @@ from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel, Solution
 from rpl.emulator.postures import UNKNOWN_BUILD, has_flags, sides
 from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_zyx, pose_matrix, zyx_to_matrix
-from rpl.emulator.rounding import settled
+from rpl.emulator.rounding import NOISE, settled
 from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
 
@@ -103,7 +103,7 @@ class KrlNotation:
 
         def turn_cost(axis: int, values: FloatArray) -> FloatArray:
             negative = (bits >> axis & 1).astype(np.bool_)[:, None, None]
-            met = ((values < 0.0) == negative) | (np.abs(values) <= TURN_IGNORED_DEG) | open_turn[:, None, None]
+            met = ((values < 0.0) == negative) | (np.abs(values) <= TURN_IGNORED_DEG + NOISE) | open_turn[:, None, None]
             return np.where(met, 0.0, np.inf)
 
         free = np.full(model.axes, SINGULAR_AXIS_DEG)

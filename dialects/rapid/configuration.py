@@ -16,12 +16,14 @@ from rpl.emulator.configuration import Flags, Selection, flag_row, format_number
 from rpl.emulator.model import RobotModel, Solution
 from rpl.emulator.postures import UNKNOWN_BUILD, has_flags, sides
 from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_quaternion, pose_matrix, quaternion_to_matrix
-from rpl.emulator.rounding import settled
+from rpl.emulator.rounding import NOISE, settled
 from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
 
 # With ConfJ \On an axis may lie this far outside its quarter turn and still counts as being in it, degrees.
 QUARTER_SLACK_DEG: Final = 45.0
+# What lies on the edge of a quarter turn from outside counts as this far from it, so that one inside is preferred.
+LEAST_DEG: Final = 1e-6
 # Arms whose parallelogram leaves no choice: their controller does not use cfx.
 CFX_UNUSED: Final = frozenset({"abb_irb2400"})
 QUARTERS: Final = {"cf1": 0, "cf4": 3, "cf6": 5}
@@ -158,10 +160,10 @@ class RapidNotation:
 def _outside_quarter(angles: FloatArray, quarter: FloatArray) -> FloatArray:
     """How many degrees angles (k, b, t) lie outside the quarter turn (k,) asked for, inf where that is too far."""
     low = 90.0 * quarter[:, None, None]
-    exact = np.floor(angles / 90.0) == quarter[:, None, None]
-    outside = np.maximum(np.maximum(low - angles, angles - (low + 90.0)), 1e-12)
+    exact = np.floor(settled(angles) / 90.0) == quarter[:, None, None]
+    outside = np.maximum(np.maximum(low - angles, angles - (low + 90.0)), LEAST_DEG)
     cost = np.where(exact | np.isnan(low), 0.0, outside)
-    return np.where(cost > QUARTER_SLACK_DEG, np.inf, cost)
+    return np.where(cost > QUARTER_SLACK_DEG + NOISE, np.inf, cost)
 
 
 NOTATION: Final = RapidNotation()
