@@ -1,8 +1,9 @@
-"""`rpl prove`: do two programs mean the same?"""
+"""`rpl prove`: do two programs mean the same? `--certificate` keeps the answer, `--check` asks again."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -17,26 +18,31 @@ from rpl.cli.output import (
     robot_option,
     robots_exist,
     waiting,
+    write_file,
 )
 from rpl.cli.verdicts import accepting, status_of
 from rpl.diagnostics import Severity
 from rpl.errors import UsageError
 
 if TYPE_CHECKING:
-    from rpl import ir
+    from rpl.project import ReadProgram
+    from rpl.proof.certificate import Question
     from rpl.proof.tolerance import Accepted
+    from rpl.proof.verdict import ProofResult
+
+HOLDS, FAILS = 0, 1
 
 
 @click.command("prove")
-@click.argument("a")
-@click.argument("b")
+@click.argument("a", required=False)
+@click.argument("b", required=False)
 @robot_option
 @click.option("--to-robot", metavar="R2", help="Arm that B was written for; else the same.")
 @click.option("--cell", metavar="F.toml", help="Surroundings for both runs: inputs, parts, answers of the operator.")
 @click.option("--entry", metavar="NAME", help="Routine to start with in A, and in B unless --to-entry says another.")
 @click.option("--to-entry", metavar="NAME", help="Routine to start with in B.")
-@click.option("--from", "dialect", metavar="D", help="Language of A; else seen from its content.")
-@click.option("--to", "other", metavar="D", help="Language of B; else seen from its content.")
+@click.option("--from", "language_a", metavar="D", help="Language of A; else seen from its content.")
+@click.option("--to", "language_b", metavar="D", help="Language of B; else seen from its content.")
 @click.option(
     "--controller",
     metavar="NAME|F.toml",
@@ -44,24 +50,29 @@ if TYPE_CHECKING:
     help="Who moves both robots: a language's controller or a file; else constant accelerations.",
 )
 @accepting
+@click.option(
+    "--certificate",
+    "kept",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="F.json",
+    help="Write the question, the files' hashes and the verdict there.",
+)
+@click.option(
+    "--check",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="F.json",
+    help="Do the proof of a certificate again and say whether it still holds; takes no programs.",
+)
 @limit_options
 @json_option
 def command(
-    a: str,
-    b: str,
-    robot: str | None,
-    to_robot: str | None,
-    cell: str | None,
-    entry: str | None,
-    to_entry: str | None,
-    dialect: str | None,
-    other: str | None,
-    controller: str,
+    a: str | None,
+    b: str | None,
     accepted: Accepted,
-    max_time: float | None,
-    max_steps: int | None,
-    max_events: int | None,
+    kept: Path | None,
+    check: Path | None,
     as_json: bool,
+    **asked: Any,
 ) -> int:
     """Decide by running both whether the programs A and B (each a file, folder or archive) mean the same.
 
@@ -69,31 +80,22 @@ def command(
     deviate, each is named), different (1: the first difference is shown with both lines), or undecided (1: the runs do
     not show enough).
     """
-    from rpl.controllers import controller_named
-    from rpl.proof.cellnames import report_unknown_signals
-    from rpl.proof.prove import load_cell, prove_programs
+    from rpl.proof.certificate import Question, as_text, certificate
     from rpl.proof.tolerance import accepted_kinds
 
-    accepted_kinds(accepted.kinds)
-    limits, driver = limits_of(max_time, max_steps, max_events), controller_named(controller)
-    robots_exist(robot, to_robot)
-    surroundings, unknown = load_cell(cell), collector()
-    programs = _both((a, b), (dialect, other))
-    report_unknown_signals(programs[0], surroundings, unknown)
-    print_diagnostics(unknown, Severity.WARNING)
-    with waiting("proving"):
-        result = prove_programs(
-            programs[0],
-            programs[1],
-            robot,
-            to_robot or robot,
-            surroundings,
-            entry=entry,
-            to_entry=to_entry or entry,
-            accepted=accepted,
-            controller=driver,
-            limits=limits,
-        )
+    if check is not None:
+        if a is not None or kept is not None:
+            raise UsageError("--check takes no programs and no other certificate: what to prove stands in the file")
+        return _checked(check, as_json)
+    if a is None or b is None:
+        raise UsageError("name two programs, A and B, or a certificate with --check")
+    words = tuple(sorted(accepted_kinds(accepted.kinds)))
+    limits = {"path_mm": accepted.path_mm, "corner_mm": accepted.corner_mm, "time_share": accepted.time_share}
+    question = Question(a, b, accept=words, **limits, **asked)
+    result, programs = _answer(question)
+    if kept is not None:
+        document = certificate(question, [one.sources for one in programs], result, kept.absolute())
+        write_file(kept, as_text(document).encode("utf-8"))
     if as_json:
         print_json(result.as_json())
     else:
@@ -101,7 +103,53 @@ def command(
     return status_of(result)
 
 
-def _both(paths: tuple[str, str], languages: tuple[str | None, str | None]) -> list[ir.Program]:
+def _checked(path: Path, as_json: bool) -> int:
+    """Ask the question of a certificate again: 0 when it still holds, 1 when it does not."""
+    from rpl.proof.certificate import certificate, changes, read_certificate
+
+    question, then = read_certificate(path)
+    result, programs = _answer(question)
+    now = certificate(question, [one.sources for one in programs], result, path.absolute())
+    found = changes(then, now)
+    if as_json:
+        print_json({"holds": not found, "changes": found, "verdict": result.verdict, "proof": result.as_json()})
+    else:
+        click.echo(f"the certificate {'does not hold any more' if found else 'holds'}: {result.headline()}")
+        for line in found:
+            click.echo(f"  {line}")
+    return FAILS if found else HOLDS
+
+
+def _answer(question: Question) -> tuple[ProofResult, list[ReadProgram]]:
+    """The verdict, and the programs as they were read."""
+    from rpl.controllers import controller_named
+    from rpl.proof.cellnames import report_unknown_signals
+    from rpl.proof.prove import load_cell, prove_programs
+
+    limits = limits_of(question.max_time, question.max_steps, question.max_events)
+    driver = controller_named(question.controller)
+    robots_exist(question.robot, question.to_robot)
+    surroundings, unknown = load_cell(question.cell), collector()
+    programs = _both((question.a, question.b), (question.language_a, question.language_b))
+    report_unknown_signals(programs[0].program, surroundings, unknown)
+    print_diagnostics(unknown, Severity.WARNING)
+    with waiting("proving"):
+        result = prove_programs(
+            programs[0].program,
+            programs[1].program,
+            question.robot,
+            question.to_robot or question.robot,
+            surroundings,
+            entry=question.entry,
+            to_entry=question.to_entry or question.entry,
+            accepted=question.accepted,
+            controller=driver,
+            limits=limits,
+        )
+    return result, programs
+
+
+def _both(paths: tuple[str, str], languages: tuple[str | None, str | None]) -> list[ReadProgram]:
     """The programs that are compared. Raises UsageError for a path without one."""
     from rpl.project import read_program
 
@@ -113,5 +161,5 @@ def _both(paths: tuple[str, str], languages: tuple[str | None, str | None]) -> l
         print_diagnostics(diagnostics, Severity.WARNING)
         if not read.files:
             raise UsageError(f"no robot program in {path}; name the language with --from or --to if there is one")
-        programs.append(read.program)
+        programs.append(read)
     return programs

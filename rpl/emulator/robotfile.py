@@ -160,6 +160,19 @@ def read_robot_file(name_or_path: str) -> RobotFile:
     return _parse(packaged.read_text(encoding="utf-8"), f"{name_or_path}.toml", None)
 
 
+def robot_bytes(name_or_path: str) -> bytes:
+    """The bytes of the file that describes a robot: a packaged one by its name, or a file. `RobotError` when there is
+    none."""
+    if name_or_path.endswith((".toml", ".urdf")):
+        try:
+            return Path(name_or_path).read_bytes()
+        except OSError as error:
+            raise RobotError(f"robot file {name_or_path} cannot be read: {error.strerror}") from error
+    if name_or_path not in robot_names():
+        raise RobotError(_unknown(name_or_path))
+    return (resources.files("rpl.robots") / f"{name_or_path}.toml").read_bytes()
+
+
 def _unknown(name: str) -> str:
     names = robot_names()
     wanted = "".join(c for c in name.lower() if c.isalnum())

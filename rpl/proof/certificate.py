@@ -1,0 +1,231 @@
+"""The certificate of a proof: what was asked, of which files, and what came of it, so that anybody can do it again.
+
+It is a JSON document. Files are named from where it lies and by the hash of their bytes, so that a change in any of
+them is seen before the proof is made anew.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import platform
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, fields
+from importlib import metadata
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rpl.errors import UsageError
+from rpl.proof.deviations import measures
+from rpl.proof.tolerance import Accepted
+
+if TYPE_CHECKING:
+    from rpl.proof.verdict import ProofResult
+    from rpl.source import Source
+
+FORMAT = "rpl proof certificate 1"
+_LIBRARIES = ("numpy", "pin")
+# Amounts of one proof made twice agree to this share: libraries of two machines differ in the last place.
+_SAME_SHARE = 1e-3
+_SAME_AMOUNT = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What a proof was asked: paths of both programs, of the cell and of files that describe arms or controllers, else
+    names; accepted deviations; limits of the runs (None: the usual ones)."""
+
+    a: str
+    b: str
+    robot: str | None = None
+    to_robot: str | None = None
+    cell: str | None = None
+    entry: str | None = None
+    to_entry: str | None = None
+    language_a: str | None = None
+    language_b: str | None = None
+    controller: str = "plain"
+    explore: bool = False
+    accept: tuple[str, ...] = ()
+    path_mm: float | None = None
+    corner_mm: float | None = None
+    time_share: float | None = None
+    max_time: float | None = None
+    max_steps: int | None = None
+    max_events: int | None = None
+
+    @property
+    def accepted(self) -> Accepted:
+        return Accepted(frozenset(self.accept), self.path_mm, self.corner_mm, self.time_share)
+
+
+_PATHS = ("a", "b", "cell")
+_FILES_OR_NAMES = ("robot", "to_robot", "controller")
+
+
+def certificate(
+    question: Question, sources: Sequence[Sequence[Source]], result: ProofResult, beside: Path
+) -> dict[str, object]:
+    """The document. `sources`: the files that A and B were read from; `beside`: where the certificate will lie."""
+    asked: dict[str, object] = asdict(question) | {"accept": sorted(question.accept)}
+    for name in (*_PATHS, *_FILES_OR_NAMES):
+        value = getattr(question, name)
+        if value is not None and (name in _PATHS or _is_file(value)):
+            asked[name] = _from(beside, value)
+    return {
+        "format": FORMAT,
+        "versions": _versions(),
+        "question": asked,
+        "programs": {
+            name: [{"path": _from(beside, one.path), "sha256": _hash(one.data)} for one in some]
+            for name, some in zip("ab", sources, strict=True)
+        },
+        "files": {name: _hash(data) for name, data in _described(question).items()},
+        "tolerance": asdict(result.tolerance),
+        "verdict": result.verdict,
+        "result": _outcome(result),
+    }
+
+
+def as_text(document: Mapping[str, object]) -> str:
+    """The document as it is written to a file."""
+    return json.dumps(document, indent=1, ensure_ascii=False, sort_keys=True) + "\n"
+
+
+def read_certificate(path: str | Path) -> tuple[Question, dict[str, object]]:
+    """The question of a certificate, its paths as they are from here, and the document. Raises UsageError for a file
+    that is none."""
+    place = Path(path)
+    try:
+        document = json.loads(place.read_text("utf-8"))
+    except OSError as error:
+        raise UsageError(f"{path}: cannot read the certificate: {error.strerror}") from None
+    except (UnicodeDecodeError, ValueError) as error:
+        raise UsageError(f"{path}: this is no certificate: {error}") from None
+    asked = document.get("question") if isinstance(document, dict) else None
+    if not isinstance(asked, dict) or document.get("format") != FORMAT:
+        raise UsageError(f"{path}: this is no certificate: it has no format {FORMAT!r}")
+    known = {field.name for field in fields(Question)}
+    if set(asked) != known:
+        odd = ", ".join(sorted(set(asked) ^ known))
+        raise UsageError(f"{path}: the certificate's question has other keys than it should: {odd}")
+    here = dict(asked) | {"accept": tuple(asked["accept"])}
+    for name in (*_PATHS, *_FILES_OR_NAMES):
+        value = here[name]
+        if isinstance(value, str) and (name in _PATHS or _looks_like_file(value)):
+            here[name] = str(place.parent / value)
+    return Question(**here), document
+
+
+def changes(then: Mapping[str, object], now: Mapping[str, object]) -> list[str]:
+    """What no longer holds of a certificate, in words; nothing when all of it does. Versions are no reason by
+    themselves."""
+    found = [*_changed_files(then, now)]
+    for name in ("question", "tolerance"):
+        if then.get(name) != now.get(name):
+            found.append(f"the {name} is another one")
+    if then.get("verdict") != now.get("verdict"):
+        found.append(f"the verdict was {then.get('verdict')} and is {now.get('verdict')}")
+    elif not _same(then.get("result"), now.get("result")):
+        found.append("the verdict is the same, but other measures deviate, or by other amounts")
+    return found
+
+
+def _changed_files(then: Mapping[str, object], now: Mapping[str, object]) -> list[str]:
+    found = []
+    for name, title in (("a", "A"), ("b", "B")):
+        old, new = ({one["path"]: one["sha256"] for one in _programs(side, name)} for side in (then, now))
+        for path in sorted(set(old) | set(new)):
+            if path not in new:
+                found.append(f"{title}: {path} is not there any more")
+            elif path not in old:
+                found.append(f"{title}: {path} is new")
+            elif old[path] != new[path]:
+                found.append(f"{title}: {path} has changed")
+    old, new = (dict(side.get("files") or {}) for side in (then, now))  # type: ignore[call-overload]
+    return found + [f"the {name} has changed" for name in sorted(set(old) | set(new)) if old.get(name) != new.get(name)]
+
+
+def _programs(document: Mapping[str, object], name: str) -> list[dict[str, str]]:
+    programs = document.get("programs")
+    some = programs.get(name) if isinstance(programs, dict) else None
+    return [one for one in some if isinstance(one, dict)] if isinstance(some, list) else []
+
+
+def _outcome(result: ProofResult) -> dict[str, object]:
+    """What is compared when the proof is made again: words, counts and amounts."""
+    return {
+        "level": result.level,
+        "reason": result.reason,
+        "difference": result.difference.explanation if result.difference is not None else "",
+        "deviations": [
+            {"kind": one.kind, "count": one.count, "worst": round(one.worst.amount, 6), "accepted": accepted}
+            for accepted, some in ((False, result.open), (True, result.accepted))
+            for one in some
+        ],
+        "measures": [one.as_text() for one in measures(result.deviations)],
+        "max_path_mm": round(result.max_path_mm, 6),
+        "max_joint_deg": round(result.max_joint_deg, 6),
+        "notes": list(result.notes),
+    }
+
+
+def _same(then: object, now: object) -> bool:
+    """Equal documents, numbers within what two machines make differ; words that show such numbers do not count."""
+    if isinstance(then, dict) and isinstance(now, dict):
+        shown = {"measures", "difference"}
+        return set(then) == set(now) and all(_same(then[key], now[key]) for key in then if key not in shown)
+    if isinstance(then, list) and isinstance(now, list):
+        return len(then) == len(now) and all(map(_same, then, now))
+    if isinstance(then, float | int) and isinstance(now, float | int) and not isinstance(then, bool):
+        return abs(then - now) <= max(_SAME_AMOUNT, _SAME_SHARE * max(abs(then), abs(now)))
+    return then == now
+
+
+def _versions() -> dict[str, str]:
+    from rpl import __version__
+
+    found = {"rpl": __version__, "python": platform.python_version()}
+    for name in _LIBRARIES:
+        try:
+            found[name] = metadata.version(name)
+        except metadata.PackageNotFoundError:
+            continue
+    return found
+
+
+def _described(question: Question) -> dict[str, bytes]:
+    """The files that say what the arms, the cell and the controller are like."""
+    from rpl.emulator.robotfile import robot_bytes
+
+    found: dict[str, bytes] = {}
+    if question.robot is not None:
+        found["robot"] = robot_bytes(question.robot)
+    if question.to_robot is not None:
+        found["to_robot"] = robot_bytes(question.to_robot)
+    for name in ("cell", "controller"):
+        value = getattr(question, name)
+        if value is not None and (name == "cell" or _is_file(value)):
+            found[name] = Path(value).read_bytes()
+    return found
+
+
+def _looks_like_file(word: str) -> bool:
+    return word.endswith((".toml", ".urdf"))
+
+
+def _is_file(word: str) -> bool:
+    return _looks_like_file(word) and Path(word).is_file()
+
+
+def _from(beside: Path, path: str) -> str:
+    """The path from there, with slashes; of a member of an archive that of the archive and its own."""
+    return Path(os.path.relpath(path, beside.parent)).as_posix()
+
+
+def _hash(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()
+
+
+__all__ = ["FORMAT", "Question", "as_text", "certificate", "changes", "read_certificate"]
