@@ -35,16 +35,33 @@ def _grouped(a: Sequence[Stretch], b: Sequence[Stretch]) -> list[Group]:
         end, other = _behind_stop(a, at), _behind_stop(b, there)
         if end > at and other > there and _alike(a[at], b[there]):
             end, other = at + 1, there + 1
-        groups.append((a[at:end], b[there:other]))
+        groups += _parted(a[at:end], b[there:other])
         at, there = end, other
     return groups
 
 
-def _alike(one: Stretch, other: Stretch) -> bool:
-    """Two moves of one kind that head for the same point and both stop there, or both do not."""
-    if one.motion != other.motion or one.stops != other.stops or one.goal is None or other.goal is None:
+def _parted(a: Sequence[Stretch], b: Sequence[Stretch]) -> list[Group]:
+    """Moves up to a stop, in groups that end at the points that both head for, in their order."""
+    groups: list[Group] = []
+    at, there = 0, 0
+    for end, stretch in enumerate(a[:-1], 1):
+        found = (other for other, one in enumerate(b[there:-1], there + 1) if _same_goal(stretch, one))
+        other = next(found, None)
+        if other is not None:
+            groups.append((a[at:end], b[there:other]))
+            at, there = end, other
+    return [*groups, (a[at:], b[there:])]
+
+
+def _same_goal(one: Stretch, other: Stretch) -> bool:
+    if one.goal is None or other.goal is None:
         return False
     return float(np.linalg.norm(one.goal[:3] - other.goal[:3])) < SAME_GOAL_MM
+
+
+def _alike(one: Stretch, other: Stretch) -> bool:
+    """Two moves of one kind that head for the same point and both stop there, or both do not."""
+    return one.motion == other.motion and one.stops == other.stops and _same_goal(one, other)
 
 
 def _behind_stop(stretches: Sequence[Stretch], begin: int) -> int:

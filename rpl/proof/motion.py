@@ -34,14 +34,16 @@ class Pairing:
 
 @dataclass(frozen=True, slots=True)
 class Driven:
-    """The moves of one task, side by side; the numbers of the groups behind which a corner deviates."""
+    """The moves of one task, side by side; the numbers of the groups behind which a corner deviates, and of those that
+    hang on where a sensor answered."""
 
     groups: tuple[Group, ...]
-    loose: frozenset[int]
+    loose: frozenset[int] = frozenset()
+    sensed: frozenset[int] = frozenset()
 
-    def near_corner(self, *numbers: int) -> bool:
-        """Does a corner that deviates lie at the beginning or end of one of these groups?"""
-        return any(one in self.loose or one - 1 in self.loose for one in range(min(numbers), max(numbers) + 1))
+    def near_sensor(self, *numbers: int) -> bool:
+        """Is one of the moves from the first of these groups to the last, or one beside them, ended by a sensor?"""
+        return any(number in self.sensed for number in range(min(numbers) - 1, max(numbers) + 2))
 
 
 def compare_motion(
@@ -72,17 +74,23 @@ def _task(
 ) -> tuple[Difference | None, Driven]:
     groups = aligned(ours, theirs)
     loose: set[int] = set()
+    sensed = frozenset() if pairing.same_language else _sensed(groups, pairing.tolerance)
     first: Difference | None = None
     for number, (a, b) in enumerate(groups):
         found.compared += 1
-        difference = _group(task, groups, number, pairing, found, loose)
+        if number in sensed:
+            _apart_by_sensor(task, groups[number], pairing, found)
+            difference = None
+        else:
+            difference = _group(task, groups, number, pairing, found, loose)
         if a and b and len(a) == len(b) == 1:
-            asked = compare_asked(task, (a[0], b[0]), pairing.same_arm, pairing.tolerance, found)
+            stands = pairing.same_arm and number not in sensed
+            asked = compare_asked(task, (a[0], b[0]), stands, pairing.tolerance, found)
             difference = difference or asked
         first = first or difference
     for number in sorted(loose):
         _measure(task, groups, number, pairing.tolerance, found)
-    return first, Driven(tuple(groups), frozenset(loose))
+    return first, Driven(tuple(groups), frozenset(loose), sensed)
 
 
 def _group(
@@ -98,13 +106,6 @@ def _group(
     for place, corner in zip((number - 1, number), corners, strict=True):
         if corner is not None and corner.stops[0] != corner.stops[1]:
             loose.add(place)
-    if foreign and _sensed(groups, number):
-        worst = gap(*ways(groups[number]))
-        found.apart(worst.mm)
-        if worst.mm > tolerance.path_mm:
-            text = f"where a sensor ends the move, or behind it, the tool is up to {worst.mm:.3f} mm apart"
-            found.deviates("sensed", worst.mm, text, move_side(a), move_side(b), task)
-        return None
     joint_way = any(stretch.motion == "joint" for stretch in (*a, *b))
     if joint_way and not pairing.same_arm:  # two arms bend differently between the same points
         return _ends(task, groups[number], corners[1], pairing, found)
@@ -125,6 +126,14 @@ def _group(
         if difference is not None:
             return difference
     return _joints(task, a, b, pairing, found)
+
+
+def _apart_by_sensor(task: str, group: Group, pairing: Pairing, found: Findings) -> None:
+    worst = gap(*ways(group))
+    found.apart(worst.mm)
+    if worst.mm > pairing.tolerance.path_mm:
+        text = f"where a sensor ends the move, or behind it, the tool is up to {worst.mm:.3f} mm apart"
+        found.deviates("sensed", worst.mm, text, move_side(group[0]), move_side(group[1]), task)
 
 
 def _apart(worst: Gap, tolerance: Tolerance) -> bool:
@@ -193,11 +202,18 @@ def _measure(task: str, groups: Sequence[Group], number: int, tolerance: Toleran
         found.deviates("turning", deg, f"in the corner the tool is turned {deg:.3f} deg apart", *sides, task)
 
 
-def _sensed(groups: Sequence[Group], number: int) -> bool:
-    """A move that both programs leave on the way when a sensor answers, or one from there: where that was depends on
-    how fast each controller accelerates."""
-    near = [groups[place] for place in (number - 1, number) if place >= 0]
-    return any(a and b and a[-1].cut and b[-1].cut for a, b in near)
+def _sensed(groups: Sequence[Group], tolerance: Tolerance) -> frozenset[int]:
+    """Moves that both programs leave on the way when a sensor answers, and those from there up to one that begins at
+    the same place again: where the sensor answered depends on how fast each controller accelerates."""
+    found: set[int] = set()
+    for number, (a, b) in enumerate(groups):
+        if not a or not b:
+            continue
+        apart = float(np.linalg.norm(a[0].poses[0, :3, 3] - b[0].poses[0, :3, 3]))
+        carried = number - 1 in found and apart > tolerance.path_mm
+        if carried or (a[-1].cut and b[-1].cut):
+            found.add(number)
+    return frozenset(found)
 
 
 def _joints(

@@ -8,12 +8,13 @@ from functools import cached_property
 from rpl.proof.deviations import Deviation, Measure, measures
 from rpl.proof.difference import Difference
 from rpl.proof.tolerance import Accepted, Tolerance
+from rpl.showing import folded, heading, line
 
 EQUAL, ALIKE, DIFFERENT, UNDECIDED = "equal", "alike", "different", "undecided"
 VERDICTS = (EQUAL, ALIKE, DIFFERENT, UNDECIDED)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ProofResult:
     """Whether two programs mean the same, as far as their runs tell.
 
@@ -77,6 +78,12 @@ class ProofResult:
             "notes": list(self.notes),
         }
 
+    def __repr__(self) -> str:
+        return line("ProofResult", [self.headline()])
+
+    def _repr_html_(self) -> str:
+        return heading("proof", [self.headline()]) + folded("all of it", self.as_text())
+
     def headline(self) -> str:
         """The first line."""
         deviating = ", ".join(one.as_text() for one in self.open)
@@ -100,7 +107,7 @@ class ProofResult:
             lines += self.difference.as_text().splitlines()[1:]
             lines += [f"besides: {one.as_text()}" for one in self.open]
         else:
-            lines += [line for one in self.open for line in one.as_lines()]
+            lines += [each for one in self.open for each in one.as_lines()]
         distance = f"greatest distance {self.max_path_mm:.4f} mm, {self.max_joint_deg:.4f} deg"
         lines.append(f"{distance}; agree on: {self.level}")
         return "\n".join((*lines, *(f"note: {note}" for note in self.notes)))
