@@ -152,20 +152,20 @@ class _Corners:
     def leave_the_rest(self, pairs: list[Pair]) -> None:
         """Where the way to the next place is not known before, that one's corner takes what the first has left: the
         program keeps in mind where it has been."""
-        later = {id(one.second): one.second for one in self.unknown if one.second is not None}
-        for key, second in later.items():
-            firsts = [one.first for one in pairs if one.second is second]
-            before = [one for one in firsts if one is not None]
-            taken = [self.taken(one.first) for one in self.unknown if one.second is second and one.first is not None]
-            here = self.ways.expression(second, {}, later=False)
-            if len(before) < len(firsts) or float("inf") in taken or here is None:
+        unknown, before = _by_second(self.unknown), _by_second(pairs)
+        left: list[Pair] = []
+        for key, own in unknown.items():
+            second = own[0].second
+            firsts = [one.first for one in own if one.first is not None]
+            taken = [self.taken(one) for one in firsts]
+            here = None if second is None else self.ways.expression(second, {}, later=False)
+            known = len(firsts) == len(own) and all(one.first is not None for one in before[key])
+            if here is None or not known or float("inf") in taken or not all(map(self.can_note, firsts)):
+                left += own
                 continue
-            if not all(self.can_note(one.first) for one in self.unknown if one.second is second and one.first):
-                continue
-            self.kept |= {id(one) for one in before if self.can_note(one)}
-            room = self.rooms.setdefault(key, _Room())
-            room.beside.append((between(here, self.corner()), max(taken)))
-            self.unknown = [one for one in self.unknown if one.second is not second]
+            self.kept |= {id(one.first) for one in before[key] if one.first is not None and self.can_note(one.first)}
+            self.rooms.setdefault(key, _Room()).beside.append((between(here, self.corner()), max(taken)))
+        self.unknown = left
 
     def taken(self, move: ir.Move) -> float:
         """What a corner takes at most, mm; infinite where no one knows."""
@@ -190,18 +190,13 @@ class _Corners:
         return (new, note) if later else (note, new)
 
     def stop_unknown(self) -> None:
-        """No corner where two may be too near to each other: the move that is in most such pairs goes first."""
-        left = self.unknown
-        while left:
-            moves = {id(one): one for pair in left for one in (pair.second, pair.first) if one is not None}
-            count = Counter(key for pair in left for key in {id(pair.first), id(pair.second)})
-            if not moves:
-                return
-            chosen = max(moves, key=lambda one: count[one])
-            pair = next(one for one in left if chosen in (id(one.first), id(one.second)))
-            other = pair.second if id(pair.first) == chosen else pair.first
-            self.stopped[chosen] = other if other is not None else moves[chosen]
-            left = [one for one in left if chosen not in (id(one.first), id(one.second))]
+        """No corner where two may be too near to each other: of two that of the move that is in more such pairs."""
+        count = Counter(key for pair in self.unknown for key in {id(pair.first), id(pair.second)})
+        for pair in self.unknown:
+            moves = [one for one in (pair.second, pair.first) if one is not None]
+            if moves and not any(id(one) in self.stopped for one in moves):
+                chosen = max(moves, key=lambda one: count[id(one)])
+                self.stopped[id(chosen)] = moves[-1] if chosen is moves[0] else moves[0]
 
     def size(self, move: ir.Move) -> float | None:
         """Millimetres of a corner, 0 of a stop; None where the run decides."""
@@ -280,6 +275,14 @@ class _Corners:
             self.context.diagnostics.report(SMALLER, move.origin, before=before, after=after, way=way)
         elif room.computed or room.beside:
             self.context.diagnostics.report(COMPUTED, move.origin, before=before)
+
+
+def _by_second(pairs: list[Pair]) -> dict[int, list[Pair]]:
+    """Pairs by the identity of the second move."""
+    found: dict[int, list[Pair]] = {}
+    for pair in pairs:
+        found.setdefault(id(pair.second), []).append(pair)
+    return found
 
 
 def _metres(value: float) -> ir.Expression:
