@@ -19,6 +19,7 @@ from typing import Any
 
 from rpl import registry
 from rpl.errors import UsageError
+from rpl.source import read_bytes
 
 # A right angle's corner is missed by this share of the zone where the corner is a parabola: sqrt(2) / 4.
 PARABOLA = math.sqrt(0.125)
@@ -151,9 +152,11 @@ def controller_named(name_or_path: str) -> MotionModel:
         return PLAIN
     if name_or_path.endswith(".toml"):
         try:
-            text = Path(name_or_path).read_text(encoding="utf-8")
+            text = read_bytes(name_or_path).decode("utf-8")
         except OSError as error:
             raise UsageError(f"controller file {name_or_path} cannot be read: {error.strerror}") from error
+        except UnicodeDecodeError:
+            raise UsageError(f"controller file {name_or_path} is no text in UTF-8") from None
         return parse_controller(text, Path(name_or_path).stem, name_or_path)
     name = registry.dialect_meant(name_or_path)
     if name not in registry.dialect_names():

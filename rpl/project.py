@@ -5,16 +5,12 @@ What is no robot program is refused politely: an error where the user named it, 
 
 from __future__ import annotations
 
-import gzip
-import tarfile
-import zipfile
-import zlib
+import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from io import BytesIO
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
-from rpl import ir, registry
+from rpl import archives, ir, registry
 from rpl.depth import at_any_depth
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.errors import UsageError
@@ -25,7 +21,7 @@ from rpl.passes.typing import normalise
 from rpl.reading.ledger import FileReport
 from rpl.showing import counted, heading, line, table
 from rpl.sidefiles import SideFile, side_file
-from rpl.source import LARGEST_FILE, Origin, Source, source_from_bytes
+from rpl.source import LARGEST_FILE, Origin, Source, read_bytes, source_from_bytes
 
 NOT_A_PROGRAM = code(
     "not-a-program",
@@ -34,14 +30,15 @@ NOT_A_PROGRAM = code(
     "name the language with --from if it is one",
 )
 SIDE_FILE = code("side-file", Severity.ERROR, "this is no robot program but {kind}", "{use}")
+DAMAGED = code(
+    "damaged-file", Severity.WARNING, "left out: {reason}", "what it should hold is missing from the program"
+)
 SKIPPED = code("skipped-file", Severity.INFO, "skipped, not a robot program: {reason}")
 UNREADABLE_FILE = code("unreadable-file", Severity.ERROR, "cannot read this file: {reason}")
 UNREADABLE_ARCHIVE = code("unreadable-archive", Severity.ERROR, "cannot open this archive: {reason}")
 
 _SURE_ENOUGH = 30
 _CERTAIN = 95
-_ARCHIVES = (".zip", ".tar", ".tgz", ".tar.gz", ".tar.bz2", ".tar.xz")
-_GZIP = b"\x1f\x8b"
 _TEXT_CONTROLS = frozenset(b"\t\n\r\x0c\x1a")
 
 
@@ -97,8 +94,8 @@ def read_program(
             continue
         name, reason = (dialect, "") if dialect else recognise(found.source)
         if name is None:
-            at = Origin(found.source)
-            collector.report(NOT_A_PROGRAM if found.named else SKIPPED, at, reason=reason)
+            left_out = DAMAGED if _is_damaged(found.source) else SKIPPED
+            collector.report(NOT_A_PROGRAM if found.named else left_out, Origin(found.source), reason=reason)
             continue
         groups.setdefault(name, []).append(found.source)
     return _read_groups(groups, collector)
@@ -164,6 +161,13 @@ def _told(beside: SideFile, found: _Found, diagnostics: Diagnostics) -> None:
         diagnostics.report(SKIPPED, Origin(found.source), reason=f"it is {beside.kind}")
 
 
+def _is_damaged(source: Source) -> bool:
+    """Is it a program by its name that holds none: empty, or with zero bytes in its text?"""
+    suffix = Path(source.path).suffix.lower()
+    named = any(suffix in registry.dialect(name).extensions for name in registry.dialect_names())
+    return named and (not source.data.strip() or bool(_first_nul(source)))
+
+
 def _is_binary(source: Source) -> bool:
     if source.encoding.startswith("utf-16"):
         return False
@@ -176,6 +180,9 @@ def _is_binary(source: Source) -> bool:
 
 def _first_nul(source: Source) -> str:
     """Where zero bytes begin that spoil what else is text: such a file was damaged and can be mended."""
+    head = source.data[2:22]
+    if len(head) >= 6 and (not any(head[::2]) or not any(head[1::2])) and any(head):
+        return " (it looks like UTF-16 without the mark at its beginning)"
     at = source.data.find(b"\x00")
     if at < 0 or any(byte < 32 and byte not in _TEXT_CONTROLS for byte in source.data[:at]):
         return ""
@@ -200,14 +207,13 @@ def _expand(paths: Sequence[str | Path | Source], diagnostics: Diagnostics) -> I
 
 def _expand_one(path: Path, diagnostics: Diagnostics) -> Iterator[_Found]:
     if path.is_dir():
-        for file in sorted(path.rglob("*")):
-            if file.is_file() and not any(part.startswith(".") for part in file.relative_to(path).parts):
-                if file.name.lower().endswith(_ARCHIVES):
-                    yield from _archive(file, diagnostics)
-                else:
-                    yield from _file(file, False, diagnostics)
+        for file in _files_in(path, diagnostics):
+            if file.name.lower().endswith(archives.SUFFIXES):
+                yield from _archive(file, diagnostics)
+            else:
+                yield from _file(file, False, diagnostics)
         return
-    if path.name.lower().endswith(_ARCHIVES):
+    if path.name.lower().endswith(archives.SUFFIXES):
         yield from _archive(path, diagnostics)
         return
     yield from _file(path, True, diagnostics)
@@ -217,55 +223,49 @@ def _expand_one(path: Path, diagnostics: Diagnostics) -> Iterator[_Found]:
                 yield from _file(Path(companion), False, diagnostics)
 
 
-def _file(path: Path, named: bool, diagnostics: Diagnostics) -> Iterator[_Found]:
+def _files_in(folder: Path, diagnostics: Diagnostics) -> list[Path]:
+    """Every file below a folder but hidden ones; folders that cannot be looked into are reported."""
+
+    def unreadable(error: OSError) -> None:
+        at = Origin(source_from_bytes(str(error.filename), b""))
+        diagnostics.report(UNREADABLE_FILE, at, reason=error.strerror or type(error).__name__)
+
+    found: list[Path] = []
+    for home, folders, names in os.walk(folder, onerror=unreadable):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        found += [Path(home, name) for name in names if not name.startswith(".")]
+    return sorted(found)
+
+
+def _bytes_of(path: Path, diagnostics: Diagnostics) -> bytes | None:
+    """The file's bytes; None when it cannot be read, which is reported."""
     try:
-        size = path.stat().st_size
-        data = path.read_bytes() if size <= LARGEST_FILE else b""
+        return read_bytes(path, LARGEST_FILE)
     except OSError as error:
         at = Origin(source_from_bytes(str(path), b""))
         diagnostics.report(UNREADABLE_FILE, at, reason=error.strerror or type(error).__name__)
-        return
-    if size > LARGEST_FILE:
-        at = Origin(source_from_bytes(str(path), b""))
-        diagnostics.report(UNREADABLE_FILE, at, reason=f"larger than {LARGEST_FILE // 2**20} MiB")
-        return
-    yield _Found(source_from_bytes(str(path), _unpacked(data)), named)
+        return None
 
 
-def _unpacked(data: bytes) -> bytes:
-    """A file that is packed by itself (gzip) is read as what is in it."""
-    if not data.startswith(_GZIP):
-        return data
+def _file(path: Path, named: bool, diagnostics: Diagnostics) -> Iterator[_Found]:
+    data = _bytes_of(path, diagnostics)
+    if data is None:
+        return
     try:
-        with gzip.GzipFile(fileobj=BytesIO(data)) as packed:
-            inner = packed.read(LARGEST_FILE + 1)
-    except (OSError, EOFError, zlib.error):
-        return data
-    return inner if len(inner) <= LARGEST_FILE else data
+        yield _Found(source_from_bytes(str(path), archives.unpacked(data, LARGEST_FILE)), named)
+    except ValueError as error:
+        at = Origin(source_from_bytes(str(path), b""))
+        diagnostics.report(UNREADABLE_FILE, at, reason=str(error))
 
 
 def _archive(path: Path, diagnostics: Diagnostics) -> Iterator[_Found]:
     """Members of a controller backup, in memory, in order of their names."""
-    try:
-        members = dict(_members(path))
-    except (OSError, zipfile.BadZipFile, tarfile.TarError, EOFError, RuntimeError, NotImplementedError) as error:
-        at = Origin(source_from_bytes(str(path), b""))
-        diagnostics.report(UNREADABLE_ARCHIVE, at, reason=str(error) or type(error).__name__)
-        return
-    for name in sorted(members):
-        yield _Found(source_from_bytes(f"{path}/{name}", members[name]), False)
-
-
-def _members(path: Path) -> Iterator[tuple[str, bytes]]:
-    data = path.read_bytes()
-    if zipfile.is_zipfile(BytesIO(data)):
-        with zipfile.ZipFile(BytesIO(data)) as archive:
-            for info in archive.infolist():
-                if not info.is_dir() and info.file_size <= LARGEST_FILE:
-                    yield str(PurePosixPath(info.filename)), archive.read(info)
-        return
-    with tarfile.open(fileobj=BytesIO(data)) as tar:
-        for member in tar.getmembers():
-            stream = tar.extractfile(member) if member.isfile() and member.size <= LARGEST_FILE else None
-            if stream is not None:
-                yield str(PurePosixPath(member.name)), stream.read()
+    data = _bytes_of(path, diagnostics)
+    for member in archives.members(data) if data is not None else ():
+        if member.data is not None:
+            yield _Found(source_from_bytes(f"{path}/{member.name}", member.data), False)
+        elif member.name:
+            at = Origin(source_from_bytes(f"{path}/{member.name}", b""))
+            diagnostics.report(UNREADABLE_FILE, at, reason=member.reason)
+        else:
+            diagnostics.report(UNREADABLE_ARCHIVE, Origin(source_from_bytes(str(path), b"")), reason=member.reason)

@@ -6,6 +6,8 @@ bytes, whatever the encoding was. Positions are offsets into the text; lines and
 
 from __future__ import annotations
 
+import errno
+import stat
 from bisect import bisect_right
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -107,8 +109,11 @@ def decode(data: bytes) -> tuple[str, str]:
     """
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         codec = "utf-16-le" if data.startswith(b"\xff\xfe") else "utf-16-be"
-        text = data.decode(codec, "surrogatepass")
-        if text.encode(codec, "surrogatepass") == data and "\x00" not in text:
+        try:
+            text = data.decode(codec, "surrogatepass")
+        except UnicodeDecodeError:  # its end is missing
+            text = "\x00"
+        if "\x00" not in text and text.encode(codec, "surrogatepass") == data:
             return text, codec
     for encoding in _ENCODINGS:
         try:
@@ -127,6 +132,19 @@ def source_from_text(path: str, text: str) -> Source:
     return Source(path, text.encode("utf-8"), text, "utf-8")
 
 
+def read_bytes(path: Path | str, largest: int | None = None) -> bytes:
+    """The bytes of a file. Raises OSError when it cannot be read, is larger than that, or is no file: a pipe or a
+    device may never end."""
+    about = Path(path).stat()
+    if stat.S_ISDIR(about.st_mode):
+        raise IsADirectoryError(errno.EISDIR, "it is a folder", str(path))
+    if not stat.S_ISREG(about.st_mode):
+        raise OSError(errno.EINVAL, "it is a pipe or a device, no file", str(path))
+    if largest is not None and about.st_size > largest:
+        raise OSError(errno.EFBIG, f"it is larger than {largest // 2**20} MiB", str(path))
+    return Path(path).read_bytes()
+
+
 def read_source(path: Path | str) -> Source:
     """Read one file. Raises OSError when it cannot be read."""
-    return source_from_bytes(str(path), Path(path).read_bytes())
+    return source_from_bytes(str(path), read_bytes(path))

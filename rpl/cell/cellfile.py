@@ -28,6 +28,7 @@ from rpl import ir, registry
 from rpl.emulator.mechanismfile import Mechanism, read_mechanisms
 from rpl.errors import UsageError
 from rpl.ir.analog import MILLIAMPERES, VOLTS, AnalogRange, AnalogSetting
+from rpl.source import read_bytes
 
 Value = Any  # what TOML can say: numbers, BOOLs, texts, lists, tables
 
@@ -94,7 +95,7 @@ class Cell:
 def read_cell(path: str | Path) -> Cell:
     """Read a cell file. Raises UsageError with file and key when it is wrong."""
     try:
-        data = Path(path).read_bytes()
+        data = read_bytes(path)
     except OSError as error:
         raise UsageError(f"{path}: cannot read the cell file: {error.strerror}") from None
     try:

@@ -18,6 +18,7 @@ from typing import Literal
 from rpl.controllers import NUMBERS
 from rpl.emulator.mechanismfile import Mechanism, read_mechanisms
 from rpl.errors import UsageError
+from rpl.source import read_bytes
 
 Kind = Literal["opw", "ur", "scara", "chain"]
 
@@ -148,7 +149,7 @@ def read_robot_file(name_or_path: str) -> RobotFile:
     if name_or_path.endswith(".toml"):
         path = Path(name_or_path)
         try:
-            text = path.read_text(encoding="utf-8")
+            text = read_bytes(path).decode("utf-8")
         except OSError as error:
             raise RobotError(f"robot file {name_or_path} cannot be read: {error.strerror}") from error
         except UnicodeDecodeError as error:

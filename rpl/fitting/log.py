@@ -10,12 +10,12 @@ from __future__ import annotations
 import csv
 import math
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
 from rpl.emulator.rotations import FloatArray
 from rpl.errors import UsageError
+from rpl.source import read_bytes
 
 TIMES = ("time", "t", "time_s")
 PLACE = ("x", "y", "z")
@@ -46,7 +46,7 @@ class Log:
 def read_log(path: str, axes: int) -> Log:
     """Read a log of a robot with that many axes. Raises UsageError with file and line."""
     try:
-        text = Path(path).read_text(encoding="utf-8-sig")
+        text = read_bytes(path).decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is no text in UTF-8"
         raise UsageError(f"{path}: the log cannot be read: {reason}") from error

@@ -16,7 +16,7 @@ LEVELS = [
     ["api"],
     ["proof", "fitting"],
     ["project", "translation", "simulation", "report"],
-    ["sidefiles"],
+    ["sidefiles", "archives"],
     ["cell", "emulator", "runtime", "linking", "writing", "reading"],
     ["passes"],
     ["controllers"],
