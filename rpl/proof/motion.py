@@ -17,6 +17,7 @@ from rpl.proof.difference import Difference, Side
 from rpl.proof.findings import Findings
 from rpl.proof.groups import Group, aligned
 from rpl.proof.paths import Gap, gap
+from rpl.proof.postures import cut_short_difference, left_out_difference, posture_difference
 from rpl.proof.record import Record, Stretch
 from rpl.proof.tolerance import Tolerance
 
@@ -51,7 +52,7 @@ def compare_motion(
 ) -> tuple[Difference | None, dict[str, Driven]]:
     """The first difference of the ways, and the moves by the task of A; deviations go to `found`."""
     driven: dict[str, Driven] = {}
-    first: Difference | None = None
+    first = left_out_difference(a.left_out, b.left_out, pairing.same_language)
     for task in dict.fromkeys((*a.motion, *b.motion)):
         ours, theirs = _of(a, b, task), _of(b, a, task)
         if task not in a.motion and ours:
@@ -87,6 +88,9 @@ def _task(
             stands = pairing.same_arm and number not in sensed
             asked = compare_asked(task, (a[0], b[0]), stands, pairing.tolerance, found)
             difference = difference or asked
+        if a and b and number not in sensed:
+            ends = a[-1], b[-1]
+            difference = difference or posture_difference(task, *ends) or cut_short_difference(task, *ends)
         first = first or difference
     for number in sorted(loose):
         _measure(task, groups, number, pairing.tolerance, found)

@@ -9,9 +9,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.effects import blocks, children
-from rpl.passes.legalise.usage import bodies
 
 # Beside the moves by identity (negative: the robot stands behind the move): the robot stands who knows where; what was
 # before the routine; what no one knows.

@@ -9,12 +9,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.effects import Effects, blocks
-from rpl.passes.legalise.usage import assigned_in, bodies
+from rpl.passes.legalise.usage import assigned_in
 from rpl.passes.legalise.whereabouts import Whereabouts
 from rpl.passes.scope import Scope
 from rpl.passes.values import Value, pose_of
