@@ -10,7 +10,7 @@ from collections.abc import Callable
 from rpl import ir
 
 from .arguments import Arguments, Signals
-from .texts import formatted, part_of_time, text_of_byte
+from .texts import BASES, digits_calculated, digits_compared, formatted, part_of_time, text_of_byte
 
 Make = Callable[[Arguments, Signals], ir.Expression | None]
 """make(arguments, expressions): the expression, or None when an option has no neutral form. May raise
@@ -24,6 +24,29 @@ def _plain(function: str, least: int, most: int | None = None) -> Make:
     def make(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
         positional = arguments.need(least, most)
         return None if arguments.options else ir.Builtin(function, tuple(positional))
+
+    return make
+
+
+def _either(function: str, least: int, option: str, other: str) -> Make:
+    """Another function where the option is given."""
+
+    def make(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
+        given = tuple(arguments.need(least))
+        if set(arguments.options) - {option}:
+            return None
+        return ir.Builtin(other if arguments.options else function, given)
+
+    return make
+
+
+def _in_base(base: int, other: int) -> Make:
+    """DecToHex, HexToDec: the digits of a whole number in another base."""
+
+    def make(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
+        (text,) = arguments.need(1)
+        bases = ir.IntLiteral(base), ir.IntLiteral(other)
+        return None if arguments.options else ir.Builtin("digits_in_base", (text, *bases))
 
     return make
 
@@ -73,10 +96,13 @@ def _bit_negated(arguments: Arguments, expressions: Signals) -> ir.Expression | 
 
 
 def _byte_of_text(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
-    r"""StrToByte text [\Char]: the code of a character, or a decimal number of eight bits."""
+    r"""StrToByte text [\Hex] | [\Okt] | [\Bin] | [\Char]: a number of eight bits in a base, or a character's code."""
     (text,) = arguments.need(1)
-    if set(arguments.options) == {"char"}:
+    option = next(iter(arguments.options), "")
+    if option == "char":
         return ir.Builtin("character_code", (text,))
+    if option in BASES and len(arguments.options) == 1:
+        return ir.Binary("band", ir.Builtin("based_number", (text, ir.IntLiteral(BASES[option][0]))), _BYTE)
     return None if arguments.options else ir.Binary("band", ir.Builtin("text_value", (text,)), _BYTE)
 
 
@@ -265,16 +291,20 @@ FUNCTIONS: dict[str, Make] = {
     # texts
     "strlen": _plain("text_length", 1),
     "strpart": _plain("text_part", 3),
-    "strfind": _plain("text_find_any", 3),
+    "strfind": _either("text_find_any", 3, "notinset", "text_find_none"),
     "strmatch": _plain("text_match", 3),
     "strmemb": _plain("text_member", 3),
     "strmap": _plain("text_map", 3),
     "strorder": _plain("text_order", 3),
-    "numtostr": _plain("number_text", 2),
-    "dnumtostr": _plain("number_text", 2),
+    "numtostr": _either("number_text", 2, "exp", "power_text"),
+    "dnumtostr": _either("number_text", 2, "exp", "power_text"),
     "valtostr": _plain("value_text", 1),
     "strtoval": _plain("parse_value", 2),
     "strtobyte": _byte_of_text,
+    "dectohex": _in_base(10, 16),
+    "hextodec": _in_base(16, 10),
+    "strdigcmp": digits_compared,
+    "strdigcalc": digits_calculated,
     "bytetostr": text_of_byte,
     "strformat": formatted,
     "gettime": part_of_time,

@@ -114,6 +114,7 @@ RULES = Rules(
     "rapid",
     _ADVANCE,
     text_plus=True,
+    text_length=80,  # reference manual, data type string
     group_bits=16,  # M: the system parameters say a group's signals; more than 16 are rare (a num holds 23 bits)
     components=COMPONENTS,
     wait_poll_s=0.1,

@@ -16,7 +16,25 @@ from .arguments import Arguments, Signals
 _ZERO = ir.IntLiteral(0)
 _DIGITS = ir.TextLiteral("0123456789ABCDEF")
 # Base and count of digits of a byte, by the option that asks for them.
-_BASES = {"hex": (16, 2), "okt": (8, 3), "bin": (2, 8)}
+BASES = {"hex": (16, 2), "okt": (8, 3), "bin": (2, 8)}
+# Relations and calculations of digits in texts, by the names of their constants (reference manual, StrDigCmp and
+# StrDigCalc).
+# A relation: the function, whether its arguments change places, whether the opposite is asked for.
+RELATIONS = {
+    "lt": ("digits_less", False, False),
+    "lteq": ("digits_less", True, True),
+    "eq": ("digits_equal", False, False),
+    "noteq": ("digits_equal", False, True),
+    "gteq": ("digits_less", False, True),
+    "gt": ("digits_less", True, False),
+}
+CALCULATIONS = {
+    "opadd": "digits_sum",
+    "opsub": "digits_difference",
+    "opmult": "digits_product",
+    "opdiv": "digits_quotient",
+    "opmod": "digits_remainder",
+}
 # Where a part stands in the text of the date (YYYY-MM-DD) or the time (HH:MM:SS).
 _PARTS = {
     "year": ("date_text", 1, 4),
@@ -48,9 +66,9 @@ def text_of_byte(arguments: Arguments, expressions: Signals) -> ir.Expression | 
     option = _only_option(arguments)
     if option == "char":
         return ir.Builtin("from_code", (value,))
-    if option not in _BASES or any(isinstance(node, ir.Call) for node in walk(value)):
+    if option not in BASES or any(isinstance(node, ir.Call) for node in walk(value)):
         return None  # each digit asks for the value again
-    base, count = _BASES[option]
+    base, count = BASES[option]
     return _joined([_digit(value, base, base**place) for place in reversed(range(count))])
 
 
@@ -59,6 +77,24 @@ def _digit(value: ir.Expression, base: int, weight: int) -> ir.Expression:
     shifted = value if weight == 1 else ir.Binary("div", value, ir.IntLiteral(weight))
     rest = ir.Binary("mod", shifted, ir.IntLiteral(base))
     return ir.Builtin("text_part", (_DIGITS, ir.Binary("+", rest, ir.IntLiteral(1)), ir.IntLiteral(1)))
+
+
+def digits_compared(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
+    """StrDigCmp text relation text: do the whole numbers in the texts stand in this relation?"""
+    one, relation, two = arguments.need(3)
+    found = RELATIONS.get(relation.id.lower()) if isinstance(relation, ir.Name) else None
+    if found is None:
+        return None
+    function, turned, opposite = found
+    asked = ir.Builtin(function, (two, one) if turned else (one, two))
+    return ir.Unary("not", asked) if opposite else asked
+
+
+def digits_calculated(arguments: Arguments, expressions: Signals) -> ir.Expression | None:
+    """StrDigCalc text operation text: the whole number that comes of it, as a text."""
+    one, operation, two = arguments.need(3)
+    function = CALCULATIONS.get(operation.id.lower()) if isinstance(operation, ir.Name) else None
+    return None if function is None else ir.Builtin(function, (one, two))
 
 
 def part_of_time(arguments: Arguments, expressions: Signals) -> ir.Expression | None:

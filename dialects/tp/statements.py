@@ -6,6 +6,7 @@ each place it can mean.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Sequence
 
@@ -43,6 +44,7 @@ MISSING_LABEL = code(
     "tp-missing-label", Severity.WARNING, "this program has no LBL[{number}]; the controller stops at this jump"
 )
 _DEEPEST_CHOICE = 4
+_SAME_S = 1e-6
 TIMED_OUT, HIT = "wait_timed_out", "skip_hit"
 CHOSEN_TRUTH, CHOSEN_NUMBER = "chosen_truth_", "chosen_number_"
 
@@ -226,7 +228,19 @@ class Statements(Expressions):
         for unit in tree.children[3:]:
             self.unit(unit, "sec", "s")
         time: ir.Expression = self.number(parts[0]) if parts else ir.RealLiteral(tables.PULSE_DEFAULT_S)
-        return ir.Pulse(signal, ir.BoolLiteral(True), time, origin=self.origin)
+        return ir.Pulse(signal, ir.BoolLiteral(True), self.pulse_length(time), origin=self.origin)
+
+    def pulse_length(self, time: ir.Expression) -> ir.Expression:
+        """As the controller keeps it: in tenths of a second; too short a one gets the default, too long is refused."""
+        seconds = time.value if isinstance(time, ir.IntLiteral | ir.RealLiteral) else None
+        if seconds is None:
+            return time
+        tenths = math.floor(seconds * 10.0 + 0.5)
+        if tenths > tables.LONGEST_PULSE_TENTHS:
+            raise StatementError(f"a pulse lasts at most {tables.LONGEST_PULSE_TENTHS / 10.0:g} s", 0)
+        if abs(tenths / 10.0 - seconds) < _SAME_S and tenths:
+            return time
+        return ir.RealLiteral(tenths / 10.0 if tenths else tables.PULSE_DEFAULT_S, origin=self.origin)
 
     def unit(self, child: object, *wanted: str) -> None:
         if str(child).lower() not in wanted:

@@ -79,6 +79,7 @@ ACTUAL_POSITION = {
 }
 WAIT_TIMEOUT = "$WAITTMOUT"
 WAIT_TIMEOUT_DEFAULT = 3000  # M: hundredths of a second
+LONGEST_PULSE_TENTHS = 255  # measured: 25.6 s is refused
 PULSE_DEFAULT_S = 0.4  # M: $DEFPULSE 4, in tenths of a second
 
 # Path speed that max_speed stands for, mm/s: $SPEEDLIM of R-2000iB controller files; joint moves take 100 percent.

@@ -14,6 +14,7 @@ from rpl.writing.statements import CannotSayError
 from rpl.writing.text import NumberStyle, number_text
 
 from .functions import (
+    BYTE_BASES,
     FUNCTIONS,
     MOTION_TASK,
     OWN_FUNCTIONS,
@@ -157,6 +158,10 @@ class Expressions:
                 return f"BitLSh({self.text(value)},{self.text(places)})"
             case ir.Binary("band", ir.Builtin("text_value", (decimal,)), ir.IntLiteral(value=255)):
                 return f"StrToByte({self.text(decimal)})"
+            case ir.Binary("band", ir.Builtin("based_number", (digits, ir.IntLiteral(base))), ir.IntLiteral(255)) if (
+                base in BYTE_BASES
+            ):
+                return f"StrToByte({self.text(digits)}\\{BYTE_BASES[base]})"
             case ir.Binary(op="band", right=ir.Unary(op="bnot", operand=mask)):  # of a byte, as BitClear makes it
                 return f"BitAnd({self.text(left)},BitNeg({self.text(mask)}))"
         if expression.op in functions:
@@ -227,6 +232,10 @@ class Expressions:
                 (shown, first)
             ):
                 return f"GetTime(\\{word})"
+            case ir.Builtin("digits_in_base", (digits, ir.IntLiteral(10), ir.IntLiteral(16))):
+                return f"DecToHex({self.text(digits)})"
+            case ir.Builtin("digits_in_base", (digits, ir.IntLiteral(16), ir.IntLiteral(10))):
+                return f"HexToDec({self.text(digits)})"
             case ir.Builtin("displaced", (place, ir.System(name="displacement"))):
                 return f"ORobT({self.text(place)})"
         patterns = FUNCTIONS.get(expression.function) or OWN_FUNCTIONS.get(expression.function)

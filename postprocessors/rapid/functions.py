@@ -8,6 +8,9 @@ from __future__ import annotations
 from rpl import ir
 
 # Function -> pattern for each count of arguments that it can be written with.
+# Options of StrToByte by the base.
+BYTE_BASES = {16: "Hex", 8: "Okt", 2: "Bin"}
+
 FUNCTIONS: dict[str, dict[int, str]] = {
     "abs": {1: "Abs({0})"},
     "sqrt": {1: "Sqrt({0})"},
@@ -56,6 +59,14 @@ FUNCTIONS: dict[str, dict[int, str]] = {
     "text_length": {1: "StrLen({0})"},
     "text_part": {3: "StrPart({0},{1},{2})"},
     "text_find_any": {3: "StrFind({0},{1},{2})"},
+    "text_find_none": {3: "StrFind({0},{1},{2}\\NotInSet)"},
+    "digits_less": {2: "StrDigCmp({0},LT,{1})"},
+    "digits_equal": {2: "StrDigCmp({0},EQ,{1})"},
+    "digits_sum": {2: "StrDigCalc({0},OpAdd,{1})"},
+    "digits_difference": {2: "StrDigCalc({0},OpSub,{1})"},
+    "digits_product": {2: "StrDigCalc({0},OpMult,{1})"},
+    "digits_quotient": {2: "StrDigCalc({0},OpDiv,{1})"},
+    "digits_remainder": {2: "StrDigCalc({0},OpMod,{1})"},
     "text_match": {3: "StrMatch({0},{1},{2})"},
     "text_member": {3: "StrMemb({0},{1},{2})"},
     "text_equal": {2: "({0}={1})"},
@@ -64,6 +75,7 @@ FUNCTIONS: dict[str, dict[int, str]] = {
     "text_upper": {1: "StrMap({0},STR_LOWER,STR_UPPER)"},
     "text_lower": {1: "StrMap({0},STR_UPPER,STR_LOWER)"},
     "number_text": {2: "NumToStr({0},{1})"},
+    "power_text": {2: "NumToStr({0},{1}\\Exp)"},
     "value_text": {1: "ValToStr({0})"},
     "parse_value": {2: "StrToVal({0},{1})"},
     "parse_number": {2: "StrToVal({0},{1})"},

@@ -17,7 +17,7 @@ from rpl.writing.text import number_text
 
 from . import tables
 from .expressions import Expressions, constant, measured
-from .lines import Line
+from .lines import Line, pulse_length
 from .positions import Points, Position, position_of, step_of
 
 ROUNDED = code("tp-rounded", Severity.WARNING, "{what} {value} is written as {written}", "TP takes whole numbers here")
@@ -468,7 +468,7 @@ class Motion:
         """What an action on the path does."""
         if pulse is not None and isinstance(trigger.action, ir.Assign):
             signal = self.expressions.place(trigger.action.target)
-            return f"{signal}=PULSE,{number_text(pulse, style=tables.NUMBERS)}sec"
+            return f"{signal}=PULSE,{pulse_length(pulse, trigger.origin, self.diagnostics)}sec"
         return self.action(trigger.action)
 
     def trigger(

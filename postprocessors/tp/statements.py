@@ -17,7 +17,7 @@ from .expressions import ACTIVE, Expressions, constant, measured
 from .flow import If, Labels, choice
 from .frames import Frames
 from .idioms import Idioms
-from .lines import Line
+from .lines import Line, pulse_length
 from .motion import Motion
 from .own import from_listing, is_own_limit, modal_condition, selects_frame
 from .positions import Points
@@ -231,7 +231,8 @@ class Printer(StatementPrinter[Line]):
                 width = measured(statement.duration, "s")
                 if width is None:
                     raise CannotSayError("the length of a pulse is a constant")
-                return f"{self.expressions.signal(signal)}=PULSE,{number(width)}sec"
+                length = pulse_length(float(width), statement.origin, self.diagnostics)
+                return f"{self.expressions.signal(signal)}=PULSE,{length}sec"
             case ir.Clock(op=op, clock=clock) if op in _CLOCKS:
                 return f"{self.expressions.place(clock)}={_CLOCKS[op]}"
             case ir.TaskControl(op="start", arguments=(_, *_)):

@@ -80,6 +80,7 @@ FUNCTIONS: dict[str, Function] = _table(
     text_part      | tii      | t | `third` characters from position `second` (1-based)
     text_find      | tit      | i | position of `third`'s first occurrence in first from position second; not found: 0
     text_find_any  | tit      | i | position of the first character that is in the set; not found: length + 1
+    text_find_none | tit      | i | position of the first character that is not in the set; not found: length + 1
     text_match     | tit      | i | position where the pattern begins from position second; not found: length + 1
     text_member    | tit      | b | is the character at the position in the set
     text_order     | ttx      | b | is the first not after the second in the given order
@@ -88,6 +89,16 @@ FUNCTIONS: dict[str, Function] = _table(
     text_lower     | t        | t | in lower case
     text_map       | ttt      | t | characters of second replaced by those of third at the same place
     number_text    | ni       | t | the number with a fixed count of decimals
+    power_text     | ni       | t | the number as a power of ten with that count of decimals: `3.85E-01`
+    based_number   | ti       | i | whole number that the digits of the text show in that base (2 ... 16)
+    digits_in_base | tii      | t | the digits of a whole number without sign: from one base to another, in capitals
+    digits_less    | tt       | b | is the whole number in the first text less than that in the second
+    digits_equal   | tt       | b | are the whole numbers in the texts equal
+    digits_sum     | tt       | t | of two whole numbers in texts, up to 32 bits
+    digits_difference | tt    | t | of two whole numbers in texts; error when below zero
+    digits_product | tt       | t | of two whole numbers in texts, up to 32 bits
+    digits_quotient | tt      | t | of two whole numbers in texts, without its fraction
+    digits_remainder | tt     | t | of the division of two whole numbers in texts
     value_text     | x        | t | any value as its language writes it
     format         | tx*      | t | C-like format: %d %i %f %s %g %x %c with widths
     message_text   | tx*      | t | text with %1 %2 ... replaced by the further arguments

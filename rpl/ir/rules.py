@@ -192,7 +192,8 @@ class Rules:
     that is read as a number (longest first, in small letters). leading_numbers: such a text may go on behind its
     number, and without one it is 0. errors_looked_for: errors of the controller that a handler for everything gets, so
     that a target whose controller stops at them looks in front. text_decimals: a number with a fraction shows so
-    many decimals in a text, without zeros at the end; 0: six digits in all. message_numbers, message_texts: of a
+    many decimals in a text, without zeros at the end; 0: six digits in all. text_length: characters that a text
+    variable takes which says no length of its own (0: any). message_numbers, message_texts: of a
     controller whose messages show constant text only: regular expressions for what names a register of numbers, or
     any other register, in such a text. last_tool: while the program has set no tool, the place of the robot is told
     by tool and frame of the last move that named some (else by none). task_instances: starting a task that runs begins
@@ -233,6 +234,7 @@ class Rules:
     leading_numbers: bool = False
     errors_looked_for: frozenset[str] = frozenset()
     text_decimals: int = 0
+    text_length: int = 0
     message_numbers: str = ""
     message_texts: str = ""
     last_tool: bool = True

@@ -355,7 +355,9 @@ def _fitted(compiler: Compiler, target: ir.Expression, value: ir.Expression, rea
     if not isinstance(target, ir.Name | ir.Index | ir.Field) or isinstance(value, ir.IntLiteral | ir.RealLiteral):
         return read
     capacity = compiler.capacity(target)
-    if capacity is None:
+    if capacity is None and isinstance(compiler.types.of(target), ir.StringType):
+        capacity = compiler.scope.rules.text_length
+    if not capacity:
         return read
     most = capacity
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 import re
 from collections.abc import Callable, Iterator, Mapping
 from decimal import ROUND_HALF_UP, Decimal, InvalidOperation
@@ -122,6 +123,13 @@ def _find(text: str, position: Value, wanted: str) -> int:
 def _find_any(text: str, position: Value, wanted: str) -> int:
     for place in range(_position(text, position, 1), len(text)):
         if text[place] in wanted:
+            return place + 1
+    return len(text) + 1
+
+
+def _find_none(text: str, position: Value, unwanted: str) -> int:
+    for place in range(_position(text, position, 1), len(text)):
+        if text[place] not in unwanted:
             return place + 1
     return len(text) + 1
 
@@ -300,11 +308,58 @@ def _bytes_number(text: str, position: Value, count: Value) -> int:
     return int.from_bytes(bytes(codes), "big", signed=True)
 
 
+# ---- whole numbers in texts
+
+
+_DIGITS = "0123456789ABCDEF"
+_MOST_DIGITS = 0xFFFFFFFF  # the result of a calculation with digits
+
+
+def based_number(text: str, base: Value) -> int:
+    """The whole number that the digits show. Raises ProgramError when they are none of the base (2 ... 16)."""
+    size = whole(base)
+    if not 2 <= size <= len(_DIGITS):
+        raise ProgramError("out_of_range", f"there are no digits for the base {size}")
+    digits = text.upper()
+    if not digits or not set(digits) <= set(_DIGITS[:size]) or len(digits) > 80:
+        raise ProgramError("wrong_kind", f"{text!r} is no whole number in the base {size}")
+    return int(digits, size)
+
+
+def _digits_in_base(text: str, base: Value, other: Value) -> str:
+    number, size = based_number(text, base), whole(other)
+    based_number("0", size)
+    found = ""
+    while number or not found:
+        number, digit = divmod(number, size)
+        found = _DIGITS[digit] + found
+    return found
+
+
+def _calculated(work: Callable[[int, int], int]) -> Callable[[str, str], str]:
+    def calculate(one: str, two: str) -> str:
+        first, second = based_number(one, 10), based_number(two, 10)
+        if max(first, second) > _MOST_DIGITS:
+            raise ProgramError("overflow", "a number of digits is larger than 32 bits")
+        try:
+            result = work(first, second)
+        except ZeroDivisionError:
+            raise ProgramError("division_by_zero", "division by zero") from None
+        if result < 0:
+            raise ProgramError("negative_result", f"{one} - {two} is below zero")
+        if result > _MOST_DIGITS:
+            raise ProgramError("overflow", f"{result} is larger than 32 bits")
+        return str(result)
+
+    return calculate
+
+
 PURE: dict[str, Callable[..., Value]] = {
     "text_length": len,
     "text_part": _part,
     "text_find": _find,
     "text_find_any": _find_any,
+    "text_find_none": _find_none,
     "text_match": _match,
     "text_member": lambda text, position, wanted: text[_position(text, position)] in wanted,
     "text_order": _order,
@@ -313,6 +368,16 @@ PURE: dict[str, Callable[..., Value]] = {
     "text_lower": str.lower,
     "text_map": _map,
     "number_text": number_text,
+    "power_text": lambda number, decimals: f"{number:.{whole(decimals)}E}",
+    "based_number": based_number,
+    "digits_in_base": _digits_in_base,
+    "digits_less": lambda one, two: based_number(one, 10) < based_number(two, 10),
+    "digits_equal": lambda one, two: based_number(one, 10) == based_number(two, 10),
+    "digits_sum": _calculated(operator.add),
+    "digits_difference": _calculated(operator.sub),
+    "digits_product": _calculated(operator.mul),
+    "digits_quotient": _calculated(operator.floordiv),
+    "digits_remainder": _calculated(operator.mod),
     "format": formatted,
     "message_text": message_text,
     "character_code": _code,
