@@ -55,7 +55,7 @@ def moves_are_equal(text: str, target: str) -> None:
     assert not [item.as_text() for item in diagnostics.of(Severity.LOSS)]
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
     result = prove_programs(read.program, back.program, ROBOT, entry="main", to_entry=entry_name(back.program))
-    assert result.equal, result.as_text()
+    assert result.verdict in ("equal", "alike"), result.as_text()  # speeds of joints and of turning are approximated
 
 
 TASK = """VAR n: REAL = 0.0
