@@ -215,7 +215,9 @@ class _Lowering:
 
     def kept_one(self, bank: str, number: int, type: ir.Type) -> ir.Expression:
         if bank in ("TL", "UF"):
-            return self.dump.poses.get((bank, number), _IDENTITY)
+            # M: tool 0 is the flange until somebody fills it in, and there is no user frame 0.
+            unknown = _IDENTITY if number == 0 else ir.VendorValue("inform", f"{bank}#({number})", type)
+            return self.dump.poses.get((bank, number), unknown)
         found = self.dump.values.get((bank, number))
         return found if found is not None else ir.VendorValue("inform", f"{bank}{number:03d}", type)
 

@@ -353,6 +353,9 @@ def _frame_bank(bank: str, facts: Facts, dump: Dump) -> Iterable[ir.Variable]:
     values: list[tuple[str | None, ir.Expression]] = []
     for number in range(last + 1):
         dumped = dump.frames.get((bank, number))
+        if dumped is None and number > 0:
+            values.append((None, ir.VendorValue("tp", f"{bank}[{number}]", ir.PoseType())))
+            continue
         if dumped is not None and number > 0:
             position, origin = dumped
             numbers = [position.groups[1].values.get(name) or 0.0 for name in "XYZWPR"]

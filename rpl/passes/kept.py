@@ -392,7 +392,7 @@ def zero_of(type: ir.Type) -> ir.Expression | None:
         case ir.BoolType():
             return ir.BoolLiteral(False)
         case ir.PoseType():
-            return ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ("x", "y", "z", "a", "b", "c")))
+            return ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ("x", "y", "z", "a", "b", "c")), "pose")
     return None
 
 

@@ -96,7 +96,7 @@ def test_positions_tools_and_frames() -> None:
     text = file.data.decode()
     for part in (
         "P001: JOINTS = joints_from_pulses(1000, (-2000), 3000, 0, 0, 0)",
-        "{x: (-850.0), y: 924.1, z: 955.814, c: (-90.0), b: 0.0, a: 90.0, noflip: 0, lower: 0, rear: 1, r180: 0, t180: 1,",
+        "{x: (-850.0), y: 924.1, z: 955.814, c: (-90.0), b: 0.0, a: 90.0, noflip: 0, lower: 0, rear: 1, r180: 0,",
         "TL1: POSE = pose {x: 10.0, y: 0.0, z: 120.0, a: 0.0, b: 90.0, c: 0.0}",
         "UF1: POSE = pose {x: 500.0, y: (-20.0), z: 300.0, a: 90.0, b: 0.0, c: 0.0}",
     ):

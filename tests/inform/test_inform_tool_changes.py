@@ -10,6 +10,7 @@ from rpl.project import read_sources
 from rpl.proof.prove import prove_programs
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
+from tests.kept_frames import tool_one
 
 ARM = "fanuc_lrmate200id"
 PROGRAM = """/PROG  MAIN
@@ -39,7 +40,7 @@ CASES = [
 def test_the_tool_in_force_counts(lines: str, most: int) -> None:
     body = "\n".join(f"{at:4}:  {line} ;" for at, line in enumerate(lines.splitlines(), 7))
     text = PROGRAM.format(lines=body, most=most)
-    read = read_sources([source_from_text("MAIN.LS", text)], "tp", Diagnostics())
+    read = read_sources([source_from_text("MAIN.LS", text), tool_one()], "tp", Diagnostics())
     diagnostics = Diagnostics()
     files = translate_program(read, "inform", ARM, None, diagnostics).files
     assert not diagnostics.of(Severity.LOSS)

@@ -117,3 +117,19 @@ def test_variables_of_jobs_are_kept_too() -> None:
     assert unset("inform", job("SET B000 D003")) == ["D003"]
     assert unset("inform", job("SET D003 1", "SET B000 D003")) == []
     assert unset("inform", job("SET LB000 LB001")) == []  # local ones begin at zero
+
+
+SYSFRAME = """[*SYSTEM*]$MNUTOOL  Storage: SHADOW  Access: RW  : ARRAY[1,10] OF POSITION
+     [1,1] =
+  Group: 1   Config: N D B, 0, 0, 0
+  X:     0.000   Y:     0.000   Z:   120.000
+  W:     0.000   P:     0.000   R:     0.000
+"""
+
+
+def test_tools_and_frames_are_kept_too() -> None:
+    lines = ("UFRAME_NUM=0", "UTOOL_NUM=1", "PR[1]=LPOS", "L PR[1] 100mm/sec FINE")
+    assert unset("tp", listing(*lines)) == ["UTOOL[1]"]
+    assert unset("tp", listing(*lines), ("SYSFRAME.VA", SYSFRAME)) == []
+    assert unset("inform", job("GETS PX001 $PX001", "MOVL P001 V=100.0")) == []  # tool 0
+    assert unset("inform", job("CNVRT PX001 PX002 UF#(3)"))[-1] == "UF#(3)"

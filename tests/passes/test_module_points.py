@@ -10,6 +10,7 @@ from rpl.project import read_sources
 from rpl.simulation import run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
+from tests.kept_frames import tool_one
 
 POSITION = """P[{number}]{{
    GP1:
@@ -46,7 +47,7 @@ ARM = "fanuc_lrmate200id"
 
 @pytest.mark.parametrize("target", PLACES)
 def test_they_are_data_of_the_module(target: str) -> None:
-    own = read_sources([source_from_text("pick.ls", source("PICK"))], "tp", Diagnostics())
+    own = read_sources([source_from_text("pick.ls", source("PICK")), tool_one()], "tp", Diagnostics())
     files = translate_program(own, target, ARM, None, Diagnostics()).files
     written = "\n".join(file.data.decode("latin-1") for file in files)
     assert all(one in written for one in PLACES[target]), written

@@ -10,6 +10,7 @@ from rpl.proof.prove import prove_programs
 from rpl.simulation import entry_name, run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
+from tests.kept_frames import tool_one
 
 KUKA = "kuka_kr6r900sixx"
 HEAD = """VAR seen: INT = 0
@@ -133,7 +134,9 @@ ADD = "/PROG  ADD\n/MN\n   1:  R[24]=R[24]+AR[1] ;\n/POS\n/END\n"
 
 
 def test_a_jump_back_from_a_move_finds_it_still_going_on() -> None:
-    sources = [source_from_text("MAIN.LS", LISTING), source_from_text("ADD.LS", ADD)]
+    kept = "[*NUMREG*]$NUMREG  Storage: CMOS  Access: RW  : ARRAY[1,200] OF Numeric Reg\n  [24] = 0  ''\n"
+    sources = [source_from_text("MAIN.LS", LISTING), source_from_text("ADD.LS", ADD), tool_one()]
+    sources.append(source_from_text("NUMREG.VA", kept))
     read = read_sources(sources, "tp", Diagnostics())
     written = translate_program(read, "krl", "fanuc_lrmate200id", None, Diagnostics())
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], "krl", Diagnostics())

@@ -9,6 +9,7 @@ from rpl.project import read_sources
 from rpl.simulation import run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
+from tests.kept_frames import tool_one
 
 PLACE = """P[{number}]{{
    GP1:
@@ -40,7 +41,7 @@ ARM = "fanuc_lrmate200id"
 @pytest.mark.parametrize("x", [400.0, 405.0])
 def test_a_turn_takes_its_time(x: float, target: str, said: str) -> None:
     text = STEPS + PLACE.format(number=1, x=400.0, r=0.0) + PLACE.format(number=2, x=x, r=45.0) + "/END\n"
-    source = read_sources([source_from_text("TURNS.LS", text)], "tp", Diagnostics())
+    source = read_sources([source_from_text("TURNS.LS", text), tool_one()], "tp", Diagnostics())
     found = Diagnostics()
     translation = translate_program(source, target, ARM, None, found)
     assert not found.of(Severity.LOSS), [item.as_text() for item in found.of(Severity.LOSS)]

@@ -3,6 +3,7 @@
 import pytest
 
 from rpl.diagnostics import Diagnostics
+from tests.kept_frames import SYSFRAME
 from tests.there_and_back import Journey, there_and_back
 
 ROBOT = "fanuc_lrmate200id"
@@ -31,7 +32,7 @@ def joint_6(low: int, high: int) -> tuple[str, ...]:
 
 
 def journey(lines: tuple[str, ...], target: str) -> Journey:
-    return there_and_back({"TURN.LS": listing(*FRAMES, *lines)}, "tp", target, ROBOT)
+    return there_and_back({"TURN.LS": listing(*FRAMES, *lines), "SYSFRAME.VA": SYSFRAME}, "tp", target, ROBOT)
 
 
 def codes(found: Diagnostics) -> list[str]:

@@ -17,6 +17,12 @@ from rpl.translation import translate_program
 
 CELL = '[[input]]\ntime = 0.0\nsignal = "DI[1]"\nvalue = true\n\n[[input]]\ntime = 0.0\nsignal = "RI1"\nvalue = true\n'
 START = "UFRAME_NUM=0\nUTOOL_NUM=1\nJ P[1] 50% FINE\nL P[2] 200mm/sec FINE\n"
+FRAMES = """[*SYSTEM*]$MNUTOOL  Storage: SHADOW  Access: RW  : ARRAY[1,10] OF POSITION
+     [1,1] =
+  Group: 1   Config: N D B, 0, 0, 0
+  X:     0.000   Y:     0.000   Z:     0.000
+  W:     0.000   P:     0.000   R:     0.000
+"""
 EVERY = ("krl", "rapid", "urscript", "vplus", "inform", "rpl")
 
 WORDS = (
@@ -42,7 +48,8 @@ CASES = [(lines, target) for lines, targets in WORDS for target in targets]
 
 def elsewhere(lines: str, target: str) -> list[bool]:
     """What the outputs become in turn, after translation."""
-    given = read_sources([source_from_text("main.ls", listing(lines))], "tp", Diagnostics())
+    files = [source_from_text("main.ls", listing(lines)), source_from_text("sysframe.va", FRAMES)]
+    given = read_sources(files, "tp", Diagnostics())
     report = Diagnostics()
     done = translate_program(given, target, ROBOT, None, report)
     assert not report.has_losses, [item.as_text() for item in report]
