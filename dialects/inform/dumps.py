@@ -108,7 +108,9 @@ class _Reader:
             number = float(given)
             if self.section != "R" and number != int(number):
                 return False
-            literal = ir.RealLiteral(number) if self.section == "R" else ir.IntLiteral(int(number))
+            literal: ir.Expression = ir.RealLiteral(number, origin=origin)
+            if self.section != "R":
+                literal = ir.IntLiteral(int(number), origin=origin)
             self.into.values[self.section, self.next] = literal
             self.next += 1
             self.count += 1
