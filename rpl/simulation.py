@@ -72,7 +72,8 @@ def run_program(
 
 
 class Simulation(Machine):
-    """A program on its machine, under control. `breakpoints`: (file, line), the file without its folder."""
+    """A program on its machine, under control. `breakpoints`: (file, line), the file without its folder. `linked`: the
+    program as it was linked before, for who runs it again and again."""
 
     def __init__(
         self,
@@ -86,6 +87,7 @@ class Simulation(Machine):
         limits: Limits = DEFAULTS,
         controller: str | MotionModel | None = None,
         further: Sequence[str | RobotModel] = (),
+        linked: LinkedProgram | None = None,
     ) -> None:
         from rpl.cell import Cell as NoCell
         from rpl.controllers import controller_named
@@ -95,7 +97,7 @@ class Simulation(Machine):
             limits = replace(limits, time_s=max_time_s)
         if max_statements is not None:
             limits = replace(limits, statements=max_statements)
-        linked = self.program = link(program)
+        linked = self.program = linked if linked is not None else link(program)
         driven = controller_named(controller) if isinstance(controller, str) else controller
         surroundings = cell if cell is not None else NoCell()
         others = tuple(model for one in further if (model := _model(one)) is not None)

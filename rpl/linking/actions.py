@@ -10,7 +10,7 @@ from rpl.linking import interrupts
 from rpl.linking.meetings import meet
 from rpl.linking.places import writer
 from rpl.runtime import answers, functions, resting, system, tasks
-from rpl.runtime.code import SWITCHED, Instruction, Read, Values, Write
+from rpl.runtime.code import SWITCHED, Branch, Instruction, Read, Values, Write
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.texts import value_text
 from rpl.runtime.values import StopWatch, Value
@@ -162,9 +162,11 @@ def _wait_until(statement: ir.WaitUntil, linker: RoutineLinker) -> Make:
     condition, polls = linker.compiler.value(statement.condition), depends_on_time(statement.condition, linker)
     timeout = linker.compiler.value(statement.timeout) if statement.timeout is not None else None
     late, error, in_position = timed_out(statement, linker), statement.error, statement.in_position
-    subject = statement.origin.text.strip()[:80]
+    subject, code = statement.origin.text.strip()[:80], linker.code
 
     def make(here: int, next: int) -> Instruction:
+        code.branches.append(Branch(here, next, here))
+
         def wait(f: Values) -> int:
             first = _standing(in_position, f, here)
             if first is not None:
@@ -174,6 +176,7 @@ def _wait_until(statement: ir.WaitUntil, linker: RoutineLinker) -> Make:
                     late(f, False)
                 return next
             limit = timeout(f) if timeout is not None else None
+            f[0].marks[~here] = 1
             blocked: int = f[0].wait_until(condition, f, here, next, polls, limit, late, error, subject)
             return blocked
 

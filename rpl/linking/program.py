@@ -32,9 +32,10 @@ _SPELLED_LATER = 20
 
 
 class GlobalSlot:
-    """One global variable: its declaration, and how its first value is made."""
+    """One global variable: its declaration, and how its first value is made. `kept`: the controller keeps its value
+    from one run to the next; `label`: the comment of a numbered one."""
 
-    __slots__ = ("assigns", "initial", "name", "needs", "qualified", "watched")
+    __slots__ = ("assigns", "initial", "kept", "label", "name", "needs", "qualified", "watched")
 
     def __init__(self, name: str, qualified: str) -> None:
         self.name = name
@@ -43,6 +44,8 @@ class GlobalSlot:
         self.assigns: list[Read] = []
         self.needs: set[int] = set()
         self.watched = False
+        self.kept = False
+        self.label = ""
 
 
 class LinkedProgram:
@@ -161,6 +164,8 @@ class LinkedProgram:
         self._keep.append(declaration)
         entry = GlobalSlot(fold(declaration.name), f"{fold(module.name)}.{fold(declaration.name)}")
         entry.watched = declaration.name.lower() in self.watched
+        entry.kept = declaration.storage == "persistent" and any(module is one for one in self.program.modules)
+        entry.label = declaration.label
         self.slots.append(entry)
         from rpl.linking.routine import link_initial
 

@@ -275,7 +275,7 @@ class Statements:
             self.emit(actions.wait_for_robot)
         self.emit(_set_deadline(deadline, timeout))
         self.assembler.place(again)
-        self.emit(_branch_if(self.value(statement.condition), leave))
+        self.emit(_branch_if(self.value(statement.condition), leave, self.linker.code))
         timed_out = actions.timed_out(statement, self.linker)
         self.emit(_tick(deadline, timed_out, again, statement.error))
         self.assembler.place(leave)
@@ -327,10 +327,18 @@ def _branch(condition: Read, otherwise: Label, code: Code) -> Make:
     return make
 
 
-def _branch_if(condition: Read, then: Label) -> Make:
+def _branch_if(condition: Read, then: Label, code: Code) -> Make:
     def make(here: int, next: int) -> Instruction:
         target = then.pc
-        return lambda f: target if condition(f) else next
+        code.branches.append(Branch(here, target, next))
+
+        def branch(f: Values) -> int:
+            if condition(f):
+                return target
+            f[0].marks[~here] = 1
+            return next
+
+        return branch
 
     return make
 

@@ -12,24 +12,27 @@ from itertools import groupby
 
 from rpl import ir
 from rpl.proof.record import Place, place_of
-from rpl.proof.unreached import Key, key_of, reasons
+from rpl.proof.unreached import UNDRIVEN, Key, key_of, reasons
 from rpl.runtime.reached import Reached
 from rpl.source import Origin
 
+_ONE_WAY = "no input, kept value or answer is looked at, so that every run is the same"
 _MOST_LINES = 12  # folded ranges of lines that one line of text shows
 
 
 @dataclass(frozen=True, slots=True)
 class Unreached:
-    """A statement that no run came to. `offset` in its file tells it from others on its line."""
+    """A statement that no run came to. `offset` in its file tells it from others on its line. `impossible`: an
+    exploration has found that nothing it can change decides about it."""
 
     place: Place
     reason: str
     offset: int = 0
+    impossible: bool = False
 
     def as_json(self) -> dict[str, object]:
-        """A stable document: file, line, text, reason."""
-        return {**self.place.as_json(), "reason": self.reason}
+        """A stable document: file, line, text, reason, impossible."""
+        return {**self.place.as_json(), "reason": self.reason, "impossible": self.impossible}
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +48,17 @@ class Reach:
         """Of all statements, 0 to 1; a program without statements is reached as a whole."""
         return self.reached / self.statements if self.statements else 1.0
 
+    @property
+    def impossible(self) -> int:
+        """How many of the unreached statements nothing could reach."""
+        return sum(one.impossible for one in self.unreached)
+
+    @property
+    def share_of_possible(self) -> float:
+        """The share of those that could be reached."""
+        possible = self.statements - self.impossible
+        return self.reached / possible if possible else 1.0
+
     def as_json(self) -> dict[str, object]:
         """A stable document: statements, reached, share, unreached (see Unreached)."""
         return {
@@ -57,6 +71,7 @@ class Reach:
     def as_text(self) -> str:
         """The share, then one line for each reason with the lines of the program."""
         first = f"{self.reached} of {self.statements} statements were reached ({_percent(self.share)})"
+        first += f"; {self.impossible} cannot be" if self.impossible else ""
         by_reason: dict[str, list[Unreached]] = {}
         for one in self.unreached:
             by_reason.setdefault(one.reason, []).append(one)
@@ -81,9 +96,11 @@ def reach_of(
     runs: Iterable[Reached | None],
     entry: str | None = None,
     remarks: Mapping[Key, str] | None = None,
+    one_way: bool = False,
 ) -> Reach:
     """What the runs of the program came to, all together. `entry`: the routine that they began with, where it was
-    named; `remarks`: what is known about a statement with a condition that never went the other way."""
+    named. From an exploration: `remarks` about statements with a condition that never went the other way; `one_way`:
+    every run of the program goes the same way."""
     done = [run for run in runs if run is not None]
     if not done:
         return Reach(0, 0)
@@ -103,8 +120,15 @@ def reach_of(
     why = reasons(program, every.keys(), came, entry, remarks or {})
     order = {path: number for number, path in enumerate(dict.fromkeys(key[0] for key in every))}
     missing.sort(key=lambda key: (order[key[0]], key[1:]))
-    unreached = tuple(Unreached(place_of(every[key]), why[key], key[1]) for key in missing)
+    unreached = tuple(_unreached(every[key], why[key], key[1], one_way) for key in missing)
     return Reach(len(every), len(every) - len(unreached), unreached)
+
+
+def _unreached(origin: Origin, why: str, offset: int, one_way: bool) -> Unreached:
+    never = why.endswith(UNDRIVEN)
+    if one_way and not never:
+        why = f"{why}; {_ONE_WAY}"
+    return Unreached(place_of(origin), why, offset, never or one_way)
 
 
 def lines_of(many: Sequence[Unreached], most: int = _MOST_LINES) -> str:

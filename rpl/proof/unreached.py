@@ -20,6 +20,8 @@ Key = tuple[str, int, int, bool]
 
 _LEAVES = (ir.Return, ir.Goto, ir.Halt, ir.Raise, ir.Retry, ir.TryNext, ir.ExitLoop, ir.NextPass, ir.ResumeLevel)
 _OTHERWISE = "nothing led there"
+# About a decision that no surroundings can change.
+UNDRIVEN = "no input, kept value or answer is looked at before it"
 
 
 def key_of(origin: Origin, action: bool = False) -> Key:
@@ -114,7 +116,7 @@ class _Finder:
             case ir.CallRoutine(name=name):
                 return f"the call of {name} in line {line} did not come back"
             case ir.If() | ir.Switch():
-                return f"no way through line {line} came to its end"
+                return self._remark(statement, f"no way through line {line} came to its end")
             case _ if isinstance(statement, _LEAVES):
                 return f"behind line {line}, which goes elsewhere"
         return f"the runs ended in line {line}"
@@ -137,7 +139,7 @@ class _Finder:
             case ir.While(condition=condition, body=body):
                 yield _Part(body, why or self._never(statement, condition, line, True))
             case ir.For(body=body):
-                yield _Part(body, why or f"the loop in line {line} had no pass")
+                yield _Part(body, why or self._remark(statement, f"the loop in line {line} had no pass"))
             case ir.Loop(body=body) | ir.Repeat(body=body):
                 yield _Part(body, why)
             case ir.DeclareInterrupt(action=action):
@@ -202,4 +204,4 @@ def _uncalled(routine: ir.Routine, callers: Mapping[str, set[str]]) -> str:
     return f"{routine.name} was not called"
 
 
-__all__ = ["Key", "key_of", "reasons"]
+__all__ = ["UNDRIVEN", "Key", "key_of", "reasons"]

@@ -39,7 +39,7 @@ class HandlerCode:
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """An instruction that decides: goes on at `held` when its condition holds, else at `failed`."""
+    """An instruction that decides: goes on at `held` when its condition holds, else at `failed`; a wait stays."""
 
     at: int
     held: int

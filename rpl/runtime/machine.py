@@ -65,9 +65,9 @@ class Machine:
         self.now = 0.0
         self.agenda: list[Entry] = []
         self.sequence = 0
-        self.globals: Values = []
+        self.globals: Values = self._new_globals()
         self.marks: dict[Code, bytearray] = {}
-        self.signals: dict[Key, Value] = {}
+        self.signals: dict[Key, Value] = self._new_signals()
         self.names: dict[Key, str] = {}
         self.tasks: list[Task] = []
         self.latest: dict[str, str] = {}  # routine -> its task that was started last, where it has several
@@ -96,6 +96,14 @@ class Machine:
         self.reactions = [(keys_named(r.when, linked.alias(r.when)), r) for r in cell.reactions]
         for given in cell.inputs:
             self.schedule(given.time_s, INPUTS, "input", 0, given.signal, given.value)
+
+    def _new_globals(self) -> Values:
+        """Where global data is kept."""
+        return []
+
+    def _new_signals(self) -> dict[Key, Value]:
+        """Where the values of signals are kept."""
+        return {}
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Machine:
         for shared in (self.linked, self.model, self.further, self.controller, self.cell, self.scene, self.on_event):

@@ -96,6 +96,7 @@ def test_text_and_json_fold_lines() -> None:
         "line": 4,
         "text": "Set do1;",
         "reason": "the condition in line 3 was never TRUE",
+        "impossible": False,
     }
 
 
