@@ -372,7 +372,7 @@ def _tighter(limits: Limits, seen: Seen) -> Limits:
     steps = max(100_000, 5 * seen.result.statements)
     return replace(
         limits,
-        time_s=min(limits.time_s, 3.0 * seen.result.time_s + 60.0),
+        time_s=min(limits.time_s, 2.0 * seen.result.time_s + 20.0),
         statements=steps if limits.statements is None else min(limits.statements, steps),
     )
 
