@@ -217,7 +217,7 @@ class _Watched(Simulation):
         self.direct: dict[Source, Value] = {}
         self.recent: dict[Source, Value] = {}
         self.late: set[tuple[Code, int]] = set()
-        self.timed: set[tuple[Code, int]] = set()
+        self.with_limit: set[tuple[Code, int]] = set()
         self.armed: dict[Code, None] = {}
         self.dialogs = 0
         super().__init__(
@@ -298,7 +298,7 @@ class _Watched(Simulation):
     def schedule_wait(self, task: Task, wait: Wait) -> None:
         """A task begins to wait."""
         if wait.kind in TIMED_OUT and wait.deadline is not None:
-            self.timed.add((task.frame.code, wait.at))
+            self.with_limit.add((task.frame.code, wait.at))
         super().schedule_wait(task, wait)
 
     def _wake(self, task: Task, token: int) -> None:
@@ -400,7 +400,7 @@ class _Watched(Simulation):
             self.settled,
             frozenset(self.met),
             frozenset(self.late),
-            frozenset(self.timed),
+            frozenset(self.with_limit),
             stuck,
             tuple(self.armed),
             tuple((begin, end) for _, begin, end in self.waited),
