@@ -20,7 +20,7 @@ from rpl.cli.output import (
     waiting,
     write_file,
 )
-from rpl.cli.verdicts import accepting, status_of
+from rpl.cli.verdicts import accepting, exploring, status_of
 from rpl.diagnostics import Severity
 from rpl.errors import UsageError
 
@@ -49,6 +49,7 @@ HOLDS, FAILS = 0, 1
     default="plain",
     help="Who moves both robots: a language's controller or a file; else constant accelerations.",
 )
+@exploring
 @accepting
 @click.option(
     "--certificate",
@@ -90,7 +91,11 @@ def command(
     if a is None or b is None:
         raise UsageError("name two programs, A and B, or a certificate with --check")
     words = tuple(sorted(accepted_kinds(accepted.kinds)))
-    limits = {"path_mm": accepted.path_mm, "corner_mm": accepted.corner_mm, "time_share": accepted.time_share}
+    limits: dict[str, Any] = {
+        "path_mm": accepted.path_mm,
+        "corner_mm": accepted.corner_mm,
+        "time_share": accepted.time_share,
+    }
     question = Question(a, b, accept=words, **limits, **asked)
     result, programs = _answer(question)
     if kept is not None:
@@ -124,6 +129,7 @@ def _answer(question: Question) -> tuple[ProofResult, list[ReadProgram]]:
     """The verdict, and the programs as they were read."""
     from rpl.controllers import controller_named
     from rpl.proof.cellnames import report_unknown_signals
+    from rpl.proof.explore import Budget
     from rpl.proof.prove import load_cell, prove_programs
 
     limits = limits_of(question.max_time, question.max_steps, question.max_events)
@@ -145,6 +151,7 @@ def _answer(question: Question) -> tuple[ProofResult, list[ReadProgram]]:
             accepted=question.accepted,
             controller=driver,
             limits=limits,
+            budget=Budget() if question.explore else None,
         )
     return result, programs
 

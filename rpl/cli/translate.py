@@ -23,7 +23,7 @@ from rpl.cli.output import (
     waiting,
     write_file,
 )
-from rpl.cli.verdicts import accepting, status_of
+from rpl.cli.verdicts import accepting, exploring, status_of
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.errors import InternalError, UsageError
 
@@ -59,6 +59,7 @@ OK, NO, GUARDED = 0, 1, 3
     "--option", "options", multiple=True, metavar="NAME=VALUE", help="An option of the target language; repeatable."
 )
 @click.option("--strict", is_flag=True, help="Take every approximation for an error.")
+@exploring
 @accepting
 @json_option
 def command(
@@ -75,13 +76,14 @@ def command(
     options: Sequence[str],
     strict: bool,
     accepted: Accepted,
+    explore: bool,
     as_json: bool,
 ) -> int:
     """Write programs in another controller's language.
 
     What the target cannot say becomes a comment and the target's own stop, is listed, and gives exit status 3. Without
-    -o the program is printed. With --prove the first line is the verdict: equal, alike (exit status 3), different or
-    undecided (1); --accept takes measures of the proof too.
+    -o the program is printed. With --prove or --explore the first line is the verdict: equal, alike (exit status 3),
+    different or undecided (1); --accept takes measures of the proof too.
     """
     from rpl.cell import read_cell
     from rpl.proof.cellnames import report_unknown_signals
@@ -112,7 +114,8 @@ def command(
     written = _write(_printed(translation, target, proving) if alone else translation.files, output)
     if output is not None and translation.registers:
         written.append(_write_registers(translation, output))
-    proof = _prove(read, translation, target, robot, to_robot or robot, cell, accepted, entry) if proving else None
+    arms = (robot, to_robot or robot)
+    proof = _prove(read, translation, target, arms, cell, accepted, entry, explore) if proving or explore else None
     print_diagnostics(diagnostics)
     if as_json:
         print_json(_document(translation, written, diagnostics, proof))
@@ -229,14 +232,15 @@ def _prove(
     read: ReadProgram,
     translation: Translation,
     target: str,
-    robot: str | None,
-    to_robot: str | None,
+    arms: tuple[str | None, str | None],
     cell: str | None,
     accepted: Accepted,
     entry: str | None = None,
+    explore: bool = False,
 ) -> ProofResult:
     """Read the written files back and compare the runs of both programs."""
     from rpl.project import read_sources
+    from rpl.proof.explore import Budget
     from rpl.proof.prove import load_cell, prove_programs
     from rpl.proof.wiring import with_signal_names
     from rpl.simulation import entry_name
@@ -256,12 +260,12 @@ def _prove(
         return prove_programs(
             read.program,
             again_named,
-            robot,
-            to_robot,
+            *arms,
             load_cell(cell),
             entry=entry,
             to_entry=to_entry,
             accepted=accepted,
+            budget=Budget() if explore else None,
         )
 
 

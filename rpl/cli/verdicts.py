@@ -55,9 +55,16 @@ def accepting(command: Decorated) -> Decorated:
     return cast(Decorated, decorated)
 
 
+exploring = click.option(
+    "--explore",
+    is_flag=True,
+    help="Compare in further cells too, found so that both programs go every way that can be gone.",
+)
+
+
 def status_of(result: ProofResult) -> int:
     """Exit status: 0 only for equal programs."""
     return _STATUS[result.verdict]
 
 
-__all__ = ["accepting", "status_of"]
+__all__ = ["accepting", "exploring", "status_of"]

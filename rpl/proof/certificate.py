@@ -167,6 +167,7 @@ def _outcome(result: ProofResult) -> dict[str, object]:
         "measures": [one.as_text() for one in measures(result.deviations)],
         "max_path_mm": round(result.max_path_mm, 6),
         "max_joint_deg": round(result.max_joint_deg, 6),
+        "reach": result.as_json()["reach"],
         "notes": list(result.notes),
     }
 

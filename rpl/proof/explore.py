@@ -51,7 +51,8 @@ class Exploration:
     """cells: the found ones, without the user's own. tried: how many were run. ended: what ended it early (`cells`,
     `seconds`), empty when nothing was left to try. reached: per side, by the runs in the user's cell and the found
     ones; remarks: per side, about statements whose condition never went the other way; one_way: per side, whether
-    nothing that can be changed was ever looked at (see reach.reach_of)."""
+    nothing that can be changed was ever looked at (see reach.reach_of). time_s: how long a run in a found cell took at
+    most."""
 
     cells: tuple[Cell, ...]
     tried: int
@@ -59,6 +60,7 @@ class Exploration:
     reached: tuple[tuple[Reached, ...], ...]
     remarks: tuple[dict[Key, str], ...]
     one_way: tuple[bool, ...]
+    time_s: float
 
 
 def explore(sides: Sequence[Side], cell: Cell | None = None, budget: Budget = Budget()) -> Exploration:
@@ -142,7 +144,9 @@ class _Explorer:
             not any(step.seen[number].looks or self.start.vendor for step in self.steps)
             for number in range(len(self.sides))
         )
-        return Exploration(tuple(step.cell for step in kept[1:]), self.tried, ended, reached, remarks, one_way)
+        longest = max(limits.time_s for limits in self.limits)
+        cells = tuple(step.cell for step in kept[1:])
+        return Exploration(cells, self.tried, ended, reached, remarks, one_way, longest)
 
     # ---- trying
 

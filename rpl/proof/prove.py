@@ -17,11 +17,15 @@ from rpl import ir
 from rpl.controllers import PLAIN_NAME
 from rpl.proof.bits import with_wired_groups
 from rpl.proof.compare import Comparison, compare
+from rpl.proof.explore import Budget, explore
+from rpl.proof.exploring import worst_of
 from rpl.proof.paths import TURN_LEVER_MM
+from rpl.proof.reach import reach_of
 from rpl.proof.record import Record
 from rpl.proof.recording import record_of
 from rpl.proof.tolerance import Accepted, Tolerance
-from rpl.proof.verdict import ProofResult
+from rpl.proof.verdict import Explored, ProofResult
+from rpl.proof.watched import side_of
 from rpl.proof.wiring import in_words_of, wired_bits
 from rpl.runtime.limits import DEFAULTS, Limits
 
@@ -46,29 +50,50 @@ def prove_programs(
     accepted: Accepted = NOTHING_ACCEPTED,
     limits: Limits = DEFAULTS,
     controller: str | MotionModel = PLAIN_NAME,
+    budget: Budget | None = None,
 ) -> ProofResult:
     """Run two normalised programs and compare them. `robot_b` None: the same arm as A's. `controller` drives
     both.
 
-    `accepted`: what may deviate and is equal still. Raises UsageError for an unknown
-    robot or an entry that cannot be found.
+    `accepted`: what may deviate and is equal still. `budget`: explore, which finds further cells in which the programs
+    go other ways, and compare the programs in these too. Raises UsageError for an unknown robot or an entry that cannot
+    be found.
     """
     first, second = _model(robot_a), _model(robot_b)
     if second is None:
         second = first
-    record_a = recorded_run(program_a, first, cell, entry, limits, controller)
     to_entry = to_entry if to_entry is not None else entry
-    return prove_against(
-        record_a,
-        program_a,
-        program_b,
-        second,
-        cell,
-        to_entry=to_entry,
-        accepted=accepted,
-        limits=limits,
-        controller=controller,
+
+    def proved(cell: Cell | None, limits: Limits) -> ProofResult:
+        record_a = recorded_run(program_a, first, cell, entry, limits, controller)
+        return prove_against(
+            record_a,
+            program_a,
+            program_b,
+            second,
+            cell,
+            to_entry=to_entry,
+            accepted=accepted,
+            limits=limits,
+            controller=controller,
+        )
+
+    result = proved(cell, limits)
+    if budget is None or result.difference is not None:
+        return result
+    sides = (
+        side_of(program_a, first, entry, limits, controller),
+        side_of(program_b, second, to_entry, limits, controller, lambda cell: in_words_of(cell, program_a, program_b)),
     )
+    found = explore(sides, cell, budget)
+    shorter = replace(limits, time_s=min(limits.time_s, found.time_s))
+    joined = worst_of(result, found.cells, lambda cell: proved(cell, shorter))
+    reaches = [
+        reach_of(side.program, found.reached[number], side.entry, found.remarks[number], found.one_way[number])
+        for number, side in enumerate(sides)
+    ]
+    explored = Explored(len(found.cells), found.tried, found.ended)
+    return replace(joined, reach_a=reaches[0], reach_b=reaches[1], explored=explored)
 
 
 def prove_against(
@@ -104,6 +129,8 @@ def prove_against(
         _notes(record_a, record_b),
         tolerance,
         accepted,
+        reach_of(program_a, (record_a.reached,)),
+        reach_of(program_b, (record_b.reached,), to_entry),
     )
 
 

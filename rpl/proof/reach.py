@@ -78,10 +78,11 @@ class Reach:
         rest = [f"not reached: {lines_of(many)}: {reason}" for reason, many in by_reason.items()]
         return "\n".join((first, *rest))
 
-    def named(self) -> str:
-        """What was not reached, in a few words: `3 statements (lines 7-8, 12)`; empty when all was."""
+    def named(self, side: str = "") -> str:
+        """What was not reached, in a few words: `3 statements (lines 7-8, 12)`, with `side` `3 statements of A (...)`;
+        empty when all was."""
         count = len(self.unreached)
-        many = f"{count} statement{'s' if count > 1 else ''}"
+        many = f"{count} statement{'s' if count > 1 else ''}" + (f" of {side}" if side else "")
         return f"{many} ({lines_of(self.unreached)})" if count else ""
 
     def merged(self, *others: Reach) -> Reach:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from rpl.proof.postures import Family, LeftOut
     from rpl.runtime.payloads import Payload
     from rpl.runtime.programmed import Programmed
+    from rpl.runtime.reached import Reached
 
 Value = bool | int | float | str | None
 
@@ -141,8 +142,8 @@ class Stretch:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Record:
-    """A whole run: how it ended, what happened in each task, the motion of each robot by task name, and the moves that
-    a controller left out or shortened."""
+    """A whole run: how it ended, what happened in each task, the motion of each robot by task name, the moves that a
+    controller left out or shortened, and which statements it came to."""
 
     status: str
     time_s: float
@@ -151,3 +152,4 @@ class Record:
     robot: str = ""
     language: str = ""
     left_out: Mapping[str, tuple[LeftOut, ...]] = field(default_factory=dict)
+    reached: Reached | None = None

@@ -50,9 +50,8 @@ def record_of(result: RunResult, program: ir.Program, robot: RobotModel | None =
         tasks[task] = tuple(_without_polling(kept))
     moving = {way.mover: way for way in ways.values() if way.moves}  # several tasks may see one robot
     motion = {mover: noted(way.stretches(), way.moves, result.trace, robot) for mover, way in moving.items()}
-    return Record(
-        result.status, result.time_s, tasks, motion, robot.name if robot else "", language, left_out(result.trace)
-    )
+    name, left = robot.name if robot else "", left_out(result.trace)
+    return Record(result.status, result.time_s, tasks, motion, name, language, left, result.reached)
 
 
 def _ways(tasks: dict[str, list[Event]], program: ir.Program) -> dict[str, _Way]:

@@ -7,11 +7,30 @@ from functools import cached_property
 
 from rpl.proof.deviations import Deviation, Measure, measures
 from rpl.proof.difference import Difference
+from rpl.proof.reach import Reach
 from rpl.proof.tolerance import Accepted, Tolerance
 from rpl.showing import folded, heading, line
 
 EQUAL, ALIKE, DIFFERENT, UNDECIDED = "equal", "alike", "different", "undecided"
 VERDICTS = (EQUAL, ALIKE, DIFFERENT, UNDECIDED)
+
+
+@dataclass(frozen=True, slots=True)
+class Explored:
+    """How far an exploration went: cells that were compared besides the user's own, cells that were tried, and what
+    ended it early (`cells`, `seconds`), if anything did."""
+
+    cells: int
+    tried: int
+    ended: str = ""
+
+    def as_json(self) -> dict[str, object]:
+        """A stable document: cells, tried, ended."""
+        return {"cells": self.cells, "tried": self.tried, "ended": self.ended}
+
+    def as_text(self) -> str:
+        early = f"; ended early by the limit of {self.ended}" if self.ended else ""
+        return f"explored: {self.tried} cells tried, {self.cells} of them compared{early}"
 
 
 @dataclass(frozen=True, repr=False)
@@ -21,7 +40,8 @@ class ProofResult:
     equal: everything compared lies within the tolerance, or deviates as somebody accepts. alike: the same events in the
     same order, but measures deviate. different: there is a difference. undecided: no difference was found, and the runs
     do not show enough (`reason`). `level`: the highest of none, events, geometry, time at which the runs agree. Maxima
-    leave nothing out. `notes`: what the reader of the verdict should know besides.
+    leave nothing out. `reach_a`, `reach_b`: which statements the runs came to; `explored`: in how many cells besides
+    the user's own, where that was asked. `notes`: what the reader of the verdict should know besides.
     """
 
     level: str
@@ -34,6 +54,9 @@ class ProofResult:
     notes: tuple[str, ...] = ()
     tolerance: Tolerance = field(default_factory=Tolerance)
     acceptance: Accepted = field(default_factory=Accepted)
+    reach_a: Reach | None = None
+    reach_b: Reach | None = None
+    explored: Explored | None = None
 
     @cached_property
     def accepted(self) -> tuple[Measure, ...]:
@@ -75,6 +98,7 @@ class ProofResult:
             "max_path_mm": round(self.max_path_mm, 6),
             "max_joint_deg": round(self.max_joint_deg, 6),
             "max_time_s": round(self.max_time_s, 6),
+            "reach": self._reach_as_json(),
             "notes": list(self.notes),
         }
 
@@ -84,8 +108,22 @@ class ProofResult:
     def _repr_html_(self) -> str:
         return heading("proof", [self.headline()]) + folded("all of it", self.as_text())
 
+    def _reach_as_json(self) -> dict[str, object]:
+        sides = {"a": self.reach_a, "b": self.reach_b}
+        found: dict[str, object] = {side: one.as_json() for side, one in sides.items() if one is not None}
+        return found | {"explored": self.explored.as_json() if self.explored is not None else None}
+
+    def unreached(self) -> str:
+        """What the runs did not come to, for the first line; empty when every statement of both was reached."""
+        sides = (("A", self.reach_a), ("B", self.reach_b))
+        named = [f"{one.named(side)}" for side, one in sides if one is not None and one.unreached]
+        return f"; not reached: {' and '.join(named)}" if named else ""
+
     def headline(self) -> str:
         """The first line."""
+        return self._verdict() + ("" if self.difference is not None else self.unreached())
+
+    def _verdict(self) -> str:
         deviating = ", ".join(one.as_text() for one in self.open)
         accepted = ", ".join(one.as_text() for one in self.accepted)
         beside = f"; accepted: {accepted}" if accepted else ""
@@ -110,7 +148,15 @@ class ProofResult:
             lines += [each for one in self.open for each in one.as_lines()]
         distance = f"greatest distance {self.max_path_mm:.4f} mm, {self.max_joint_deg:.4f} deg"
         lines.append(f"{distance}; agree on: {self.level}")
+        lines += [told for side, one in (("A", self.reach_a), ("B", self.reach_b)) for told in _reach_lines(side, one)]
+        if self.explored is not None:
+            lines.append(self.explored.as_text())
         return "\n".join((*lines, *(f"note: {note}" for note in self.notes)))
 
 
-__all__ = ["ALIKE", "DIFFERENT", "EQUAL", "UNDECIDED", "VERDICTS", "ProofResult"]
+def _reach_lines(side: str, reach: Reach | None) -> list[str]:
+    """What was not reached, and why; nothing where all was."""
+    return [f"{side}: {line}" for line in reach.as_text().splitlines()] if reach is not None and reach.unreached else []
+
+
+__all__ = ["ALIKE", "DIFFERENT", "EQUAL", "UNDECIDED", "VERDICTS", "Explored", "ProofResult"]
