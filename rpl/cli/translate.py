@@ -110,12 +110,11 @@ def command(
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:
         return _refuse(diagnostics, as_json)
-    alone = output is None and not as_json
+    proving, alone = proving or explore, output is None and not as_json
     written = _write(_printed(translation, target, proving) if alone else translation.files, output)
     if output is not None and translation.registers:
         written.append(_write_registers(translation, output))
-    arms = (robot, to_robot or robot)
-    proof = _prove(read, translation, target, arms, cell, accepted, entry, explore) if proving or explore else None
+    proof = _prove(read, translation, target, (robot, to_robot), cell, accepted, entry, explore) if proving else None
     print_diagnostics(diagnostics)
     if as_json:
         print_json(_document(translation, written, diagnostics, proof))
@@ -260,7 +259,8 @@ def _prove(
         return prove_programs(
             read.program,
             again_named,
-            *arms,
+            arms[0],
+            arms[1] or arms[0],
             load_cell(cell),
             entry=entry,
             to_entry=to_entry,
