@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import PurePosixPath
 
 from rpl import ir, registry
 from rpl.depth import at_any_depth
-from rpl.diagnostics import Diagnostic, Diagnostics, Severity
+from rpl.diagnostics import Diagnostic, Diagnostics, Severity, code
 from rpl.emulator.mechanismfile import Mechanism
 from rpl.emulator.model import RobotModel, load_robot
 from rpl.ir.analog import AnalogSetting
@@ -16,11 +17,18 @@ from rpl.passes.given import with_given
 from rpl.passes.legalise import Context, legalise
 from rpl.project import ReadProgram
 from rpl.showing import counted, folded, heading, line, table
-from rpl.source import decode
+from rpl.source import NOWHERE, decode
 from rpl.writing.names import rename, rename_hiding, renamed_twice
 from rpl.writing.target import OutputFile, WriteContext
 
 _MOST_NAMED = 5
+
+SAME_FILE = code(
+    "same-output-file",
+    Severity.ERROR,
+    "two results would be written as {path} (from {names})",
+    "give one of them another name, or translate them one by one",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,9 +118,25 @@ def _translated(
     asked = WriteContext(collector, robot, options, context.register_names, context.foreign)
     files = target.write(program, asked)
     collector.drop_repeated(before, legalised)
+    files = _each_once(files, program, collector)
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
     named = _with_signals(program, context)
     return Translation(tuple(files), named, renamed, losses, dict(context.register_names), dict(context.register_types))
+
+
+def _each_once(files: Sequence[OutputFile], program: ir.Program, diagnostics: Diagnostics) -> list[OutputFile]:
+    """Two results never meet in one file, also not on a disk that takes large letters for small ones."""
+    kept: dict[str, OutputFile] = {}
+    for file in files:
+        first = kept.setdefault(file.path.lower(), file)
+        if first is not file and first != file:
+            stem = PurePosixPath(file.path).stem.lower()
+            homes = [module.origin for module in program.modules if module.name.lower() == stem]
+            homes += [r.origin for module in program.modules for r in module.routines if r.name.lower() == stem]
+            at = next((one for one in reversed(homes) if one.source), NOWHERE)
+            names = ", ".join(dict.fromkeys(one.file for one in homes if one.source)) or "two parts of the program"
+            diagnostics.report(SAME_FILE, at, path=file.path, names=names)
+    return list(kept.values())
 
 
 def _with_signals(program: ir.Program, context: Context) -> ir.Program:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from rpl.cli.files import force_option, refuse_others
 from rpl.cli.kinematics import required_robot
 from rpl.cli.output import (
     collector,
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
 @click.option(
     "-o", "--output", type=click.Path(dir_okay=False, path_type=Path), metavar="F.toml", help="Write it there."
 )
+@force_option
 @json_option
 def command(
     log: str,
@@ -69,6 +71,7 @@ def command(
     from rpl.fitting.log import read_log
     from rpl.fitting.parameters import chosen, prepared
 
+    refuse_others([output] if output is not None else [])
     model = robot_named(robot)
     assert model is not None  # the option is required
     recorded = read_log(log, model.axes)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from rpl.cli.files import write_files
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity, folded
 from rpl.errors import UsageError
 from rpl.source import LARGEST_FILE, Source, source_from_bytes
@@ -125,12 +126,9 @@ def numbers(text: str, what: str, count: int | None = None) -> list[float]:
 
 
 def write_file(path: Path, data: bytes) -> None:
-    """Write a file and the folders above it. Raises UsageError when the system refuses."""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(data)
-    except OSError as error:
-        raise UsageError(f"cannot write {path}: {error.strerror or error}") from None
+    """Write a file and the folders above it, whole or not at all. Raises UsageError when it is somebody else's (see
+    rpl.cli.files), or when the system refuses."""
+    write_files({path: data})
 
 
 @contextmanager

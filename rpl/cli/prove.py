@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rpl.cli.files import force_option, refuse_others
 from rpl.cli.limits import limit_options, limits_of
 from rpl.cli.output import (
     collector,
@@ -65,6 +66,7 @@ HOLDS, FAILS = 0, 1
     help="Do the proof of a certificate again and say whether it still holds; takes no programs.",
 )
 @limit_options
+@force_option
 @json_option
 def command(
     a: str | None,
@@ -90,6 +92,7 @@ def command(
         return _checked(check, as_json)
     if a is None or b is None:
         raise UsageError("name two programs, A and B, or a certificate with --check")
+    refuse_others([kept] if kept is not None else [])
     words = tuple(sorted(accepted_kinds(accepted.kinds)))
     limits: dict[str, Any] = {
         "path_mm": accepted.path_mm,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from rpl.cli.files import force_option, refuse_others
 from rpl.cli.limits import limit_options, limits_of
 from rpl.cli.output import (
     collector,
@@ -48,6 +49,7 @@ if TYPE_CHECKING:
 @report_options
 @click.option("--despite-errors", is_flag=True, help="Run what was read in spite of errors in it.")
 @limit_options
+@force_option
 @json_option
 def command(
     paths: Sequence[str],
@@ -77,6 +79,7 @@ def command(
 
     robots_exist(*robots)
     robot, further = robots[0] if robots else None, robots[1:]
+    refuse_others([path for path in (trace, plot) if path is not None])
     limits = limits_of(max_time, max_steps, max_events)
     reports = reports_of(plot, dynamics, payload, robot, timed, controller)
     surroundings, diagnostics = load_cell(cell), collector()

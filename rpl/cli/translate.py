@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rpl import registry
+from rpl.cli.files import force_option, stale, write_files
 from rpl.cli.output import (
     collector,
     from_option,
@@ -21,7 +22,6 @@ from rpl.cli.output import (
     robot_option,
     robots_exist,
     waiting,
-    write_file,
 )
 from rpl.cli.verdicts import accepting, exploring, status_of
 from rpl.diagnostics import Diagnostics, Severity
@@ -61,6 +61,7 @@ OK, NO, GUARDED = 0, 1, 3
 @click.option("--strict", is_flag=True, help="Take every approximation for an error.")
 @exploring
 @accepting
+@force_option
 @json_option
 def command(
     paths: Sequence[str],
@@ -111,9 +112,8 @@ def command(
     if diagnostics.has_errors:
         return _refuse(diagnostics, as_json)
     proving, alone = proving or explore, output is None and not as_json
-    written = _write(_printed(translation, target, proving) if alone else translation.files, output)
-    if output is not None and translation.registers:
-        written.append(_write_registers(translation, output))
+    shown = _printed(translation, target, proving) if alone else translation.files
+    written = _write(shown, output, _registers(translation))
     proof = _prove(read, translation, target, (robot, to_robot), cell, accepted, entry, explore) if proving else None
     print_diagnostics(diagnostics)
     if as_json:
@@ -169,19 +169,23 @@ def _raise_approximations(diagnostics: Diagnostics, first: int) -> None:
             diagnostics.items[index] = replace(diagnostics.items[index], severity=Severity.ERROR)
 
 
-def _write(files: Sequence[OutputFile], output: Path | None) -> list[dict[str, object]]:
-    """Write the files; give their text when no folder is named."""
-    rows: list[dict[str, object]] = []
+def _write(files: Sequence[OutputFile], output: Path | None, registers: bytes | None) -> list[dict[str, object]]:
+    """Write the files, with the numbers that data has got beside them; give their text when no folder is named."""
+    from rpl.writing.registers import FILE_NAME
+
     for file in files:
         inside = PurePosixPath(file.path)
         if inside.is_absolute() or ".." in inside.parts:
-            raise InternalError(f"a file outside of the output folder would be written: {file.path}")
-        if output is None:
-            rows.append({"path": file.path, "text": _text(file)})
-        else:
-            write_file(output / inside, file.data)
-            rows.append({"path": file.path, "written": str(output / inside)})
-    return rows
+            raise UsageError(f"the name {file.path!r} leads out of the output folder: nothing is written under it")
+    if output is None:
+        return [{"path": file.path, "text": _text(file)} for file in files]
+    written = {output / PurePosixPath(file.path): file.data for file in files}
+    if registers is not None:
+        written[output / FILE_NAME] = registers
+    write_files(written)
+    for old in stale(output, list(written)):
+        click.echo(f"warning: {old} is left of an earlier translation", err=True)
+    return [{"path": path.relative_to(output).as_posix(), "written": str(path)} for path in written]
 
 
 def _printed(translation: Translation, target: str, proving: bool) -> Sequence[OutputFile]:
@@ -212,13 +216,13 @@ def _of_library(file: OutputFile) -> bool:
     return PurePosixPath(file.path).name.lower().startswith("rpl_")
 
 
-def _write_registers(translation: Translation, output: Path) -> dict[str, object]:
-    """The numbers that data has got, beside the programs."""
-    from rpl.writing.registers import FILE_NAME, registers_text
+def _registers(translation: Translation) -> bytes | None:
+    """The numbers that data has got, if any."""
+    from rpl.writing.registers import registers_text
 
-    text = registers_text(translation.registers, translation.register_types)
-    write_file(output / FILE_NAME, text.encode("utf-8"))
-    return {"path": FILE_NAME, "written": str(output / FILE_NAME)}
+    if not translation.registers:
+        return None
+    return registers_text(translation.registers, translation.register_types).encode("utf-8")
 
 
 def _text(file: OutputFile) -> str:

@@ -217,7 +217,7 @@ def test_the_entry_begins_what_is_written_and_the_proof(
     arguments = ["translate", str(program), "--to", "urscript", "-o", str(folder), "--json"]
     assert run([*arguments, "--entry", entry]) == 0
     assert json.loads(capsys.readouterr().out)["losses"] == []
-    assert [file.name for file in folder.iterdir()] == [f"{entry.lower()}.script"]
+    assert [file.name for file in folder.glob("*.*t")] == [f"{entry.lower()}.script"]
     assert run(["run", str(folder), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["outputs"] == [[0.0, f"digital_out[{output}]", True]]
     assert run([*arguments, "--entry", "c"]) == 2

@@ -1,0 +1,134 @@
+"""Files that commands write: whole or not at all, and never over what they did not write themselves.
+
+Each folder keeps a list of what was written there, with its hash (`.rpl-written.json`). A file that is not in it, or
+that has changed since, belongs to somebody else.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import stat
+from collections.abc import Mapping, Sequence
+from hashlib import sha256
+from pathlib import Path
+
+import click
+
+from rpl.errors import UsageError
+
+MANIFEST = ".rpl-written.json"
+_FORCE = "rpl.force"
+# Parameters of commands that name what is read.
+_INPUTS = ("paths", "a", "b", "log", "cell", "robot", "robots", "to_robot", "controller")
+
+
+def _keep_force(context: click.Context, parameter: click.Parameter, value: bool) -> None:
+    context.meta[_FORCE] = value
+
+
+force_option = click.option(
+    "--force",
+    is_flag=True,
+    expose_value=False,
+    callback=_keep_force,
+    help="Overwrite files that were not written by rpl, and inputs.",
+)
+
+
+def refuse_others(paths: Sequence[Path]) -> None:
+    """Raises UsageError when one of these files is not ours to overwrite (without --force)."""
+    context = click.get_current_context(silent=True)
+    if context is not None and context.meta.get(_FORCE):
+        return
+    given = context.params if context is not None else {}
+    kept: dict[Path, dict[str, str]] = {}
+    for path in paths:
+        written = kept.setdefault(path.parent, _manifest(path.parent))
+        if not _is_file(path) or path.stat().st_size == 0:
+            continue
+        if any(_holds(one, path) for one in _inputs(given)):
+            raise UsageError(f"{path} is an input: it is not overwritten (--force does)")
+        if written.get(path.name) != _hash(path.read_bytes()):
+            reason = "was not written by rpl, or has changed since"
+            raise UsageError(f"{path} {reason}: it is not overwritten (--force does)")
+
+
+def write_files(files: Mapping[Path, bytes]) -> None:
+    """Write files and the folders above them: all under temporary names first, so that a failure leaves what was there.
+    Raises UsageError when one is not ours to overwrite, or when the system refuses."""
+    refuse_others(list(files))
+    made: list[tuple[Path, Path]] = []
+    try:
+        for path, data in files.items():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            if path.exists() and not _is_file(path):  # standard output, or what takes everything
+                path.write_bytes(data)
+                continue
+            part = path.with_name(f".{path.name}.{os.getpid()}.part")
+            made.append((part, path))
+            part.write_bytes(data)
+        while made:
+            part, path = made[0]
+            part.replace(path)
+            made.pop(0)
+        for folder in dict.fromkeys(path.parent for path in files):
+            _remember(folder, {path.name: data for path, data in files.items() if path.parent == folder})
+    except OSError as error:
+        raise UsageError(f"cannot write {error.filename or path}: {error.strerror or error}") from None
+    finally:
+        for part, _ in made:
+            part.unlink(missing_ok=True)
+
+
+def stale(folder: Path, written: Sequence[Path]) -> list[Path]:
+    """Files that an earlier command wrote there (or below), unchanged since, and that this one did not write."""
+    new = set(written)
+    found = []
+    for home in sorted({folder, *(path.parent for path in written)}):
+        for name, made in sorted(_manifest(home).items()):
+            path = home / name
+            if path not in new and _is_file(path) and _hash(path.read_bytes()) == made:
+                found.append(path)
+    return found
+
+
+def _remember(folder: Path, new: Mapping[str, bytes]) -> None:
+    entries = {name: made for name, made in _manifest(folder).items() if (folder / name).is_file()}
+    entries |= {name: _hash(data) for name, data in new.items() if _is_file(folder / name)}
+    if entries:
+        part = folder / f"{MANIFEST}.{os.getpid()}.part"
+        part.write_text(json.dumps({"files": dict(sorted(entries.items()))}, indent=1) + "\n", encoding="utf-8")
+        part.replace(folder / MANIFEST)
+
+
+def _manifest(folder: Path) -> dict[str, str]:
+    """Names and hashes; nothing where there is no list, or none that can be read."""
+    try:
+        kept = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    files = kept.get("files") if isinstance(kept, dict) else None
+    return {str(name): str(made) for name, made in files.items()} if isinstance(files, dict) else {}
+
+
+def _inputs(given: Mapping[str, object]) -> list[Path]:
+    values = [given.get(name) for name in _INPUTS]
+    flat = [one for value in values for one in (value if isinstance(value, tuple | list) else (value,))]
+    return [path for one in flat if isinstance(one, str | Path) and (path := Path(one)).exists()]
+
+
+def _holds(given: Path, path: Path) -> bool:
+    whole, one = given.resolve(), path.resolve()
+    return whole == one or (whole.is_dir() and whole in one.parents)
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return stat.S_ISREG(path.stat().st_mode)
+    except OSError:
+        return False
+
+
+def _hash(data: bytes) -> str:
+    return sha256(data).hexdigest()
