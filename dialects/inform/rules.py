@@ -34,6 +34,9 @@ RULES = Rules(
         source="M: not published; 5 to 7 moves by a parameter; NWAIT runs what follows with the move",
     ),
     real_to_int="trunc",  # M: the decimals are dropped
+    # R variables are single, D variables have 32 bits and an overflow is an alarm. M: each operation rounds.
+    real_bits=24,
+    whole_bits=32,
     components=COMPONENTS,
     undefined=False,
     call_depth=100,  # M: a controller allows about 12 nested calls; JUMP JOB does not count there, but does here

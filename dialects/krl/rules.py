@@ -64,6 +64,10 @@ RULES = Rules(
         source="KUKA Expert Programming KSS 5.2, 3.4: $ADVANCE is 0 in the system, 3 by BAS(#INITMOV,0), 5 at most",
     ),
     real_to_int="round_half_away",
+    # RG 2.1.3.1: REAL up to 3.4E+38 (four bytes), INT of 32 bits. M: KSS rounds each operation, and stops at a result
+    # that is too large for an INT.
+    real_bits=24,
+    whole_bits=32,
     char_numbers=True,
     components=COMPONENTS,
     undefined=True,

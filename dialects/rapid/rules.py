@@ -115,6 +115,9 @@ RULES = Rules(
     _ADVANCE,
     text_plus=True,
     text_length=80,  # reference manual, data type string
+    # Reference manual, num: IEEE single; whole numbers from -8388607 to 8388608 are exact. M: each operation rounds.
+    real_bits=24,
+    whole_bits=24,
     group_bits=16,  # M: the system parameters say a group's signals; more than 16 are rare (a num holds 23 bits)
     components=COMPONENTS,
     wait_poll_s=0.1,

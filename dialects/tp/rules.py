@@ -44,6 +44,8 @@ RULES = Rules(
     ),
     real_to_int="trunc",  # M: a register written to a group output or used as a number is cut
     text_plus=True,
+    # KAREL reference: REAL has four bytes, INTEGER 32 bits; M: a register holds either, each operation is rounded.
+    real_bits=24,
     leading_numbers=True,  # M: a text that goes on behind its number gives the number, one without gives 0
     components=COMPONENTS,
     undefined=True,

@@ -207,6 +207,9 @@ class Rules:
     and its parameters' types in the language's words (`word.part`: the reader takes that component of the argument).
     triggers: where actions on the path happen. pulse_step_s: a pulse's length is rounded to this.
     inputs: what the controller makes of motion values that are no good.
+    real_bits: of the mantissa of real numbers; 24: four-byte floats, to which each operation rounds. whole_bits: of
+    whole numbers, sign included; a larger one is a fault where the language has a type of whole numbers, else it is
+    rounded like a real number.
     mean_parabolas: a curve through points is the mean of the two parabolas that overlap there, weighted along the way
     (else it bends continuously; see rpl.passes.curves). analog: what numbers of analogue signals stand for, as far as
     the language fixes it; without a range the I/O configuration alone says it.
@@ -247,6 +250,8 @@ class Rules:
     triggers: TriggerRules = TriggerRules()
     pulse_step_s: float = 0.0
     inputs: InputRules = InputRules()
+    real_bits: int = 53
+    whole_bits: int = 64
     mean_parabolas: bool = False
     analog: tuple[AnalogPorts, ...] = ()
 

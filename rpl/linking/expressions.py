@@ -15,11 +15,15 @@ from rpl.linking.operators import (
     NUMBERS,
     OPERATIONS,
     WITH_NUMBER,
+    bounded,
     converted,
     divided,
     equality,
     logic,
+    rounded,
     scaled,
+    single,
+    single_number,
     whole_product,
 )
 from rpl.linking.types import Types
@@ -42,8 +46,14 @@ from rpl.runtime.values import (
 if TYPE_CHECKING:
     from rpl.linking.program import LinkedProgram
 
+_COMPARING = frozenset(("<", ">", "<=", ">=", "=", "<>"))
+# Operators of whole numbers, texts and places: nothing of theirs is rounded.
+_OF_WHOLES = frozenset(("band", "bor", "bxor", "&", ":", "@"))
 # A name that stands for a place in the frame: what flattening and loops make.
 HIDDEN = "\0"
+
+
+Precision = Callable[[Value], Value]
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +78,10 @@ class Compiler:
         self.scope = scope
         self.types: Types = linked.types(scope)
         self.unset = scope.rules.undefined
+        self.two_types = any(isinstance(one, ir.IntType) for one in scope.rules.type_names.values())
+        self.single: Precision | None = None
+        if scope.rules.real_bits == 24:
+            self.single = single_number if scope.rules.whole_bits == 24 else single
         self.places: dict[str, Place] = {}
         self.size = 1
 
@@ -138,7 +152,7 @@ class Compiler:
             case ir.Magnitude(value=value, unit=unit):
                 return divided(self.value(value), ir.UNITS[unit])
             case ir.Convert(how=how, operand=operand):
-                return converted(how, self.value(operand))
+                return self.in_range(expression, converted(how, self.value(operand)))
             case ir.Present(name=name):
                 place = self.place_of(name)
                 if not isinstance(place, Place):
@@ -241,18 +255,44 @@ class Compiler:
         op = expression.op
         if op in ("and", "or", "xor", "cand", "cor"):
             return logic(op, self.value(expression.left), self.value(expression.right))
-        left, right = self.value(expression.left), self.value(expression.right)
+        left, right = self.operand(expression.left), self.operand(expression.right)
         if op in ("=", "<>"):
             return equality(op, left, right, self._is_plain(expression.left) or self._is_plain(expression.right))
         if op == "*" and self._is_whole(expression.left) and self._is_whole(expression.right):
-            return whole_product(left, right)
-        number = _constant_number(expression.right)
+            return self.in_range(expression, whole_product(left, right))
+        done = self.operation(op, left, right, _constant_number(expression.right))
+        if op in _COMPARING:
+            return done
+        if self.single is not None and op not in _OF_WHOLES:
+            done = rounded(done, self.single)
+        return self.in_range(expression, done) if op in ("+", "-") else done
+
+    def operation(self, op: str, left: Read, right: Read, number: float | None) -> Read:
         if number is not None and op in WITH_NUMBER:
-            return WITH_NUMBER[op](left, number)
+            return WITH_NUMBER[op](left, number if self.single is None else self.single(number))
         operation = OPERATIONS[op]
         if op in NUMBERS:
             return NUMBERS[op](left, right)
         return lambda f: operation(left(f), right(f))
+
+    def operand(self, expression: ir.Expression) -> Read:
+        """An operand in the precision of the language: what was not calculated with (a component of a place, a result
+        of a function) may have more."""
+        if self.single is None:
+            return self.value(expression)
+        number = _constant_number(expression)
+        if number is not None:
+            fixed = self.single(number)
+            return lambda f: fixed
+        calculated = isinstance(expression, ir.Binary) and expression.op not in _OF_WHOLES
+        logical = isinstance(expression, ir.BoolLiteral | ir.TextLiteral | ir.EnumLiteral)
+        read = self.value(expression)
+        return read if calculated or logical else rounded(read, self.single)
+
+    def in_range(self, expression: ir.Expression, read: Read) -> Read:
+        """A result that must fit into the language's type of whole numbers."""
+        bits = self.scope.rules.whole_bits
+        return bounded(read, bits) if bits < 64 and self.two_types and self._is_whole(expression) else read
 
     def _is_whole(self, expression: ir.Expression) -> bool:
         return isinstance(self.types.of(expression), ir.IntType)

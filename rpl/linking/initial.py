@@ -81,7 +81,12 @@ def _override(linked: LinkedProgram, values: Values, machine: Machine, first: in
             match = _split(path, slot.name, slot.qualified)
             if match is None:
                 continue
-            values[number] = _placed(values[number], match, given, f"{machine.cell.path}: variables.{path}")
+            where = f"{machine.cell.path}: variables.{path}"
+            value = _placed(values[number], match, given, where)
+            try:
+                values[number] = value if slot.fitted is None else slot.fitted(value)
+            except ValueError as error:
+                raise UsageError(f"{where}: {error}") from None
 
 
 def _split(path: str, name: str, qualified: str) -> list[str | int] | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
+from array import array
 from collections.abc import Callable
 
 from rpl.passes.numeric import round_half_away
@@ -12,6 +13,44 @@ from rpl.runtime.code import Read, Values
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.limits import MOST_CHARACTERS, MOST_WHOLE
 from rpl.runtime.values import Value, equal, whole
+
+# Where a number is rounded to four bytes: stored in such an array and taken back, as numpy.float32 does, but faster.
+_SINGLE = array("f", [0.0])
+_LARGEST_SINGLE = 3.4028235677973366e38  # beyond it rounding gives no number of four bytes
+
+
+def single(value: Value) -> Value:
+    """A real number as one of four bytes (24 bits of mantissa); everything else as it is."""
+    if value.__class__ is float:
+        if not -_LARGEST_SINGLE < value < _LARGEST_SINGLE:
+            raise ProgramError("overflow", f"{value:g} is too large for a real number")
+        _SINGLE[0] = value
+        return _SINGLE[0]
+    return value
+
+
+def single_number(value: Value) -> Value:
+    """The same in a language with one type of numbers: a whole number of more than 24 bits is rounded too."""
+    if value.__class__ is int and not -(2**24) <= value <= 2**24:
+        return int(single(float(value)))
+    return single(value)
+
+
+def rounded(read: Read, to: Callable[[Value], Value]) -> Read:
+    return lambda f: to(read(f))
+
+
+def bounded(read: Read, bits: int) -> Read:
+    """The value of an expression of a type of whole numbers with so many bits."""
+    most = 2 ** (bits - 1)
+
+    def check(f: Values) -> Value:
+        value = read(f)
+        if value.__class__ is int and not -most <= value < most:
+            raise ProgramError("overflow", f"{value} is too large for a whole number")
+        return value
+
+    return check
 
 
 def scaled(read: Read, factor: float) -> Read:

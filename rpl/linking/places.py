@@ -458,7 +458,7 @@ def _known_of(compiler: Compiler, target: ir.Expression) -> procedures.Place:
             like = 0
         case ir.StringType():
             like = ""
-    return procedures.Place(compiler.capacity(target), isinstance(type, ir.IntType), like)
+    return procedures.Place(compiler.capacity(target), isinstance(type, ir.IntType), like, compiler.single)
 
 
 __all__ = ["assignment", "letters_of", "procedure", "reference", "watches", "writer"]

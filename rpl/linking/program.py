@@ -5,7 +5,7 @@ What is made here never changes while a program runs and is shared by all snapsh
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -20,7 +20,7 @@ from rpl.passes.scope import Fold, ProgramScope, Scope, rules_of
 from rpl.passes.typing import normalise
 from rpl.runtime.code import Code, Read, Values
 from rpl.runtime.signals import Key, bit_kind, group_bits, is_bit_group, key_of
-from rpl.runtime.values import SignalRef
+from rpl.runtime.values import SignalRef, Value
 
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
@@ -32,16 +32,17 @@ _SPELLED_LATER = 20
 
 
 class GlobalSlot:
-    """One global variable: its declaration, and how its first value is made. `kept`: the controller keeps its value
-    from one run to the next; `label`: the comment of a numbered one."""
+    """One global variable: its declaration, how its first value is made, and how one from outside fits into it. `kept`:
+    the controller keeps its value from one run to the next; `label`: the comment of a numbered one."""
 
-    __slots__ = ("assigns", "initial", "kept", "label", "name", "needs", "qualified", "watched")
+    __slots__ = ("assigns", "fitted", "initial", "kept", "label", "name", "needs", "qualified", "watched")
 
     def __init__(self, name: str, qualified: str) -> None:
         self.name = name
         self.qualified = qualified
         self.initial: Read | None = None
         self.assigns: list[Read] = []
+        self.fitted: Callable[[Value], Value] | None = None
         self.needs: set[int] = set()
         self.watched = False
         self.kept = False

@@ -202,6 +202,7 @@ def link_initial(linked: LinkedProgram, module: ir.Module, declaration: ir.Varia
     own = len(linked.slots) - 1  # linking may give places to the data that the value reads
     scope = linked.scopes.module(module)
     compiler = _Tracking(linked, scope)
+    slot.fitted = lambda value: compiler.types.fitted(declaration.type, value)
     slot.initial = first_value(compiler, declaration)
     for home, assign in linked.initial_assigns(module, declaration):
         there = compiler if home is module else _Tracking(linked, linked.scopes.module(home))

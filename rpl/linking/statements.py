@@ -11,7 +11,7 @@ from rpl import ir
 from rpl.errors import InternalError
 from rpl.linking import actions
 from rpl.linking.assembler import Label
-from rpl.linking.expressions import Place
+from rpl.linking.expressions import Place, Precision
 from rpl.linking.flatten import has_call
 from rpl.linking.motion import MotionStatements
 from rpl.linking.places import assignment, procedure, watches
@@ -231,7 +231,7 @@ class Statements:
         before = compiler.places.get(key)
         start = self._kept_if_needed(loop.start, (loop.stop, loop.step))
         last = self._kept_if_needed(loop.stop, (loop.step,))
-        by = self.value(loop.step) if loop.step is not None else None
+        by = compiler.operand(self.linker.flattener.expression(loop.step)) if loop.step is not None else None
         if loop.scoped:
             compiler.places[key] = Place(compiler.new_place())
         counter = compiler.place_of(loop.counter)
@@ -246,9 +246,9 @@ class Statements:
         self.assembler.place(again)
         simple = counter.number if not (counter.is_global or counter.is_reference) else None
         if loop.keeps_last:
-            self.emit(_next_if_inside(read, write, stop, step, begin))
+            self.emit(_next_if_inside(read, write, stop, step, begin, compiler.single))
         else:
-            self.emit(_next_pass(read, write, stop, step, begin, simple))
+            self.emit(_next_pass(read, write, stop, step, begin, simple, compiler.single))
         self.assembler.place(leave)
         if loop.scoped:
             if before is None:
@@ -261,7 +261,7 @@ class Statements:
         flat = self.linker.flattener.expression(expression)
         if any(each is not None and has_call(each) for each in later):
             flat = self.linker.flattener.kept(flat)
-        return self.linker.compiler.value(flat)
+        return self.linker.compiler.operand(flat)
 
     # ---- waiting for what only a function can tell
 
@@ -453,13 +453,17 @@ def _begin_loop(
     return make
 
 
-def _next_pass(read: Read, write: Write, stop: int, step: int, begin: Label, simple: int | None) -> Make:
+def _next_pass(
+    read: Read, write: Write, stop: int, step: int, begin: Label, simple: int | None, to: Precision | None
+) -> Make:
+    """`to` rounds a sum as the language does."""
+
     def make(here: int, next: int) -> Instruction:
         target = begin.pc
 
         def general(f: Values) -> int:
             by = f[step]
-            value = read(f) + by
+            value = read(f) + by if to is None else to(read(f) + by)
             write(f, value)
             return target if (value <= f[stop] if by > 0 else value >= f[stop]) else next
 
@@ -469,7 +473,7 @@ def _next_pass(read: Read, write: Write, stop: int, step: int, begin: Label, sim
 
         def local(f: Values) -> int:
             by = f[step]
-            value = f[place] = f[place] + by
+            value = f[place] = f[place] + by if to is None else to(f[place] + by)
             return target if (value <= f[stop] if by > 0 else value >= f[stop]) else next
 
         return local
@@ -477,7 +481,7 @@ def _next_pass(read: Read, write: Write, stop: int, step: int, begin: Label, sim
     return make
 
 
-def _next_if_inside(read: Read, write: Write, stop: int, step: int, begin: Label) -> Make:
+def _next_if_inside(read: Read, write: Write, stop: int, step: int, begin: Label, to: Precision | None) -> Make:
     """The counter keeps the value of the last pass."""
 
     def make(here: int, next: int) -> Instruction:
@@ -485,7 +489,7 @@ def _next_if_inside(read: Read, write: Write, stop: int, step: int, begin: Label
 
         def pass_on(f: Values) -> int:
             by = f[step]
-            value = read(f) + by
+            value = read(f) + by if to is None else to(read(f) + by)
             if value <= f[stop] if by > 0 else value >= f[stop]:
                 write(f, value)
                 return target

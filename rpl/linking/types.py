@@ -137,6 +137,31 @@ class Types:
                 zeros.update((flag, 0) for flag in registry.dialect(notation).notation_fields)
         return zeros
 
+    def fitted(self, type: ir.Type, value: Value) -> Value:
+        """A value from outside in a variable of that type: whole numbers where it holds such, in their range. Raises
+        ValueError with what is wrong."""
+        type = self.scope.resolve(type)
+        match type, value:
+            case ir.IntType(), float() | int() if not isinstance(value, bool):
+                if value != value or not float(value).is_integer():
+                    raise ValueError(f"must be a whole number, not {value:g}")
+                most = 2 ** (self.scope.rules.whole_bits - 1)
+                if not -most <= value < most:
+                    raise ValueError(f"{value:g} is too large for a whole number of {self.scope.rules.whole_bits} bits")
+                return int(value)
+            case ir.ArrayType(element=element, dimensions=dimensions), Array(items=items):
+                rest = dimensions[1:]
+                inner = ir.ArrayType(element, rest, type.base) if rest else element
+                return Array([self.fitted(inner, item) for item in items], value.base)
+            case ir.NamedType(name=name), Record(parts=parts):
+                record = self.scope.type(name)
+                if isinstance(record, ir.RecordDeclaration):
+                    for field, inner in record.fields:
+                        key = self.scope.fold(field)
+                        if key in parts:
+                            parts[key] = self.fitted(inner, parts[key])
+        return value
+
     # ---- aggregates
 
     def composed(self, type: ir.Type, parts: Parts) -> Value:

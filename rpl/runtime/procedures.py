@@ -13,12 +13,13 @@ from rpl.runtime.values import Member, Record, Value, whole
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """What linking knows of a written argument: the capacity of a text, whether a number must be whole, and a value of
-    its type (None when nothing is known)."""
+    """What linking knows of a written argument: the capacity of a text, whether a number must be whole, a value of
+    its type (None when nothing is known), and what rounds a sum as the language does."""
 
     capacity: int | None = None
     is_whole: bool = False
     like: Value = None
+    precision: Callable[[Value], Value] | None = None
 
 
 Arguments = list[Value]
@@ -116,7 +117,8 @@ def _scan_from(places: list[Place], text: str, state: AnyRef, offset: AnyRef, pa
 
 def _add(sign: int) -> Callable[..., Value]:
     def add(places: list[Place], target: AnyRef, amount: Value = 1) -> Value:
-        target.set(target.get() + sign * amount)
+        to = places[0].precision
+        target.set(target.get() + sign * amount if to is None else to(to(target.get()) + sign * to(amount)))
         return target.get()
 
     return add

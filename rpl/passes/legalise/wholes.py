@@ -2,6 +2,8 @@
 
 Languages with one number type use it for counters, indices and states as well. Every place is taken as whole until a
 value that may have a fraction flows into it; what that makes fractional follows until nothing changes any more.
+Retained data (RAPID PERS, registers) can be given another value on the pendant, so it is whole only where the program
+counts with it: as a subscript, a bound, a case, in steps, or compared for equality with a whole number.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ from collections import defaultdict
 from dataclasses import dataclass, field
 
 from rpl import ir
-from rpl.ir.walk import bodies
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import ProgramScope
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
@@ -42,6 +44,8 @@ class Wholes:
     flows: list[tuple[Key, ir.Expression, Scope]] = field(default_factory=list)
     equal: defaultdict[Key, set[Key]] = field(default_factory=lambda: defaultdict(set))
     counters: dict[int, ir.Variable] = field(default_factory=dict)
+    retained: set[Key] = field(default_factory=set)
+    counting: set[Key] = field(default_factory=set)
 
     @classmethod
     def of(cls, program: ir.Program, scopes: ProgramScope) -> Wholes:
@@ -61,6 +65,7 @@ class Wholes:
         fed = {place for place, _, _ in pending} | {key for key, others in self.equal.items() if others}
         for _, routine in self.scopes.routines():  # what only other programs pass may be anything
             self.fractional.update(id(one) for one in routine.parameters if id(one) not in fed)
+        self.fractional |= self.retained - self.counted()
         for key in list(self.fractional):
             self.demote(key)
         changed = True
@@ -77,6 +82,22 @@ class Wholes:
                     self.demote(place)
                     changed = True
             pending = kept
+
+    def counted(self) -> set[Key]:
+        """What the program counts with, also by handing its value on to what it counts with."""
+        givers: defaultdict[Key, list[Key]] = defaultdict(list)
+        for place, value, scope in self.flows if self.retained else ():
+            key = place_key(value, scope)
+            if key is not None:
+                givers[place].append(key)
+        done, work = set(self.counting), list(self.counting)
+        while work:
+            one = work.pop()
+            for key in (*givers.get(one, ()), *self.equal.get(one, ())):
+                if key not in done:
+                    done.add(key)
+                    work.append(key)
+        return done
 
     def demote(self, key: Key) -> None:
         work = [key]
@@ -133,6 +154,11 @@ class Wholes:
         return False
 
 
+def _is_whole(value: ir.Expression) -> bool:
+    """Is it a whole number that is written out?"""
+    return isinstance(value, ir.IntLiteral | ir.RealLiteral) and float(value.value).is_integer()
+
+
 def place_key(place: ir.Expression, scope: Scope) -> Key | None:
     """What a number place belongs to: its declaration, or the field of its record."""
     match place:
@@ -164,8 +190,11 @@ class _Collector:
     def declarations(self, declarations: tuple[ir.Declaration, ...]) -> None:
         for one in declarations:
             match one:
-                case ir.Variable(type=type, initial=initial) if initial is not None:
-                    self.value(id(one), initial, self.scope.resolve(type))
+                case ir.Variable(type=type, initial=initial):
+                    if one.storage == "persistent":
+                        self.wholes.retained.add(id(one))
+                    if initial is not None:
+                        self.value(id(one), initial, self.scope.resolve(type))
                 case ir.Initialise(assign=assign):
                     self.body((assign,))
 
@@ -213,6 +242,8 @@ class _Collector:
     def statement(self, statement: ir.Statement) -> None:
         match statement:
             case ir.Assign(target=target, value=value):
+                if isinstance(value, ir.Binary) and value.op in "+-" and value.left == target:
+                    self.counting(value.left)
                 self.value(place_key(target, self.scope), value, type_of(target, self.scope))
             case ir.Return(value=value) if value is not None and self.scope.routine_here is not None:
                 routine = self.scope.routine_here
@@ -220,8 +251,10 @@ class _Collector:
             case ir.CallRoutine(name=name, arguments=arguments, dynamic=dynamic):
                 self.passed(name, arguments, dynamic is not None)
             case ir.For():
-                self.counting(statement)
+                self.loop(statement)
                 return
+            case ir.Switch(selector=selector):
+                self.counting(selector)
             case ir.Do(procedure=procedure, arguments=arguments):
                 self.procedure(procedure, arguments)
             case ir.Dialog(answer=answer, kind="number"):
@@ -232,13 +265,23 @@ class _Collector:
         rewrite_parts(statement, self.expression, self.body)
 
     def procedure(self, procedure: str, arguments: tuple[ir.Expression | None, ...]) -> None:
+        if procedure in ("increment", "decrement"):
+            self.counting(*arguments)
         if procedure in ("increment", "decrement") and len(arguments) > 1 and arguments[0] and arguments[1]:
             self.flow(place_key(arguments[0], self.scope), arguments[1])
         if procedure in _PARSERS:
             for argument in arguments:
                 self.fractional(argument)
 
-    def counting(self, loop: ir.For) -> None:
+    def counting(self, *values: ir.Expression | None) -> None:
+        """Notes what such a value is calculated from."""
+        for node in walk(tuple(value for value in values if value is not None)):
+            if isinstance(node, ir.Name | ir.Index | ir.Field):
+                key = place_key(node, self.scope)
+                self.wholes.counting.update(() if key is None else (key,))
+
+    def loop(self, loop: ir.For) -> None:
+        self.counting(loop.start, loop.stop, loop.step)
         outer = self.scope
         key: Key | None
         if loop.scoped:
@@ -260,6 +303,12 @@ class _Collector:
         match expression:
             case ir.Call(name=name, arguments=given):
                 self.passed(name, given, False)
+            case ir.Index(indices=indices):
+                self.counting(*indices)
+            case ir.Binary(op="div" | "mod" | "band" | "bor" | "bxor", left=left, right=right):
+                self.counting(left, right)
+            case ir.Binary(op="=" | "<>", left=left, right=right) if _is_whole(left) or _is_whole(right):
+                self.counting(left, right)
             case ir.Builtin(function=function, arguments=arguments) if function in _PARSERS:
                 self.procedure(function, arguments)
         return rewrite_parts(expression, self.expression)
