@@ -26,6 +26,10 @@ ANALOG = (AnalogPorts("analog_in", _SHARE), AnalogPorts("analog_out", _SHARE))
 
 RULES = Rules(
     name="vplus",
+    # Language user's guide, real and integer data types: a real has 32 bits (IEEE single, 24 bits of precision), whole
+    # numbers go from -16,777,216 to 16,777,215. M: each operation rounds, and DOUBLE variables are taken as others.
+    real_bits=24,
+    whole_bits=24,
     advance=ADVANCE,
     components={"PoseType": _XYZABC, "TargetType": _XYZABC},
     text_plus=True,

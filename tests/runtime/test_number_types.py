@@ -138,3 +138,33 @@ def test_a_register_that_may_be_tuned_keeps_its_fraction() -> None:
     )
     text = there_and_back({"A.LS": listing}, "tp", "krl").text
     assert "REAL R1=" in text and "INT R2=" in text and "INT R3=" in text
+
+
+# ---- what may come out otherwise elsewhere
+
+
+@pytest.mark.parametrize(
+    ("body", "named"),
+    [
+        ("WHILE x<1 DO x:=x+0.1; ENDWHILE", True),
+        ("WHILE x<1 DO Add x,0.1; ENDWHILE", True),
+        ("x:=tuned/3; IF x=1 SetDO do1,1;", True),
+        ("IF 0.1+0.2=0.3 SetDO do1,1;", True),
+        ("FOR k FROM 0 TO 1 STEP 0.1 DO n:=n+1; ENDFOR", True),
+        ("WHILE x<1 DO x:=x+0.25; ENDWHILE", False),
+        ("WHILE n<10 DO n:=n+1; ENDWHILE", False),
+        ("x:=0.1; IF x=0.1 SetDO do1,1;", False),
+        ("x:=tuned/4; IF x=1 SetDO do1,1;", False),
+        ("x:=tuned*1.1; IF x>2 SetDO do1,1;", False),
+    ],
+)
+def test_what_another_precision_may_change_is_named(body: str, named: bool) -> None:
+    text = _RAPID.format(body=body)
+    codes = {
+        target: [i.code.name for i in there_and_back({"m.mod": text}, "rapid", target).found] for target in _OTHERS
+    }
+    assert ("precision-differs" in codes["urscript"]) is named
+    assert "precision-differs" not in codes["krl"] + codes["tp"]
+
+
+_OTHERS = ("urscript", "krl", "tp")

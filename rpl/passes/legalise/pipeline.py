@@ -121,6 +121,7 @@ from rpl.passes.legalise.pathevents import path_events
 from rpl.passes.legalise.pathpoints import path_points
 from rpl.passes.legalise.polling import poll_waits
 from rpl.passes.legalise.possiblecases import possible_cases
+from rpl.passes.legalise.precisions import precisions
 from rpl.passes.legalise.prelude import link_prelude
 from rpl.passes.legalise.programtimes import program_times
 from rpl.passes.legalise.pulsedoutputs import pulsed_outputs
@@ -225,6 +226,7 @@ PASSES: tuple[Pass, ...] = (
     kept_values_known,
     source_layout,
     drop_untyped,
+    precisions,
     grown_arrays,
     rates,
     axes_of_arm,
