@@ -16,7 +16,13 @@ def counted(number: int, one: str, many: str | None = None) -> str:
 
 def line(kind: str, parts: Iterable[str]) -> str:
     """`<Kind: part, part>`, what `repr` gives; signs that would steer a terminal stand as escapes."""
-    text = f"<{kind}: {', '.join(part for part in parts if part)}>"
+    return printable(f"<{kind}: {', '.join(part for part in parts if part)}>")
+
+
+def printable(text: str) -> str:
+    """The text with signs that would steer a terminal as escapes, such as \\x1b."""
+    if text.isprintable():
+        return text
     return "".join(sign if sign.isprintable() else sign.encode("unicode_escape").decode("ascii") for sign in text)
 
 

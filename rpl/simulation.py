@@ -94,6 +94,8 @@ class Simulation(Machine):
         from rpl.linking import link
 
         if max_time_s is not None:
+            if not max_time_s >= 0.0:
+                raise UsageError(f"max_time_s: {max_time_s:g} is not a time in s")
             limits = replace(limits, time_s=max_time_s)
         if max_statements is not None:
             limits = replace(limits, statements=max_statements)

@@ -131,6 +131,7 @@ _TOP = frozenset(
     )
 )
 _MOST_EXTERNAL = 6
+LONGEST_S = 1e9  # no time of a cell is longer
 
 
 class _Reader:
@@ -236,7 +237,7 @@ class _Reader:
 
     def seconds(self, key: str, row: dict[str, Value], name: str, default: float = 0.0) -> float:
         value = row.get(name, default)
-        if isinstance(value, bool) or not isinstance(value, int | float) or value < 0:
+        if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value <= LONGEST_S:
             raise self.wrong(f"{key}.{name}", f"must be a time in s, not {value!r}")
         return float(value)
 

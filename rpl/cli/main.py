@@ -14,9 +14,12 @@ import click
 
 from rpl import __version__
 from rpl.errors import InternalError, RplError, UsageError
+from rpl.showing import printable
 
 OK, NO, USAGE, GUARDED = 0, 1, 2, 3
 _INTERRUPTED, _PIPE_CLOSED = 130, 141
+# Commands that only list what there is: who has read enough of it may go away.
+_LISTINGS = ("dialects", "robots")
 
 # Name -> what the list of commands says. Each lives in rpl.cli.<name> as `command`.
 COMMANDS = {
@@ -94,10 +97,12 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         _say("rpl: interrupted")
         return _INTERRUPTED
+    except SystemExit:  # how click ends when whoever read our output went away
+        return _of_closed_pipe(arguments)
     except BrokenPipeError:
         # Whoever read our output went away: no message, and nothing more to flush at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return _PIPE_CLOSED
+        return _of_closed_pipe(arguments)
     except UsageError as error:
         _say(f"rpl: {error}")
         return USAGE
@@ -122,9 +127,14 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return USAGE
 
 
+def _of_closed_pipe(arguments: Sequence[str] | None) -> int:
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    return OK if words[:1] and words[0] in _LISTINGS else _PIPE_CLOSED
+
+
 def _say(line: str) -> None:
     try:
-        click.echo(" ".join(line.splitlines()), err=True)
+        click.echo(printable(" ".join(line.splitlines())), err=True)
     except OSError:
         return  # standard error is closed too: the exit status says what is left to say
 

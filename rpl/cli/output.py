@@ -16,6 +16,7 @@ import click
 from rpl.cli.files import write_files
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity, folded
 from rpl.errors import UsageError
+from rpl.showing import printable
 from rpl.source import LARGEST_FILE, Source, source_from_bytes
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ def plain(value: object) -> object:
 def print_diagnostics(items: Iterable[Diagnostic], least: Severity = Severity.INFO) -> None:
     """Reports on stderr, one per line, from this severity on; repeated ones with their count."""
     for text in folded(item for item in items if item.severity >= least):
-        click.echo(" ".join(text.splitlines()), err=True)
+        click.echo(printable(" ".join(text.splitlines())), err=True)
 
 
 def collector(accepted: Sequence[str] = ()) -> Diagnostics:

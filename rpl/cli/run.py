@@ -29,6 +29,7 @@ from rpl.cli.output import (
 from rpl.cli.reports import report_options, reports_of, show_reports
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.passes.legalise.pulses import report_assumed, report_stations
+from rpl.showing import printable
 
 if TYPE_CHECKING:
     from rpl import ir
@@ -171,12 +172,13 @@ def show(result: RunResult) -> None:
     messages, outputs, fault = document["messages"], document["outputs"], document["fault"]
     assert isinstance(messages, list) and isinstance(outputs, list)
     for t, name, value in outputs:
-        click.echo(f"{t:9.3f} s  {name} = {str(value).upper() if isinstance(value, bool) else value}")
+        said = str(value).upper() if isinstance(value, bool) else value
+        click.echo(printable(f"{t:9.3f} s  {name} = {said}"))
     for message in messages:
-        click.echo(f"message    {message}")
+        click.echo(f"message    {printable(str(message))}")
     for text, times in Counter(_warnings(result)).items():
-        click.echo(f"{text} [{times} times]" if times > 1 else text, err=True)
+        click.echo(printable(f"{text} [{times} times]" if times > 1 else text), err=True)
     click.echo(f"{result.status} after {result.time_s:.3f} s, {result.moves} moves, {result.statements} statements")
     if isinstance(fault, dict):
         place = f"{fault['file']}:{fault['line']}: " if fault["file"] else ""
-        click.echo(f"{place}fault {fault['code']} {fault['message']} (task {fault['task']})", err=True)
+        click.echo(printable(f"{place}fault {fault['code']} {fault['message']} (task {fault['task']})"), err=True)
