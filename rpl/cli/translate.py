@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path, PurePosixPath
@@ -24,7 +25,7 @@ from rpl.cli.output import (
     waiting,
 )
 from rpl.cli.verdicts import accepting, exploring, status_of
-from rpl.diagnostics import Diagnostics, Severity
+from rpl.diagnostics import Diagnostic, Diagnostics, Severity
 from rpl.errors import InternalError, UsageError
 
 if TYPE_CHECKING:
@@ -115,6 +116,7 @@ def command(
     shown = _printed(translation, target, proving) if alone else translation.files
     written = _write(shown, output, _registers(translation))
     proof = _prove(read, translation, target, (robot, to_robot), cell, accepted, entry, explore) if proving else None
+    proof = proof and replace(proof, approximations=_approximations(diagnostics.items[before:]))
     print_diagnostics(diagnostics)
     if as_json:
         print_json(_document(translation, written, diagnostics, proof))
@@ -307,6 +309,16 @@ def _print(
         for old, new in translation.renamed.items():
             click.echo(f"renamed {old} to {new}")
         click.echo(_summary(len(translation.losses), warnings))
+
+
+# Warnings that concern a name or a file and no meaning.
+_NO_APPROXIMATIONS = frozenset(("signal-number-chosen", "skipped-file"))
+
+
+def _approximations(written: Sequence[Diagnostic]) -> tuple[tuple[str, int], ...]:
+    """What was written in another way on purpose and nobody accepts: codes in alphabetical order, and how often."""
+    warned = (item.code.name for item in written if item.severity == Severity.WARNING)
+    return tuple(sorted(Counter(name for name in warned if name not in _NO_APPROXIMATIONS).items()))
 
 
 def _summary(losses: int, warnings: int) -> str:

@@ -41,7 +41,9 @@ class ProofResult:
     same order, but measures deviate. different: there is a difference. undecided: no difference was found, and the runs
     do not show enough (`reason`). `level`: the highest of none, events, geometry, time at which the runs agree. Maxima
     leave nothing out. `reach_a`, `reach_b`: which statements the runs came to; `explored`: in how many cells besides
-    the user's own, where that was asked. `notes`: what the reader of the verdict should know besides.
+    the user's own, where that was asked. `approximations`: codes of what a translation has written in another way on
+    purpose, and how often, as far as nobody accepts them; with one of them nothing is equal. `notes`: what the reader
+    of the verdict should know besides.
     """
 
     level: str
@@ -57,6 +59,7 @@ class ProofResult:
     reach_a: Reach | None = None
     reach_b: Reach | None = None
     explored: Explored | None = None
+    approximations: tuple[tuple[str, int], ...] = ()
 
     @cached_property
     def accepted(self) -> tuple[Measure, ...]:
@@ -75,7 +78,7 @@ class ProofResult:
             return DIFFERENT
         if self.reason:
             return UNDECIDED
-        return ALIKE if self.open else EQUAL
+        return ALIKE if self.open or self.approximations else EQUAL
 
     @property
     def equal(self) -> bool:
@@ -95,6 +98,7 @@ class ProofResult:
             "reason": self.reason,
             "first_difference": self.difference.as_json() if self.difference else None,
             "deviations": [one.as_json() | {"accepted": self.acceptance.takes(one)} for one in self.deviations],
+            "approximations": dict(self.approximations),
             "max_path_mm": round(self.max_path_mm, 6),
             "max_joint_deg": round(self.max_joint_deg, 6),
             "max_time_s": round(self.max_time_s, 6),
@@ -124,7 +128,11 @@ class ProofResult:
         return self._verdict() + ("" if self.difference is not None else self.unreached())
 
     def _verdict(self) -> str:
-        deviating = ", ".join(one.as_text() for one in self.open)
+        told = [one.as_text() for one in self.open]
+        if self.approximations:
+            codes = ", ".join(f"{name} ({count})" for name, count in self.approximations)
+            told.append(f"written with approximations: {codes}")
+        deviating = ", ".join(told)
         accepted = ", ".join(one.as_text() for one in self.accepted)
         beside = f"; accepted: {accepted}" if accepted else ""
         match self.verdict:
