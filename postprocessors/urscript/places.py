@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from rpl import ir
 from rpl.passes import rigid
-from rpl.passes.fold import constant, constant_number
+from rpl.passes.fold import constant_number, lasting, lasting_number
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import word_type
 from rpl.passes.values import Target
@@ -118,8 +118,8 @@ class Places:
     # ---- structured values
 
     def constant(self, expression: ir.Expression) -> str | None:
-        """The pose that an expression always is."""
-        value = constant(expression, self.expressions.scope)
+        """The pose that an expression always is, whatever is taught anew."""
+        value = lasting(expression, self.expressions.scope)
         if isinstance(value, Target):
             value = value.pose
         return spelling.pose_text(value) if isinstance(value, rigid.Pose) else None
@@ -163,7 +163,7 @@ class Places:
         if {"trans", "rot"} & set(named):
             raise self.refuse("a pose whose position and rotation are values of their own")
         values = {name: named.get(name, _ZERO) for name in _FLAT}
-        angles = [constant_number(values[name], self.expressions.scope) for name in ("a", "b", "c")]
+        angles = [lasting_number(values[name], self.expressions.scope) for name in ("a", "b", "c")]
         if any(angle is None for angle in angles):
             return self.expressions.helper("rpl_pose", *(self.expressions.text(values[name]) for name in _FLAT))
         turn = spelling.rotation_vector(rigid.rotation_of_zyx(*(angle or 0.0 for angle in angles)))
@@ -177,7 +177,7 @@ class Places:
             value = named.get(axis)
             if value is None:
                 raise self.refuse(f"the axis {axis} is not given")
-            number = constant_number(value, self.expressions.scope)
+            number = lasting_number(value, self.expressions.scope)
             shown.append(
                 spelling.radians(number, point=True) if number is not None else self.expressions.measured(value, "rad")
             )

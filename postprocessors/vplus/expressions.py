@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.passes.fold import constant_number
+from rpl.passes.fold import lasting_number
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 from rpl.writing.precedence import ATOM, ExpressionPrinter, Printed
@@ -84,7 +84,7 @@ class Expressions:
         return type_of(expression, self.scope)
 
     def known(self, expression: ir.Expression) -> float | None:
-        return constant_number(expression, self.scope)
+        return lasting_number(expression, self.scope)
 
     def listed(self, values: tuple[ir.Expression, ...]) -> str:
         return ", ".join(self.text(value) for value in values)

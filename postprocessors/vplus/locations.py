@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.passes import rigid
-from rpl.passes.fold import constant
+from rpl.passes.fold import lasting
 from rpl.passes.values import Target
 from rpl.writing.precedence import Printed
 from rpl.writing.statements import CannotSayError
@@ -40,8 +40,8 @@ class Locations:
     # ---- written out
 
     def folded(self, expression: ir.Expression) -> str | None:
-        """The transformation that an expression always is."""
-        value = constant(expression, self.expressions.scope)
+        """The transformation that an expression always is, whatever is taught anew."""
+        value = lasting(expression, self.expressions.scope)
         if isinstance(value, Target):
             value = value.pose
         return spelling.trans(spelling.components(value)) if isinstance(value, rigid.Pose) else None

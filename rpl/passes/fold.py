@@ -21,8 +21,21 @@ from rpl.passes.typewords import component_names, word_type
 from rpl.passes.typing import normalise, type_of
 from rpl.passes.values import Member, Value, binary, component, composed, converted, literal, pure, real, scaled, unary
 
-__all__ = ["Unchanged", "Value", "constant", "constant_number", "element_key", "literal", "real", "simplify"]
+__all__ = [
+    "Unchanged",
+    "Value",
+    "constant",
+    "constant_number",
+    "element_key",
+    "is_taught_type",
+    "lasting",
+    "lasting_number",
+    "literal",
+    "real",
+    "simplify",
+]
 
+_TAUGHT = (ir.TargetType, ir.PoseType, ir.JointsType, ir.ToolType, ir.WorkObjectType)
 _DEEPEST = 64  # constants that rest on constants; a longer chain is a cycle
 
 
@@ -48,6 +61,27 @@ def constant(
     return _Folder(scope, unchanged, known=known).value(expression, None)
 
 
+def lasting(expression: ir.Expression, scope: Scope) -> Value | None:
+    """The value as `constant` gives it, None where a named place, tool or frame of the program decides it. Such data is
+    taught anew on the pendant, declared constant or not, and what is computed from it has to follow; so writers and
+    passes that put a value in the place of a computation ask for this one."""
+    return _Folder(scope, None, taught=False).value(expression, None)
+
+
+def lasting_number(expression: ir.Expression, scope: Scope) -> float | None:
+    """The lasting value when it is a number."""
+    value = lasting(expression, scope)
+    return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
+
+
+def is_taught_type(type: ir.Type, scope: Scope) -> bool:
+    """Is data of this type taught: places, joints, tools, frames, and arrays of them?"""
+    resolved = scope.resolve(type)
+    while isinstance(resolved, ir.ArrayType):
+        resolved = scope.resolve(resolved.element)
+    return isinstance(resolved, _TAUGHT)
+
+
 def element_key(name: str, places: Sequence[int]) -> str:
     """The name of an array's element among values that are known at a place of the run."""
     return f"{name.lower()}[{','.join(map(str, places))}]"
@@ -70,9 +104,15 @@ def _prelude_scope(dialect: str) -> tuple[ir.Module, Scope] | None:
 
 class _Folder:
     def __init__(
-        self, scope: Scope, unchanged: Unchanged | None, depth: int = 0, known: Mapping[str, Value] | None = None
+        self,
+        scope: Scope,
+        unchanged: Unchanged | None,
+        depth: int = 0,
+        known: Mapping[str, Value] | None = None,
+        taught: bool = True,
     ) -> None:
         self.scope, self.unchanged, self.depth, self.known = scope, unchanged, depth, known or {}
+        self.taught = taught  # may it look into data that the pendant teaches anew?
 
     def value(self, expression: ir.Expression, wanted: ir.Type | None) -> Value | None:
         match expression:
@@ -126,8 +166,10 @@ class _Folder:
             return None
         if predefined:
             return self.predefined(name)
+        if not self.taught and is_taught_type(declaration.type, self.scope):
+            return None
         home = self.scope if own else self.scope.program.module(symbol.module or self.scope.module)
-        inner = _Folder(home, self.unchanged, self.depth + 1)
+        inner = _Folder(home, self.unchanged, self.depth + 1, taught=self.taught)
         initial = declaration.initial
         if initial is None:
             parts = self.unchanged.initialised.get(name.lower(), []) if self.unchanged and not own else []

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.passes.fold import constant, literal
+from rpl.passes.fold import constant, lasting, literal
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.support import default_value
 from rpl.passes.legalise.usage import base_name
@@ -193,8 +193,7 @@ class _Aggregates(Rewriter):
     def plain(self, value: ir.Expression) -> ir.Expression:
         """A member; a constant where the target takes nothing else."""
         if self.constant and not _is_literal(value) and not isinstance(value, ir.Aggregate):
-            known = constant(value, self.scope)
-            made = _literal_of(known)
+            made = _literal_of(self.known(value))
             if made is not None:
                 return made
         return self.expression(value)
@@ -244,10 +243,14 @@ class _Aggregates(Rewriter):
                 return False
         return True
 
+    def known(self, value: ir.Expression) -> Value | None:
+        """Its value, in a routine unless it is taught anew; data begins with a value."""
+        return (constant if self.scope.routine_here is None else lasting)(value, self.scope)
+
     def is_constant(self, value: ir.Expression) -> bool:
         if isinstance(value, ir.Aggregate):
             return all(self.is_constant(one) for _, one in value.entries)
-        return _is_literal(value) or _literal_of(constant(value, self.scope)) is not None
+        return _is_literal(value) or _literal_of(self.known(value)) is not None
 
     def by_component(
         self, statement: ir.Assign, target: ir.Expression, value: ir.Aggregate, type: ir.Type

@@ -12,7 +12,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes import rigid
-from rpl.passes.fold import constant, real
+from rpl.passes.fold import constant, lasting, real
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.datalists import routines_beside
 from rpl.passes.legalise.externalaxes import has_external_axes, is_unused
@@ -213,7 +213,7 @@ class _ToAngles(WantedRewriter):
         return replace(expression, base=self.lvalue(base))
 
     def quaternion_part(self, rotation: ir.Expression, name: str) -> ir.Expression:
-        known = constant(rotation, self.scope)
+        known = lasting(rotation, self.scope)
         if isinstance(known, rigid.Rotation):
             return real(known.quaternion[_QUATERNION.index(name)])
         which = ir.IntLiteral(_QUATERNION.index(name) + 1)
@@ -253,7 +253,7 @@ class _ToAngles(WantedRewriter):
 
     def numbers(self, vector: ir.Expression) -> Numbers:
         """The three numbers of a vector."""
-        known = constant(vector, self.scope)
+        known = lasting(vector, self.scope)
         match vector:
             case ir.Aggregate(entries=entries) if len(entries) == 3:
                 x, y, z = (self.scalar(self.named(vector, name)) for name in _POSITION)
@@ -286,7 +286,7 @@ class _ToAngles(WantedRewriter):
     def scalar(self, value: ir.Expression) -> ir.Expression:
         """A number; a named constant becomes a literal, because aggregates take nothing else."""
         done = self.expression(value)
-        known = None if _is_literal(done) else constant(value, self.scope)
+        known = None if _is_literal(done) else lasting(value, self.scope)
         return real(float(known)) if isinstance(known, int | float) else done
 
     def cross(self, left: ir.Expression, right: ir.Expression) -> Numbers:
@@ -311,7 +311,7 @@ class _ToAngles(WantedRewriter):
 
     def angles(self, rotation: ir.Expression) -> Numbers:
         """The three ZYX angles of a rotation."""
-        known = constant(rotation, self.scope)
+        known = lasting(rotation, self.scope)
         if isinstance(known, rigid.Rotation) and not isinstance(rotation, ir.Name | ir.Index | ir.Field):
             first, second, third = known.zyx
             return real(first), real(second), real(third)

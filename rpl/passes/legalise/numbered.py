@@ -13,7 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies
 from rpl.passes.capabilities import Bank
-from rpl.passes.fold import Unchanged, constant, literal
+from rpl.passes.fold import Unchanged, constant, lasting, literal
 from rpl.passes.legalise.banks import MIXED, NO_BANK, Numbers, Wanted, enlarged, fits, held, main_types, sizes_of
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.operands import is_operand
@@ -309,7 +309,7 @@ class _Numbered(Rewriter):
             case ir.Index(base=ir.Name(id=name), indices=indices):
                 return self.indexed(expression, name, indices)
             case ir.Field() | ir.Binary() | ir.Unary():
-                known = constant(expression, self.scope)
+                known = lasting(expression, self.scope)
                 if isinstance(known, int | float) and not isinstance(known, bool):
                     return replace(literal(known) or expression, origin=expression.origin)
             case ir.Aggregate() if self.context.capabilities.points is not None:

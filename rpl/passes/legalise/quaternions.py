@@ -11,7 +11,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes import rigid
-from rpl.passes.fold import constant, literal, real
+from rpl.passes.fold import lasting, literal, real
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.usage import base_name
 from rpl.passes.legalise.wanted import WantedRewriter
@@ -184,7 +184,7 @@ class _ToQuaternions(WantedRewriter):
         """The pose of a target (or of what is a pose already)."""
         if self.is_a(value, ir.PoseType):
             return self.expression(value)
-        known = constant(value, self.scope) if isinstance(value, ir.Aggregate) else None
+        known = lasting(value, self.scope) if isinstance(value, ir.Aggregate) else None
         if isinstance(known, Target):
             return self.literal(known.pose)
         base = self.lvalue(value)
@@ -295,7 +295,7 @@ class _ToQuaternions(WantedRewriter):
         if "rot" in given:
             return self.expression(given["rot"])
         angles = tuple(given.get(name) or ir.IntLiteral(0) for name in _ANGLES)
-        values = [constant(angle, self.scope) for angle in angles]
+        values = [lasting(angle, self.scope) for angle in angles]
         numbers = [float(value) for value in values if isinstance(value, int | float)]
         if len(numbers) < 3:
             return ir.Builtin("rotation_zyx", tuple(map(self.expression, angles)))
