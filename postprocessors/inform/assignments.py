@@ -251,7 +251,8 @@ class Assignments:
 
     def read_component(self, place: str, base: ir.Expression, name: str) -> None:
         """GETE counts in 0.001 mm or 0.0001 degrees."""
-        known = self.positions.constants.known(base)
+        constants = self.positions.constants
+        known = None if constants.name(base) else constants.known(base)
         axis = axis_of(name)
         if axis and known is not None and known.kind == "joints":
             self.number(place, ir.RealLiteral(known.values[axis - 1]))

@@ -25,6 +25,7 @@ class Kept:
     position: Position
     tool: int = 0
     frame: int = 0
+    name: str = ""  # the source's, so that points that happen to be equal are taught apart
 
 
 @dataclass(slots=True)
@@ -42,6 +43,12 @@ class Cell:
     last_tool: int = 0
     external: int = 0
     bases: int = 0
+    copies: dict[tuple[str, str], set[str]] = field(default_factory=dict)  # job, taught data -> where its value stands
+
+    def stands(self, job: str, name: str, place: str) -> None:
+        """Note a place where the value of named data stands."""
+        if name:
+            self.copies.setdefault((job, name), set()).add(place)
 
     def keep(self, what: Kept) -> int:
         """The number of the position variable that holds a constant."""

@@ -57,11 +57,11 @@ class Job:
     entry: bool = False
     moves: bool = False
 
-    def point_of(self, position: Position, tool: int, frame: int, wanted: int | None) -> str:
-        """The taught point for a position; `wanted` is its number when that is free."""
+    def point_of(self, position: Position, tool: int, frame: int, wanted: int | None, name: str = "") -> str:
+        """The taught point for a position; `wanted` is its number when that is free, `name` the source's."""
         if position.kind == "joints":
             frame = 0
-        what = Kept(self.sayable(position, tool, taught=True), tool, frame)
+        what = Kept(self.sayable(position, tool, taught=True), tool, frame, name)
         if what not in self.points:
             taken = set(self.points.values())
             free = next(n for n in range(tables.POINTS.last + 2) if n not in taken)
@@ -71,11 +71,11 @@ class Job:
             self.points[what] = number
         return f"C{self.points[what]:05d}"
 
-    def constant(self, position: Position, tool: int = 0, frame: int = 0) -> str:
+    def constant(self, position: Position, tool: int = 0, frame: int = 0, name: str = "") -> str:
         """A position variable that holds a constant."""
         if position.kind == "joints" and self.cell.value_of_tool(tool) is None:
             tool = 0  # the joints are the same with any tool; that of the flange has a known value
-        number = self.cell.keep(Kept(self.sayable(position, tool), tool, frame))
+        number = self.cell.keep(Kept(self.sayable(position, tool), tool, frame, name))
         self.positions.add(number)
         return f"P{number:03d}"
 

@@ -222,7 +222,11 @@ class Motion:
             wanted = self.names.get(target.id) if isinstance(target, ir.Name) else None
             if known.kind == "joints" and job.taught_scale is None and job.cell.value_of_tool(tool) is None:
                 return Goal(self.with_computed_tool(known, tool), tool, 0, None)
-            return Goal(job.point_of(known, tool, number, wanted), tool, number, known)
+            point = job.point_of(known, tool, number, wanted, constants.name(target))
+            job.cell.stands(job.name, constants.name(target), point)
+            if number and frame is not None:
+                job.cell.stands(job.name, constants.name(frame), f"UF#({number})")
+            return Goal(point, tool, number, known)
         if self.is_joints(target):
             return Goal(self.positions.as_variable(target), tool, 0, None)
         if base is None or base.values != WORLD:

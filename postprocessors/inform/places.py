@@ -157,6 +157,7 @@ class Constants:
     values: dict[tuple[str, int], Position] = field(default_factory=dict)
     points: dict[str, Position] = field(default_factory=dict)  # the taught points of the routine at hand
     joints: frozenset[int] = frozenset()  # numbers of position variables that hold joints
+    names: dict[str, str] = field(default_factory=dict)  # taught points of the routine, variables: their source's names
 
     @classmethod
     def of(cls, program: ir.Program, entries: Collection[str] = ()) -> Constants:
@@ -211,7 +212,26 @@ class Constants:
         return cls(values, joints=joints)
 
     def routine(self, routine: ir.Routine) -> Constants:
-        return Constants(self.values, _points(routine), self.joints)
+        labels = {one.name: one.label for one in routine.declarations if isinstance(one, ir.Variable) and one.label}
+        return Constants(self.values, _points(routine), self.joints, {**self.names, **labels})
+
+    def name(self, expression: ir.Expression) -> str:
+        """The source's name of a taught point, or of a variable that is set once; empty for what is written out."""
+        if isinstance(expression, ir.Name) and expression.id in self.points:
+            return self.names.get(expression.id, "")
+        place = numbered(expression)
+        return "" if place is None or place not in self.values else self.names.get(f"{place[0]}{place[1]}", "")
+
+    def rests_on_point(self, expression: ir.Expression) -> bool:
+        """Is it a taught point with a name, or computed of one? Such a value is computed where the program runs."""
+        match expression:
+            case ir.Name(id=name):
+                return name in self.points and name in self.names
+            case ir.Builtin(function="pose_of" | "inverse" | "compose", arguments=parts):
+                return any(map(self.rests_on_point, parts))
+            case ir.Binary(op=":", left=left, right=right):
+                return self.rests_on_point(left) or self.rests_on_point(right)
+        return False
 
     def is_joints(self, expression: ir.Expression) -> bool:
         """Does the expression give joints: a constant, a variable that holds them, or where the robot is?"""
@@ -227,10 +247,12 @@ class Constants:
         return place is not None and place[0] == "P" and place[1] in self.joints
 
     def known(self, expression: ir.Expression) -> Position | None:
-        """The position that an expression always is."""
+        """The position that an expression always is; None for what is computed of a taught point, which may change."""
         match expression:
             case ir.System(name="null_frame" | "world"):
                 return Position("pose", WORLD)
+            case ir.Builtin(function="inverse" | "compose") | ir.Binary() if self.rests_on_point(expression):
+                return None
             case ir.Aggregate() | ir.Builtin(function="with_external"):
                 return position_of(expression)
             case ir.Name(id=name) if name in self.points:

@@ -44,7 +44,7 @@ class Positions:
             return
         known = self.constants.known(value)
         if known is not None:
-            self.lines.append(f"SET {place} {self.kept(known)}")
+            self.lines.append(f"SET {place} {self.named(value, self.kept(known, self.constants.name(value)))}")
             return
         match value:
             case ir.System(name="actual_pose") | ir.Builtin(function="current_target", arguments=()):
@@ -76,9 +76,14 @@ class Positions:
             case _:
                 raise CannotSayError("INFORM does not calculate with positions like this")
 
-    def kept(self, position: Position) -> str:
-        """The position variable that holds a constant."""
-        return self.job.constant(position, self.job.cell.tool_of_variables)
+    def kept(self, position: Position, name: str = "") -> str:
+        """The position variable that holds a constant; taught data with a name has one of its own."""
+        return self.job.constant(position, self.job.cell.tool_of_variables, name=name)
+
+    def named(self, value: ir.Expression, place: str) -> str:
+        """The place, noted as one where the value of named data stands."""
+        self.job.cell.stands(self.job.name, self.constants.name(value), place)
+        return place
 
     def as_variable(self, value: ir.Expression) -> str:
         """A position as a variable: its own, one that holds the constant, or a helper."""
@@ -86,10 +91,10 @@ class Positions:
         if shown is not None:
             if bank_of(shown) != "P":
                 raise CannotSayError("a position is needed")
-            return shown
+            return self.named(value, shown)
         known = self.constants.known(value)
         if known is not None:
-            return self.kept(known)
+            return self.named(value, self.kept(known, self.constants.name(value)))
         helper = self.registers.helper("P", "pulses" if self.constants.is_joints(value) else "")
         self.position(helper, value)
         return helper

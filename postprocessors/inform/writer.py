@@ -46,6 +46,12 @@ TOOL_OF_PLACE = code(
     Severity.WARNING,
     "{name} asks where the tool is and does not drive: tool {tool} is taken, which most of the moves are driven with",
 )
+COPIES = code(
+    "inform-taught-copies",
+    Severity.WARNING,
+    "the value of {name} stands in several places that {job} uses: {places}",
+    "teach all of them anew, or what is computed from one stays behind the others",
+)
 LONG_NAME = code(
     "inform-long-name", Severity.ERROR, "{name}: a job's name has at most {most} characters", "rename the routine"
 )
@@ -74,6 +80,7 @@ class _Writer:
         self.choose_axes()
         self.entries = _entries(program)
         self.constants = Constants.of(program, self.entries)
+        self.constants.names = {f"{bank}{number}": name for (bank, number), name in context.register_names.items()}
         self.tasks = _sub_tasks(program)
         self.jobs = {
             routine.name.lower(): routine.name.upper() for module in program.modules for routine in module.routines
@@ -238,6 +245,10 @@ class _Writer:
 
     def finish(self, jobs: list[Job]) -> None:
         """Values of tools and user frames, and tasks that run beside, at the start of each job that may be started."""
+        for (job_name, name), places in sorted(self.cell.copies.items()):
+            if len(places) > 1:
+                shown = ", ".join(sorted(places))
+                self.diagnostics.report(COPIES, NOWHERE, name=name, job=job_name, places=shown)
         background = [task for task in self.program.tasks if task.kind == "background"]
         count = len(background) + len(self.tasks)
         if count > tables.MOST_SUBTASKS:

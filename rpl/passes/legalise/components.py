@@ -1,5 +1,5 @@
-"""Components of places, for targets that read them from variables only: of a taught point that nothing changes the
-value is written, and where the robot stands goes into a variable first."""
+"""Components of places, for targets that read them from variables only: a taught point, which may be taught anew, and
+where the robot stands go into a variable first; of other data that nothing changes the value is written."""
 
 from __future__ import annotations
 
@@ -41,12 +41,24 @@ def _read(expression: ir.Expression, editor: Editor, known: Unchanged) -> Lowere
     type = editor.type_of(expression.base)
     if not isinstance(type, _PLACES):
         return None
-    if isinstance(expression.base, ir.System):
+    taught = _is_taught(expression.base, editor, known)
+    if taught and isinstance(type, ir.PoseType):
+        return None  # kept in a variable anyway
+    if isinstance(expression.base, ir.System) or taught:
         place = editor.temporary("place", type)
         return (ir.Assign(place, expression.base),), ir.Field(place, expression.name, origin=expression.origin)
     base = base_name(expression.base)
     value = None if base is None or base in known.assigned else constant_number(expression, editor.scope, known)
     return None if value is None else ((), real(value))
+
+
+def _is_taught(base: ir.Expression, editor: Editor, known: Unchanged) -> bool:
+    """Is it a place with a name (or an element of such) that the program itself does not change?"""
+    name = base_name(base)
+    if name is None or name in known.assigned or not isinstance(base, ir.Name | ir.Index):
+        return False
+    symbol = editor.scope.value(name)
+    return symbol is not None and (symbol.module is not None or symbol.routine is not None)
 
 
 __all__ = ["read_components"]

@@ -198,6 +198,7 @@ class _Numbered(Rewriter):
 
     def program(self) -> ir.Program:
         done = super().program()
+        self.points.report_copies()
         if self.declared:
             modules = done.modules
             home = ir.Module(HOME, modules[0].dialect, tuple(self.declared), public=True)

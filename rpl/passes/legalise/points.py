@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
+from rpl.diagnostics import Severity, code
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.banks import own_number
 from rpl.passes.legalise.context import Context
@@ -16,6 +17,12 @@ from rpl.passes.legalise.effects import is_constant
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import type_word
 
+COPIED = code(
+    "taught-point-copied",
+    Severity.WARNING,
+    "{name} is one point in the source; here each of these programs has its own copy: {routines}",
+    "teach the copies anew together, or keep the point where all programs read it",
+)
 _POSE = {"x", "y", "z", "a", "b", "c"}
 _POSITIONS = (ir.TargetType, ir.JointsType)
 
@@ -49,6 +56,7 @@ class Points:
     found: dict[object, ir.Name] = field(default_factory=dict)
     used: set[int] = field(default_factory=set)
     routine: str = ""
+    homes: dict[int, tuple[ir.Variable, list[str]]] = field(default_factory=dict)  # who has a copy, by declaration
 
     def begin(self, routine: ir.Routine) -> None:
         self.made, self.found, self.used, self.routine = [], {}, set(), routine.name.lower()
@@ -67,6 +75,7 @@ class Points:
         if not isinstance(type, _POSITIONS) or not self.is_taught(declaration, scope):
             return None
         value = declaration.initial
+        self.at_home(declaration)
         return None if value is None else self.point(id(declaration), type, value, declaration.name, expression)
 
     def element(self, expression: ir.Index, declaration: ir.Variable, scope: Scope) -> ir.Name | None:
@@ -87,8 +96,22 @@ class Points:
                 return None
             value = value.entries[at - type.base][1]
             numbers.append(at)
+        self.at_home(declaration)
         label = f"{declaration.name}[{','.join(map(str, numbers))}]"
         return None if value is None else self.point((id(declaration), *numbers), element, value, label, expression)
+
+    def at_home(self, declaration: ir.Variable) -> None:
+        """Note that the routine at hand has a copy of the point."""
+        names = self.homes.setdefault(id(declaration), (declaration, []))[1]
+        if self.routine not in names:
+            names.append(self.routine)
+
+    def report_copies(self) -> None:
+        """Report the points that several routines have a copy of: teaching one anew leaves the others behind."""
+        for declaration, routines in self.homes.values():
+            if len(routines) > 1:
+                shown = ", ".join(sorted(routines))
+                self.context.diagnostics.report(COPIED, declaration.origin, name=declaration.name, routines=shown)
 
     def written(self, value: ir.Aggregate, type: ir.Type | None) -> ir.Name | None:
         """The point for a position that is written out where it is used."""
