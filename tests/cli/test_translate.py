@@ -164,7 +164,10 @@ def test_a_file_of_numbers_that_is_none(
 
 def test_a_script_is_proved_from_its_own_beginning(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A program whose name a register may hold stands in the script as one of its routines."""
-    lines = "R[1]=0 ;\nR[1]=R[1]+1 ;\nSR[1]='PART' ;\nSR[2]=R[1] ;\nSR[3]=SR[1]+SR[2] ;\nCALL SR[3] ;\nDO[1]=(R[1]=1 AND R[2]=7) ;"
+    lines = (
+        "R[1]=1 ;\nR[2]=0 ;\nSR[1]='PART' ;\nSR[2]=R[1] ;\nSR[3]=SR[1]+SR[2] ;\nCALL SR[3] ;\n"
+        "DO[1]=(R[1]=1 AND R[2]=7) ;"
+    )
     for name, body in (("MAIN", lines), ("PART1", "R[2]=7 ;"), ("PART2", "R[2]=8 ;")):
         (tmp_path / f"{name}.LS").write_text(f"/PROG {name}\n/ATTR\n/MN\n{body}\n/POS\n/END\n")
     wanted = ["translate", str(tmp_path), "--to", "urscript", "-o", str(tmp_path / "out"), "--prove", "--json"]

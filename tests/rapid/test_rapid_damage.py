@@ -13,7 +13,7 @@ from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.reading.assemble import assemble
 from rpl.source import source_from_bytes, source_from_text
-from rpl.writing.ledger import bodies
+from rpl.writing.ledger import blocks
 
 PROGRAM = """%%%
   VERSION:1
@@ -84,7 +84,7 @@ def flat(program: ir.Program) -> Iterator[tuple[int, ir.Statement]]:
 
     def walk(body: ir.Body) -> Iterator[tuple[int, ir.Statement]]:
         for statement in body:
-            inner = bodies(statement)
+            inner = blocks(statement)
             if inner and not isinstance(statement, ir.Move):
                 for one in inner:
                     yield from walk(one)
