@@ -77,7 +77,8 @@ def deeply(work: Callable[[], Result]) -> Result:
                 _interrupt(idents)
                 wait((begun,))
             ended = begun.exception()
-            raise ended if isinstance(ended, KeyboardInterrupt) else stop from None
+            as_well = isinstance(stop, KeyboardInterrupt) and isinstance(ended, KeyboardInterrupt)
+            raise ended if as_well else stop from None
     finally:
         sys.setrecursionlimit(usual)
 

@@ -26,6 +26,12 @@ def printable(text: str) -> str:
     return "".join(sign if sign.isprintable() else sign.encode("unicode_escape").decode("ascii") for sign in text)
 
 
+def printable_lines(text: str) -> str:
+    """The same of a text of several lines: line ends and tabs stay."""
+    parts = (part.split("\t") for part in text.replace("\r\n", "\n").split("\n"))
+    return "\n".join("\t".join(printable(one) for one in line) for line in parts)
+
+
 def heading(kind: str, parts: Iterable[str]) -> str:
     """The same as the head of a notebook's output. Everything is escaped."""
     return f"<p><b>{escape(kind)}</b> {escape(', '.join(part for part in parts if part))}</p>"

@@ -18,7 +18,7 @@ from rpl.runtime.faults import ProgramError
 from rpl.runtime.limits import DEFAULTS, Limits
 from rpl.runtime.machine import Machine
 from rpl.runtime.task import ENDED, Task
-from rpl.runtime.trace import Event, RunResult
+from rpl.runtime.trace import Event, RunInterrupted, RunResult
 from rpl.runtime.values import Member, Value
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def run_program(
     language's own. `further`: the robots of the second and further motion tasks, which move at the same time.
 
     Raises UsageError for an unknown robot or when the entry cannot be found (the candidates are listed), RunError when
-    the cell file does not fit the program. A fault inside the program is part of the result.
+    the cell file does not fit the program, RunInterrupted for Ctrl-C. A fault inside the program is part of the result.
     """
     told = 0
 
@@ -65,7 +65,10 @@ def run_program(
         simulation = Simulation(
             program, robot, cell, entry, max_time_s, max_statements, listener, limits, controller, further
         )
-        simulation.run()
+        try:
+            simulation.run()
+        except KeyboardInterrupt:
+            raise simulation.interrupted() from None
         return simulation.result()
 
     return at_any_depth(run)
@@ -122,7 +125,7 @@ class Simulation(Machine):
         try:
             task = Task(self, declared.name, len(self.tasks), declared.kind, code, declared.cyclic)
         except ProgramError as error:  # a first value of the routine's own data cannot be made
-            raise RunError(f"{routine.name}: {error.message}") from None
+            raise RunError(f"{routine.origin.place}{routine.name}: {error.message}") from None
         for name, value in code.rules.system_defaults.items():
             task.modal[name] = Member(value) if isinstance(value, str) else value
         for name, value in self.cell.system.items():
@@ -226,6 +229,12 @@ class Simulation(Machine):
         chosen = task if task is not None else self.tasks[0]
         origin = chosen.where()
         return origin.file, origin.line
+
+    def interrupted(self) -> RunInterrupted:
+        """What is left of a run that was ended from outside, perhaps in the midst of a statement."""
+        self.status = "interrupted"
+        places = tuple((task.name, task.where()) for task in self.tasks if task.state != ENDED)
+        return RunInterrupted(self.result(), places)
 
     @property
     def ended(self) -> bool:

@@ -94,6 +94,11 @@ class Origin:
         return self.source.position(self.start)[1] if self.source else 0
 
     @property
+    def place(self) -> str:
+        """`file:line: `, what stands before a message; nothing where there is no source."""
+        return f"{self.file}:{self.line}: " if self.source else ""
+
+    @property
     def text(self) -> str:
         """The source text of the span."""
         return self.source.text[self.start : self.end] if self.source else ""

@@ -16,6 +16,7 @@ from rpl.cli.output import (
     paths_argument,
     print_diagnostics,
     print_json,
+    say,
     waiting,
 )
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity, sarif
@@ -47,7 +48,7 @@ def command(paths: Sequence[str], dialect: str | None, accepted: Sequence[str], 
     else:
         print_summary(read.files, diagnostics)
     if not read.files:
-        click.echo("rpl: no robot program was found; name the language with --from if there is one", err=True)
+        say("rpl: no robot program was found; name the language with --from if there is one", err=True)
         return 2
     return 1 if diagnostics.has_errors else 0
 
@@ -82,6 +83,6 @@ def print_summary(files: Sequence[FileReport], diagnostics: Diagnostics) -> None
     """One line per file and one for all."""
     for report in files:
         unread = f", {report.opaque} not readable" if report.opaque else ""
-        click.echo(f"{report.path}: {report.dialect}, {report.statements} statements{unread}")
+        say(f"{report.path}: {report.dialect}, {report.statements} statements{unread}")
     errors, warnings = len(diagnostics.of(Severity.ERROR)), len(diagnostics.of(Severity.WARNING))
-    click.echo(f"{len(files)} files, {errors} errors, {warnings} warnings")
+    say(f"{len(files)} files, {errors} errors, {warnings} warnings")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from rpl import registry
-from rpl.cli.output import json_option, print_json
+from rpl.cli.output import json_option, print_json, say
 
 
 @click.command("dialects")
@@ -32,7 +32,7 @@ def command(as_json: bool) -> int:
         if not as_json:
             does = f"{'reads' if name in reads else '':<6}{'writes' if name in writes else '':<7}"
             also = f"  (also: {', '.join(aliases)})" if aliases else ""
-            click.echo(f"{name:<10} {title:<46} {does} {' '.join(extensions)}{also}")
+            say(f"{name:<10} {title:<46} {does} {' '.join(extensions)}{also}")
     if as_json:
         print_json(rows)
     return 0

@@ -17,8 +17,10 @@ from rpl.cli.output import (
     json_option,
     print_diagnostics,
     print_json,
+    print_text,
     read_paths,
     robot_named,
+    say,
     waiting,
     write_file,
 )
@@ -141,11 +143,11 @@ def _document(fitted: Fitted, text: str) -> dict[str, object]:
 def _show(fitted: Fitted, text: str) -> None:
     for one in fitted.parameters:
         known = f"± {one.deviation:.2g}" if math.isfinite(one.deviation) else "kept"
-        click.echo(f"{one.name:28} {one.before:10.5g} -> {one.value:10.5g} {known:12} {one.determined} determined")
+        say(f"{one.name:28} {one.before:10.5g} -> {one.value:10.5g} {known:12} {one.determined} determined")
     errors = [1000.0 * (move.emulated_s - move.measured_s) for move in fitted.moves]
     worst = max(errors, key=abs)
-    click.echo(f"remaining: rms {fitted.rms:.4g} {fitted.unit}, max {fitted.largest:.4g} {fitted.unit}")
-    click.echo(f"motions: {len(errors)}, the time of one is off by {worst:+.1f} ms at most")
+    say(f"remaining: rms {fitted.rms:.4g} {fitted.unit}, max {fitted.largest:.4g} {fitted.unit}")
+    say(f"motions: {len(errors)}, the time of one is off by {worst:+.1f} ms at most")
     if text:
-        click.echo("")
-        click.echo(text, nl=False)
+        say("")
+        print_text(text)

@@ -17,7 +17,7 @@ from rpl.cli.kinematics import (
     required_robot,
     tool_option,
 )
-from rpl.cli.output import json_option, print_json, robot_named
+from rpl.cli.output import json_option, print_json, robot_named, say
 from rpl.cli.points import (
     Outcome,
     chunks,
@@ -63,7 +63,7 @@ def command(
         raise UsageError("--robot is needed")
     name, notation = chosen_notation(dialect, model)
     if notation.fields and not has_flags(model):
-        click.echo(f"rpl: {UNKNOWN_BUILD}: those shown for {model.name} say nothing", err=True)
+        say(f"rpl: {UNKNOWN_BUILD}: those shown for {model.name} say nothing", err=True)
     if (joints is None) == (points is None):
         raise UsageError("either --joints or --points is needed")
     if points is not None:
@@ -88,9 +88,9 @@ def command(
         }
         print_json(document)
     else:
-        click.echo(poses[name])
+        say(poses[name])
     if outside:
-        click.echo(f"rpl: beyond the limits of axis {', '.join(map(str, outside))}", err=True)
+        say(f"rpl: beyond the limits of axis {', '.join(map(str, outside))}", err=True)
     return 0
 
 

@@ -17,7 +17,7 @@ from rpl.cli.kinematics import (
     required_robot,
     tool_option,
 )
-from rpl.cli.output import json_option, print_json, robot_named
+from rpl.cli.output import json_option, print_json, robot_named, say
 from rpl.cli.points import (
     PREVIOUS,
     Outcome,
@@ -90,7 +90,7 @@ def _one(
 
     target, flags = pose_of(pose, "--pose", notation)
     if isinstance(notation, ExternalAxes) and (external := notation.external_axes(pose)):
-        click.echo(f"rpl: the external axes {', '.join(external)} are left out", err=True)
+        say(f"rpl: the external axes {', '.join(external)} are left out", err=True)
     flange = target
     if tip is not None:
         import numpy as np
@@ -123,9 +123,9 @@ def _one(
         for row in rows:
             print_solution(row)
     elif converted["pose"] is not None:
-        click.echo(converted["pose"])
+        say(converted["pose"])
     if reason:
-        click.echo(f"rpl: {reason}", err=True)
+        say(f"rpl: {reason}", err=True)
     return 0 if rows and (converted is None or converted["pose"] is not None) else 1
 
 
@@ -263,4 +263,4 @@ def print_solution(row: dict[str, object]) -> None:
     mark = "*" if row["selected"] else " "
     angles = " ".join(f"{value:10.4f}" for value in joints)
     beyond = "" if row["within_limits"] else "  beyond limits"
-    click.echo(f"{mark} {angles}   {' '.join(f'{key}={value}' for key, value in flags.items())}{beyond}")
+    say(f"{mark} {angles}   {' '.join(f'{key}={value}' for key, value in flags.items())}{beyond}")

@@ -6,6 +6,7 @@ Commands give back their exit status: 0 as asked, 1 the answer is no, 2 bad usag
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from collections.abc import Sequence
 from importlib import import_module
@@ -17,7 +18,7 @@ from rpl.errors import InternalError, RplError, UsageError
 from rpl.showing import printable
 
 OK, NO, USAGE, GUARDED = 0, 1, 2, 3
-_INTERRUPTED, _PIPE_CLOSED = 130, 141
+_INTERRUPTED, _PIPE_CLOSED, _TERMINATED = 130, 141, 143
 # Commands that only list what there is: who has read enough of it may go away.
 _LISTINGS = ("dialects", "robots")
 
@@ -75,7 +76,14 @@ def rpl() -> None:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Entry point of the console script. Always ends by SystemExit."""
+    if signal.getsignal(signal.SIGTERM) is signal.SIG_DFL:
+        signal.signal(signal.SIGTERM, _terminate)
     sys.exit(run(arguments))
+
+
+def _terminate(number: int, frame: object) -> None:
+    """Who is told to end leaves the terminal and its files as they should be."""
+    raise SystemExit(_TERMINATED)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
@@ -97,8 +105,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         _say("rpl: interrupted")
         return _INTERRUPTED
-    except SystemExit:  # how click ends when whoever read our output went away
-        return _of_closed_pipe(arguments)
+    except SystemExit as end:  # how click ends when whoever read our output went away
+        return _TERMINATED if end.code == _TERMINATED else _of_closed_pipe(arguments)
     except BrokenPipeError:
         # Whoever read our output went away: no message, and nothing more to flush at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -16,7 +16,7 @@ import click
 from rpl.cli.files import write_files
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity, folded
 from rpl.errors import UsageError
-from rpl.showing import printable
+from rpl.showing import printable, printable_lines
 from rpl.source import LARGEST_FILE, Source, source_from_bytes
 
 if TYPE_CHECKING:
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 _PATIENCE_S = 0.7
 STANDARD_INPUT = "-"
+# JSON leaves these signs as they are: DEL, and the controls that terminals know besides those of ASCII.
+_STEERING = {sign: f"\\u{sign:04x}" for sign in range(0x7F, 0xA0)}
 
 json_option = click.option("--json", "as_json", is_flag=True, help="One JSON document on stdout and nothing else.")
 from_option = click.option("--from", "dialect", metavar="D", help="Language of the source; else seen from its content.")
@@ -36,7 +38,22 @@ paths_argument = click.argument("paths", nargs=-1, required=True, metavar="PATH.
 
 def print_json(document: object) -> None:
     """One JSON document on one line. Numbers that JSON lacks become null."""
-    click.echo(json.dumps(plain(document), ensure_ascii=False, allow_nan=False))
+    click.echo(json_text(document))
+
+
+def json_text(document: object) -> str:
+    """The same as a text; signs that would steer a terminal are escaped in it."""
+    return json.dumps(plain(document), ensure_ascii=False, allow_nan=False).translate(_STEERING)
+
+
+def say(text: str = "", err: bool = False) -> None:
+    """Lines for people. What programs, names and messages hold steers no terminal: it is shown as escapes."""
+    click.echo(printable_lines(text), err=err)
+
+
+def print_text(text: str) -> None:
+    """The text of a file on stdout: as it is, but on a terminal without signs that would steer it."""
+    click.echo(printable_lines(text) if sys.stdout.isatty() else text, nl=False, color=True)
 
 
 def plain(value: object) -> object:

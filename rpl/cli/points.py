@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rpl.cli.output import plain
+from rpl.cli.output import print_json, print_text, say
 from rpl.errors import SourceError, UsageError
 
 if TYPE_CHECKING:
@@ -338,21 +338,19 @@ def report(table: Table, outcome: Outcome, facts: dict[str, object], as_json: bo
     if as_json:
         points = [dict(zip(outcome.header, (line, *cells), strict=True)) for line, cells in outcome.rows]
         errors = [{"line": line, "code": code, "message": words} for line, code, words in outcome.errors]
-        import json
-
         document = {**facts, "points": points, "errors": errors, "external_axes_left_out": outcome.external}
-        click.echo(json.dumps(plain(document), ensure_ascii=False, allow_nan=False))
+        print_json(document)
     else:
         out = io.StringIO()
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(outcome.header)
         writer.writerows((line, *map(_cell, cells)) for line, cells in outcome.rows)
-        click.echo(out.getvalue(), nl=False)
+        print_text(out.getvalue())
     for line, code, words in outcome.errors:
-        click.echo(f"{table.name}:{line}:1: error {code} {' '.join(words.splitlines())}", err=True)
+        say(f"{table.name}:{line}:1: error {code} {' '.join(words.splitlines())}", err=True)
     if outcome.external:
         many = f" of {len(outcome.external)} targets" if len(outcome.external) > 1 else ""
-        click.echo(
+        say(
             f"{table.name}:{outcome.external[0]}:1: warning external-axes the external axes{many} are left out",
             err=True,
         )

@@ -18,6 +18,7 @@ from rpl.cli.output import (
     print_json,
     robot_option,
     robots_exist,
+    say,
     waiting,
     write_file,
 )
@@ -107,7 +108,7 @@ def command(
     if as_json:
         print_json(result.as_json())
     else:
-        click.echo(result.as_text())
+        say(result.as_text())
     return status_of(result)
 
 
@@ -122,9 +123,9 @@ def _checked(path: Path, as_json: bool) -> int:
     if as_json:
         print_json({"holds": not found, "changes": found, "verdict": result.verdict, "proof": result.as_json()})
     else:
-        click.echo(f"the certificate {'does not hold any more' if found else 'holds'}: {result.headline()}")
+        say(f"the certificate {'does not hold any more' if found else 'holds'}: {result.headline()}")
         for line in found:
-            click.echo(f"  {line}")
+            say(f"  {line}")
     return FAILS if found else HOLDS
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rpl import ir
-from rpl.cli.output import robot_named, robot_option
+from rpl.cli.output import robot_named, robot_option, say
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.errors import RplError
 from rpl.proof.events import in_words
@@ -170,11 +170,11 @@ def command(robot: str | None, cell: str | None) -> int:
     terminal = sys.stdin.isatty()
     if terminal:
         _remember_lines()
-        click.echo("RPL on an emulated robot; help shows the commands, quit leaves")
+        say("RPL on an emulated robot; help shows the commands, quit leaves")
     failed = False
     for entry in _entries(session, terminal):
         for line in entry:
-            click.echo(line)
+            say(line)
         failed = failed or any("taken back" in line for line in entry)
     return 1 if failed and not terminal else 0
 
@@ -197,7 +197,7 @@ def _entries(session: Session, terminal: bool) -> Iterator[list[str]]:
             lines, shown = _obeyed(session, lines, line, terminal)
         except EOFError:
             if terminal:
-                click.echo()
+                say()
             return
         except KeyboardInterrupt:
             if not terminal:

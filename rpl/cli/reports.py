@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from rpl.cli.output import numbers, robot_named, write_file
+from rpl.cli.output import numbers, robot_named, say, write_file
 from rpl.controllers import controller_named
 from rpl.errors import UsageError
 
@@ -54,7 +54,7 @@ class Reports:
 
         found = run_dynamics(result, model, self.load)
         for warning in found.warnings:
-            click.echo(f"warning: {warning}", err=True)
+            say(f"warning: {warning}", err=True)
         return found
 
     def write(
@@ -172,7 +172,7 @@ def show_reports(layers: RunDynamics | None, times: RunTimes | None) -> None:
 def show_dynamics(found: RunDynamics) -> None:
     """The layers for people: a line for each joint, then the tool."""
     if found.joints:
-        click.echo(f"{'joint':<6}{'torque':>13}{'of limit':>10}{'rms':>9}{'speed':>15}{'of limit':>10}  where")
+        say(f"{'joint':<6}{'torque':>13}{'of limit':>10}{'rms':>9}{'speed':>15}{'of limit':>10}  where")
     for joint in found.joints:
         share = "" if joint.share is None else f"{100.0 * joint.share:.0f} %"
         rate = "deg/s" if joint.unit == "N m" else "mm/s"
@@ -180,24 +180,24 @@ def show_dynamics(found: RunDynamics) -> None:
         of_speed = f"{100.0 * abs(joint.speed.value) / joint.speed_limit:.0f} %"
         torque = f"{joint.torque.value:.1f} {joint.unit}"
         where = f"{_where(joint.torque)}; speed {_where(joint.speed)}"
-        click.echo(f"{joint.name:<6}{torque:>13}{share:>10}{joint.rms:>9.1f}{speed:>15}{of_speed:>10}  {where}")
+        say(f"{joint.name:<6}{torque:>13}{share:>10}{joint.rms:>9.1f}{speed:>15}{of_speed:>10}  {where}")
     following = found.following
     model = " (a model: the robot file has no time constants)" if following.assumed else ""
     lags = sorted({f"{1000.0 * lag:g}" for lag in following.lag_s}, key=float)
-    click.echo(f"tool at most {following.behind.value:.3f} mm behind its command, {_where(following.behind)}")
-    click.echo(f"tool at most {following.off.value:.3f} mm off its path, {_where(following.off)}")
-    click.echo(f"with joints that follow by {', '.join(lags)} ms{model}; load {found.payload_kg:g} kg at most")
+    say(f"tool at most {following.behind.value:.3f} mm behind its command, {_where(following.behind)}")
+    say(f"tool at most {following.off.value:.3f} mm off its path, {_where(following.off)}")
+    say(f"with joints that follow by {', '.join(lags)} ms{model}; load {found.payload_kg:g} kg at most")
 
 
 def show_times(found: RunTimes) -> None:
     """The times for people: a line for each move, then the sums."""
     if found.moves:
-        click.echo(f"{'start':>9}{'seconds':>9}{'between':>17}{'corner':>8}  move")
+        say(f"{'start':>9}{'seconds':>9}{'between':>17}{'corner':>8}  move")
     for move in found.moves:
         place = f"{PurePath(move.origin.file).name}:{move.origin.line}"
         between = f"{move.low_s:.3f}..{move.high_s:.3f}"
         corner = f"{move.blended_s:.3f}" if move.blended_s > 0.0 else ""
-        click.echo(f"{move.start_s:9.3f}{move.seconds:9.3f}{between:>17}{corner:>8}  {move.kind} {place}")
+        say(f"{move.start_s:9.3f}{move.seconds:9.3f}{between:>17}{corner:>8}  {move.kind} {place}")
     for name, seconds in (
         ("moving", found.moving_s),
         ("in corners", found.blending_s),
@@ -206,11 +206,11 @@ def show_times(found: RunTimes) -> None:
         ("standing", found.standing_s),
     ):
         share = 100.0 * seconds / found.total_s if found.total_s > 0.0 else 0.0
-        click.echo(f"{seconds:9.3f} s {share:5.1f} %  {name}")
+        say(f"{seconds:9.3f} s {share:5.1f} %  {name}")
     by = f" ({found.controller})" if found.controller else ""
-    click.echo(f"{found.total_s:9.3f} s in all, between {found.low_s:.3f} and {found.high_s:.3f} s{by}")
+    say(f"{found.total_s:9.3f} s in all, between {found.low_s:.3f} and {found.high_s:.3f} s{by}")
     for name, early, late in found.effects:
-        click.echo(f"          {name}: -{early:.3f} +{late:.3f} s")
+        say(f"          {name}: -{early:.3f} +{late:.3f} s")
 
 
 def _where(moment: Moment) -> str:

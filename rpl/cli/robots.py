@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rpl.cli.output import json_option, print_json
+from rpl.cli.output import json_option, print_json, say
 
 if TYPE_CHECKING:
     from rpl.emulator.robotfile import RobotSummary
@@ -34,7 +34,7 @@ def command(words: Sequence[str], as_json: bool) -> int:
     if not robots:
         close = get_close_matches("_".join(words).lower(), [robot.name for robot in every], 3, 0.4)
         hint = f"; the nearest are {', '.join(close)}" if close else ""
-        click.echo(f"rpl: there is no robot like {' '.join(words)!r}{hint}", err=True)
+        say(f"rpl: there is no robot like {' '.join(words)!r}{hint}", err=True)
     return 0 if robots else 1
 
 
@@ -66,6 +66,6 @@ def _show(robots: Sequence[RobotSummary], with_limits: bool) -> None:
         reach = "-" if robot.reach_mm is None else f"{robot.reach_mm:.0f}"
         payload = "-" if robot.payload_kg is None else f"{robot.payload_kg:g}"
         about = f"{robot.name:<28} {robot.maker:<16} {robot.title:<32} {robot.axes} axes"
-        click.echo(f"{about} {reach:>5} mm {payload:>4} kg")
+        say(f"{about} {reach:>5} mm {payload:>4} kg")
         if with_limits:
-            click.echo("    " + "  ".join(f"{low:g}..{high:g}" for low, high in robot.limits))
+            say("    " + "  ".join(f"{low:g}..{high:g}" for low, high in robot.limits))

@@ -23,13 +23,17 @@ from rpl.cli.output import (
     read_paths,
     robot_named,
     robots_exist,
+    say,
     waiting,
     write_file,
 )
 from rpl.cli.reports import report_options, reports_of, show_reports
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.passes.legalise.pulses import report_assumed, report_stations
+from rpl.runtime.trace import RunInterrupted
 from rpl.showing import printable
+
+INTERRUPTED = 130
 
 if TYPE_CHECKING:
     from rpl import ir
@@ -89,11 +93,14 @@ def command(
     if diagnostics.has_errors and not despite_errors:
         return _not_started(diagnostics, as_json)
     model = _robot_in(robot, surroundings, read.program)
-    with waiting("running"):
-        driver = reports.controller
-        result = run_program(
-            read.program, model, surroundings, entry, limits=limits, controller=driver, further=further
-        )
+    try:
+        with waiting("running"):
+            driver = reports.controller
+            result = run_program(
+                read.program, model, surroundings, entry, limits=limits, controller=driver, further=further
+            )
+    except RunInterrupted as stopped:
+        return _interrupted(stopped, trace)
     _remark(result, model)
     layers, times = reports.layers(result, model), reports.times(result, model)
     if as_json:
@@ -137,6 +144,17 @@ def _remark(result: RunResult, model: RobotModel | None) -> None:
         print_diagnostics(remarks, Severity.WARNING)
 
 
+def _interrupted(stopped: RunInterrupted, trace: Path | None) -> int:
+    """Says where the run was, and keeps its events."""
+    say(f"rpl: interrupted after {stopped.result.time_s:.3f} s of simulated time", err=True)
+    for task, origin in stopped.places:
+        say(f"{origin.place}task {task} was here", err=True)
+    write_trace(trace, stopped.result)
+    if trace is not None:
+        say(f"rpl: {trace} has the {len(stopped.result.trace)} events until then", err=True)
+    return INTERRUPTED
+
+
 def write_trace(trace: Path | None, result: RunResult) -> None:
     """Every event as a line of JSON, if asked for."""
     if trace is not None:
@@ -154,7 +172,7 @@ def _not_started(diagnostics: Diagnostics, as_json: bool) -> int:
         fault = Fault("program-errors", f"not started: {count}; {errors[0].message}", origin=errors[0].origin)
         print_json(RunResult("fault", 0.0, 0, 0, (), (), fault, ()).as_json())
     else:
-        click.echo(f"not started: {count} in the program (--despite-errors runs what was read)", err=True)
+        say(f"not started: {count} in the program (--despite-errors runs what was read)", err=True)
     return 1
 
 
@@ -173,12 +191,12 @@ def show(result: RunResult) -> None:
     assert isinstance(messages, list) and isinstance(outputs, list)
     for t, name, value in outputs:
         said = str(value).upper() if isinstance(value, bool) else value
-        click.echo(printable(f"{t:9.3f} s  {name} = {said}"))
+        say(printable(f"{t:9.3f} s  {name} = {said}"))
     for message in messages:
-        click.echo(f"message    {printable(str(message))}")
+        say(f"message    {printable(str(message))}")
     for text, times in Counter(_warnings(result)).items():
-        click.echo(printable(f"{text} [{times} times]" if times > 1 else text), err=True)
-    click.echo(f"{result.status} after {result.time_s:.3f} s, {result.moves} moves, {result.statements} statements")
+        say(printable(f"{text} [{times} times]" if times > 1 else text), err=True)
+    say(f"{result.status} after {result.time_s:.3f} s, {result.moves} moves, {result.statements} statements")
     if isinstance(fault, dict):
         place = f"{fault['file']}:{fault['line']}: " if fault["file"] else ""
-        click.echo(printable(f"{place}fault {fault['code']} {fault['message']} (task {fault['task']})"), err=True)
+        say(printable(f"{place}fault {fault['code']} {fault['message']} (task {fault['task']})"), err=True)

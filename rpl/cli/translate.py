@@ -19,9 +19,11 @@ from rpl.cli.output import (
     paths_argument,
     print_diagnostics,
     print_json,
+    print_text,
     read_paths,
     robot_option,
     robots_exist,
+    say,
     waiting,
 )
 from rpl.cli.verdicts import accepting, exploring, status_of
@@ -161,7 +163,7 @@ def _refuse(diagnostics: Diagnostics, as_json: bool) -> int:
     if as_json:
         items = [item.as_json() for item in diagnostics]
         print_json({"files": [], "diagnostics": items, "losses": [], "proof": None})
-    click.echo("rpl: nothing was written: the errors come first", err=True)
+    say("rpl: nothing was written: the errors come first", err=True)
     return NO
 
 
@@ -186,7 +188,7 @@ def _write(files: Sequence[OutputFile], output: Path | None, registers: bytes | 
         written[output / FILE_NAME] = registers
     write_files(written)
     for old in stale(output, list(written)):
-        click.echo(f"warning: {old} is left of an earlier translation", err=True)
+        say(f"warning: {old} is left of an earlier translation", err=True)
     return [{"path": path.relative_to(output).as_posix(), "written": str(path)} for path in written]
 
 
@@ -209,7 +211,7 @@ def _printed(translation: Translation, target: str, proving: bool) -> Sequence[O
     shown = programs or files
     others = [file.path for file in files if file not in shown]
     if others:
-        click.echo(f"rpl: to what is printed belong {', '.join(others)}: -o DIR writes them too", err=True)
+        say(f"rpl: to what is printed belong {', '.join(others)}: -o DIR writes them too", err=True)
     return shown
 
 
@@ -299,16 +301,16 @@ def _print(
 ) -> None:
     """The verdict first, if there is one; then what was written and how much of it is not as it was."""
     if proof is not None:
-        click.echo(proof.as_text(), err=output is None)
+        say(proof.as_text(), err=output is None)
     if output is None:
         for row in written:
-            click.echo(row["text"], nl=False)
+            print_text(str(row["text"]))
     else:
         for row in written:
-            click.echo(f"wrote {row['written']}")
+            say(f"wrote {row['written']}")
         for old, new in translation.renamed.items():
-            click.echo(f"renamed {old} to {new}")
-        click.echo(_summary(len(translation.losses), warnings))
+            say(f"renamed {old} to {new}")
+        say(_summary(len(translation.losses), warnings))
 
 
 # Warnings that concern a name or a file and no meaning.

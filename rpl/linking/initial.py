@@ -70,7 +70,7 @@ def _make(linked: LinkedProgram, number: int, values: Values, frame: Values, don
         for assign in slot.assigns:
             assign(frame)
     except ProgramError as error:
-        raise RunError(f"the initial value of {slot.name}: {error.message}") from None
+        raise RunError(f"{slot.origin.place}the initial value of {slot.name}: {error.message}") from None
 
 
 def _override(linked: LinkedProgram, values: Values, machine: Machine, first: int) -> None:

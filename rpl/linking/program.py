@@ -21,6 +21,7 @@ from rpl.passes.typing import normalise
 from rpl.runtime.code import Code, Read, Values
 from rpl.runtime.signals import Key, bit_kind, group_bits, is_bit_group, key_of
 from rpl.runtime.values import SignalRef, Value
+from rpl.source import NOWHERE
 
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
@@ -35,7 +36,7 @@ class GlobalSlot:
     """One global variable: its declaration, how its first value is made, and how one from outside fits into it. `kept`:
     the controller keeps its value from one run to the next; `label`: the comment of a numbered one."""
 
-    __slots__ = ("assigns", "fitted", "initial", "kept", "label", "name", "needs", "qualified", "watched")
+    __slots__ = ("assigns", "fitted", "initial", "kept", "label", "name", "needs", "origin", "qualified", "watched")
 
     def __init__(self, name: str, qualified: str) -> None:
         self.name = name
@@ -47,6 +48,7 @@ class GlobalSlot:
         self.watched = False
         self.kept = False
         self.label = ""
+        self.origin = NOWHERE
 
 
 class LinkedProgram:
@@ -167,6 +169,7 @@ class LinkedProgram:
         entry.watched = declaration.name.lower() in self.watched
         entry.kept = declaration.storage == "persistent" and any(module is one for one in self.program.modules)
         entry.label = declaration.label
+        entry.origin = declaration.origin
         self.slots.append(entry)
         from rpl.linking.routine import link_initial
 

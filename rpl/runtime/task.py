@@ -186,6 +186,10 @@ class Task:
                 self.fail(error, counter)
             except OPERATION_ERRORS as error:
                 self.fail(_as_program_error(error), counter)
+            except KeyboardInterrupt:  # whoever asks where the run was finds the task at this statement
+                frame.counter = counter if counter >= 0 else frame.counter
+                self.statements += used
+                raise
             self.spent += used
             self.statements += used
             if counter == ATTEND:

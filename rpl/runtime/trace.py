@@ -84,11 +84,22 @@ class Fault:
         }
 
 
+class RunInterrupted(KeyboardInterrupt):
+    """A key ended the run. `result`: what it has shown so far, with the status `interrupted`; `places`: the tasks that
+    had not ended, and where each was."""
+
+    def __init__(self, result: RunResult, places: tuple[tuple[str, Origin], ...]) -> None:
+        super().__init__("the run was interrupted")
+        self.result = result
+        self.places = places
+
+
 @dataclass(frozen=True, slots=True)
 class RunResult:
-    """How a run ended. status: finished, stopped, fault, deadlock, limit. `outputs` are changes in order: time, name of
-    the physical signal, value. `joints` at the end (None without a robot). `waited`: the waits for conditions that
-    ended, met or timed out: task, from and to (s). `reached`: which statements it came to (see rpl.proof.reach)."""
+    """How a run ended. status: finished, stopped, fault, deadlock, limit, interrupted. `outputs` are changes in order:
+    time, name of the physical signal, value. `joints` at the end (None without a robot). `waited`: the waits for
+    conditions that ended, met or timed out: task, from and to (s). `reached`: which statements it came to (see
+    rpl.proof.reach)."""
 
     status: str
     time_s: float

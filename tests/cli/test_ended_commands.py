@@ -1,0 +1,64 @@
+"""Commands that are ended from outside leave the terminal and the trace as they should be."""
+
+import json
+import os
+import pty
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+ENDLESS = """\
+DEF a()
+BOOL on
+on=TRUE
+LOOP
+on=NOT on
+$OUT[1]=on
+WAIT SEC 0.1
+ENDLOOP
+END
+"""
+COMMAND = [sys.executable, "-m", "rpl.cli.main", "run"]
+LIMITS = ["--max-time", "1e9", "--max-events", "1000000000"]
+HIDE, SHOW = b"\x1b[?25l", b"\x1b[?25h"
+
+
+def seen_until(terminal: int, wanted: bytes) -> bytes:
+    """What a terminal shows up to that; an OSError where it never comes."""
+    seen = b""
+    while wanted not in seen:
+        seen += os.read(terminal, 4096)
+    return seen
+
+
+def test_ctrl_c_says_where_the_run_was_and_keeps_its_events(tmp_path: Path) -> None:
+    path, trace = tmp_path / "a.src", tmp_path / "a.jsonl"
+    path.write_text(ENDLESS)
+    ours, theirs = pty.openpty()
+    made = subprocess.Popen([*COMMAND, str(path), *LIMITS, "--trace", str(trace)], stderr=theirs)
+    os.close(theirs)
+    told = seen_until(ours, b"running")
+    made.send_signal(signal.SIGINT)
+    assert made.wait(60) == 130
+    told += seen_until(ours, b"until then")
+    os.close(ours)
+    assert b"s of simulated time" in told and b"Traceback" not in told
+    assert any(f"{path}:{line}: task main was here".encode() in told for line in range(4, 9))
+    events = [json.loads(line) for line in trace.read_text().splitlines()]
+    assert len(events) > 10 and {event["kind"] for event in events} >= {"output"}
+
+
+def test_who_is_told_to_end_shows_the_cursor_again(tmp_path: Path) -> None:
+    """The progress bar hides it (DECTCEM, the private mode 25 of the VT220)."""
+    path = tmp_path / "a.src"
+    path.write_text(ENDLESS)
+    ours, theirs = pty.openpty()
+    made = subprocess.Popen([*COMMAND, str(path), *LIMITS], stderr=theirs, env={**os.environ, "TERM": "xterm"})
+    os.close(theirs)
+    shown = seen_until(ours, HIDE)
+    made.terminate()
+    assert made.wait(60) == 143
+    shown += seen_until(ours, SHOW)
+    os.close(ours)
+    assert shown.rindex(SHOW) > shown.rindex(HIDE)
