@@ -77,8 +77,9 @@ def deeply(work: Callable[[], Result]) -> Result:
                 _interrupt(idents)
                 wait((begun,))
             ended = begun.exception()
-            as_well = isinstance(stop, KeyboardInterrupt) and isinstance(ended, KeyboardInterrupt)
-            raise ended if as_well else stop from None
+            if isinstance(stop, KeyboardInterrupt) and isinstance(ended, KeyboardInterrupt):
+                raise ended from None
+            raise
     finally:
         sys.setrecursionlimit(usual)
 

@@ -123,7 +123,7 @@ def _one(
         for row in rows:
             print_solution(row)
     elif converted["pose"] is not None:
-        say(converted["pose"])
+        say(str(converted["pose"]))
     if reason:
         say(f"rpl: {reason}", err=True)
     return 0 if rows and (converted is None or converted["pose"] is not None) else 1
