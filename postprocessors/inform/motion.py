@@ -225,7 +225,10 @@ class Motion:
             point = job.point_of(known, tool, number, wanted, constants.name(target))
             job.cell.stands(job.name, constants.name(target), point)
             if number and frame is not None:
-                job.cell.stands(job.name, constants.name(frame), f"UF#({number})")
+                for one in constants.operands(frame):
+                    job.cell.stands(job.name, constants.name(one), f"UF#({number})")
+                    if one is not frame and (shown := element(one)) is not None:
+                        job.cell.stands(job.name, constants.name(one), shown)
             return Goal(point, tool, number, known)
         if self.is_joints(target):
             return Goal(self.positions.as_variable(target), tool, 0, None)

@@ -222,16 +222,26 @@ class Constants:
         place = numbered(expression)
         return "" if place is None or place not in self.values else self.names.get(f"{place[0]}{place[1]}", "")
 
+    def operands(self, expression: ir.Expression) -> list[ir.Expression]:
+        """What a position is computed of, one after the other."""
+        match expression:
+            case ir.Builtin(function="pose_of" | "inverse" | "compose", arguments=parts):
+                return [inner for one in parts for inner in self.operands(one)]
+            case ir.Binary(op=":", left=left, right=right):
+                return [*self.operands(left), *self.operands(right)]
+        return [expression]
+
     def rests_on_point(self, expression: ir.Expression) -> bool:
         """Is it a taught point with a name, or computed of one? Such a value is computed where the program runs."""
-        match expression:
-            case ir.Name(id=name):
-                return name in self.points and name in self.names
-            case ir.Builtin(function="pose_of" | "inverse" | "compose", arguments=parts):
-                return any(map(self.rests_on_point, parts))
-            case ir.Binary(op=":", left=left, right=right):
-                return self.rests_on_point(left) or self.rests_on_point(right)
-        return False
+        parts = self.operands(expression)
+        return any(isinstance(one, ir.Name) and one.id in self.points and one.id in self.names for one in parts)
+
+    def lasting(self, expression: ir.Expression) -> Position | None:
+        """The position that an expression always is; None for what is computed of anything with a name."""
+        while isinstance(expression, ir.Builtin) and expression.function == "pose_of":
+            expression = expression.arguments[0]
+        computed = isinstance(expression, ir.Binary | ir.Builtin) and any(map(self.name, self.operands(expression)))
+        return None if computed else self.known(expression)
 
     def is_joints(self, expression: ir.Expression) -> bool:
         """Does the expression give joints: a constant, a variable that holds them, or where the robot is?"""

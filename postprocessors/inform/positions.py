@@ -42,7 +42,7 @@ class Positions:
             if shown != place:
                 self.lines.append(f"SET {place} {shown}")
             return
-        known = self.constants.known(value)
+        known = self.constants.lasting(value)
         if known is not None:
             self.lines.append(f"SET {place} {self.named(value, self.kept(known, self.constants.name(value)))}")
             return
@@ -92,7 +92,7 @@ class Positions:
             if bank_of(shown) != "P":
                 raise CannotSayError("a position is needed")
             return self.named(value, shown)
-        known = self.constants.known(value)
+        known = self.constants.lasting(value)
         if known is not None:
             return self.named(value, self.kept(known, self.constants.name(value)))
         helper = self.registers.helper("P", "pulses" if self.constants.is_joints(value) else "")
