@@ -88,6 +88,7 @@ from rpl.passes.legalise.leadingnumbers import leading_numbers
 from rpl.passes.legalise.levels import levels_to_distances
 from rpl.passes.legalise.lists import lists_in_variables
 from rpl.passes.legalise.loadreadings import load_readings
+from rpl.passes.legalise.loadvariables import load_variables
 from rpl.passes.legalise.locals import variables_of_routines
 from rpl.passes.legalise.locks import critical_flags
 from rpl.passes.legalise.logic import decide_logic
@@ -236,6 +237,7 @@ PASSES: tuple[Pass, ...] = (
     seen_half,
     step_times,
     load_readings,
+    load_variables,
     whole_times,
     same_units,
     shared_task_data,
