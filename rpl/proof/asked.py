@@ -46,7 +46,12 @@ class _Asked:
 
 
 def compare_asked(
-    task: str, pair: tuple[Stretch, Stretch], same_arm: bool, tolerance: Tolerance, found: Findings
+    task: str,
+    pair: tuple[Stretch, Stretch],
+    same_arm: bool,
+    same_language: bool,
+    tolerance: Tolerance,
+    found: Findings,
 ) -> Difference | None:
     """Tell every measure of a move that deviates; the difference where the arm is to stand in another way."""
     first, second = pair
@@ -59,8 +64,8 @@ def compare_asked(
         asked.share("acceleration", "acceleration", a.acceleration[1], a.acceleration[0], b.acceleration[0])
     _corners(asked, a, b)
     _loads(asked)
-    _frame(asked, "tool", a.tool, b.tool)
-    _frame(asked, "frame", a.frame, b.frame)
+    _frame(asked, "tool", a.tool, b.tool, same_language)
+    _frame(asked, "frame", a.frame, b.frame, same_language)
     return _joints(task, pair, tolerance, found) if same_arm else None
 
 
@@ -89,16 +94,24 @@ def _corners(asked: _Asked, a: Programmed, b: Programmed) -> None:
         asked.tell("corner-size", apart, f"corner: {a.corner_mm:g} mm in A, {b.corner_mm:g} mm in B")
 
 
-def _frame(asked: _Asked, kind: str, a: rigid.Pose | None, b: rigid.Pose | None) -> None:
-    """Where both programs say it: one frame, or how far its point and, at a lever, its axes are apart."""
-    if a is None or b is None or a is b:
+def _frame(asked: _Asked, kind: str, a: rigid.Pose | None, b: rigid.Pose | None, same_language: bool) -> None:
+    """Where both programs say it: one frame, or how far its point and, at a lever, its axes are apart. In one language
+    also where only one of them says it: the other one takes what is set on the controller."""
+    if a is b or (not same_language and (a is None or b is None)):
+        return
+    word = "tool" if kind == "tool" else "work object"
+    if a is None or b is None:
+        said = a if b is None else b
+        assert said is not None  # one of them is
+        amount = float(np.linalg.norm(np.array(said.matrix)[:3, 3]))
+        asked.tell(kind, amount, f"only {'A' if b is None else 'B'} says the {word}")
         return
     one, other = np.array(a.matrix), np.array(b.matrix)
     mm = float(np.linalg.norm(one[:3, 3] - other[:3, 3]))
     deg = float(turn_deg(one[:3, :3], other[:3, :3]))
     if mm > asked.tolerance.path_mm or deg > asked.tolerance.turn_deg:
         amount = max(mm, float(np.radians(deg)) * _LEVER_MM)
-        asked.tell(kind, amount, f"{'tool' if kind == 'tool' else 'work object'}: {mm:.3f} mm and {deg:.3f} deg apart")
+        asked.tell(kind, amount, f"{word}: {mm:.3f} mm and {deg:.3f} deg apart")
 
 
 def _loads(asked: _Asked) -> None:

@@ -22,6 +22,7 @@ from rpl.proof.moments import compare_lengths, compare_moments
 from rpl.proof.motion import Pairing, compare_motion
 from rpl.proof.places import Pair, compare_places
 from rpl.proof.record import Record
+from rpl.proof.releases import compare_releases
 from rpl.proof.tolerance import Tolerance
 
 LEVELS = ("none", "events", "geometry", "time")
@@ -54,6 +55,8 @@ def compare(a: Record, b: Record, tolerance: Tolerance, limit_mm: float = 0.0) -
         return _made("none", events, found)
     found.compared += sum(one.kind != "end" for one in chain.from_iterable(ours for _, ours, _ in pairs))
     difference = difference or compare_places(pairs, driven, pairing, found)
+    if not pairing.same_language:
+        difference = difference or compare_releases((a, b), pairs, driven, tolerance)
     compare_lengths(pairs, not pairing.same_language, tolerance, found)
     if difference is not None:
         return _made("events", difference, found)

@@ -83,7 +83,7 @@ def _task_events(
     """The first two that differ. `foreign`: where only one language looks again and again for what the other waits for
     (which is no event by itself), its looks count for nothing."""
     for first, second in matched(ours, theirs, tolerance, foreign):
-        if first is None or second is None or not same_event(first, second, tolerance):
+        if first is None or second is None or not same_event(first, second, tolerance, foreign):
             return _event_difference(task, first, second)
     return None
 
@@ -96,23 +96,23 @@ def matched(
     while at < len(ours) or there < len(theirs):
         first = ours[at] if at < len(ours) else None
         second = theirs[there] if there < len(theirs) else None
-        same = first is not None and second is not None and same_event(first, second, tolerance)
+        same = first is not None and second is not None and same_event(first, second, tolerance, foreign)
         split = foreign and (not same or (first is not None and first.kind == "message"))
         lines = as_lines(ours[at:], theirs[there:]) if split else (1, 1)
         if first is not None and second is not None and lines != (1, 1):
             whole = second if lines[0] > 1 else first
             yield replace(first, value=whole.value), replace(second, value=whole.value)
             at, there = at + lines[0], there + lines[1]
-        elif not same and foreign and first is not None and _is_looking(first, tolerance):
+        elif not same and foreign and first is not None and is_looking(first, tolerance):
             at += 1
-        elif not same and foreign and second is not None and _is_looking(second, tolerance):
+        elif not same and foreign and second is not None and is_looking(second, tolerance):
             there += 1
         else:
             yield first, second
             at, there = at + 1, there + 1
 
 
-def _is_looking(happening: Happening, tolerance: Tolerance) -> bool:
+def is_looking(happening: Happening, tolerance: Tolerance) -> bool:
     """Is it a loop of short waits, as programs have that look for a condition, or the only cycle of one?"""
     if happening.kind != "wait" or happening.value is None:
         return False
@@ -120,13 +120,17 @@ def _is_looking(happening: Happening, tolerance: Tolerance) -> bool:
     return happening.longest_s <= longest
 
 
-def same_event(a: Happening, b: Happening, tolerance: Tolerance) -> bool:
-    """Do two happenings mean the same, apart from when and where on the path?"""
+def same_event(a: Happening, b: Happening, tolerance: Tolerance, foreign: bool = True) -> bool:
+    """Do two happenings mean the same, apart from when and where on the path? Within one language outputs of one name
+    that are declared for two numbers are two outputs; another one may number them anew."""
     if a.kind != b.kind:
         return False
     match a.kind:
         case "output":
-            return bool(a.names & b.names) and same_value(a.value, b.value, tolerance.number)
+            shared = a.names & b.names
+            if not foreign and all(":" not in name for name in shared) and _numbered(a) and _numbered(b):
+                return False
+            return bool(shared) and same_value(a.value, b.value, tolerance.number)
         case "wait":
             return same_value(a.value, b.value, tolerance.wait_s) or _same_polling(a, b, tolerance)
         case "message":
@@ -135,6 +139,10 @@ def same_event(a: Happening, b: Happening, tolerance: Tolerance) -> bool:
             return " ".join(str(a.value).split()) == " ".join(str(b.value).split())
         case _:
             return a.value == b.value
+
+
+def _numbered(happening: Happening) -> bool:
+    return any(":" in name for name in happening.names)
 
 
 def _same_polling(a: Happening, b: Happening, tolerance: Tolerance) -> bool:
@@ -200,4 +208,14 @@ def _event_difference(task: str, a: Happening | None, b: Happening | None) -> Di
     return Difference(kind, "events", text, side(a), side(b), task)
 
 
-__all__ = ["event_difference", "in_words", "matched", "paired", "same_event", "side", "without_conditions"]
+__all__ = [
+    "event_difference",
+    "in_words",
+    "is_looking",
+    "matched",
+    "paired",
+    "same_event",
+    "same_value",
+    "side",
+    "without_conditions",
+]

@@ -6,22 +6,32 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rpl.proof.record import Stretch
 
+if TYPE_CHECKING:
+    from rpl.emulator.rotations import FloatArray
+
 # Moves of two programs whose goals are that near to each other head for one point.
 SAME_GOAL_MM = 0.1
+# Axes that are that near (deg or mm) to each other stand alike.
+_SAME_AXIS = 1e-3
 
 Group = tuple[Sequence[Stretch], Sequence[Stretch]]
 
 
 def aligned(a: Sequence[Stretch], b: Sequence[Stretch]) -> list[Group]:
     """The moves of two runs, without those to where the robot already is, in groups that belong together."""
-    return _grouped(
-        _rejoined([one for one in a if not _stands(one)]), _rejoined([one for one in b if not _stands(one)])
-    )
+    return _grouped(_rejoined(_going(a)), _rejoined(_going(b)))
+
+
+def _going(stretches: Sequence[Stretch]) -> list[Stretch]:
+    """Those that move anything: a tool that stands on its part while a table turns is led by the arm."""
+    before: Sequence[Stretch | None] = (None, *stretches)
+    return [one for one, last in zip(stretches, before, strict=False) if not _stands(one, last)]
 
 
 def _grouped(a: Sequence[Stretch], b: Sequence[Stretch]) -> list[Group]:
@@ -95,7 +105,15 @@ def _goes_on(cut: Stretch, stretch: Stretch) -> bool:
     return lengths > 0.0 and float(before @ behind) > (1.0 - 1e-8) * lengths
 
 
-def _stands(stretch: Stretch) -> bool:
-    """A move to where the robot already is."""
+def _stands(stretch: Stretch, last: Stretch | None) -> bool:
+    """A move to where the robot and its external axes already are behind the last move."""
     apart = np.abs(stretch.poses[:, :3, :] - stretch.poses[:1, :3, :]).max(initial=0.0)
-    return bool(apart < 1e-6)
+    if apart >= 1e-6:
+        return False
+    return last is None or not (_other(last.joints, stretch.joints) or _other(last.external, stretch.external))
+
+
+def _other(before: FloatArray | None, behind: FloatArray | None) -> bool:
+    if before is None or behind is None or len(before) != len(behind):
+        return False
+    return bool(np.abs(before - behind).max(initial=0.0) > _SAME_AXIS)

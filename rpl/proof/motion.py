@@ -86,7 +86,7 @@ def _task(
             difference = _group(task, groups, number, pairing, found, loose)
         if a and b and len(a) == len(b) == 1:
             stands = pairing.same_arm and number not in sensed
-            asked = compare_asked(task, (a[0], b[0]), stands, pairing.tolerance, found)
+            asked = compare_asked(task, (a[0], b[0]), stands, pairing.same_language, pairing.tolerance, found)
             difference = difference or asked
         if a and b and number not in sensed:
             ends = a[-1], b[-1]
@@ -127,6 +127,10 @@ def _group(
             return _another_way(task, groups[number], left, pairing, found)
     else:
         difference = _another_way(task, groups[number], worst, pairing, found)
+        if difference is not None:
+            return difference
+    if pairing.same_language and a[-1].cut and b[-1].cut:  # the way alone does not show where they were to go
+        difference = _apart_goals(task, a[-1], b[-1], pairing, found)
         if difference is not None:
             return difference
     return _joints(task, a, b, pairing, found)
@@ -174,7 +178,13 @@ def _goals(
     task: str, a: Stretch, b: Stretch, corner: Corner | None, pairing: Pairing, found: Findings
 ) -> Difference | None:
     """Moves at a corner: both must head for the same point."""
-    if corner is None or a.goal is None or b.goal is None or (a.cut and b.cut):
+    if corner is None or (a.cut and b.cut):
+        return None
+    return _apart_goals(task, a, b, pairing, found)
+
+
+def _apart_goals(task: str, a: Stretch, b: Stretch, pairing: Pairing, found: Findings) -> Difference | None:
+    if a.goal is None or b.goal is None:
         return None
     apart = float(np.linalg.norm(a.goal[:3] - b.goal[:3]))
     chord = min(float(np.linalg.norm(a.goal[3:] - b.goal[3:])), float(np.linalg.norm(a.goal[3:] + b.goal[3:])))
@@ -224,7 +234,13 @@ def _joints(
     task: str, a: Sequence[Stretch], b: Sequence[Stretch], pairing: Pairing, found: Findings
 ) -> Difference | None:
     first, second = a[-1], b[-1]
-    if not (pairing.same_arm and len(first.joints) == len(second.joints) and first.stops and second.stops):
+    if not (first.stops and second.stops):
+        return None
+    if not (first.cut or second.cut):
+        difference = _external(task, first, second, pairing)
+        if difference is not None:
+            return difference
+    if not (pairing.same_arm and len(first.joints) == len(second.joints)):
         return None
     apart = np.abs(first.joints - second.joints)
     found.max_joint_deg = max(found.max_joint_deg, float(apart.max(initial=0.0)))
@@ -235,6 +251,18 @@ def _joints(
         f"the arm stands differently: axis {axis + 1} at {first.joints[axis]:.3f} in A, {second.joints[axis]:.3f} in B"
     )
     return Difference("joints", "geometry", text, move_side(a), move_side(b), task)
+
+
+def _external(task: str, a: Stretch, b: Stretch, pairing: Pairing) -> Difference | None:
+    """External axes are the cell's, so they are the same ones for another arm too."""
+    if a.external is None or b.external is None or len(a.external) != len(b.external):
+        return None
+    apart = np.abs(a.external - b.external)
+    if apart.max(initial=0.0) <= pairing.tolerance.joint_deg:
+        return None
+    axis = int(np.argmax(apart))
+    text = f"external axis {axis + 1} stands at {a.external[axis]:.3f} in A, at {b.external[axis]:.3f} in B"
+    return Difference("joints", "geometry", text, move_side([a]), move_side([b]), task)
 
 
 def _xyz(point: tuple[float, float, float]) -> str:

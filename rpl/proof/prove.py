@@ -111,6 +111,19 @@ def prove_against(
     """Run B and compare it with a run of A that was recorded before, for who compares A with several programs."""
     theirs = in_words_of(cell, program_a, program_b) if cell is not None else None
     record_b = recorded_run(program_b, robot_b, theirs, to_entry, limits, controller)
+    return prove_recorded(record_a, record_b, program_a, program_b, to_entry=to_entry, accepted=accepted)
+
+
+def prove_recorded(
+    record_a: Record,
+    record_b: Record,
+    program_a: ir.Program,
+    program_b: ir.Program,
+    *,
+    to_entry: str | None = None,
+    accepted: Accepted = NOTHING_ACCEPTED,
+) -> ProofResult:
+    """Compare runs of A and of B that were recorded before, in the same surroundings and by the same controller."""
     record_a, record_b = (
         with_wired_groups(record_a, wired_bits(program_b)),
         with_wired_groups(record_b, wired_bits(program_a)),
@@ -219,4 +232,4 @@ def _notes(a: Record, b: Record) -> tuple[str, ...]:
     return tuple(notes)
 
 
-__all__ = ["ProofResult", "load_cell", "prove_against", "prove_programs", "recorded_run"]
+__all__ = ["ProofResult", "load_cell", "prove_against", "prove_programs", "prove_recorded", "recorded_run"]

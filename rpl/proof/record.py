@@ -122,7 +122,8 @@ class Stretch:
     interrupt or a search ended it on its way. `own_measure`: its corner is as large as the controller's speed or
     percent make it, not a length. `corner_at`: the pose with which the corner at its end begins, None without one.
     `asked`: what the program asks of it. `loads`: what the robot carries in it, as the program says. `family`: the
-    posture of the arm at the programmed goal; `cut_short`: the controller stopped in place of its corner (postures)."""
+    posture of the arm at the programmed goal; `cut_short`: the controller stopped in place of its corner (postures).
+    external: its external axes at its end (deg, mm)."""
 
     motion: str
     times: FloatArray
@@ -138,12 +139,14 @@ class Stretch:
     loads: tuple[Payload, ...] = ()
     family: Family | None = None
     cut_short: bool = False
+    external: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Record:
     """A whole run: how it ended, what happened in each task, the motion of each robot by task name, the moves that a
-    controller left out or shortened, and which statements it came to."""
+    controller left out or shortened, and which statements it came to. `waited`: waits for conditions that ended: task,
+    from and to (s). `inputs`: what the surroundings changed."""
 
     status: str
     time_s: float
@@ -153,3 +156,5 @@ class Record:
     language: str = ""
     left_out: Mapping[str, tuple[LeftOut, ...]] = field(default_factory=dict)
     reached: Reached | None = None
+    waited: tuple[tuple[str, float, float], ...] = ()
+    inputs: tuple[Happening, ...] = ()

@@ -51,7 +51,17 @@ def record_of(result: RunResult, program: ir.Program, robot: RobotModel | None =
     moving = {way.mover: way for way in ways.values() if way.moves}  # several tasks may see one robot
     motion = {mover: noted(way.stretches(), way.moves, result.trace, robot) for mover, way in moving.items()}
     name, left = robot.name if robot else "", left_out(result.trace)
-    return Record(result.status, result.time_s, tasks, motion, name, language, left, result.reached)
+    inputs = tuple(_input(event) for event in result.trace if event.kind == "input")
+    return Record(
+        result.status, result.time_s, tasks, motion, name, language, left, result.reached, result.waited, inputs
+    )
+
+
+def _input(event: Event) -> Happening:
+    """A change that the surroundings made, by all names of its signal."""
+    kind, index, last, _ = event.port or (None, None, None, None)
+    known = [str(name) for name in (event.data.get("signal"), *event.names) if name]
+    return Happening("input", event.t, _plain(event.data.get("value")), signal_names(kind, known, index, last))
 
 
 def _ways(tasks: dict[str, list[Event]], program: ir.Program) -> dict[str, _Way]:
@@ -221,6 +231,7 @@ def _stretch(event: Event) -> Stretch:
         corner_at=_corner_at(event.legs, poses),
         asked=event.programmed,
         loads=event.payloads,
+        external=np.asarray(last.plan.external_at(last.offset_s + last.duration_s), dtype=float).ravel(),
     )
 
 
