@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import difflib
 import math
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cache
@@ -20,6 +19,7 @@ from typing import Any
 from rpl import registry
 from rpl.errors import UsageError
 from rpl.source import read_bytes
+from rpl.tomlfile import LARGEST, SMALLEST, Lines, TomlError, key_lines, line_of, read_toml
 
 # A right angle's corner is missed by this share of the zone where the corner is a parabola: sqrt(2) / 4.
 PARABOLA = math.sqrt(0.125)
@@ -171,32 +171,31 @@ def controller_named(name_or_path: str) -> MotionModel:
 def parse_controller(text: str, name: str, place: str) -> MotionModel:
     """A controller file's text as a model. Raises UsageError naming `place` and the key that is wrong."""
     try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise UsageError(f"controller file {place}: {error}") from error
+        data = read_toml(text)
+    except TomlError as error:
+        raise UsageError(error.at(f"controller file {place}")) from error
+    file = _File(place, key_lines(text))
     known = {"title", "source", "overlap", "joint_ramps_s", "uncertainty", *NUMBERS}
     for key in data:
         if key not in known:
             close = difflib.get_close_matches(key, known, 1)
-            raise UsageError(
-                f"controller file {place}: unknown key '{key}'" + (f"; meant {close[0]}?" if close else "")
-            )
-    given: dict[str, Any] = {key: _number(data[key], key, place) for key in NUMBERS if key in data}
+            raise file.wrong(key, f"unknown key '{key}'" + (f"; meant {close[0]}?" if close else ""))
+    given: dict[str, Any] = {key: file.number(data[key], key) for key in NUMBERS if key in data}
     given |= {key: str(data[key]) for key in ("title", "source") if key in data}
     uncertain = data.get("uncertainty", {})
     if not isinstance(uncertain, dict):
-        raise UsageError(f"controller file {place}: 'uncertainty' must be a table")
+        raise file.wrong("uncertainty", "'uncertainty' must be a table")
     for key in uncertain:
         if key not in UNCERTAIN:
-            raise UsageError(f"controller file {place}: uncertainty of '{key}', which is no parameter")
-    uncertainty = {key: _number(value, f"uncertainty.{key}", place) for key, value in uncertain.items()}
+            raise file.wrong(f"uncertainty.{key}", f"uncertainty of '{key}', which is no parameter")
+    uncertainty = {key: file.number(value, f"uncertainty.{key}") for key, value in uncertain.items()}
     ramps = data.get("joint_ramps_s", [])
     if not isinstance(ramps, list):
-        raise UsageError(f"controller file {place}: 'joint_ramps_s' must be a list of times, one per axis")
+        raise file.wrong("joint_ramps_s", "'joint_ramps_s' must be a list of times, one per axis")
     return MotionModel(
         name=name,
-        overlap=_overlap(data.get("overlap", []), place),
-        joint_ramps_s=tuple(_number(each, "joint_ramps_s", place) for each in ramps),
+        overlap=file.overlap(data.get("overlap", [])),
+        joint_ramps_s=tuple(file.number(each, "joint_ramps_s") for each in ramps),
         uncertainty=uncertainty,
         **given,
     )
@@ -226,22 +225,42 @@ def _quoted(text: str) -> str:
     return text.replace("\\", "\\\\").replace('"', '\\"')
 
 
-def _number(value: object, key: str, place: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value) or value < 0.0:
-        raise UsageError(f"controller file {place}: '{key}' must be a number of at least 0, found {value!r}")
-    if key.endswith(("acceleration_mm_s2", "acceleration_share")) and value == 0.0:
-        raise UsageError(f"controller file {place}: '{key}' must be more than 0")
-    return float(value)
+def wrong_number(value: object, key: str) -> str:
+    """What is wrong with the value of a parameter; nothing where it is a number of some use."""
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 <= value < math.inf:
+        return f"'{key}' must be a number of at least 0, found {value!r}"
+    if value > LARGEST:
+        return f"'{key}' must be a number of at most {LARGEST:,.0f}, found {value!r}"
+    if key.endswith(("acceleration_mm_s2", "acceleration_share")) and value < SMALLEST:
+        return f"'{key}' must be more than 0, at least {SMALLEST:f}"
+    return ""
 
 
-def _overlap(value: object, place: str) -> tuple[tuple[float, float], ...]:
-    rows = value if isinstance(value, list) else [None]
-    pairs = []
-    for row in rows:
-        if not isinstance(row, list) or len(row) != 2:
-            raise UsageError(f"controller file {place}: 'overlap' must be a list of pairs [percent, share of a ramp]")
-        pairs.append((_number(row[0], "overlap", place), _number(row[1], "overlap", place)))
-    rising = all(a[0] < b[0] for a, b in pairwise(pairs))
-    if not rising or any(share > 1.0 for _, share in pairs):
-        raise UsageError(f"controller file {place}: 'overlap' needs rising percents and shares of at most 1")
-    return tuple(pairs)
+@dataclass(frozen=True, slots=True)
+class _File:
+    """Where a controller file's complaints stand."""
+
+    place: str
+    lines: Lines
+
+    def wrong(self, key: str, what: str) -> UsageError:
+        line = line_of(self.lines, key)
+        return UsageError(f"controller file {self.place}{f':{line}' if line else ''}: {what}")
+
+    def number(self, value: object, key: str) -> float:
+        wrong = wrong_number(value, key)
+        if wrong or not isinstance(value, int | float):
+            raise self.wrong(key, wrong)
+        return float(value)
+
+    def overlap(self, value: object) -> tuple[tuple[float, float], ...]:
+        rows = value if isinstance(value, list) else [None]
+        pairs = []
+        for row in rows:
+            if not isinstance(row, list) or len(row) != 2:
+                raise self.wrong("overlap", "'overlap' must be a list of pairs [percent, share of a ramp]")
+            pairs.append((self.number(row[0], "overlap"), self.number(row[1], "overlap")))
+        rising = all(a[0] < b[0] for a, b in pairwise(pairs))
+        if not rising or any(share > 1.0 for _, share in pairs):
+            raise self.wrong("overlap", "'overlap' needs rising percents and shares of at most 1")
+        return tuple(pairs)

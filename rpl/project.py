@@ -6,8 +6,10 @@ What is no robot program is refused politely: an error where the user named it, 
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 
 from rpl import archives, ir, registry
@@ -34,11 +36,20 @@ DAMAGED = code(
     "damaged-file", Severity.WARNING, "left out: {reason}", "what it should hold is missing from the program"
 )
 SKIPPED = code("skipped-file", Severity.INFO, "skipped, not a robot program: {reason}")
+TOO_LONG = code(
+    "number-too-long",
+    Severity.ERROR,
+    "a number of {digits} digits, and no controller has one: nothing of this file is read",
+    "give the program without it",
+)
 UNREADABLE_FILE = code("unreadable-file", Severity.ERROR, "cannot read this file: {reason}")
 UNREADABLE_ARCHIVE = code("unreadable-archive", Severity.ERROR, "cannot open this archive: {reason}")
 
 _SURE_ENOUGH = 30
 _CERTAIN = 95
+# Whole numbers of more decimal digits are not read (the limit of Python's conversion; in base 16 five sixths of it).
+_LONGEST_NUMBER = 4300
+_LONG_NUMBER = re.compile(rf"\d{{{_LONGEST_NUMBER + 1},}}|[\dA-Fa-f]{{{_LONGEST_NUMBER * 5 // 6},}}")
 _TEXT_CONTROLS = frozenset(b"\t\n\r\x0c\x1a")
 
 
@@ -114,7 +125,10 @@ def _read_groups(groups: dict[str, list[Source]], diagnostics: Diagnostics) -> R
 def _read(groups: dict[str, list[Source]], diagnostics: Diagnostics) -> ReadProgram:
     raw = ir.Program(())
     files: list[FileReport] = []
-    for name, sources in groups.items():
+    for name, given in groups.items():
+        refused = [_refused(source, diagnostics) for source in given]
+        sources = [source for source, left in zip(given, refused, strict=True) if not left]
+        files.extend(FileReport(one.path, name, 1, 1) for one, left in zip(given, refused, strict=True) if left)
         result = registry.dialect(name).read(sources, diagnostics)
         part = result.program
         raw = replace(
@@ -129,6 +143,19 @@ def _read(groups: dict[str, list[Source]], diagnostics: Diagnostics) -> ReadProg
     motion_values(program, diagnostics)
     every = tuple(source for sources in groups.values() for source in sources)
     return ReadProgram(program, raw, every, tuple(files), tuple(groups))
+
+
+def _refused(source: Source, diagnostics: Diagnostics) -> bool:
+    """Has it a number that nobody can read? Only lines longer than that are looked at."""
+    starts = source.line_starts()
+    for start, end in pairwise((*starts, len(source.text))):
+        if end - start <= _LONGEST_NUMBER * 5 // 6:
+            continue
+        found = _LONG_NUMBER.search(source.text, start, end)
+        if found is not None:
+            diagnostics.report(TOO_LONG, Origin(source, *found.span()), digits=len(found[0]))
+            return True
+    return False
 
 
 def recognise(source: Source) -> tuple[str | None, str]:

@@ -7,11 +7,11 @@ language's files look like this, so the name of a language does not make program
 from __future__ import annotations
 
 import json
-import tomllib
 from dataclasses import dataclass
 
 from rpl.errors import UsageError
 from rpl.source import Source
+from rpl.tomlfile import TomlError, read_toml
 
 # A first line longer than this is no event of a trace.
 _LONGEST_EVENT = 100_000
@@ -68,8 +68,8 @@ def _is_map(source: Source) -> bool:
 def _toml(source: Source) -> SideFile | None:
     """Which of the files in TOML it is; by its keys, because wrong values do not make another file of it."""
     try:
-        keys = set(tomllib.loads(source.text))
-    except (tomllib.TOMLDecodeError, RecursionError):
+        keys = set(read_toml(source.text))
+    except TomlError:
         return SETTINGS
     from rpl.cell import parse_cell
     from rpl.controllers import UNCERTAIN

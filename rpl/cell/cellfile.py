@@ -17,10 +17,8 @@ statements stand for. Every error names the file and the key.
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +27,7 @@ from rpl.emulator.mechanismfile import Mechanism, read_mechanisms
 from rpl.errors import UsageError
 from rpl.ir.analog import MILLIAMPERES, VOLTS, AnalogRange, AnalogSetting
 from rpl.source import read_bytes
+from rpl.tomlfile import FARTHEST, LARGEST, SMALLEST, Lines, TomlError, key_lines, line_of, no_numbers, read_toml
 
 Value = Any  # what TOML can say: numbers, BOOLs, texts, lists, tables
 
@@ -108,10 +107,13 @@ def read_cell(path: str | Path) -> Cell:
 def parse_cell(text: str, path: str = "cell") -> Cell:
     """The cell that a text describes."""
     try:
-        table = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise UsageError(f"{path}: {error}") from None
-    return _Reader(path).cell(table)
+        table = read_toml(text)
+    except TomlError as error:
+        raise UsageError(error.at(path)) from None
+    reader = _Reader(path, key_lines(text))
+    for key, value in no_numbers(table):
+        raise reader.wrong(key, f"must be a finite number, not {value}")
+    return reader.cell(table)
 
 
 _TOP = frozenset(
@@ -132,14 +134,22 @@ _TOP = frozenset(
 )
 _MOST_EXTERNAL = 6
 LONGEST_S = 1e9  # no time of a cell is longer
+# System variables that say how fast something is; of blends they say where one begins.
+_RATE = re.compile(r"^(?!blend_).*(speed|acceleration|deceleration)")
+
+
+def _is_place(value: Value) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= FARTHEST
 
 
 class _Reader:
-    def __init__(self, path: str) -> None:
+    def __init__(self, path: str, lines: Lines) -> None:
         self.path = path
+        self.lines = lines
 
     def wrong(self, key: str, what: str) -> UsageError:
-        return UsageError(f"{self.path}: {key}: {what}")
+        line = line_of(self.lines, key)
+        return UsageError(f"{self.path}{f':{line}' if line else ''}: {key}: {what}")
 
     def cell(self, table: dict[str, Value]) -> Cell:
         for key in table:
@@ -151,12 +161,10 @@ class _Reader:
         for key, value in (("variables", variables), ("system", system)):
             if not isinstance(value, dict):
                 raise self.wrong(key, "must be a table of names and values")
-        for name in system:
-            row = ir.SYSTEM_VARIABLES.get(name.partition("[")[0])
-            if row is None or row.access != "rw":
-                raise self.wrong(f"system.{name}", "is no system variable that can be set")
+        for name, value in system.items():
+            self.system(name, value)
         seed = table.get("seed", 1)
-        if not isinstance(seed, int):
+        if not isinstance(seed, int) or isinstance(seed, bool):
             raise self.wrong("seed", "must be a whole number")
         return Cell(
             tuple(inputs),
@@ -168,18 +176,30 @@ class _Reader:
             seed,
             self.joints(table),
             self.path,
-            read_mechanisms(table.get("mechanism", []), self.path),
+            read_mechanisms(table.get("mechanism", []), self.path, self.lines),
             self.external(table),
             tuple(self.analog(table.get("analog", {}))),
         )
+
+    def system(self, name: str, value: Value) -> None:
+        """The value that a system variable has at the start."""
+        row = ir.SYSTEM_VARIABLES.get(name.partition("[")[0])
+        if row is None or row.access != "rw":
+            raise self.wrong(f"system.{name}", "is no system variable that can be set")
+        moves = row.type == "n" and _RATE.search(row.name) is not None
+        for one in value if isinstance(value, list) else [value]:
+            if moves and isinstance(one, int | float) and not SMALLEST <= one <= LARGEST:
+                raise self.wrong(f"system.{name}", f"must be from {SMALLEST:f} to {LARGEST:,.0f}, not {one:g}")
 
     def external(self, table: dict[str, Value]) -> tuple[float | None, ...] | None:
         given = table.get("external")
         if given is None:
             return None
-        numbers = isinstance(given, list) and all(isinstance(one, int | float) for one in given)
+        numbers = isinstance(given, list) and all(_is_place(one) for one in given)
         if not numbers or not 1 <= len(given) <= _MOST_EXTERNAL:
-            raise self.wrong("external", f"must be a list of 1 to {_MOST_EXTERNAL} values of external axes")
+            raise self.wrong(
+                "external", f"must be a list of 1 to {_MOST_EXTERNAL} values of external axes within {FARTHEST:,.0f}"
+            )
         return (*(float(one) for one in given), *(None,) * (_MOST_EXTERNAL - len(given)))
 
     def analog(self, table: Value) -> Iterator[AnalogSetting]:
@@ -206,8 +226,9 @@ class _Reader:
     def two(self, key: str, row: dict[str, Value], name: str) -> tuple[float, float]:
         """Two different numbers."""
         given = row[name]
-        plain = isinstance(given, list) and all(isinstance(one, int | float) and not isinstance(one, bool)
-                                                and isfinite(one) for one in given)  # fmt: skip
+        plain = isinstance(given, list) and all(
+            isinstance(one, int | float) and not isinstance(one, bool) for one in given
+        )
         if not plain or len(given) != 2 or given[0] == given[1]:
             raise self.wrong(f"{key}.{name}", f"must be two different numbers, not {given!r}")
         return float(given[0]), float(given[1])
@@ -216,8 +237,8 @@ class _Reader:
         given = table.get("joints")
         if given is None:
             return None
-        if not isinstance(given, list) or not all(isinstance(each, int | float) for each in given):
-            raise self.wrong("joints", "must be a list of joint values")
+        if not isinstance(given, list) or not all(_is_place(each) for each in given):
+            raise self.wrong("joints", f"must be a list of joint values, none beyond {FARTHEST:,.0f}")
         return tuple(float(each) for each in given)
 
     def rows(self, table: dict[str, Value], name: str) -> Iterator[tuple[str, dict[str, Value]]]:

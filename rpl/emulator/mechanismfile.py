@@ -20,6 +20,7 @@ import math
 from dataclasses import dataclass
 
 from rpl.errors import UsageError
+from rpl.tomlfile import FARTHEST, LARGEST, SMALLEST, Lines, line_of
 
 KINDS = {"track": (1, 3), "rotary": (1, 1), "positioner": (2, 2)}  # kind -> how many axes
 MOST_EXTERNAL = 6
@@ -70,13 +71,13 @@ class Mechanism:
         return name.strip().lower() in self.names
 
 
-def read_mechanisms(rows: object, file: str) -> tuple[Mechanism, ...]:
-    """The `[[mechanism]]` tables of a file; UsageError with file and key when one is wrong."""
+def read_mechanisms(rows: object, file: str, lines: Lines | None = None) -> tuple[Mechanism, ...]:
+    """The `[[mechanism]]` tables of a file; UsageError with file, line (where `lines` tells it) and key when one is
+    wrong."""
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
         raise UsageError(f"{file}: mechanism: must be written as [[mechanism]] tables")
-    return checked_together(
-        tuple(_Reader(file, f"mechanism[{place}]", row).mechanism() for place, row in enumerate(rows, 1)), file
-    )
+    readers = [_Reader(file, f"mechanism[{place}]", row, lines or {}) for place, row in enumerate(rows, 1)]
+    return checked_together(tuple(reader.mechanism() for reader in readers), file)
 
 
 def checked_together(found: tuple[Mechanism, ...], file: str) -> tuple[Mechanism, ...]:
@@ -110,9 +111,11 @@ class _Reader:
     file: str
     key: str
     row: dict[str, object]
+    lines: Lines
 
     def wrong(self, key: str, what: str) -> UsageError:
-        return UsageError(f"{self.file}: {self.key}.{key}: {what}")
+        line = line_of(self.lines, f"{self.key}.{key}")
+        return UsageError(f"{self.file}{f':{line}' if line else ''}: {self.key}.{key}: {what}")
 
     def known(self, keys: tuple[str, ...]) -> None:
         for key in self.row:
@@ -149,7 +152,8 @@ class _Reader:
         if not fewest <= len(rows) <= most:
             count = str(fewest) if fewest == most else f"{fewest} to {most}"
             raise self.wrong("axes", f"a {kind} has {count}, not {len(rows)}")
-        readers = [_Reader(self.file, f"{self.key}.axes[{place}]", row) for place, row in enumerate(rows, 1)]
+        keys = (f"{self.key}.axes[{place}]" for place in range(1, len(rows) + 1))
+        readers = [_Reader(self.file, key, row, self.lines) for key, row in zip(keys, rows, strict=True)]
         return tuple(reader.axis(kind == "track") for reader in readers)
 
     def axis(self, sliding: bool) -> MechanismAxis:
@@ -160,6 +164,8 @@ class _Reader:
         pitch = self.number("pitch", 1.0)
         if pitch == 0.0:
             raise self.wrong("pitch", "must not be zero: the axis would not move")
+        if not SMALLEST <= abs(pitch) <= LARGEST:
+            raise self.wrong("pitch", f"must be from {SMALLEST:f} to {LARGEST:,.0f}, not {pitch:g}")
         speed, acceleration, pulses = (self.above_zero(key) for key in ("speed", "acceleration", "pulses"))
         return MechanismAxis(
             number, sliding, self.direction(), self.six("place"), pitch, self.limits(), speed, acceleration, pulses
@@ -183,6 +189,8 @@ class _Reader:
         numbers = _numbers(self.row[key], 6)
         if numbers is None:
             raise self.wrong(key, "must be six numbers: x y z in mm, a b c in degrees")
+        if max(map(abs, numbers)) > FARTHEST:
+            raise self.wrong(key, f"no place is farther than {FARTHEST:,.0f}")
         return numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5]
 
     def limits(self) -> tuple[float, float] | None:
@@ -191,6 +199,8 @@ class _Reader:
         numbers = _numbers(self.row["limits"], 2)
         if numbers is None or numbers[0] > numbers[1]:
             raise self.wrong("limits", f"must be [lower, upper], not {self.row['limits']!r}")
+        if max(abs(numbers[0]), abs(numbers[1])) > FARTHEST:
+            raise self.wrong("limits", f"no axis goes farther than {FARTHEST:,.0f}")
         return numbers[0], numbers[1]
 
     def number(self, key: str, default: float) -> float:
@@ -205,13 +215,15 @@ class _Reader:
         value = self.number(key, 0.0)
         if value <= 0.0:
             raise self.wrong(key, f"must be above zero, not {value:g}")
+        if not SMALLEST <= value <= LARGEST:
+            raise self.wrong(key, f"must be from {SMALLEST:f} to {LARGEST:,.0f}, not {value:g}")
         return value
 
 
 def _numbers(value: object, count: int) -> tuple[float, ...] | None:
-    """So many finite numbers, or None."""
+    """So many numbers of some use, or None."""
     if not isinstance(value, list) or len(value) != count:
         return None
-    if not all(isinstance(one, int | float) and not isinstance(one, bool) and math.isfinite(one) for one in value):
+    if not all(isinstance(one, int | float) and not isinstance(one, bool) for one in value):
         return None
-    return tuple(float(one) for one in value)
+    return tuple(float(one) for one in value) if all(abs(one) <= LARGEST for one in value) else None

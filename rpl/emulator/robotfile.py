@@ -7,18 +7,17 @@ has verified are listed under `assumed`. This module only reads and checks; `rpl
 
 import difflib
 import math
-import re
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from importlib import resources
 from pathlib import Path
 from typing import Literal
 
-from rpl.controllers import NUMBERS
+from rpl.controllers import NUMBERS, wrong_number
 from rpl.emulator.mechanismfile import Mechanism, read_mechanisms
 from rpl.errors import UsageError
 from rpl.source import read_bytes
+from rpl.tomlfile import FARTHEST, LARGEST, SMALLEST, Lines, TomlError, key_lines, read_toml
 
 Kind = Literal["opw", "ur", "scara", "chain"]
 
@@ -29,9 +28,12 @@ LENGTHS: dict[Kind, tuple[str, ...]] = {
     "chain": (),
 }
 AXES: dict[Kind, int] = {"opw": 6, "ur": 6, "scara": 4, "chain": 0}
-# No length, angle, speed or scale of a robot is larger.
-LARGEST = 1e9
 Vector = tuple[float, ...]
+TOP_KEYS = ("name", "maker", "title", "kind", "source", "assumed", "notes", "payload_kg",
+            "geometry", "axes", "motion", "mechanism", "link", "dynamics")  # fmt: skip
+GEOMETRY_KEYS = ("offsets", "signs", "joint_3_follows_joint_2", "origin_at_axis_2", "urdf", "tip")
+AXIS_KEYS = ("limits", "speeds", "accelerations", "home", "pulses_per_degree", "counts_pulses", "lag")
+LINK_KEYS, DYNAMICS_KEYS = ("mass", "centre", "inertia", "origin", "axes"), ("torques", "rotors", "source")
 RAMPS = "joint_ramps_s"
 
 
@@ -185,23 +187,26 @@ def _unknown(name: str) -> str:
 
 def _parse(text: str, place: str, folder: Path | None) -> RobotFile:
     try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise RobotError(_unread(text, place, str(error))) from error
-    reader = _Reader(data, place, _lines(text))
+        data = read_toml(text)
+    except TomlError as error:
+        raise RobotError(error.at(f"robot file {place}")) from error
+    reader = _Reader(data, place, key_lines(text))
+    reader.known(TOP_KEYS)
     kind = reader.text("kind")
     if kind not in LENGTHS:
         raise reader.fail("kind", f"one of {', '.join(LENGTHS)}")
     family = kind
     axes = reader.table("axes")
     geometry = reader.table("geometry")
+    axes.known(AXIS_KEYS)
+    geometry.known((*GEOMETRY_KEYS, *LENGTHS[family]))
     count = AXES[family] or len(axes.numbers("home", None))
     if count == 0:
         raise axes.fail("home", "a list of one number an axis")
     urdf = geometry.text("urdf", "")
     if family == "chain" and (not urdf or folder is None):
         raise geometry.wrong("urdf", "a chain needs 'urdf', a path relative to the file, under [geometry]")
-    lengths = {key: geometry.number(key) for key in LENGTHS[family]}
+    lengths = {key: geometry.number(key, FARTHEST) for key in LENGTHS[family]}
     _check_lengths(geometry, family, lengths)
     limits, home = axes.pairs("limits", count), axes.numbers("home", count)
     for axis, (value, (low, high)) in enumerate(zip(home, limits, strict=True), start=1):
@@ -230,21 +235,11 @@ def _parse(text: str, place: str, folder: Path | None) -> RobotFile:
         counts_pulses=axes.flag("counts_pulses", True),
         motion=_motion(reader, count),
         motion_of=reader.table("motion").text("controller") if "motion" in data else "",
-        mechanisms=read_mechanisms(data.get("mechanism", []), f"robot file {place}"),
+        mechanisms=read_mechanisms(data.get("mechanism", []), f"robot file {place}", reader.lines),
         weights=_weights(reader, count),
         lag=_lag(axes, count),
         payload_kg=_payload(reader),
     )
-
-
-def _unread(text: str, place: str, reason: str) -> str:
-    """Why a text is no TOML, with its line, and the key where one stands there (twice, perhaps)."""
-    found, lines = re.search(r"\(at line (\d+), column \d+\)", reason), text.splitlines()
-    if found is None or int(found[1]) > len(lines):
-        return f"robot file {place}: {reason}"
-    key = KEY.match(lines[int(found[1]) - 1])
-    named = f"'{key[1]}': " if key else ""
-    return f"robot file {place}:{found[1]}: {named}{reason}"
 
 
 def _motion(reader: "_Reader", count: int) -> dict[str, float | Vector]:
@@ -258,6 +253,10 @@ def _motion(reader: "_Reader", count: int) -> dict[str, float | Vector]:
     found: dict[str, float | Vector] = {key: table.number(key) for key in NUMBERS if key in table.data}
     if RAMPS in table.data:
         found[RAMPS] = table.numbers(RAMPS, count)
+    for key, value in found.items():
+        for one in value if isinstance(value, tuple) else (value,):
+            if wrong := wrong_number(one, key):
+                raise table.wrong(key, wrong)
     return found
 
 
@@ -287,25 +286,6 @@ def _check_lengths(geometry: "_Reader", family: Kind, lengths: dict[str, float])
         raise geometry.wrong("a3", "'a2' and 'a3' must have the same sign")
 
 
-HEADER = re.compile(r"\s*\[\[?\s*([\w.-]+)\s*\]")
-KEY = re.compile(r"\s*[\"']?([\w-]+)[\"']?\s*=")
-
-
-def _lines(text: str) -> dict[tuple[str, str], int]:
-    """Where each key of each table stands: (table or "", key) to the number of its line; the key "" is the header. The
-    second table of a list of them is called `link 2`."""
-    found: dict[tuple[str, str], int] = {("", ""): 1}
-    table = ""
-    for number, line in enumerate(text.splitlines(), start=1):
-        if header := HEADER.match(line):
-            before = sum(name == header[1] or name.startswith(f"{header[1]} ") for name, inner in found if not inner)
-            table = f"{header[1]} {before + 1}" if before else header[1]
-            found[table, ""] = number
-        elif key := KEY.match(line):
-            found.setdefault((table, key[1]), number)
-    return found
-
-
 def _weights(reader: "_Reader", count: int) -> WeightFile | None:
     """What the arm weighs, where the file says it: one [[link]] for each joint, and [dynamics]."""
     if "link" not in reader.data:
@@ -316,6 +296,7 @@ def _weights(reader: "_Reader", count: int) -> WeightFile | None:
     names = ["link", *(f"link {number}" for number in range(2, count + 1))]
     links = [reader.table_of(name, entry) for name, entry in zip(names, entries, strict=True)]
     dynamics = reader.table("dynamics")
+    dynamics.known(DYNAMICS_KEYS)
     for key in ("torques", "rotors"):
         if key in dynamics.data and min(dynamics.numbers(key, count)) < 0.0:
             raise dynamics.fail(key, "a list of numbers of at least 0")
@@ -328,6 +309,7 @@ def _weights(reader: "_Reader", count: int) -> WeightFile | None:
 
 
 def _link(link: "_Reader") -> LinkFile:
+    link.known(LINK_KEYS)
     mass, inertia = link.number("mass"), link.numbers("inertia", 6, (0.0,) * 6)
     if mass < 0.0:
         raise link.fail("mass", "a number of at least 0")
@@ -369,23 +351,13 @@ def _lag(axes: "_Reader", count: int) -> Vector | None:
     return numbers
 
 
-def _pulses(axes: "_Reader", count: int) -> Vector | None:
-    """Motor pulses per degree of each axis, where somebody has published them."""
-    if "pulses_per_degree" not in axes.data:
-        return None
-    numbers = axes.numbers("pulses_per_degree", count)
-    if min(numbers) <= 0.0:
-        raise axes.fail("pulses_per_degree", "a list of numbers above 0")
-    return numbers
-
-
 @dataclass(frozen=True, slots=True)
 class _Reader:
     """Typed look-ups in a TOML table, each failing with the name of the file, the line and the key."""
 
     data: dict[str, object]
     place: str
-    lines: dict[tuple[str, str], int]
+    lines: Lines
     name: str = ""
 
     def wrong(self, key: str, message: str) -> RobotError:
@@ -396,6 +368,13 @@ class _Reader:
     def fail(self, key: str, wanted: str) -> RobotError:
         found = repr(self.data[key]) if key in self.data else "nothing"
         return self.wrong(key, f"'{key}' must be {wanted}, found {found}")
+
+    def known(self, keys: tuple[str, ...]) -> None:
+        for key in self.data:
+            if key not in keys:
+                close = difflib.get_close_matches(key, keys, 1)
+                hint = f"did you mean '{close[0]}'?" if close else f"there are {', '.join(keys)}"
+                raise self.wrong(key, f"'{key}' is not known here: {hint}")
 
     def table(self, key: str) -> "_Reader":
         value = self.data.get(key)
@@ -425,10 +404,12 @@ class _Reader:
             raise self.fail(key, "true or false")
         return value
 
-    def number(self, key: str) -> float:
+    def number(self, key: str, most: float = LARGEST) -> float:
         numbers = _numbers([self.data.get(key)])
         if numbers is None:
             raise self.fail(key, "a number")
+        if abs(numbers[0]) > most:
+            raise self.fail(key, f"a number of at most {most:,.0f}")
         return numbers[0]
 
     def numbers(self, key: str, count: int | None, default: Vector | None = None) -> Vector:
@@ -444,6 +425,8 @@ class _Reader:
         numbers = self.numbers(key, count)
         if min(numbers) <= 0.0:
             raise self.fail(key, f"a list of {count} numbers above 0")
+        if min(numbers) < SMALLEST:
+            raise self.fail(key, f"a list of {count} numbers of at least {SMALLEST:f}")
         return numbers
 
     def pairs(self, key: str, count: int) -> tuple[Vector, ...]:
@@ -453,6 +436,8 @@ class _Reader:
         if len(pairs) != count or len(rows) != count:
             raise self.fail(key, f"a list of {count} pairs [lower, upper]")
         for axis, (low, high) in enumerate(pairs, start=1):
+            if max(abs(low), abs(high)) > FARTHEST:
+                raise self.wrong(key, f"'{key}' of axis {axis}: no axis goes farther than {FARTHEST:,.0f}")
             if low > high:
                 raise self.wrong(
                     key, f"'{key}' of axis {axis}: the lower one, {low:g}, is above the upper one, {high:g}"

@@ -12,6 +12,7 @@ import pytest
 import rpl
 from rpl.cell import parse_cell
 from rpl.cli.main import run
+from rpl.controllers import parse_controller
 from rpl.errors import RunError, UsageError
 
 
@@ -36,7 +37,7 @@ def test_no_number_as_a_limit_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("value", ["nan", "inf", "-1.0", "2e9"])
 def test_times_of_a_cell_are_numbers(value: str) -> None:
-    with pytest.raises(UsageError, match=r"cell.toml: input\[1\].time"):
+    with pytest.raises(UsageError, match=r"cell.toml:2: input\[1\].time"):
         parse_cell(f'[[input]]\ntime = {value}\nsignal = "di1"\nvalue = true\n', "cell.toml")
 
 
@@ -111,3 +112,86 @@ def test_a_first_value_that_cannot_be_made_is_named_with_its_place(tmp_path: Pat
     path.write_text(text.replace("VAR point p1:=[nowhere];\nPROC main()", "PROC main()\nVAR point p1:=[nowhere];"))
     with pytest.raises(RunError, match=r"a\.mod:5: main: nowhere is not declared"):
         rpl.run(rpl.read(path))
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("joints = [0, nan]", r"c.toml:1: joints\[2\]: must be a finite number, not nan"),
+        ("joints = [0, 1e9]", "c.toml:1: joints: .* none beyond 1,000,000"),
+        ("external = [inf]", r"c.toml:1: external\[1\]: must be a finite number"),
+        ("seed = true", "c.toml:1: seed: must be a whole number"),
+        (f"seed = {'9' * 5000}", "c.toml:1: 'seed': a number has more than 4300 digits"),
+        (f"\nseed = 0x{'F' * 5000}", "c.toml:2: 'seed': a whole number has more than 64 bits"),
+        ("[variables]\nx = nan", "c.toml:2: variables.x: must be a finite number"),
+        ("[variables]\nx = { y = [1, [-inf]] }", r"c.toml:2: variables.x.y\[2\]\[1\]: must be a finite number"),
+        ("[system]\n\npath_speed = -5", "c.toml:3: system.path_speed: must be from 0.000001 to"),
+        ("[system]\npath_speed = 1e-300", "c.toml:2: system.path_speed: must be from 0.000001 to"),
+        ("[system]\npath_acceleration = 0", "c.toml:2: system.path_acceleration: must be from 0.000001 to"),
+        ('[analog.tp]\n"AO[1]" = { numbers = [0, nan], volts = [0, 1] }', r"c.toml:2: analog.tp.AO\[1\].numbers\[2\]"),
+        ('[[input]]\ntime = 1\nsignal = "a"\nvalue = 1\n[[input]]\ntime = 1\nsignal = "b"\nvalue = nan', "c.toml:8: "),
+        (
+            '[[mechanism]]\nname = "a"\nkind = "rotary"\naxes = [{ number = 1, speed = 1e-300 }]',
+            "c.toml:4: .*speed: must be",
+        ),
+        (
+            '[[mechanism]]\nname = "a"\nkind = "rotary"\naxes = [{ number = 1, limits = [-1e9, 1e9] }]',
+            "c.toml:4: .*farther",
+        ),
+        (f"joints = {'[' * 5000}", "nested too deeply"),
+    ],
+)
+def test_numbers_of_a_cell_that_are_none_are_named_with_line_and_key(text: str, complaint: str) -> None:
+    """TOML 1.0: nan and inf are floats, and what does not fit 64 bits is an error."""
+    with pytest.raises(UsageError, match=complaint):
+        parse_cell(text, "c.toml")
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("joint_ramp_s = nan", "c.toml:1: 'joint_ramp_s' must be a number of at least 0, found nan"),
+        ("joint_ramp_s = -1", "c.toml:1: 'joint_ramp_s' must be a number of at least 0"),
+        (
+            "path_acceleration_mm_s2 = 1e-300",
+            "c.toml:1: 'path_acceleration_mm_s2' must be more than 0, at least 0.000001",
+        ),
+        ("\njoint_ramps_s = [0.1, 1e300]", "c.toml:2: 'joint_ramps_s' must be a number of at most 1,000,000,000"),
+        ("[uncertainty]\ncorner = inf", "c.toml:2: 'uncertainty.corner' must be"),
+        ("joint_ramp = 1", "c.toml:1: unknown key 'joint_ramp'; meant joint_ramp_s"),
+        (f"restart_s = {'9' * 5000}", "c.toml:1: 'restart_s': a number has more than 4300 digits"),
+    ],
+)
+def test_numbers_of_a_controller_that_are_none_are_named_with_line_and_key(text: str, complaint: str) -> None:
+    with pytest.raises(UsageError, match=complaint):
+        parse_controller(text, "c", "c.toml")
+
+
+PROGRAMS = {
+    "a.src": "DEF a()\nINT x\nx={}\nEND\n",
+    "a.mod": "MODULE a\nVAR num x;\nPROC main()\nx:={};\nENDPROC\nENDMODULE\n",
+    "a.ls": "/PROG A\n/ATTR\n/MN\n   1:  R[1]={} ;\n/POS\n/END\n",
+    "a.script": "def a():\n  x = 1\n  x = {}\n  set_digital_out(1, True)\nend\n",
+    "a.v2": ".PROGRAM a()\n x = 1\n x = {}\n.END\n",
+    "a.jbi": "/JOB\n//NAME A\n//INST\n///DATE 2020/01/01 00:00\n///ATTR SC,RW\nNOP\nSET I000 {}\nEND\n",
+    "a.rpl": "PROCEDURE main()\nVARIABLE x : INT = 1\nx = {}\nEND PROCEDURE\n",
+}
+LANGUAGES = ("krl", "rapid", "tp", "urscript", "vplus", "inform", "rpl")
+
+
+@pytest.mark.parametrize(("name", "language"), zip(PROGRAMS, LANGUAGES, strict=True))
+@pytest.mark.parametrize("number", ["9" * 4301, "F" * 4000])
+def test_a_number_that_is_too_long_is_an_error_at_its_place(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str, language: str, number: str
+) -> None:
+    path, other = tmp_path / name, tmp_path / f"b_{name}"
+    text = PROGRAMS[name]
+    path.write_text(text.format(number))
+    line = text[: text.index("{")].count("\n") + 1
+    assert run(["check", str(path), "--from", language]) == 1
+    assert f"{name}:{line}:" in (told := capsys.readouterr().err) and "error number-too-long" in told
+    assert run(["run", str(path), "--from", language]) == 1
+    other.write_text(text.format("1").replace("main", "other"))
+    capsys.readouterr()
+    assert run(["check", str(tmp_path), "--from", language]) == 1
+    assert f"b_{name}: {language}, " in capsys.readouterr().out

@@ -22,7 +22,7 @@ LEVELS = [
     ["controllers"],
     ["registry"],
     ["ir"],
-    ["diagnostics", "source", "errors", "showing", "depth"],
+    ["diagnostics", "source", "errors", "showing", "depth", "tomlfile"],
 ]
 LEVEL = {room: number for number, rooms in enumerate(LEVELS) for room in rooms}
 MOST_LINES, MOST_FUNCTION_LINES = 600, 60

@@ -111,15 +111,15 @@ def test_values_are_read_from_text_in_the_shape_of_the_variable() -> None:
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ("nonsense = 1", "cell: nonsense: unknown"),
-        ("[[input]]\ntime = 1\nsignal = 'di1'", r"cell: input\[1\].value: is missing"),
-        ("[[input]]\ntime = -1\nsignal = 'di1'\nvalue = true", r"cell: input\[1\].time"),
-        ("[[input]]\ntime = 1\nsignal = 'di1'\nvalue = 'x'", r"cell: input\[1\].value"),
-        ("[[reaction]]\nwhen = 'do1'\nsignal='di1'\nvalue=true\nwhile=3", r"cell: reaction\[1\].while: unknown"),
-        ("[[vendor]]\nmatch = '('", r"cell: vendor\[1\].match: is no regular expression"),
-        ("[[vendor]]\nmatch = 'x'\neffect = 'magic'", r"cell: vendor\[1\].effect"),
-        ("[system]\nwarp = 9", "cell: system.warp: is no system variable"),
-        ("x = [", "cell: "),
+        ("nonsense = 1", "cell:1: nonsense: unknown"),
+        ("[[input]]\ntime = 1\nsignal = 'di1'", r"cell:1: input\[1\].value: is missing"),
+        ("[[input]]\ntime = -1\nsignal = 'di1'\nvalue = true", r"cell:2: input\[1\].time"),
+        ("[[input]]\ntime = 1\nsignal = 'di1'\nvalue = 'x'", r"cell:4: input\[1\].value"),
+        ("[[reaction]]\nwhen = 'do1'\nsignal='di1'\nvalue=true\nwhile=3", r"cell:5: reaction\[1\].while: unknown"),
+        ("[[vendor]]\nmatch = '('", r"cell:2: vendor\[1\].match: is no regular expression"),
+        ("[[vendor]]\nmatch = 'x'\neffect = 'magic'", r"cell:3: vendor\[1\].effect"),
+        ("[system]\nwarp = 9", "cell:2: system.warp: is no system variable"),
+        ("x = [", "cell: Invalid value"),
     ],
 )
 def test_a_wrong_cell_file_names_the_key(text: str, complaint: str) -> None:
