@@ -109,6 +109,7 @@ def _translated(
     before = len(collector)
     renamed: dict[str, str] = {}
     if source != target_name:
+        whole = _joined(whole)
         whole, hiding = rename_hiding(whole, capabilities.names)
         program, legal = rename(legalise(whole, context), capabilities.names)
         renamed = renamed_twice(hiding, legal)
@@ -122,6 +123,22 @@ def _translated(
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
     named = _with_signals(program, context)
     return Translation(tuple(files), named, renamed, losses, dict(context.register_names), dict(context.register_types))
+
+
+def _joined(program: ir.Program) -> ir.Program:
+    """Files that hold data only belong to the program of their name: one module, so that they are written as one."""
+    homes: dict[tuple[str, str, str], list[ir.Module]] = {}
+    for module in program.modules:
+        homes.setdefault((module.name.lower(), module.dialect, module.task), []).append(module)
+    whole: dict[int, ir.Module | None] = {}
+    for modules in homes.values():
+        home = next((one for one in modules if one.routines), modules[0])
+        data = [one for one in modules if one is not home and not one.routines]
+        if data:
+            declared = tuple(each for one in (*data, home) for each in one.declarations)
+            whole |= {id(one): None for one in data} | {id(home): replace(home, declarations=declared)}
+    found = (whole.get(id(module), module) for module in program.modules)
+    return replace(program, modules=tuple(module for module in found if module is not None)) if whole else program
 
 
 def _each_once(files: Sequence[OutputFile], program: ir.Program, diagnostics: Diagnostics) -> list[OutputFile]:
