@@ -10,6 +10,7 @@ from rpl.project import read_sources
 from rpl.proof.prove import prove_programs
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
+from tests.kept_frames import tool_one
 
 ARM = "fanuc_lrmate200id"
 PROGRAM = """/PROG  MAIN
@@ -51,7 +52,7 @@ CASES = [
 def test_arcs_in_a_row(first: str, unit: str, term: str, between: str) -> None:
     line = f"  20:  {between} ;" if between else "  20:  !next arc ;"
     text = PROGRAM.format(first=first, unit=unit, term=term, between=line)
-    read = read_sources([source_from_text("MAIN.LS", text)], "tp", Diagnostics())
+    read = read_sources([source_from_text("MAIN.LS", text), tool_one()], "tp", Diagnostics())
     diagnostics = Diagnostics()
     files = translate_program(read, "inform", ARM, None, diagnostics).files
     assert not diagnostics.of(Severity.LOSS)

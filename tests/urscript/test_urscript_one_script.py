@@ -18,12 +18,14 @@ def listing(name: str, *lines: str) -> str:
 
 
 CHOICE = ("SR[1]='ADD'", "SR[2]='TEN'", "SR[1]=SR[1]+SR[2]", "R[1]=5")
+NUMREG = "[*NUMREG*]$NUMREG  Storage: CMOS  Access: RW  : ARRAY[1,200] OF Numeric Reg\n  [1] = 0  ''\n"
 ADDTEN = ("R[1]=R[1]+10",)
 
 
 def scripts(files: dict[str, tuple[str, ...]], entry: str = "") -> dict[str, str]:
     """The scripts; with a name of the program to start, after checking that they do what the programs do."""
     sources = [source_from_text(f"{name}.ls", listing(name, *lines)) for name, lines in files.items()]
+    sources.append(source_from_text("NUMREG.VA", NUMREG))
     diagnostics = Diagnostics()
     program = read_sources(sources, "tp", diagnostics)
     written = translate_program(program, "urscript", ROBOT, diagnostics=diagnostics)

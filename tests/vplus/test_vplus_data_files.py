@@ -1,4 +1,4 @@
-"""Files that hold data of a program (.lc, .re) and the program itself make one file in another language, with all of it."""
+"""Files that hold data of a program (.lc, .re) and the program make one file in another language, with all of it."""
 
 from pathlib import Path
 
