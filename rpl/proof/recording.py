@@ -231,8 +231,17 @@ def _stretch(event: Event) -> Stretch:
         corner_at=_corner_at(event.legs, poses),
         asked=event.programmed,
         loads=event.payloads,
-        external=np.asarray(last.plan.external_at(last.offset_s + last.duration_s), dtype=float).ravel(),
+        external=_external(last),
     )
+
+
+def _external(leg: Leg) -> FloatArray | None:
+    """Where the external axes stand behind a leg; None in a corner between moves that do not lead the same axes."""
+    plan = leg.plan
+    middle = () if plan.external_middle is None else tuple(plan.external_middle)
+    if len({np.shape(each) for each in (plan.external_start, *middle, plan.external_end)}) > 1:
+        return None
+    return np.asarray(plan.external_at(leg.offset_s + leg.duration_s), dtype=float).ravel()
 
 
 def _corner_at(legs: Sequence[Leg], poses: Sequence[FloatArray]) -> int | None:
