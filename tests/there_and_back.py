@@ -10,8 +10,9 @@ from rpl.cell import Cell
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.ir.analog import AnalogSetting
 from rpl.project import ReadProgram, read_sources
-from rpl.proof.prove import ProofResult, prove_programs
+from rpl.proof.prove import NOTHING_ACCEPTED, ProofResult, prove_programs
 from rpl.proof.recording import record_of
+from rpl.proof.tolerance import Accepted
 from rpl.proof.wiring import in_words_of, with_signal_names
 from rpl.runtime.trace import RunResult
 from rpl.simulation import run_program
@@ -51,10 +52,11 @@ class Journey:
         begins = self.written.renamed.get(entry, entry)
         return run_program(self.program, self.robot, theirs, begins, limit_s, controller="plain")
 
-    def prove(self, entry: str = "main") -> ProofResult:
+    def prove(self, entry: str = "main", accepted: Accepted = NOTHING_ACCEPTED) -> ProofResult:
         """Do the source and what was read back mean the same?"""
         to_entry = self.written.renamed.get(entry, entry)
-        return prove_programs(self.source.program, self.program, self.robot, entry=entry, to_entry=to_entry)
+        source, back = self.source.program, self.program
+        return prove_programs(source, back, self.robot, entry=entry, to_entry=to_entry, accepted=accepted)
 
     def switched_on(self, result: RunResult) -> set[int]:
         """Numbers of the digital outputs that a run of what was read back switches on."""

@@ -4,7 +4,8 @@ import re
 
 import pytest
 
-from rpl.proof.prove import ProofResult
+from rpl.proof.prove import NOTHING_ACCEPTED, ProofResult
+from rpl.proof.tolerance import Accepted
 from tests.there_and_back import there_and_back
 
 ARM = "kuka_kr6r900sixx"
@@ -60,10 +61,12 @@ END
 """
 
 
-def translated(path: str, text: str, language: str, target: str, arm: str) -> tuple[ProofResult, list[str], str]:
+def translated(
+    path: str, text: str, language: str, target: str, arm: str, accepted: Accepted = NOTHING_ACCEPTED
+) -> tuple[ProofResult, list[str], str]:
     journey = there_and_back({path: text}, language, target, arm)
     told = [item.code.name for item in journey.found if item.severity.word in ("warning", "loss", "error")]
-    return journey.prove("way"), told, journey.text
+    return journey.prove("way", accepted), told, journey.text
 
 
 @pytest.mark.parametrize("target", ["rapid", "tp", "urscript"])
@@ -215,6 +218,8 @@ def test_a_job_through_points_far_apart_is_written_as_arcs_along_its_own_curve()
         "//INST", "C00004=500.000,160.000,410.000,180.0000,0.0000,0.0000\n//INST"
     )
     job = job.replace("DOUT", "MOVS C00004 V=100.0 PL=0\nDOUT").replace("C00003 V=50.0 PL=0", "C00003 V=50.0")
-    result, told, _ = translated("WAY.JBI", job, "inform", "krl", "motoman_gp7")
-    assert result.agrees and result.max_path_mm < 0.02, result.as_text()
+    # Arcs stand for the curve within about a hundredth of a millimetre; the corner before the curve is the controllers'.
+    near = Accepted(path_mm=0.02)
+    result, told, _ = translated("WAY.JBI", job, "inform", "krl", "motoman_gp7", near)
+    assert result.agrees, result.as_text()
     assert "spline-as-arcs" in told

@@ -83,7 +83,7 @@ def test_the_largest_int_of_krl_is_none(tmp_path: Path) -> None:
         ('"l[2]" = 1.5', "must be a whole number, not 1.5"),
         ("l = [1, 2.5]", "must be a whole number, not 2.5"),
         ("n = 3000000000", "too large for a whole number of 32 bits"),
-        ("n = nan", "must be a whole number"),
+        ("n = nan", "n: must be a finite number, not nan"),
     ],
 )
 def test_a_cell_gives_an_int_whole_numbers_only(given: str, why: str, tmp_path: Path) -> None:
