@@ -12,16 +12,17 @@ from rpl.translation import translate_program
 PROGRAM = """/PROG  PICK
 /ATTR
 /MN
-   1:  R[6:height of part]=R[7]+20 ;
-   2:J PR[3:above the table] 50% FINE ;
-   3:  DO[1]=(R[6]>5) ;
+   1:  R[7]=DI[1] ;
+   2:  R[6:height of part]=R[7]+20 ;
+   3:J PR[3:above the table] 50% FINE ;
+   4:  DO[1]=(R[6]>5) ;
 /POS
 /END
 """
 SHOWN = {
     "rapid": ("num R6:=0; !height of part", "robtarget PR3; !above the table"),
     "krl": ("R6=0 ;height of part", "PR3 ;above the table"),
-    "urscript": ("r6 = 0  # height of part", "# above the table"),
+    "urscript": ("r6 = 0.0  # height of part", "# above the table"),
     "vplus": ("; r6: height of part", "; pr3: above the table"),
     "inform": (),
 }

@@ -25,16 +25,25 @@ C00000=20.000,20.000,80.000,180.0000,0.0000,0.0000
 ///ATTR SC,RW
 ///GROUP1 RB1
 NOP
+SET B001 12
 MOVJ C00000 VJ=50.00
 SETUALM 8001 "NO PART IN TRAY" 0
 SETUALM B001 "GLUE IS LOW" 0 SMODE=1
 END
 """
+FRAMES = """//UFRAME 1
+///NAME TABLE
+///TOOL 0
+///GROUP 1,0,0,0
+///PULSE
+////BUSER 500.000,-20.000,300.000,0.0000,0.0000,90.0000
+"""
 
 
 def written(target: str) -> str:
     diagnostics = Diagnostics()
-    read = read_sources([source_from_text("ALARM.JBI", JOB)], "inform", diagnostics)
+    sources = [source_from_text("ALARM.JBI", JOB), source_from_text("UFRAME.CND", FRAMES)]
+    read = read_sources(sources, "inform", diagnostics)
     done = translate_program(read, target, "motoman_gp7", None, diagnostics)
     assert not diagnostics.of(Severity.LOSS)
     return "\n".join(file.data.decode() for file in done.files)

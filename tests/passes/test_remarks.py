@@ -8,7 +8,7 @@ from rpl.project import read_sources
 from rpl.source import source_from_text
 from rpl.translation import translate_program
 
-PROGRAM = """PROGRAM demo
+PROGRAM = """MODULE demo
 
 -- what this is for, in one sentence of some length
 VAR limit: INT = 4

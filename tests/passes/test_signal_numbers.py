@@ -102,6 +102,7 @@ GIVES = """/PROG  GIVES
 /MN
    1:  SEMAPHORE[1]=OFF ;
    2:  R[3]=5 ;
+   2:  R[2]=0 ;
    2:  RUN TAKES ;
    3:  F[R[3]]=ON ;
    4:  WAIT    .20(sec) ;

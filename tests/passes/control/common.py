@@ -7,6 +7,8 @@ from typing import Any
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
+from rpl.ir.analog import AnalogPorts, AnalogRange
+from rpl.passes.analog import AnalogRanges
 from rpl.passes.capabilities import Capabilities, NameRules
 from rpl.passes.legalise.context import Context, Pass, names_in
 from rpl.passes.legalise.effects import blocks, children, everything
@@ -23,6 +25,11 @@ COMMON = frozenset(
     )
 )
 NAMES = NameRules(24, False, frozenset())
+# What the programs show they show at an analogue output: as volts in KRL and RAPID, so that numbers stay as they are.
+ANALOG = {
+    language: AnalogRanges(language, said=(AnalogPorts("analog_out", AnalogRange((0.0, 10.0), (0.0, 10.0))),))
+    for language in ("krl", "rapid")
+}
 OPERATORS = frozenset(("+", "-", "*", "/", "=", "<>", "<", ">", "<=", ">=", "and", "or", "not"))
 # A controller with blocks but few functions: no early end of `and`, no handlers, no optional parameters.
 PLAIN = Capabilities(
@@ -81,6 +88,7 @@ def context(program: ir.Program, capabilities: Capabilities) -> Context:
     source = program.modules[0].dialect
     made = Context(source, "rapid" if source == "krl" else "krl", capabilities, Diagnostics())
     made.taken |= names_in(program)
+    made.analog = ANALOG
     return made
 
 

@@ -15,7 +15,7 @@ from rpl.project import read_sources
 from rpl.source import source_from_bytes
 from rpl.writing.target import WriteContext
 
-from .common import read
+from .common import ANALOG, read
 from .machine import run
 from .test_errors import _RAPID as _ERRORS
 from .test_generated import _KRL, _RAPID, bodies, handlers, krl_bodies
@@ -26,7 +26,8 @@ def written(program: ir.Program, source: str, target: str) -> ir.Program:
     """The program as its translation reads; nothing may be lost."""
     diagnostics = Diagnostics()
     writer = registry.target(target)
-    legal = legalise(program, Context(source, target, writer.capabilities(), diagnostics))
+    context = Context(source, target, writer.capabilities(), diagnostics, analog=ANALOG)
+    legal = legalise(program, context)
     files = writer.write(legal, WriteContext(diagnostics))
     back = read_sources([source_from_bytes(file.path, file.data) for file in files], target, diagnostics).program
     assert not [item.as_text() for item in diagnostics if item.severity >= Severity.LOSS]
