@@ -114,12 +114,19 @@ class Beside:
     # ---- values
 
     def settled(
-        self, editor: Editor, routine: ir.Routine, value: ir.Expression, stem: str, before: list[ir.Statement]
+        self,
+        editor: Editor,
+        routine: ir.Routine,
+        value: ir.Expression,
+        stem: str,
+        before: list[ir.Statement],
+        type: ir.Type | None = None,
     ) -> ir.Expression:
-        """A pose that a task may look at: as it stands where nothing changes it, else a copy that is made now."""
+        """A value (a pose, if no type is said) that a task may look at: as it stands where nothing changes it, else a
+        copy that is made now."""
         if self.stays(value, routine):
             return value
-        kept = self.kept(editor, routine, stem, ir.PoseType())
+        kept = self.kept(editor, routine, stem, type or ir.PoseType())
         before.append(ir.Assign(kept, value))
         return kept
 

@@ -338,6 +338,8 @@ class _Events:
     def way(self, move: ir.Move, triggers: list[ir.Trigger], before: list[ir.Statement]) -> _Way:
         last = self.last
         begins_in = _corner(last.blend) if last is not None else None
+        if begins_in is not None and any(isinstance(node, ir.Call) for node in walk(begins_in)):
+            begins_in = None  # computed for where the robot was then: it is another number now
         start = self.place(last, last.target) if last is not None and last.relative is None else None
         looked = any(one.reference == "start" and _number(one.distance or ir.IntLiteral(0)) != 0.0 for one in triggers)
         if start is None or begins_in is None:
@@ -350,6 +352,9 @@ class _Events:
         end = self.place(move, move.target)
         if any(one.reference != "start" for one in triggers):
             end = self.beside.settled(self.editor, self.routine, end, "rpl_to", before)
+        ends_in = _corner(move.blend)
+        if ends_in is not None and triggers:  # the task has names of its own
+            ends_in = self.beside.settled(self.editor, self.routine, ends_in, "rpl_size", before, ir.RealType())
         speed = move.speed.path if move.speed is not None else None
         rules = rules_of(self.context.target).system_defaults
         rate = rules.get("path_acceleration", 0.0)
@@ -357,7 +362,7 @@ class _Events:
         known = _number(own) if own is not None else None
         acceleration = known if known is not None else float(rate)
         radius = self.radius(move, last)
-        return _Way(move, start, end, begins_in, _corner(move.blend), speed, acceleration, radius)
+        return _Way(move, start, end, begins_in, ends_in, speed, acceleration, radius)
 
     def place(self, move: ir.Move, target: ir.Expression) -> ir.Expression:
         """A target in the robot's base."""

@@ -17,6 +17,7 @@ from rpl.passes.legalise.effects import Effects, blocks
 from rpl.passes.legalise.usage import assigned_in
 from rpl.passes.legalise.whereabouts import Whereabouts
 from rpl.passes.scope import Scope
+from rpl.passes.typing import type_of
 from rpl.passes.values import Value, pose_of
 
 Part = rigid.Pose | ir.Expression
@@ -116,22 +117,29 @@ class Ways:
         return stand.flange.then(frames.tool).position
 
     def expression(self, move: ir.Move, assigned: Assigned, later: bool) -> ir.Expression | None:
-        """The place of a move in the robot's base, where these names are assigned before it (`later`) or behind it."""
+        """The place of a move in the robot's base, where these names are assigned before it (`later`) or behind it.
+        None where it is not known to be a pose (joints that the run computes)."""
         target, frame = self.target(move), move.frame
         if move.relative is not None:
             return None
-        scope = self.scopes[id(move)]
+        scope, joints = self.scopes[id(move)], False
         if frame is None or self.factors(frame, scope) in ([], [rigid.IDENTITY]):
-            joints = pose_of(self.value(target, scope)) is None and self.stands.axes(self.value(target, scope))
+            value = self.value(target, scope)
+            joints = pose_of(value) is None and self.stands.axes(value) is not None
             whole: ir.Expression = ir.Builtin("joints_to_target", (target,)) if joints else target
         else:
             whole = ir.Binary(":", frame, target)
-        if self.keeps(whole, {} if later else assigned):
+        if (joints or self.is_pose(target, scope)) and self.keeps(whole, {} if later else assigned):
             whole = _with_numbers(whole, assigned if later else {})
             if self.keeps(whole, assigned):
                 return whole
         known = self.place(move)
         return None if known is None else _literal(known)
+
+    def is_pose(self, target: ir.Expression, scope: Scope) -> bool:
+        """Is it known to be a place, of which a distance can be computed?"""
+        known = pose_of(self.value(target, scope)) is not None
+        return known or isinstance(type_of(target, scope), ir.PoseType | ir.TargetType)
 
     def keeps(self, place: ir.Expression, assigned: Assigned) -> bool:
         """Is a place the same wherever it is computed, if these names change?"""
@@ -154,7 +162,8 @@ class Ways:
         if move.relative is not None or move.frame is not None or not any(_is_here(node) for node in walk(move.target)):
             return None
         seen = rewrite(move.target, lambda node: ir.System("null_frame") if _is_here(node) else node)
-        return move.target if self.keeps(seen, {}) else None
+        pose = self.is_pose(move.target, self.scopes[id(move)])
+        return move.target if pose and self.keeps(seen, {}) else None
 
     def value(self, expression: ir.Expression, scope: Scope) -> Value | None:
         return constant(expression, scope, self.stands.unchanged)
