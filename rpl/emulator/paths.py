@@ -17,13 +17,14 @@ from rpl.emulator.rotations import (
     pose_matrix,
     rotation_angle,
     rotation_vector_to_matrix,
-    slerp,
     turned,
 )
 
 # Three points whose triangle is flatter than this sine define no circle.
 FLAT = 1e-6
 _HALF_TURN = 1e-4  # rad: turns that near to half a turn have two ways
+# What sums of numbers of four bytes leave of half a turn (rad). 179.9999 degrees are still a direction that is meant.
+_SAME_HALF_TURN, _NO_PART = 1.5e-6, 1e-4
 
 
 class Path(Protocol):
@@ -44,6 +45,16 @@ class Path(Protocol):
         """Change of position (3,) per fraction, mm."""
 
 
+def _shortest_turn(first: FloatArray, last: FloatArray) -> FloatArray:
+    """Rotation vector (3,) in radians of the shortest turn between two rotations (3, 3), in the frame of the first. Of
+    the two ways of half a turn the one whose axis leads with a positive component, whatever rounding leaves of it."""
+    turn = matrix_to_rotation_vector(first.T @ last)
+    angle = float(np.linalg.norm(turn))
+    if angle > np.pi - _SAME_HALF_TURN and turn[np.abs(turn) > _NO_PART][0] < 0.0:
+        turn = turn * (1.0 - 2.0 * np.pi / angle)
+    return np.asarray(turn)
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Line:
     """Straight from one pose (4, 4) to another."""
@@ -53,7 +64,7 @@ class Line:
     turn: FloatArray = field(init=False)  # rotation vector from start to end, in the start's frame, radians
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "turn", matrix_to_rotation_vector(self.start[:3, :3].T @ self.end[:3, :3]))
+        object.__setattr__(self, "turn", _shortest_turn(self.start[:3, :3], self.end[:3, :3]))
 
     @property
     def length_mm(self) -> float:
@@ -114,7 +125,8 @@ class Arc:
         around = turned(np.eye(3), self.sweep_rad * self.axis, s)
         position = self.centre + around @ (self.start[:3, 3] - self.centre)
         if not self.follow_path:
-            return pose_matrix(position, slerp(self.start, self._goal(), s))
+            first = self.start[:3, :3]
+            return pose_matrix(position, turned(first, _shortest_turn(first, self._goal()), s))
         return pose_matrix(position, around @ self._against_arc(s))
 
     def _own_turn(self) -> FloatArray:

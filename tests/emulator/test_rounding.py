@@ -5,8 +5,9 @@ import pytest
 
 from rpl.emulator.blending import NoBlend, Size, blend
 from rpl.emulator.model import load_robot
+from rpl.emulator.paths import Line
 from rpl.emulator.planner import MoveRequest, PlannedMove, plan
-from rpl.emulator.rotations import matrix_to_zyx, zyx_to_matrix
+from rpl.emulator.rotations import matrix_to_zyx, pose_matrix, rotation_vector_to_matrix, zyx_to_matrix
 from rpl.emulator.rounding import first_least, settled, steps_of, whole_turns
 from rpl.passes import rigid
 from rpl.registry import dialect
@@ -95,3 +96,20 @@ def test_what_comes_at_one_moment_comes_by_its_phase(noise: float) -> None:
     machine.schedule(2.5, 2, "late phase", 0)
     machine.schedule(2.5 + noise, 1, "early phase", 0)
     assert min(machine.agenda)[6] == "early phase"
+
+
+@pytest.mark.parametrize("off_deg", [-5e-5, -1e-9, 0.0, 1e-9, 5e-5])
+@pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.6, -0.8, 0.0)])
+def test_a_line_with_half_a_turn_turns_one_way(axis: tuple[float, float, float], off_deg: float) -> None:
+    """Poses that are computed with numbers of four bytes are half a turn apart within some millionths of a degree."""
+    turn = np.array(axis) * np.deg2rad(180.0 + off_deg)
+    path = Line(np.eye(4), pose_matrix([0.0, 0.0, 100.0], rotation_vector_to_matrix(turn)))
+    lead = next(part for part in path.turn if abs(part) > 0.1)
+    assert lead > 0.0
+    assert np.allclose(path.poses([1.0])[0], path.end, atol=1e-9)
+
+
+def test_a_turn_that_is_meant_to_go_back_goes_back() -> None:
+    turn = np.array([0.0, 0.0, np.deg2rad(-179.9998)])
+    path = Line(np.eye(4), pose_matrix([0.0, 0.0, 100.0], rotation_vector_to_matrix(turn)))
+    assert np.allclose(path.turn, turn)

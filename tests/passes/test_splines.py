@@ -218,7 +218,7 @@ def test_a_job_through_points_far_apart_is_written_as_arcs_along_its_own_curve()
         "//INST", "C00004=500.000,160.000,410.000,180.0000,0.0000,0.0000\n//INST"
     )
     job = job.replace("DOUT", "MOVS C00004 V=100.0 PL=0\nDOUT").replace("C00003 V=50.0 PL=0", "C00003 V=50.0")
-    # Arcs stand for the curve within about a hundredth of a millimetre; the corner before the curve is the controllers'.
+    # Arcs stand for the curve within about a hundredth of a millimetre; each controller has its own first corner.
     near = Accepted(path_mm=0.02)
     result, told, _ = translated("WAY.JBI", job, "inform", "krl", "motoman_gp7", near)
     assert result.agrees, result.as_text()
