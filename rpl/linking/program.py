@@ -222,6 +222,10 @@ class LinkedProgram:
                     names.append(declaration.name)
         return port
 
+    def languages(self) -> tuple[str, ...]:
+        """The dialects of the program's modules, each once."""
+        return tuple(dict.fromkeys(module.dialect for module in self.program.modules))
+
     def alias(self, name: str) -> SignalRef | None:
         """The signal that a name in the cell file means, by declaration or by a language's own spelling."""
         declared = self._aliases.get(name.strip().lower())

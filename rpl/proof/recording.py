@@ -61,7 +61,8 @@ def _input(event: Event) -> Happening:
     """A change that the surroundings made, by all names of its signal."""
     kind, index, last, _ = event.port or (None, None, None, None)
     known = [str(name) for name in (event.data.get("signal"), *event.names) if name]
-    return Happening("input", event.t, _plain(event.data.get("value")), signal_names(kind, known, index, last))
+    value = _plain(event.data.get("level", event.data.get("value")))  # as of outputs
+    return Happening("input", event.t, value, signal_names(kind, known, index, last))
 
 
 def _ways(tasks: dict[str, list[Event]], program: ir.Program) -> dict[str, _Way]:

@@ -26,6 +26,9 @@ class Linked(Protocol):
     def variable_slot(self, name: str) -> int | None:
         """The place of a global variable."""
 
+    def languages(self) -> tuple[str, ...]:
+        """The dialects of the program's modules, each once."""
+
     def alias(self, name: str) -> SignalRef | None:
         """The physical signal behind a declared name."""
 

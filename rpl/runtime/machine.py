@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import copy
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
@@ -383,13 +383,17 @@ class Machine:
     ) -> None:
         names = (name, *self.linked.alias_names(port))
         data = {"signal": name, "value": value}
-        if port.kind == "analog_out" and isinstance(value, int | float):
-            language = task.frame.code.rules.name
-            found = self.linked.analog_range(language, self.cell.analog, port, names)
-            if found is not None:
-                data |= {"level": round(found.level(value), 9), "unit": found.unit}
+        if port.kind == "analog_out":
+            data |= self._level(task.frame.code.rules.name, port, names, value)
         self.event("output", data, task, origin, port=port, names=names, timed=self.timed)
         self._react(value, keys)
+
+    def _level(self, language: str, port: SignalRef, names: Sequence[str], value: Value) -> dict[str, Value]:
+        """What the number of an analogue signal stands for, in V or mA, where that is known."""
+        found = self.linked.analog_range(language, self.cell.analog, port, names)
+        if found is None or isinstance(value, bool) or not isinstance(value, int | float):
+            return {}
+        return {"level": round(found.level(value), 9), "unit": found.unit}
 
     def _react(self, value: Value, keys: tuple[Key, ...]) -> None:
         """The world's answers to an output. Each bit of a group is an output by itself."""
@@ -423,7 +427,12 @@ class Machine:
         else:
             for key in keys_named(signal, alias):
                 self.signals[key] = value
-        self.event("input", {"signal": signal, "value": value}, None, NOWHERE, port=alias)
+        kind, number = (alias.kind, alias.number) if alias is not None else usual_key(signal) or ("", None)
+        data: dict[str, Value] = {"signal": signal, "value": value}
+        languages = self.linked.languages() if kind == "analog_in" else ()
+        if len(languages) == 1:  # of two languages nobody knows whose number it is
+            data |= self._level(languages[0], SignalRef(kind, number), (signal,), value)
+        self.event("input", data, None, NOWHERE, port=alias)
         self.changed()
 
     # ---- what is shown

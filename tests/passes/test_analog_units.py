@@ -156,6 +156,8 @@ def test_inputs_of_the_cell_come_in_each_language_s_numbers() -> None:
     body = "WAIT FOR $ANIN[1]>0.5\nv=$ANIN[1]\n$ANOUT[1]=v"
     for target in ("rapid", "tp", "urscript", "vplus"):
         assert proof("krl", target, body, cell), target
+    too_soon = ("WaitUntil ai1>0;", "WaitTime 0;")
+    assert not proof("krl", "rapid", body, cell, too_soon)
 
 
 def test_the_trace_says_the_level() -> None:
