@@ -68,10 +68,6 @@ class Accepted:
         amount = deviation.share if deviation.kind == "time" else deviation.amount
         return limit is not None and amount <= limit
 
-    @property
-    def says_nothing(self) -> bool:
-        return not self.kinds and self.path_mm is None and self.corner_mm is None and self.time_share is None
-
 
 def accepted_kinds(words: Iterable[str]) -> frozenset[str]:
     """Kinds as `--accept` names them; raises UsageError for one that is none."""
