@@ -70,13 +70,14 @@ class _Corner:
 def _corner(statement: ir.Statement, scope: Scope) -> _Corner | None:
     if not isinstance(statement, ir.Move) or statement.relative is not None:
         return None
-    pose, size = pose_of(constant(statement.target, scope)), _size(statement.blend, scope)
+    pose, size = pose_of(constant(statement.target, scope)), written_size(statement.blend, scope)
     if pose is None or size is None:
         return None
     return _Corner(statement, pose.position, (statement.tool, statement.frame), size)
 
 
-def _size(blend: ir.Blend | None, scope: Scope) -> float | None:
+def written_size(blend: ir.Blend | None, scope: Scope) -> float | None:
+    """The size of a corner as far as it is known before the run, mm; 0 for a stop, None for another measure."""
     match blend:
         case ir.BlendDistance(distance=distance) if distance is not None:
             return constant_number(distance, scope)
@@ -109,4 +110,4 @@ def _rewritten(program: ir.Program, change: Callable[[Scope, ir.Body], ir.Body])
     return edit_each(program, work)
 
 
-__all__ = ["left_out_moves"]
+__all__ = ["left_out_moves", "written_size"]

@@ -16,15 +16,13 @@ from rpl import ir
 from rpl.controllers import controller_named
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.helpers import Helpers
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.moveorder import Pair, pairs_of
+from rpl.passes.legalise.overlapping import written_size
 from rpl.passes.legalise.ways import Ways, between
-from rpl.passes.scope import Scope
-from rpl.passes.values import Record
 
 SMALLER = code(
     "corner-made-smaller",
@@ -202,7 +200,7 @@ class _Corners:
         """Millimetres of a corner, 0 of a stop; None where the run decides."""
         key = id(move)
         if key not in self.sizes:
-            self.sizes[key] = _size(move.blend, self.ways.scopes[key])
+            self.sizes[key] = written_size(move.blend, self.ways.scopes[key])
         return self.sizes[key]
 
     # ---- writing
@@ -294,23 +292,6 @@ def _asked(blend: ir.Blend | None) -> ir.Expression | None:
     match blend:
         case ir.BlendDistance(distance=distance) | ir.BlendZone(distance=distance):
             return distance
-    return None
-
-
-def _size(blend: ir.Blend | None, scope: Scope) -> float | None:
-    match blend:
-        case ir.BlendDistance(distance=distance) if distance is not None:
-            return constant_number(distance, scope)
-        case ir.BlendZone(distance=distance) if distance is not None:
-            return constant_number(distance, scope)
-        case ir.BlendZone(zone=zone):
-            value = constant(zone, scope)
-            if not isinstance(value, Record):
-                return None
-            path = value.part("path")
-            return 0.0 if value.part("stop") else float(path) if isinstance(path, int | float) else None
-        case None | ir.BlendStop():
-            return 0.0
     return None
 
 
