@@ -10,13 +10,14 @@ import re
 from lark import Token, Tree
 from lark.exceptions import UnexpectedInput
 
+from rpl.reading.deep import DEEPEST_TREE, depth_of, shallow, tokens_of, without_depth
 from rpl.reading.shapes import (
-    DEEPEST_EXPRESSION,
     LONGEST_STATEMENT,
     ShapeParser,
     Slot,
     StatementError,
     SyntaxTree,
+    TooDeepError,
     load_grammar,
 )
 
@@ -63,7 +64,7 @@ class RapidParser(ShapeParser):
         shape = _PARTS.sub(replace, text)
         tree = self._shapes.get(shape)
         if tree is None:
-            tree = self._parse(shape, text)
+            tree = self._parse(shape, text, tuple(found))
             if len(self._shapes) >= _CACHED_SHAPES:
                 self._shapes.clear()
             self._shapes[shape] = tree
@@ -73,25 +74,29 @@ class RapidParser(ShapeParser):
         """Does the text parse as one statement?"""
         try:
             self.parse(text)
+        except TooDeepError:
+            return True
         except StatementError:
             return False
         return True
 
-    def _parse(self, shape: str, text: str) -> SyntaxTree:
+    def _parse(self, shape: str, text: str, found: tuple[str, ...]) -> SyntaxTree:
         if len(text) > LONGEST_STATEMENT:
             raise StatementError(f"statement of {len(text)} characters is too long to read", 0)
-        _check_depth(text)
         try:
             tree: Tree[Token] = self._grammar.parse(shape)
         except UnexpectedInput as error:
             raise self._refusal(error, text) from None
-        for token in tree.scan_values(lambda value: isinstance(value, Token) and value.type == "NAME"):
-            if str(token) in RESERVED and tree.data != "module_head":
-                found = re.search(rf"\b{token}\b", text, re.IGNORECASE)
-                raise StatementError(f"{token} is a reserved word", found.start() if found else 0)
+        shallow(tree)
+        tokens = tokens_of(tree)
+        for token in tokens:
+            if token.type == "NAME" and str(token) in RESERVED and tree.data != "module_head":
+                there = re.search(rf"\b{token}\b", text, re.IGNORECASE)
+                raise StatementError(f"{token} is a reserved word", there.start() if there else 0)
         # A module named like a reserved word is read; the name was not taken out of the shape.
-        tokens = list(tree.scan_values(lambda value: isinstance(value, Token) and _taken_out(value)))
-        order = {id(token): index for index, token in enumerate(sorted(tokens, key=lambda token: token.start_pos or 0))}
+        order = {id(token): index for index, token in enumerate(token for token in tokens if _taken_out(token))}
+        if depth_of(tree) > DEEPEST_TREE:
+            raise TooDeepError(_with_slots(without_depth(tree), order), found)
         return _with_slots(tree, order)
 
     def _refusal(self, error: UnexpectedInput, text: str) -> StatementError:
@@ -124,15 +129,3 @@ def _with_slots(tree: Tree[Token], order: dict[int, int]) -> SyntaxTree:
         else:
             children.append(child)
     return Tree(str(tree.data), children)
-
-
-def _check_depth(text: str) -> None:
-    depth = 0
-    for match in re.finditer(r'"(?:[^"\r\n]|"")*"|[\[({]|[\])}]', text):
-        sign = match.group()
-        if sign in "([{":
-            depth += 1
-            if depth > DEEPEST_EXPRESSION:
-                raise StatementError(f"brackets nested more than {DEEPEST_EXPRESSION} deep", match.start())
-        elif sign in ")]}":
-            depth -= 1

@@ -85,4 +85,5 @@ def print_summary(files: Sequence[FileReport], diagnostics: Diagnostics) -> None
         unread = f", {report.opaque} not readable" if report.opaque else ""
         say(f"{report.path}: {report.dialect}, {report.statements} statements{unread}")
     errors, warnings = len(diagnostics.of(Severity.ERROR)), len(diagnostics.of(Severity.WARNING))
-    say(f"{len(files)} files, {errors} errors, {warnings} warnings")
+    losses = len(diagnostics.of(Severity.LOSS))
+    say(f"{len(files)} files, {errors} errors, {f'{losses} losses, ' if losses else ''}{warnings} warnings")

@@ -29,7 +29,7 @@ from rpl.reading.pieces import (
     Piece,
     Section,
 )
-from rpl.reading.shapes import ShapeParser, StatementError, SyntaxTree
+from rpl.reading.shapes import ShapeParser, StatementError, SyntaxTree, TooDeepError
 from rpl.source import Comment, Origin, Source
 
 UNREADABLE = code(
@@ -42,7 +42,16 @@ STRAY = code("stray-block-end", Severity.ERROR, "{word} without a block that it 
 STRAY_MIDDLE = code("stray-section", Severity.ERROR, "{word} outside of the block it belongs to")
 UNCLOSED = code("missing-block-end", Severity.ERROR, "this {kind} is never ended")
 TOO_DEEP = code(
-    "blocks-too-deep", Severity.ERROR, "blocks nested more than {limit} deep; the inner one is kept as text"
+    "blocks-too-deep",
+    Severity.LOSS,
+    "blocks nested more than {limit} deep",
+    "the inner one is kept as text; a run stops there",
+)
+TOO_DEEP_STATEMENT = code(
+    "expressions-too-deep",
+    Severity.LOSS,
+    "cannot work on this statement: {reason}",
+    "it is kept as text, and so is the block that it belongs to; a run stops there",
 )
 UNCLAIMED = code("unclaimed-text", Severity.ERROR, "this text was not accounted for: {text}")
 
@@ -59,6 +68,7 @@ class _Frame:
     open: Open
     sections: list[Section] = field(default_factory=list)
     head: Middle | None = None
+    refused: bool = False  # one of its statements is nested too deeply: the block is kept as text
     items: list[Item] = field(default_factory=list)
 
     def next_section(self, head: Middle | None) -> None:
@@ -120,6 +130,11 @@ class _Assembler:
         lowered: Element | tuple[Element, ...]
         try:
             lowered = self.read(piece, origin)
+        except TooDeepError as error:
+            self.ledger.claim(piece.start, piece.end, REPORTED)
+            self.diagnostics.report(TOO_DEEP_STATEMENT, origin, reason=str(error))
+            self.refuse(error, piece, origin)
+            return
         except StatementError as error:
             self.ledger.claim(piece.start, piece.end, REPORTED)
             self.unread.append(piece.text)
@@ -140,6 +155,23 @@ class _Assembler:
             if has_more_depth():
                 raise
             raise StatementError("the expression is nested too deep", 0) from None
+
+    def refuse(self, error: TooDeepError, piece: Piece, origin: Origin) -> None:
+        """A statement that is nested too deeply, and the block that it opens, divides or ends, are kept as text."""
+        try:
+            lowered = self.lower(error.tree, error.numbers, origin)
+        except StatementError:
+            lowered = ()
+        elements = lowered if isinstance(lowered, tuple) else (lowered,)
+        block = next((one for one in elements if isinstance(one, Open | Middle | Close)), None)
+        if block is None:
+            self.unread.append(piece.text)
+            block = ir.Opaque(piece.text, origin=origin)
+        elif not isinstance(block, Open) and (at := self.innermost(block.kind)) is not None:
+            self.frames[at].refused = True
+        self.place(block, piece.comment)
+        if isinstance(block, Open):
+            self.frames[-1].refused = True
 
     def place(self, element: Element, behind: str | None) -> None:
         if isinstance(element, Middle | Close):
@@ -207,8 +239,9 @@ class _Assembler:
         if depth > DEEPEST_BLOCK + 1:
             return  # inside of a block that is kept as text as a whole
         if depth > DEEPEST_BLOCK:
-            self.unread.append(self.source.text[opened.origin.start : end])
             self.diagnostics.report(TOO_DEEP, opened.origin, limit=DEEPEST_BLOCK)
+        if depth > DEEPEST_BLOCK or frame.refused:
+            self.unread.append(self.source.text[opened.origin.start : end])
             text = self.source.text[opened.origin.start : end]
             built: Item | tuple[Item, ...] = ir.Opaque(text, origin=replace(opened.origin, end=end))
         else:

@@ -19,6 +19,7 @@ from lark.exceptions import UnexpectedInput, UnexpectedToken
 
 from rpl.errors import RplError
 from rpl.reading.cache import kept
+from rpl.reading.deep import DEEPEST_TREE, depth_of, shallow, tokens_of, without_depth
 
 # Texts and names are kept whole; only free-standing numbers are slots. Dialects may pass their own pattern with the
 # groups `real` and `int`; whatever else it matches stays in the shape.
@@ -30,8 +31,6 @@ NUMBERS = re.compile(
     r"|(?P<int>\d+)"
 )
 LONGEST_STATEMENT = 2_000_000
-DEEPEST_EXPRESSION = 1_000
-DEEPEST_TREE = 2_100
 _CACHED_SHAPES = 50_000
 # What stands for a taken-out piece in a shape: pattern group -> terminal and its stand-in text.
 NUMBER_SLOTS: Mapping[str, tuple[str, str]] = {"real": ("REAL", "0.5"), "int": ("INT", "0")}
@@ -55,6 +54,15 @@ class StatementError(RplError):
     def __init__(self, message: str, offset: int) -> None:
         super().__init__(message)
         self.offset = offset
+
+
+class TooDeepError(StatementError):
+    """Expressions of a statement are nested too deeply. `tree` and `numbers`: what the statement is without them, which
+    tells whether it opens, divides or ends a block."""
+
+    def __init__(self, tree: SyntaxTree, numbers: tuple[str, ...]) -> None:
+        super().__init__(f"its expressions are nested more than {DEEPEST_TREE} deep", 0)
+        self.tree, self.numbers = tree, numbers
 
 
 class ShapeParser:
@@ -89,16 +97,15 @@ class ShapeParser:
         shape = self._numbers.sub(take, text)
         tree = self._trees.get(shape)
         if tree is None:
-            tree = self._parse_shape(shape, text)
+            tree = self._parse_shape(shape, text, tuple(found))
             if len(self._trees) >= _CACHED_SHAPES:
                 self._trees.clear()
             self._trees[shape] = tree
         return tree, tuple(found)
 
-    def _parse_shape(self, shape: str, text: str) -> SyntaxTree:
+    def _parse_shape(self, shape: str, text: str, numbers: tuple[str, ...]) -> SyntaxTree:
         if len(text) > LONGEST_STATEMENT:
             raise StatementError(f"statement of {len(text)} characters is too long to read", 0)
-        _check_depth(text)
         try:
             tree: Tree[Token] = self._lark.parse(shape)
         except UnexpectedInput:
@@ -108,14 +115,15 @@ class ShapeParser:
             except UnexpectedInput as error:
                 _refuse(error, text)
             raise StatementError("a number stands where none can be", 0) from None
-        _check_tree(tree)
-        tokens = [
-            token
-            for token in tree.scan_values(lambda value: isinstance(value, Token))
-            if self._terminals.get(token.type) == token
-        ]
+        shallow(tree)
         places = self._places(text)
-        order = {id(token): places[token.start_pos] for token in tokens if token.start_pos in places}
+        order = {
+            id(token): places[token.start_pos]
+            for token in tokens_of(tree)
+            if token.start_pos in places and self._terminals.get(token.type) == token
+        }
+        if depth_of(tree) > DEEPEST_TREE:
+            raise TooDeepError(_with_slots(without_depth(tree), order), numbers)
         return _with_slots(tree, order)
 
     def _places(self, text: str) -> dict[int | None, int]:
@@ -139,27 +147,6 @@ def _with_slots(tree: Tree[Token], order: dict[int, int]) -> SyntaxTree:
         else:
             children.append(child)
     return Tree(tree.data, children)
-
-
-def _check_depth(text: str) -> None:
-    depth = 0
-    for at, sign in enumerate(text):
-        if sign in "([{":
-            depth += 1
-            if depth > DEEPEST_EXPRESSION:
-                raise StatementError(f"brackets nested more than {DEEPEST_EXPRESSION} deep", at)
-        elif sign in ")]}":
-            depth -= 1
-
-
-def _check_tree(tree: Tree[Token]) -> None:
-    """Long chains of operators make deep trees without a bracket; every later room walks them recursively."""
-    level, depth = [tree], 0
-    while level:
-        depth += 1
-        if depth > DEEPEST_TREE:
-            raise StatementError(f"expressions nested more than {DEEPEST_TREE} deep", 0)
-        level = [child for node in level for child in node.children if isinstance(child, Tree)]
 
 
 def _refuse(error: UnexpectedInput, text: str) -> NoReturn:

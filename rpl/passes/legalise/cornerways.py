@@ -73,6 +73,8 @@ class _Way:
         self.labels: dict[str, Where] = {}
         self.exits: list[State] = []
         self.final = False
+        # What a loop (by identity, and where the robot is before it) comes to. Loops in loops are asked often.
+        self.loops: dict[tuple[int, Where], tuple[Where, list[ir.Statement], State]] = {}
 
     def routine(self, body: ir.Body) -> ir.Body:
         state: State = None
@@ -108,7 +110,13 @@ class _Way:
                 state = _either(state, self.labels.get(name.lower()))
                 return [statement], state
             case ir.Goto(label=name):
-                self.labels[name.lower()] = _either(self.labels.get(name.lower()), state) or frozenset()
+                before, now = (
+                    self.labels.get(name.lower()),
+                    _either(self.labels.get(name.lower()), state) or frozenset(),
+                )
+                if now != before:
+                    self.labels[name.lower()] = now
+                    self.loops.clear()
                 return [statement], None
             case ir.Return():
                 self.end |= state or frozenset()
@@ -175,20 +183,30 @@ class _Way:
     def loop(
         self, statement: ir.For | ir.While | ir.Repeat | ir.Loop, state: Where
     ) -> tuple[list[ir.Statement], State]:
+        key = (id(statement), state)
+        known = self.loops.get(key)
+        if known is not None and not self.final:
+            return known[1], known[2]
         final, self.final = self.final, False
-        begins: State = state
+        begins = known[0] if known is not None else state
         for _ in range(_ROUNDS):
-            _, end, left = self.turn(statement.body, begins)
-            again = _either(begins, self.passed(statement, end, False) if end is not None else None)
-            if again == begins:
+            body, end, left = self.turn(statement.body, begins)
+            back = self.passed(statement, end, False) if end is not None else None
+            if not (back or frozenset()) - begins:
                 break
-            begins = again
+            begins |= back or frozenset()
+        else:
+            body, end, left = self.turn(statement.body, begins)
         self.final = final
-        body, end, left = self.turn(statement.body, begins)
+        if final:
+            body, end, left = self.turn(statement.body, begins)
         back = self.passed(statement, end, False) if end is not None else None
         behind = left if isinstance(statement, ir.Loop) else _either(left, back)
         behind = _either(behind, state) if isinstance(statement, ir.For | ir.While) else behind
-        return [replace(statement, body=body)], behind
+        done: list[ir.Statement] = [replace(statement, body=body)]
+        if not final:
+            self.loops[key] = begins, done, behind
+        return done, behind
 
     def turn(self, body: ir.Body, state: State) -> tuple[ir.Body, State, State]:
         self.exits.append(None)
