@@ -166,8 +166,9 @@ class _Assembler:
         block = next((one for one in elements if isinstance(one, Open | Middle | Close)), None)
         if block is None:
             self.unread.append(piece.text)
-            block = ir.Opaque(piece.text, origin=origin)
-        elif not isinstance(block, Open) and (at := self.innermost(block.kind)) is not None:
+            self.place(ir.Opaque(piece.text, origin=origin), piece.comment)
+            return
+        if not isinstance(block, Open) and (at := self.innermost(block.kind)) is not None:
             self.frames[at].refused = True
         self.place(block, piece.comment)
         if isinstance(block, Open):

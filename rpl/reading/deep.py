@@ -1,7 +1,7 @@
 """Statements whose expressions are nested very deeply: superfluous brackets fall away, what is left has a limit.
 
-Every later room follows expressions by calls of its own, so that a depth beyond all sense is refused where the statement
-is read. What the statement is without the deep part tells whether it opens, divides or ends a block.
+Every later room follows expressions by calls of its own, so that a depth beyond all sense is refused where the
+statement is read. What the statement is without the deep part tells whether it opens, divides or ends a block.
 """
 
 from __future__ import annotations

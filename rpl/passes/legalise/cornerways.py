@@ -110,10 +110,8 @@ class _Way:
                 state = _either(state, self.labels.get(name.lower()))
                 return [statement], state
             case ir.Goto(label=name):
-                before, now = (
-                    self.labels.get(name.lower()),
-                    _either(self.labels.get(name.lower()), state) or frozenset(),
-                )
+                before = self.labels.get(name.lower())
+                now = _either(before, state) or frozenset()
                 if now != before:
                     self.labels[name.lower()] = now
                     self.loops.clear()
