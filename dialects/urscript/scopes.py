@@ -161,12 +161,14 @@ def _tell_apart(project: Project) -> None:
         if name not in known:
             known.append(name)
     changed: dict[str, str] = {}
+    taken = set(spellings)
     for known in spellings.values():
         for name in known[1:]:
             number = 2
-            while f"{name}_{number}".lower() in spellings or f"{name}_{number}" in changed.values():
+            while f"{name}_{number}".lower() in taken:
                 number += 1
             changed[name] = f"{name}_{number}"
+            taken.add(changed[name].lower())
     for function in project.functions():
         function.name = changed.get(function.name, function.name)
     for symbol in project.symbols():

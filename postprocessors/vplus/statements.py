@@ -170,6 +170,20 @@ class Printer(StatementPrinter[str]):
                 return self.actions.components(body)
             case ir.Assign():
                 return decoded(body, self.expressions)
+            case ir.Critical(enter=True):
+                return self.test_and_set(body[1:4])
+        return None
+
+    def test_and_set(self, body: ir.Body) -> tuple[str, int] | None:
+        """A variable is kept and set while no other task runs: `kept = TAS(variable, value)`."""
+        match body:
+            case (
+                ir.Assign(target=kept, value=ir.Name() | ir.Index() as place),
+                ir.Assign(target=again, value=value),
+                ir.Critical(enter=False),
+            ) if place == again:
+                text = self.expressions.text
+                return f"{text(kept)} = TAS({text(place)}, {text(value)})", 4
         return None
 
     def statement(self, statement: ir.Statement, elsewhere: list[str] | None = None) -> None:

@@ -161,6 +161,9 @@ def test_names_that_differ_in_case_alone_are_told_apart() -> None:
     holds("X = 1\nx = 2\ndef f(T, t=1):\nreturn T - t\nend\nx = x + X", "x == 3 and X == 1", "f(5, t=3) == 2")
     program, _ = read("def p():\nX = 1\nx = 2\nx = x + X\nend\n")
     assert {d.name for d in program.modules[0].declarations if isinstance(d, ir.Variable)} == {"X", "x_2"}
+    program, _ = read("def p():\npart = 1\nPart = 2\nPART = 3\npart = part + Part + PART\nend\n")
+    names = [d.name for d in program.modules[0].declarations if isinstance(d, ir.Variable)]
+    assert len({name.lower() for name in names}) == 3
 
 
 def test_nested_functions_of_one_name_stay_apart() -> None:

@@ -15,6 +15,15 @@ KUKA = "kuka_kr6r900sixx"
 HOME = "PTP {A1 0,A2 -90,A3 90,A4 0,A5 60,A6 0}"
 
 
+POWERS = (
+    "abs(power(b, e) - 3) < 0.0001",
+    "abs(power(b, -e) - 1 / 3) < 0.0001",
+    "abs(power(b, e + 2) - 2187) < 0.01",
+    "abs(power(b, 2 * e - 2.5) - 0.00237) < 0.00001",
+    "power(2, 3 * e) = 2",
+)
+
+
 def proved(text: str, name: str, dialect: str, robot: str | None, entry: str) -> tuple[list[str], str]:
     """The lines in V+, and what the proof says that is not equal."""
     diagnostics = Diagnostics()
@@ -69,6 +78,32 @@ END PROCEDURE
     assert lines[start - 1 : start + 2] == ["work_runs = TRUE", "EXECUTE 1 work()", "WAIT NOT work_runs"]
     assert lines.count("work_runs = FALSE") == 2
     assert not difference
+
+
+def test_looking_and_setting_in_one_is_one_step() -> None:
+    text = """.PROGRAM p()
+        lock = 0
+        EXECUTE 1 side()
+        n = TAS(lock, 1)
+        IF n == 0 THEN
+            SIGNAL 1
+        END
+.END
+.PROGRAM side()
+        lock = lock+1
+.END
+"""
+    lines, difference = proved(text, "p.v2", "vplus", None, "p")
+    assert [line.partition(" = ")[2] for line in lines if "TAS(" in line] == ["TAS(lock, 1)"]
+    assert not difference
+
+
+def test_powers_that_are_not_whole() -> None:
+    body = "\n".join(f"SET do[{n}] TO {test}" for n, test in enumerate(POWERS, 1))
+    text = f"VAR b: REAL = 27\nVAR e: REAL = 1.5\nPROCEDURE main()\ne = e / 4.5\n{body}\nEND PROCEDURE\n"
+    lines, difference = proved(text, "p.rpl", "rpl", None, "main")
+    assert not difference
+    assert "PAUSE" not in lines
 
 
 def test_a_variable_that_nothing_is_stored_into_begins_with_zero() -> None:
