@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.fold import lasting, literal
 from rpl.passes.scope import Scope
 from rpl.writing.statements import CannotSayError
 
@@ -69,19 +70,34 @@ def variable_line(variable: ir.Variable, scope: Scope, in_data: bool) -> str:
         words.append("CONST")
     text = f"{' '.join(words)} {word} {variable.name}{brackets}"
     if variable.initial is not None and in_data and not isinstance(type, ir.ArrayType):
-        if not constant(variable.initial):
+        initial = worked_out(variable.initial, scope)
+        if not constant(initial):
             raise CannotSayError("a data list takes constants only")
-        text += f"={expressions.stored(variable.initial)}"
+        text += f"={expressions.stored(initial)}"
     return text
 
 
-def first_values(variable: ir.Variable, in_data: bool) -> list[ir.Assign]:
+def worked_out(initial: ir.Expression, scope: Scope) -> ir.Expression:
+    """A first value with the numbers, truths and texts that constants make (`FIRST*2+1`) in their place. What rests on
+    taught places stays as it is."""
+    if constant(initial):
+        return initial
+    if isinstance(initial, ir.Aggregate):
+        entries = tuple((name, worked_out(part, scope)) for name, part in initial.entries)
+        return replace(initial, entries=entries)
+    value = lasting(initial, scope)
+    known = literal(value) if isinstance(value, bool | int | float | str) else None
+    return initial if known is None else replace(known, origin=initial.origin)
+
+
+def first_values(variable: ir.Variable, scope: Scope, in_data: bool) -> list[ir.Assign]:
     """What a declaration leaves to be assigned: an array's elements one by one; in a routine any first value."""
     if variable.initial is None:
         return []
     name = ir.Name(variable.name)
     if isinstance(variable.type, ir.ArrayType):
-        values = list(elements(name, (), variable.initial, len(variable.type.dimensions)))
+        initial = worked_out(variable.initial, scope) if in_data else variable.initial
+        values = list(elements(name, (), initial, len(variable.type.dimensions)))
         if in_data and not all(constant(one.value) for one in values):
             raise CannotSayError("a data list takes constants only")
         return values

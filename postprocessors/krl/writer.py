@@ -126,7 +126,7 @@ class _Module:
         try:
             match declaration:
                 case ir.Variable():
-                    values = first_values(declaration, in_data)
+                    values = first_values(declaration, scope, in_data)
                     printer.line(variable_line(declaration, scope, in_data), origin)
                     for value in values if in_data else ():
                         printer.line(assignment(value, printer.expressions))
@@ -191,7 +191,7 @@ class _Module:
             if not isinstance(declaration, ir.Variable):
                 continue
             try:
-                for value in first_values(declaration, in_data=False):
+                for value in first_values(declaration, self.scope, in_data=False):
                     printer.line(assignment(value, printer.expressions))
             except CannotSayError as error:
                 self.diagnostics.report(LOST_DECLARATION, declaration.origin, name=declaration.name, reason=str(error))

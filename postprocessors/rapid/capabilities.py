@@ -27,6 +27,7 @@ CAPABILITIES = Capabilities(
         )
     ),
     aliases=True,
+    compares_records=True,
     operators=OPERATORS,
     types=frozenset(type.__name__ for type in TYPE_NAMES),
     names=NameRules(32, False, RESERVED, predefined=PREDEFINED),

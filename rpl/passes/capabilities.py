@@ -99,6 +99,7 @@ class Capabilities:
     reference_parameters: a routine may write its parameters (else copies go in, and out by variables).
     arrays_by_value: an array can be an argument by value (else the routine gets the caller's own).
     list_arguments: a list that is written out can be an argument (else it is stored in a variable first).
+    compares_records: whole records are compared (else each of their components).
     list_results: functions may return arrays (else they write a parameter).
     locals: a routine has variables of its own; static_locals: also some that keep their values from call to call;
     local_clocks: also stop watches. reset_stops: a stop watch that is set to zero stands (else it counts on).
@@ -253,6 +254,7 @@ class Capabilities:
     reset_stops: bool = True
     arrays_by_value: bool = True
     list_arguments: bool = True
+    compares_records: bool = False
     list_results: bool = False
     recursion: bool = True
     call_depth: int = 0

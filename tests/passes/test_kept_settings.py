@@ -13,6 +13,7 @@ from rpl.translation import translate_program
 KUKA = "kuka_kr6r900sixx"
 READ = """DEF JOB()
 DECL INT I,A
+DECL FRAME F,G
 DECL REAL V,W[6]
 A=$ADVANCE
 BAS(#INITMOV,0)
@@ -40,6 +41,12 @@ FOR I=1 TO 3
 ENDFOR
 $BASE.Z=5.0
 $OUT[6]=($BASE.Y==30.0) AND ($BASE.Z==5.0) AND ($BASE.X==0.0)
+$ACC.CP=$ACC.CP*2
+$OUT[7]=ABS($ACC.CP-1.0)<0.0001
+F=$POS_ACT
+$BASE=$BASE:{X 4.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}
+G=$POS_ACT
+$OUT[8]=($BASE.X==4.0) AND (ABS(F.X-G.X-4.0)<0.01)
 END
 DEF CHANGE()
 $ACC_AXIS[2]=$ACC_AXIS[1]+20
@@ -57,4 +64,4 @@ def test_a_setting_is_what_was_set_last(target: str) -> None:
     entry = entry_name(read.program, None)
     result = run_program(back.program, KUKA, None, translation.renamed.get(entry, entry) if entry else None, 20.0)
     assert result.status == "finished", result.fault
-    assert [value for _, _, value in result.outputs] == [True] * 6
+    assert [value for _, _, value in result.outputs] == [True] * 8

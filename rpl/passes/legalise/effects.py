@@ -84,6 +84,16 @@ def is_constant(expression: ir.Expression) -> bool:
     return isinstance(expression, _LITERALS)
 
 
+def may_be_zero(divisor: ir.Expression) -> bool:
+    """Anything but a number other than zero."""
+    match divisor:
+        case ir.Unary(op="-" | "+", operand=operand) | ir.Quantity(value=operand):
+            return may_be_zero(operand)
+        case ir.IntLiteral(value=value) | ir.RealLiteral(value=value):
+            return value == 0
+    return True
+
+
 def root(lvalue: ir.Expression) -> ir.Expression:
     """The variable (or system variable, signal) that an lvalue is a part of."""
     while isinstance(lvalue, ir.Index | ir.Field):

@@ -21,7 +21,7 @@ from rpl.passes.legalise.editing import (
     map_body,
     negation,
 )
-from rpl.passes.legalise.effects import Effects, blocks, is_constant, statements_in
+from rpl.passes.legalise.effects import Effects, blocks, is_constant, may_be_zero, statements_in
 from rpl.passes.legalise.knownerrors import settled
 from rpl.passes.legalise.raising import Raising, raising_of
 from rpl.passes.legalise.support import default_value, with_support
@@ -170,7 +170,7 @@ class _Passing(Hoister):
                     return None
                 result = self.editor.temporary("result", type)
                 return (ir.Assign(result, expression),), result
-            case ir.Binary(op="/" | "div" | "mod", right=right) if not is_constant(right):
+            case ir.Binary(op="/" | "div" | "mod", right=right) if may_be_zero(right):
                 number = self.facts.caught.get(_DIVISION)
                 if number is None:
                     return None

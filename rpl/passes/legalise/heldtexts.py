@@ -131,13 +131,12 @@ def as_written_before(text: ir.Expression, before: ir.Body) -> ir.Expression:
     (`s = "A"`, `s = s & n`: `"A" & n`); the variable itself where a call, a jump or a block stands between."""
     if isinstance(text, ir.Binary) and text.op == "&":
         return replace(text, left=as_written_before(text.left, before))
-    if not isinstance(text, ir.Name):
+    if not _is_variable(text):
         return text
-    name = text.id.lower()
     for place in range(len(before) - 1, -1, -1):
         match before[place]:
-            case ir.Assign(target=ir.Name(id=target), value=value) if target.lower() == name:
-                return _with_first(value, name, before[:place])
+            case ir.Assign(target=target, value=value) if _same_variable(target, text):
+                return _with_first(value, text, before[:place])
             case ir.Assign(value=value) if not any(isinstance(node, ir.Call) for node in walk(value)):
                 continue
             case ir.Nothing() | ir.Message():
@@ -146,14 +145,25 @@ def as_written_before(text: ir.Expression, before: ir.Body) -> ir.Expression:
     return text
 
 
-def _with_first(value: ir.Expression, name: str, before: ir.Body) -> ir.Expression:
-    """The joined text, its first part as what stands in front says, where that is the variable of this name."""
-    match value:
-        case ir.Binary(op="&", left=left):
-            return replace(value, left=_with_first(left, name, before))
-        case ir.Name(id=first) if first.lower() == name:
-            return as_written_before(value, before)
-    return value
+def _with_first(value: ir.Expression, variable: ir.Expression, before: ir.Body) -> ir.Expression:
+    """The joined text, its first part as what stands in front says, where that is the variable itself."""
+    if isinstance(value, ir.Binary) and value.op == "&":
+        return replace(value, left=_with_first(value.left, variable, before))
+    return as_written_before(value, before) if _same_variable(value, variable) else value
+
+
+def _is_variable(text: ir.Expression) -> bool:
+    """A variable, also one that has a number in place of a name (`SR[16]`)."""
+    match text:
+        case ir.Index(base=ir.Name(), indices=indices):
+            return all(isinstance(index, ir.IntLiteral) for index in indices)
+    return isinstance(text, ir.Name)
+
+
+def _same_variable(one: ir.Expression, other: ir.Expression) -> bool:
+    if isinstance(one, ir.Name) and isinstance(other, ir.Name):
+        return one.id.lower() == other.id.lower()
+    return _is_variable(one) and one == other
 
 
 def _without_literals(node: object) -> object:

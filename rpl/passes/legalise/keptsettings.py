@@ -78,11 +78,17 @@ class _Keeper:
             target = replace(target, indices=tuple(self.value(index) for index in target.indices))
             if target.name in self.kept:
                 place = self.place(statement.target)
-                simple = not any(isinstance(node, ir.Call) for node in walk(given))
+                simple = not any(isinstance(node, ir.Call) or _is(node, place) for node in walk(given))
                 setting = replace(statement, target=target, value=given if simple else place)
                 return expansion(statement.origin, (ir.Assign(place, _in_base_units(given)), setting))
             return (replace(statement, target=target, value=given),)
         return (rewrite_parts(statement, self.value, lambda body: map_body(body, self.change)),)
+
+
+def _is(node: object, place: ir.Expression) -> bool:
+    """Is this the variable that has just been set? A value that reads it may be worked out only once."""
+    variable = place.base if isinstance(place, ir.Index) else place
+    return isinstance(node, ir.Name) and node == variable
 
 
 def _in_base_units(value: ir.Expression) -> ir.Expression:

@@ -26,6 +26,7 @@ from rpl.passes.legalise.calledtasks import called_tasks
 from rpl.passes.legalise.calls import rewrite_calls
 from rpl.passes.legalise.changedplaces import changed_places
 from rpl.passes.legalise.circles import circle_rules
+from rpl.passes.legalise.comparedrecords import compared_records
 from rpl.passes.legalise.components import read_components
 from rpl.passes.legalise.composition import compositions
 from rpl.passes.legalise.configurations import configurations
@@ -296,6 +297,7 @@ PASSES: tuple[Pass, ...] = (
     without_shared_references,
     list_results,
     lists_in_variables,
+    compared_records,
     joined_subscripts,
     array_bases,
     seen_joints,

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from rpl import ir
 from rpl.ir.errornames import neutral_name
 from rpl.passes.legalise.context import rules_of
-from rpl.passes.legalise.effects import blocks, children, everything, is_constant, statements_in
+from rpl.passes.legalise.effects import blocks, children, everything, is_constant, may_be_zero, statements_in
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 
@@ -70,7 +70,7 @@ class Raising:
         """An operation whose failure the program looks for."""
         match expression:
             case ir.Binary(op="/" | "div" | "mod", right=right):
-                return _DIVISION in self.caught and not is_constant(right)
+                return _DIVISION in self.caught and may_be_zero(right)
             case ir.Index(indices=indices):
                 return _BOUND in self.caught and not all(map(is_constant, indices))
             case ir.Builtin(function="sqrt"):
