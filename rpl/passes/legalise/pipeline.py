@@ -112,6 +112,7 @@ from rpl.passes.legalise.numbers import numbers
 from rpl.passes.legalise.onceonly import reactions_once, rearmed_reactions
 from rpl.passes.legalise.onemove import settings_of_one_move
 from rpl.passes.legalise.optional import fit_parameters
+from rpl.passes.legalise.otherarms import places_on_other_arm
 from rpl.passes.legalise.overlapping import left_out_moves
 from rpl.passes.legalise.overrides import full_override
 from rpl.passes.legalise.ownplaces import own_places
@@ -315,6 +316,7 @@ PASSES: tuple[Pass, ...] = (
     destinations,
     flag_readings,
     free_postures,
+    places_on_other_arm,
     configurations,
     told_turns,
     without_aliases,
