@@ -10,6 +10,7 @@ from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.effects import blocks
 from rpl.source import NOWHERE, Origin
+from rpl.writing.anywhere import Anywhere
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.refusals import UNKNOWN_ROUTINE
 from rpl.writing.statements import CannotSayError, StatementPrinter
@@ -74,6 +75,7 @@ class Printer(StatementPrinter[str]):
         super().__init__(ledger, diagnostics)
         self.assignments, self.motion, self.labels = assignments, motion, labels
         self.jobs, self.tasks, self.moving = jobs, tasks, moving
+        self.may_move = Anywhere(self.moves)
         self.going = False  # the last move has NWAIT: what stands behind it is done on its way
 
     # ---- lines and remarks
@@ -264,13 +266,15 @@ class Printer(StatementPrinter[str]):
 
     def rests(self, body: ir.Body) -> bool:
         """Does the robot certainly stay where it is?"""
-        for node in walk(*body):
-            match node:
-                case ir.Move() | ir.MoveExternal() | ir.Spline() | ir.Label() | ir.Vendor() | ir.Opaque() | ir.Halt():
-                    return False
-                case ir.CallRoutine(name=name, dynamic=dynamic) if dynamic is not None or name.lower() in self.moving:
-                    return False
-        return True
+        return not self.may_move(body)
+
+    def moves(self, node: object) -> bool:
+        match node:
+            case ir.Move() | ir.MoveExternal() | ir.Spline() | ir.Label() | ir.Vendor() | ir.Opaque() | ir.Halt():
+                return True
+            case ir.CallRoutine(name=name, dynamic=dynamic):
+                return dynamic is not None or name.lower() in self.moving
+        return False
 
     def choice(self, statement: ir.If) -> None:
         statement = self.decided(statement)

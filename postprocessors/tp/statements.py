@@ -8,6 +8,7 @@ from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import walk
 from rpl.source import Origin
+from rpl.writing.anywhere import Anywhere
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError, StatementPrinter
 
@@ -64,6 +65,7 @@ class Printer(StatementPrinter[Line]):
         self.monitors: Mapping[int, tuple[str, int]] = {}
         self.quiet: frozenset[str] = frozenset()  # programs that neither move nor select a frame, folded
         self.steady: frozenset[str] = frozenset()  # programs that may move, but select none
+        self.may_select = Anywhere(self.selects)
         self.at_jumps = True  # is a tool or frame selected among the labels of this program?
         self.motion = Motion(
             *(expressions, points, diagnostics, self.action, frames.keeper),
@@ -122,21 +124,17 @@ class Printer(StatementPrinter[Line]):
     def begin(self, body: ir.Body) -> None:
         """The body of the program itself."""
         head = next((at for at, one in enumerate(body) if any(isinstance(n, _JUMPS) for n in walk(one))), len(body))
-        self.at_jumps = self.selects(body[head:])
+        self.at_jumps = self.may_select(body[head:])
         self.body(body)
 
-    def selects(self, body: ir.Body) -> bool:
-        """Is another tool or frame in force at some place of these statements?"""
-        for node in walk(*body):
-            match node:
-                case ir.CallRoutine(name=name, dynamic=dynamic):
-                    if dynamic is not None or name.lower() not in self.steady:
-                        return True
-                case ir.Vendor() | ir.Opaque():
-                    return True
-            if selects_frame(node):
+    def selects(self, node: object) -> bool:
+        """Is another tool or frame in force behind it?"""
+        match node:
+            case ir.CallRoutine(name=name, dynamic=dynamic):
+                return dynamic is not None or name.lower() not in self.steady
+            case ir.Vendor() | ir.Opaque():
                 return True
-        return False
+        return selects_frame(node)
 
     def crossing(self, selects: bool) -> None:
         """A place with several ways to it; `selects`: a tool or frame may have been selected on one of them."""
@@ -340,7 +338,7 @@ class Printer(StatementPrinter[Line]):
         first, last = self.expressions.operand(loop.start), self.expressions.operand(loop.stop)
         self.line(f"FOR {counter}={first} {'TO' if step == 1 else 'DOWNTO'} {last}", loop.origin)
         before = self.motion.state
-        self.crossing(self.selects(loop.body))
+        self.crossing(self.may_select(loop.body))
         self.inner(loop.body)
         if not _runs(loop, step):
             self.motion.join(before)
@@ -369,7 +367,7 @@ class Printer(StatementPrinter[Line]):
         if places and any(deed.startswith("CALL") for _, deed in rows):
             self.line(jumps_behind)
         begin = self.motion.state
-        selects = self.selects((*(one for case in statement.cases for one in case.body), *otherwise))
+        selects = any(map(self.may_select, (*(case.body for case in statement.cases), otherwise)))
         for number_of, body in places:
             self.motion.state = begin
             self.line(f"LBL[{number_of}]")

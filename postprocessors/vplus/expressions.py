@@ -239,18 +239,48 @@ class Expressions:
         """The text of a value in at most `room` signs, as far as parts of it can be calculated in front."""
         known = len(self.notes.before), len(self.notes.autos)
         text = self.text(value)
-        while len(text) > room and self.notes.steps:
-            self.notes.back_to(*known)
-            parts = [(len(self.text(part)), at) for at, part in enumerate(_operands(value))]
-            self.notes.back_to(*known)
+        if len(text) <= room or not self.notes.steps:
+            return text
+        self.notes.back_to(*known)
+        return self.text(self.in_lines(value, room))
+
+    def in_lines(self, whole: ir.Expression, room: int) -> ir.Expression:
+        """The value with parts calculated in front until it has at most `room` signs. Inner parts come first, each
+        printed once it is short, so that a long chain costs no more than its length."""
+        todo: list[tuple[ir.Expression, bool]] = [(whole, False)]
+        done: list[ir.Expression] = []
+        while todo:
+            value, entered = todo.pop()
+            parts = _operands(value)
+            if not entered:
+                todo.append((value, True))
+                todo.extend((part, False) for part in reversed(parts))
+                continue
+            first = len(done) - len(parts)
+            for at, part in enumerate(done[first:]):
+                if part is not parts[at]:
+                    value = _with_operand(value, at, part)
+            del done[first:]
+            done.append(self.within(value, tables.LONGEST_LINE - 16 if todo else room))
+        return done[0]
+
+    def within(self, value: ir.Expression, room: int) -> ir.Expression:
+        """The value with its longest operands in variables, as many as it takes to be short enough."""
+        while self.length(value) > room:
+            parts = [(self.length(part), at) for at, part in enumerate(_operands(value))]
             if not parts or max(parts)[0] <= _NAME:
-                return self.text(value)
+                return value
             at = max(parts)[1]
             name = self.moved_in_front(_operands(value)[at])
             value = _with_operand(value, at, ir.Name(name))
-            known = len(self.notes.before), len(self.notes.autos)
-            text = self.text(value)
-        return text
+        return value
+
+    def length(self, value: ir.Expression) -> int:
+        """The signs of a value's text, without the steps that printing it takes."""
+        known = len(self.notes.before), len(self.notes.autos)
+        text = self.text(value)
+        self.notes.back_to(*known)
+        return len(text)
 
     def fitted(self, values: list[ir.Expression], room: int) -> list[str]:
         """Values side by side in one step, the longest ones calculated in front where they are too long together."""

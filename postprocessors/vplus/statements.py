@@ -11,6 +11,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.effects import statements_in
 from rpl.passes.scope import Scope
 from rpl.source import Origin
+from rpl.writing.anywhere import Anywhere
 from rpl.writing.statements import CannotSayError, StatementPrinter
 from rpl.writing.text import wrapped
 
@@ -52,6 +53,7 @@ class Printer(StatementPrinter[str]):
         self.notes = Notes(taken=output.taken, helpers=output.helpers, tasks=output.tasks)
         self.expressions = Expressions(scope, self.notes)
         self.motion = Motion(self.expressions, output.facts)
+        self.may_move = Anywhere(lambda node: isinstance(node, ir.Move | ir.CallRoutine))
         self.actions = Actions(self)
         self.events = PathEvents(self)
         self.elsewhere: list[str] | None = None  # where the lines of the statement go that is printed next
@@ -229,7 +231,7 @@ class Printer(StatementPrinter[str]):
 
     def motion_unknown(self, block: ir.Statement) -> None:
         """A block that moves leaves the arm in a posture that depends on the run."""
-        if any(isinstance(node, ir.Move | ir.CallRoutine) for node in walk((block,))):
+        if self.may_move.within(block):
             self.motion.forget()
 
     def move(self, move: ir.Move) -> None:

@@ -160,9 +160,10 @@ class ProgramScope:
 
 
 class Scope:
-    """What names mean at one place. Immutable; `with_value` gives an inner scope (a loop's own counter)."""
+    """What names mean at one place. Immutable; `with_value` gives an inner scope (a loop's own counter). `chains`:
+    operations on operations, by identity, with what is known of them: who asks for one asks for those in it."""
 
-    __slots__ = ("_local", "_local_types", "fold", "module", "program", "routine_here", "rules")
+    __slots__ = ("_local", "_local_types", "chains", "fold", "module", "program", "routine_here", "rules")
 
     def __init__(
         self,
@@ -179,6 +180,7 @@ class Scope:
         self.fold = Fold(self.rules.case_sensitive)
         self._local = local
         self._local_types = local_types or {}
+        self.chains: dict[int, tuple[ir.Binary, tuple[ir.Expression, ir.Type | None]]] = {}
 
     def with_value(self, declaration: ir.Variable) -> Scope:
         """This scope with one more innermost variable."""

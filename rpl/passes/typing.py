@@ -67,7 +67,9 @@ Typed = tuple[ir.Expression, ir.Type | None]
 
 def type_of(expression: ir.Expression, scope: Scope) -> ir.Type | None:
     """The type of a normalised expression; None when it rests on something unknown."""
-    return Typer(scope, Diagnostics()).infer(expression)[1]
+    typer = Typer(scope, Diagnostics())
+    typer.chains = scope.chains
+    return typer.infer(expression)[1]
 
 
 def counter_type(loop: ir.For, scope: Scope) -> ir.Type:
@@ -114,6 +116,7 @@ class Typer:
         self.reported: set[str] = set() if reported is None else reported
         self.here = NOWHERE
         # Asked again and again within one scope, and never another answer.
+        self.chains: dict[int, tuple[ir.Binary, Typed]] | None = None
         self._names: dict[str, ir.Type | None] = {}
         self._layouts: dict[ir.Type, Layout] = {}
         self._signatures: dict[str, Signature] = {}
@@ -378,6 +381,15 @@ class Typer:
         return changed(expression, base=base, name=name), found
 
     def binary(self, expression: ir.Binary) -> Typed:
+        chain = isinstance(expression.left, ir.Binary) or isinstance(expression.right, ir.Binary)
+        if self.chains is None or not chain:
+            return self.operation(expression)
+        known = self.chains.get(id(expression))
+        if known is None:
+            known = self.chains[id(expression)] = expression, self.operation(expression)
+        return known[1]
+
+    def operation(self, expression: ir.Binary) -> Typed:
         op = expression.op
         wanted = ir.PoseType() if op == ":" else None
         left, left_type = self.infer(expression.left, wanted if self.is_pose(expression.left) else None)

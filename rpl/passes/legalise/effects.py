@@ -45,9 +45,11 @@ def children(node: ir.Expression | ir.Statement) -> list[ir.Expression]:
 
 def everything(expression: ir.Expression) -> Iterator[ir.Expression]:
     """The expression and all below it."""
-    yield expression
-    for child in children(expression):
-        yield from everything(child)
+    work = [expression]
+    while work:
+        one = work.pop()
+        yield one
+        work += reversed(children(one))
 
 
 def blocks(statement: ir.Statement) -> list[ir.Body]:

@@ -18,7 +18,7 @@ from rpl.passes.fold import constant, element_key
 from rpl.passes.legalise.context import ProgramScope
 from rpl.passes.legalise.usage import base_name, each_expression, each_statement
 from rpl.passes.legalise.walk import unchanged_in
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_parts, visit_parts
 from rpl.passes.scope import Scope
 from rpl.passes.values import Record, Value, pose_of
 
@@ -400,14 +400,16 @@ def _relevant(program: ir.Program) -> set[str]:
                 wanted.update(_names(value))
             case ir.Assign(target=ir.Name(id=name) | ir.Index(base=ir.Name(id=name)), value=value):
                 rests.setdefault(name.lower(), set()).update(_names(value))
-            case ir.If(branches=branches) if _sets_frames(one):
-                for condition, _ in branches:
-                    wanted.update(_names(condition))
 
+    choices: dict[int, ir.If] = {}
     for module in program.modules:
         for routine in module.routines:
             for body in bodies(routine):
                 each_statement(body, look)
+                choices |= _choices_of_frames(body)
+    for choice in choices.values():
+        for condition, _ in choice.branches:
+            wanted.update(_names(condition))
     size = -1
     while size != len(wanted):
         size = len(wanted)
@@ -416,16 +418,26 @@ def _relevant(program: ir.Program) -> set[str]:
     return wanted
 
 
-def _sets_frames(statement: ir.Statement) -> bool:
-    found = False
+def _choices_of_frames(body: ir.Body) -> dict[int, ir.If]:
+    """The branches that tool or frame are set in, at any depth, by identity."""
+    found: dict[int, ir.If] = {}
+    around: list[ir.If] = []
 
-    def look(one: ir.Statement) -> None:
-        nonlocal found
-        match one:
-            case ir.Assign(target=ir.System(name=name)) if name in _MODAL:
-                found = True
+    def look(statements: ir.Body) -> None:
+        for one in statements:
+            match one:
+                case ir.Assign(target=ir.System(name=name)) if name in _MODAL:
+                    for choice in reversed(around):
+                        if id(choice) in found:
+                            break
+                        found[id(choice)] = choice
+                case ir.If():
+                    around.append(one)
+            visit_parts(one, lambda expression: None, look)
+            if isinstance(one, ir.If):
+                around.pop()
 
-    each_statement((statement,), look)
+    look(body)
     return found
 
 

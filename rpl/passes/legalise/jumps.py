@@ -63,6 +63,8 @@ def entered(routine_body: ir.Body) -> set[int]:
     """Statements with a body that a jump from outside of them goes into, by identity."""
     found: set[int] = set()
     every = targets(routine_body)
+    if not every:
+        return found
 
     def look(body: ir.Body) -> None:
         for statement in body:

@@ -154,6 +154,8 @@ class _Loops:
     def bound_changes(self, loop: ir.For) -> bool:
         """May the body change what the loop's last value is calculated from?"""
         names = {one.id.lower() for one in everything(loop.stop) if isinstance(one, ir.Name)}
+        if not names:
+            return False
         if names & assigned_in(loop.body):
             return True
         calls = any(isinstance(one, ir.CallRoutine | ir.Call) for one in walk(*loop.body))

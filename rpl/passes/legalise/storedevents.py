@@ -43,6 +43,8 @@ class _Definitions:
                         name = base_name(node.target) or ""
                         self.single[name] = None if name in self.single else node
                         self.homes.setdefault(name, set()).add(routine.name.lower())
+        if not self.single:
+            return
         for module in program.modules:
             for routine in module.routines:
                 for body in bodies(routine):

@@ -208,14 +208,16 @@ class _AtMoves:
                 own = node is statement and begins is not None and isinstance(begins[0].blend, ir.BlendStop | None)
                 self.noted.setdefault(node.name.lower(), []).append(begins if own else None)
 
-    def body(self, body: ir.Body, routine: str = "") -> ir.Body:
+    def body(self, body: ir.Body, routine: str = "", inner: bool = False) -> ir.Body:
+        """A body. `inner`: of a statement, whose calls are noted as what they are: anywhere."""
         done: list[ir.Statement] = []
         waiting: list[ir.Trigger] = []
         calls = self.starts.get(routine, [])
         begins = calls[0] if calls and all(one == calls[0] for one in calls) else None
         last: int | None = None  # the place in `done` of the move before, while nothing stands between that takes time
         for statement in body:
-            self.called(statement, begins)
+            if not inner:
+                self.called(statement, begins)
             match statement:
                 case ir.Trigger():
                     waiting.append(statement)
@@ -244,8 +246,11 @@ class _AtMoves:
             done.extend(waiting)  # no move follows here: left for the writer to report
             last, waiting = None, []
             begins = begins if isinstance(statement, _ARM_STANDS) else None
-            done.append(rewrite_parts(statement, lambda expression: expression, self.body))
+            done.append(rewrite_parts(statement, lambda expression: expression, self.inner))
         return (*done, *waiting)
+
+    def inner(self, body: ir.Body) -> ir.Body:
+        return self.body(body, inner=True)
 
     def from_end(self, trigger: ir.Trigger, begins: _Begin | None, move: ir.Move) -> ir.Trigger:
         """What comes some way behind the start of a straight move, counted from its end where both are constants."""
