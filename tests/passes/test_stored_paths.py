@@ -37,6 +37,17 @@ def test_the_handler_of_a_search(language: str) -> None:
     assert result.fault is None and journey.switched_on(result) == {2}
 
 
+@pytest.mark.parametrize("behind", ["StartMove;", "ClearPath;\n      StartMove;"])
+@pytest.mark.parametrize("language", ["rapid", "krl", "tp", "urscript", "vplus", "inform", "rpl"])
+def test_the_start_behind_it_has_nothing_to_start(language: str, behind: str) -> None:
+    """As the manual's example of SearchL ends its handler (RAPID instructions, SearchL, error handling)."""
+    text = TEXT.replace("RestoPath;\n", f"RestoPath;\n      {behind}\n")
+    journey = there_and_back({"Feeler.mod": text}, "rapid", language, ARM)
+    assert not journey.losses
+    result = journey.run()
+    assert result.fault is None and journey.switched_on(result) == {2}
+
+
 def test_a_path_that_an_interrupt_leaves_is_no_such_thing() -> None:
     text = TEXT.replace("IF Felt() SetDO do1,1;", "ISignalDI di2,1,iStop;").replace(
         "  FUNC bool", "  VAR intnum iStop;\n  TRAP tStop\n    StopMove;\n    StorePath;\n  ENDTRAP\n  FUNC bool"

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import walk
@@ -98,7 +99,10 @@ def formats(program: ir.Program, context: Context) -> ir.Program:
 
 def _form(node: object) -> str:
     match node:
-        case ir.Builtin(function="format", arguments=(ir.TextLiteral(value=form), *_)):
+        case (
+            ir.Builtin(function="format", arguments=(ir.TextLiteral(value=form), *_))
+            | ir.Do(procedure="format_into", arguments=(_, _, _, ir.TextLiteral(value=form), *_))
+        ):
             return form
     return ""
 
@@ -118,6 +122,27 @@ class _Formats(Rewriter):
                 parts = self.parts(form, values, [self.type_of(one) for one in old])
                 return done if parts is None else _joined(parts, done)
         return done
+
+    def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+        [done] = super().statement(statement)
+        if isinstance(done, ir.Do) and isinstance(statement, ir.Do) and (form := _form(done)):
+            types = [self.type_of(one) if one is not None else None for one in statement.arguments[4:]]
+            return [self.with_texts(done, form, types)]
+        return [done]
+
+    def with_texts(self, statement: ir.Do, form: str, types: Sequence[ir.Type | None]) -> ir.Do:
+        """A formatted write whose odd pieces are texts by themselves."""
+        specifications = [found for found in _SPECIFICATION.finditer(form) if found[0] != "%%"]
+        values = [one for one in statement.arguments[4:] if one is not None]
+        if not len(specifications) == len(values) == len(types) or not any(map(self.is_odd, specifications)):
+            return statement
+        for at in range(len(values) - 1, -1, -1):
+            found = specifications[at]
+            piece = self.piece(found, values[at], types[at]) if self.is_odd(found) else None
+            if piece is not None:
+                values[at] = piece
+                form = f"{form[: found.start()]}%s{form[found.end() :]}"
+        return replace(statement, arguments=(*statement.arguments[:3], ir.TextLiteral(form), *values))
 
     def parts(
         self, form: str, values: Sequence[ir.Expression], types: Sequence[ir.Type | None]

@@ -63,16 +63,16 @@ class _Priorities:
         program = edit_all(self.source, self.body)
         modules = []
         for module in program.modules:
-            declarations = tuple(
-                d
-                for d in module.declarations
-                if not (isinstance(d, ir.Variable) and isinstance(d.type, ir.InterruptType))
-            )
             routines = tuple(
-                replace(routine, kind="procedure", scope="global") if routine.kind == "trap" else routine
+                replace(
+                    routine,
+                    declarations=_without_handles(routine.declarations),
+                    kind="procedure" if routine.kind == "trap" else routine.kind,
+                    scope="global" if routine.kind == "trap" else routine.scope,
+                )
                 for routine in module.routines
             )
-            modules.append(replace(module, declarations=declarations, routines=routines))
+            modules.append(replace(module, declarations=_without_handles(module.declarations), routines=routines))
         program = replace(program, modules=tuple(modules))
         if not self.made:
             return program
@@ -172,3 +172,8 @@ class _Priorities:
             off = ir.ControlInterrupt("off", ir.IntLiteral(self.priority_of[name]))
             self.made.append(ir.Routine(wrapper, body=(off, ir.CallRoutine(trap)), scope="global"))
         return ir.CallRoutine(self.once[name])
+
+
+def _without_handles(declarations: tuple[ir.Declaration, ...]) -> tuple[ir.Declaration, ...]:
+    """Without the numbers of interrupts, which are written where they are used."""
+    return tuple(d for d in declarations if not (isinstance(d, ir.Variable) and isinstance(d.type, ir.InterruptType)))
