@@ -78,6 +78,7 @@ from rpl.passes.legalise.interrupts import interrupts
 from rpl.passes.legalise.joinedmoves import joined_moves, stand_before_ways
 from rpl.passes.legalise.joins import joins
 from rpl.passes.legalise.jointgoals import joint_goals
+from rpl.passes.legalise.keptangles import named_angles
 from rpl.passes.legalise.keptcorners import kept_corners
 from rpl.passes.legalise.keptsettings import kept_settings
 from rpl.passes.legalise.keptvalues import kept_values_known
@@ -253,6 +254,7 @@ PASSES: tuple[Pass, ...] = (
     home_positions,
     fold_pulses,
     neutral_functions,
+    named_angles,
     rotation_vectors,
     levels_to_distances,
     displacements,

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.diagnostics import Severity, code
 from rpl.passes import rigid
 from rpl.passes.fold import lasting, literal, real
 from rpl.passes.legalise.context import Context
@@ -18,13 +17,6 @@ from rpl.passes.legalise.wanted import WantedRewriter
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.typewords import type_word
 from rpl.passes.values import Target, Value
-
-ANGLE_RANGE = code(
-    "angles-normalised",
-    Severity.LOSS,
-    "an angle B beyond 90 degrees is written here; the target keeps rotations as quaternions, "
-    "so single angles read back or changed later may come out in another of the equal forms",
-)
 
 _POSITION, _ANGLES = ("x", "y", "z"), ("a", "b", "c")
 _AXES, _EXTERNAL = tuple(ir.COMPONENTS[ir.AxesType]), tuple(ir.COMPONENTS[ir.ExternalType])
@@ -44,17 +36,14 @@ class _ToQuaternions(WantedRewriter):
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
         self.used_external: set[str] = set()
-        self.angle_access = False
-        self.reported = False
 
     def look(self) -> None:
-        """Which external axes exist, and whether single angles are used: facts about the whole program."""
+        """Which external axes exist: a fact about the whole program."""
 
         def expression(one: ir.Expression) -> ir.Expression:
             match one:
                 case ir.Field(name=name):
                     self.used_external.update({name} & set(_EXTERNAL))
-                    self.angle_access = self.angle_access or name in _ANGLES
                 case ir.Aggregate(entries=entries):
                     self.used_external.update(n for n, v in entries if n in _EXTERNAL and n and not _is_zero(v))
             return rewrite_parts(one, expression)
@@ -299,9 +288,6 @@ class _ToQuaternions(WantedRewriter):
         numbers = [float(value) for value in values if isinstance(value, int | float)]
         if len(numbers) < 3:
             return ir.Builtin("rotation_zyx", tuple(map(self.expression, angles)))
-        if abs(numbers[1]) > 90.0 and self.angle_access and not self.reported:
-            self.reported = True
-            self.context.diagnostics.report(ANGLE_RANGE, angles[1].origin)
         rotation = rigid.rotation_of_zyx(*numbers)
         names = ("q1", "q2", "q3", "q4")
         entries = tuple((name, real(part)) for name, part in zip(names, rotation.quaternion, strict=True))

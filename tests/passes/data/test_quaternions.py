@@ -99,10 +99,3 @@ def test_the_pass_is_idempotent() -> None:
     surroundings = context(program, "krl")
     once = to_quaternions(program, surroundings)
     assert to_quaternions(once, surroundings) == once
-
-
-def test_an_angle_that_will_not_come_back_is_reported() -> None:
-    program = read((FRAME % "p.a=n").replace("A 180,B 0,C 180", "A 0,B 180,C 0"), "krl")
-    surroundings = context(program, "krl")
-    to_quaternions(program, surroundings)
-    assert [item.code.name for item in surroundings.diagnostics] == ["angles-normalised"]
