@@ -9,6 +9,7 @@ from __future__ import annotations
 import bz2
 import gzip
 import lzma
+import stat
 import struct
 import tarfile
 import zipfile
@@ -25,6 +26,7 @@ MOST_BYTES = 256 * 2**20
 MOST_MEMBERS = 20_000
 _CHUNK = 2**20
 _BLOCK = 512
+_NO_FILE = "it is a link, a pipe or a device, no file"
 _GZIP, _BZIP2, _XZ = b"\x1f\x8b", b"BZh", b"\xfd7zXZ"
 _DAMAGE = (
     OSError,
@@ -67,7 +69,7 @@ def members(data: bytes) -> Iterator[Member]:
             total += len(member.data or b"")
             if count >= MOST_MEMBERS or total > MOST_BYTES:
                 limit = f"{MOST_MEMBERS} files" if count >= MOST_MEMBERS else f"{MOST_BYTES // 2**20} MiB"
-                bad.append(Member("", None, f"it holds more than {limit}"))
+                good, bad = {}, [Member("", None, f"it holds more than {limit}: nothing of it is read")]
                 break
             if member.data is None:
                 bad.append(member)
@@ -77,6 +79,12 @@ def members(data: bytes) -> Iterator[Member]:
         bad.append(Member("", None, _reason(error)))
     yield from (Member(name, good[name]) for name in sorted(good))
     yield from bad
+
+
+def is_archive(name: str, data: bytes) -> bool:
+    """Is this an archive, by its name and by how it begins?"""
+    begins = data.startswith((b"PK\x03\x04", _GZIP, _BZIP2, _XZ)) or data[257:262] == b"ustar"
+    return begins and name.lower().endswith(SUFFIXES)
 
 
 def unpacked(data: bytes, largest: int) -> bytes:
@@ -96,6 +104,9 @@ def _zipped(data: bytes) -> Iterator[Member]:
             if info.is_dir():
                 continue
             name = str(PurePosixPath(info.filename))
+            if stat.S_IFMT(info.external_attr >> 16) not in (0, stat.S_IFREG):  # the mode of the file, of Unix only
+                yield Member(name, None, _NO_FILE)
+                continue
             try:
                 with archive.open(info) as stream:
                     member = Member(name, _read(stream, LARGEST_MEMBER))
@@ -108,13 +119,15 @@ def _tarred(data: bytes) -> Iterator[Member]:
     data = _opened(data, MOST_BYTES)
     with tarfile.open(fileobj=BytesIO(data), mode="r:") as archive:
         for info in archive:
-            if not info.isfile():
+            if info.isdir():
                 continue
             name = str(PurePosixPath(info.name))
-            stream = archive.extractfile(info)
             try:
-                member = Member(name, _read(stream, LARGEST_MEMBER) if stream is not None else None, "it is no file")
-            except _DAMAGE as error:
+                stream = archive.extractfile(info) if info.isfile() or info.islnk() or info.issym() else None
+                member = Member(name, _read(stream, LARGEST_MEMBER) if stream is not None else None, _NO_FILE)
+            except KeyError:
+                member = Member(name, None, "it is a link to what is not in the archive")
+            except (*_DAMAGE, RecursionError) as error:  # links that lead in a circle
                 member = Member(name, None, _reason(error))
             yield member
         # Behind the last member stands a block of zeros; the library takes a cut or damaged header for the end as well.

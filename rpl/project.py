@@ -289,7 +289,10 @@ def _archive(path: Path, diagnostics: Diagnostics) -> Iterator[_Found]:
     """Members of a controller backup, in memory, in order of their names."""
     data = _bytes_of(path, diagnostics)
     for member in archives.members(data) if data is not None else ():
-        if member.data is not None:
+        if member.data is not None and archives.is_archive(member.name, member.data):
+            at = Origin(source_from_bytes(f"{path}/{member.name}", b""))
+            diagnostics.report(DAMAGED, at, reason="it is an archive in an archive")
+        elif member.data is not None:
             yield _Found(source_from_bytes(f"{path}/{member.name}", member.data), False)
         elif member.name:
             at = Origin(source_from_bytes(f"{path}/{member.name}", b""))

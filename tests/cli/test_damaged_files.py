@@ -3,6 +3,7 @@
 import gzip
 import io
 import os
+import stat
 import tarfile
 import time
 import zipfile
@@ -108,6 +109,68 @@ def test_members_and_archives_beyond_the_limits_are_named(tmp_path: Path, monkey
     monkeypatch.setattr(archives, "MOST_MEMBERS", 1)
     path.write_bytes(zipped(main=MAIN, other=b"x"))
     assert any("more than 1 files" in each for each in reports(path)[1])
+
+
+@pytest.mark.parametrize(
+    ("kind", "leads_to", "reason"),
+    [
+        (tarfile.SYMTYPE, "/etc/passwd", "a link to what is not in the archive"),
+        (tarfile.SYMTYPE, "other.src", "damaged"),  # to itself
+        (tarfile.LNKTYPE, "missing.src", "a link to what is not in the archive"),
+        (tarfile.FIFOTYPE, "", "a link, a pipe or a device"),
+        (tarfile.CHRTYPE, "", "a link, a pipe or a device"),
+    ],
+)
+def test_members_that_are_no_files_are_named(tmp_path: Path, kind: bytes, leads_to: str, reason: str) -> None:
+    held = io.BytesIO()
+    with tarfile.open(fileobj=held, mode="w") as archive:
+        info = tarfile.TarInfo("main.src")
+        info.size = len(MAIN)
+        archive.addfile(info, io.BytesIO(MAIN))
+        other = tarfile.TarInfo("other.src")
+        other.type, other.linkname = kind, leads_to
+        archive.addfile(other)
+    path = tmp_path / "b.tar"
+    path.write_bytes(held.getvalue())
+    files, errors, _ = reports(path)
+    assert files == 1 and len(errors) == 1
+    assert "b.tar/other.src" in errors[0] and reason in errors[0]
+
+
+def test_a_link_to_another_member_is_that_member(tmp_path: Path) -> None:
+    held = io.BytesIO()
+    with tarfile.open(fileobj=held, mode="w") as archive:
+        info = tarfile.TarInfo("kept/main.src")
+        info.size = len(MAIN)
+        archive.addfile(info, io.BytesIO(MAIN))
+        link = tarfile.TarInfo("main.src")
+        link.type, link.linkname = tarfile.LNKTYPE, "kept/main.src"
+        archive.addfile(link)
+    path = tmp_path / "b.tar"
+    path.write_bytes(held.getvalue())
+    assert reports(path)[0] == 2
+
+
+def test_a_link_in_a_zip_archive_is_named(tmp_path: Path) -> None:
+    link = zipfile.ZipInfo("other.src")
+    link.create_system, link.external_attr = 3, (stat.S_IFLNK | 0o777) << 16
+    path = tmp_path / "b.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("main.src", MAIN)
+        archive.writestr(link, "/etc/passwd")
+    files, errors, _ = reports(path)
+    assert files == 1 and len(errors) == 1
+    assert "b.zip/other.src" in errors[0] and "a link, a pipe or a device" in errors[0]
+
+
+def test_an_archive_in_an_archive_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "b.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("main.src", MAIN)
+        archive.writestr("inner.zip", zipped(other=OTHER))
+    files, errors, warnings = reports(path)
+    assert (files, errors) == (1, [])
+    assert any("b.zip/inner.zip" in each and "an archive in an archive" in each for each in warnings)
 
 
 @pytest.mark.parametrize("kind", ["zip", "gz", "bz2", "xz", "many"])

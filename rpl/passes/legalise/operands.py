@@ -24,13 +24,13 @@ def is_operand(value: ir.Expression) -> bool:
         case ir.Quantity(value=inner) | ir.Magnitude(value=inner):
             return is_operand(inner) and not isinstance(value, ir.Magnitude)
         case ir.Index(base=base, indices=indices):
-            return is_operand(base) and all(map(_is_number, indices))
+            return is_operand(base) and all(map(is_number, indices))
         case ir.Field(base=base):
             return is_operand(base) and not isinstance(base, ir.Aggregate)
         case ir.System(indices=indices):
-            return all(map(_is_number, indices))
+            return all(map(is_number, indices))
         case ir.Signal(index=index, last=last):
-            return all(one is None or _is_number(one) for one in (index, last))
+            return all(one is None or is_number(one) for one in (index, last))
         case ir.Aggregate(entries=entries):
             return all(is_constant(one) or (isinstance(one, ir.Aggregate) and is_operand(one)) for _, one in entries)
         case ir.Convert(how="real", operand=operand):
@@ -38,7 +38,7 @@ def is_operand(value: ir.Expression) -> bool:
     return isinstance(value, _LITERALS)
 
 
-def _is_number(value: ir.Expression) -> bool:
+def is_number(value: ir.Expression) -> bool:
     """What may stand as a number of an element: a constant or a variable that has no computed number itself."""
     match value:
         case ir.IntLiteral() | ir.Name():

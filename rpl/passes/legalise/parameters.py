@@ -312,6 +312,9 @@ class _Calls(Hoister):
         numbered: list[ir.Argument] = []
         by_name = {one.name.lower(): one for one in routine.parameters}
         for at_number, argument in enumerate(arguments):
+            if not argument.name and at_number >= len(routine.parameters):  # an error of the source, reported there
+                numbered.append(argument)
+                continue
             parameter = by_name[argument.name.lower()] if argument.name else routine.parameters[at_number]
             if argument.value is None:
                 continue

@@ -68,16 +68,20 @@ class _Piece:
 _Curve = tuple[Pose, list[Leg], list[list[Segment]]]
 
 
-class SplineArcs:
-    """Writes the blocks of one routine. `moving`: routines that move the robot, folded."""
+def modes_set(program: ir.Program) -> set[str]:
+    """The settings of circles' orientation and the like that a program sets anywhere."""
+    assigned = [node.target for node in walk(*program.modules) if isinstance(node, ir.Assign)]
+    return {one.name for one in assigned if isinstance(one, ir.System) and one.name in _MODES}
 
-    def __init__(
-        self, program: ir.Program, context: Context, scope: Scope, unchanged: Unchanged, moving: set[str]
-    ) -> None:
+
+class SplineArcs:
+    """Writes the blocks of one routine. `modes`: what the program sets (`modes_set`). `moving`: routines that move the
+    robot, folded."""
+
+    def __init__(self, modes: set[str], context: Context, scope: Scope, unchanged: Unchanged, moving: set[str]) -> None:
         self.context, self.scope, self.unchanged, self.moving = context, scope, unchanged, moving
         self.mean = rules_of(context.source).mean_parabolas
-        assigned = [node.target for node in walk(*program.modules) if isinstance(node, ir.Assign)]
-        self.modes = {one.name for one in assigned if isinstance(one, ir.System) and one.name in _MODES}
+        self.modes = modes
 
     def written(self, spline: ir.Spline, before: Sequence[ir.Statement]) -> ir.Body | None:
         """The moves of a block behind these statements; None where its curve is not known here."""

@@ -19,7 +19,7 @@ from rpl.passes.legalise.curvepoints import OTHER_CURVE, SAME_CURVE_MM
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.partialplaces import moving_routines
-from rpl.passes.legalise.splinearcs import SplineArcs, settings_of, with_comments
+from rpl.passes.legalise.splinearcs import SplineArcs, modes_set, settings_of, with_comments
 from rpl.passes.legalise.walk import unchanged_in
 
 AS_LINES = code(
@@ -60,10 +60,10 @@ def straight_splines(program: ir.Program, context: Context) -> ir.Program:
     blocks = "Spline" in context.capabilities.statements
     if not any(map(_is_spline, walk(*program.modules))):
         return program
-    unchanged, moving = unchanged_in(program), moving_routines(program)
+    unchanged, moving, modes = unchanged_in(program), moving_routines(program), modes_set(program)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        arcs = SplineArcs(program, context, editor.scope, unchanged, moving)
+        arcs = SplineArcs(modes, context, editor.scope, unchanged, moving)
 
         def change(body: ir.Body) -> ir.Body:
             done: list[ir.Statement] = []

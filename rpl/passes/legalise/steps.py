@@ -15,11 +15,12 @@ from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion, negation
 from rpl.passes.legalise.effects import children, everything, is_constant
-from rpl.passes.legalise.operands import changing, is_operand, opposite, stands_still
+from rpl.passes.legalise.operands import changing, is_number, is_operand, opposite, stands_still
 from rpl.passes.legalise.polling import seconds_of
 from rpl.passes.legalise.spread import is_computed, reads, spread
 from rpl.passes.legalise.usage import assigned_in
 from rpl.passes.legalise.walk import POLL_S, POLLED
+from rpl.passes.rewrite import rewrite_parts
 
 TIMED = code("timed-wait-computed", Severity.LOSS, "a wait for a computed condition loses its time limit")
 
@@ -101,11 +102,35 @@ class _Steps(Hoister):
             return before, value
         if isinstance(type, ir.StringType) and not self.can.texts:
             return before, value
+        if isinstance(type, ir.BoolType) and self.by_steps and isinstance(value, ir.Index | ir.Signal | ir.System):
+            further, value = self.numbered(value)
+            before = (*before, *further)
+            if is_operand(value):
+                return before, value
         name = self.temporary(type)
-        whole = isinstance(value, ir.Call | ir.Builtin | ir.VendorValue)  # cannot be a condition's part either
-        if isinstance(type, ir.BoolType) and self.by_steps and not whole:
+        if isinstance(type, ir.BoolType) and self.by_steps and isinstance(value, ir.Unary | ir.Binary | ir.Convert):
             return (*before, *self.decided(name, value)), name
         return (*before, ir.Assign(name, value)), name
+
+    def numbered(self, value: ir.Expression) -> Lowered:
+        """An element or a signal whose number is itself an element with a computed number: that is kept before."""
+        steps: list[ir.Statement] = []
+
+        def number(part: ir.Expression) -> ir.Expression:
+            if is_number(part):
+                return part
+            before, kept = self.stored((), part)
+            steps.extend(before)
+            return kept
+
+        match value:
+            case ir.Index(indices=indices):
+                value = replace(value, indices=tuple(map(number, indices)))
+            case ir.System(indices=indices):
+                value = replace(value, indices=tuple(map(number, indices)))
+            case ir.Signal():
+                value = rewrite_parts(value, number)
+        return tuple(steps), value
 
     def several_steps(self, parts: Sequence[ir.Assign]) -> ir.Body:
         """Assignments of components, each as the target takes it."""
