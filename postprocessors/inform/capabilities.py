@@ -48,6 +48,7 @@ CAPABILITIES = Capabilities(
     shortest_wait_s=0.01,
     relative_moves=True,
     turned_ways=frozenset(("base", "tool")),
+    local_routines=False,
     function_routines=False,
     faults_outside=False,
     parameters="none",

@@ -84,6 +84,7 @@ CAPABILITIES = Capabilities(
     for_keeps_last=True,
     for_looks_once=False,
     for_steps="one",
+    local_routines=False,
     function_routines=False,
     faults_outside=False,
     parameters="numbered",

@@ -94,7 +94,8 @@ class Capabilities:
     arguments, also variables of the routine around it (`own`). path_assignments: what a place on the path assigns:
     `any` variable, or `signals` (else a routine assigns it).
 
-    Routines: function_routines: there are user functions (else procedures that leave their result in a variable).
+    Routines: local_routines: a routine can be seen by its module alone. function_routines: there are user functions
+    (else procedures that leave their result in a variable).
     parameters: `names`; `numbered` (argument registers: numbers and texts by value, the rest in variables); `none`.
     reference_parameters: a routine may write its parameters (else copies go in, and out by variables).
     arrays_by_value: an array can be an argument by value (else the routine gets the caller's own).
@@ -245,6 +246,7 @@ class Capabilities:
     for_keeps_last: bool = False
     for_looks_once: bool = True
     for_steps: str = "any"
+    local_routines: bool = True
     function_routines: bool = True
     parameters: str = "names"
     reference_parameters: bool = True

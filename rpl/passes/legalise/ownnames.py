@@ -53,6 +53,28 @@ def own_names(program: ir.Program, context: Context, shared: Callable[[ir.Declar
     return replace(program, modules=tuple(modules[id(one)] for one in program.modules), tasks=renamed)
 
 
+def names_of_local_routines(program: ir.Program, context: Context) -> ir.Program:
+    """For targets whose routines are all global: a routine that only its module sees gets a name of its own where
+    another module has one of that name, too (`init` of two modules)."""
+    if context.capabilities.local_routines:
+        return program
+    fold = Fold(rules_of(context.source).case_sensitive)
+    everything = [routine for module in program.modules for routine in module.routines]
+    taken = {fold(one.name) for one in everything if one.scope != "module"}
+    taken |= {fold(one.entry) for one in program.tasks} | {fold(program.entry)}
+    modules = []
+    for module in program.modules:
+        own = [one for one in module.routines if one.scope == "module"]
+        new = {
+            fold(one.name): context.fresh(f"{one.name}_{module.name}".lower())
+            for one in own
+            if fold(one.name) in taken and sum(fold(other.name) == fold(one.name) for other in everything) > 1
+        }
+        taken |= {fold(one.name) for one in own}
+        modules.append(_Renaming(new, fold).module(module, set(), {}))
+    return replace(program, modules=tuple(modules))
+
+
 def _task(task: ir.Task, program: ir.Program, modules: dict[int, ir.Module], entries: dict[str, str]) -> ir.Task:
     """The task under the new names of its modules and its first routine."""
     members = tuple(modules[id(one)].name for one in program.modules if one.task == task.name)
@@ -145,4 +167,4 @@ class _Renaming:
         return change
 
 
-__all__ = ["own_names"]
+__all__ = ["names_of_local_routines", "own_names"]

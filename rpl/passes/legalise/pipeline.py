@@ -116,6 +116,7 @@ from rpl.passes.legalise.optional import fit_parameters
 from rpl.passes.legalise.otherarms import places_on_other_arm
 from rpl.passes.legalise.overlapping import left_out_moves
 from rpl.passes.legalise.overrides import full_override
+from rpl.passes.legalise.ownnames import names_of_local_routines
 from rpl.passes.legalise.ownplaces import own_places
 from rpl.passes.legalise.ownrecords import apart_from_neutral_records
 from rpl.passes.legalise.parameters import fit_arguments
@@ -228,6 +229,7 @@ from rpl.passes.typing import normalise
 # name to add.
 PASSES: tuple[Pass, ...] = (
     kept_values_known,
+    names_of_local_routines,
     source_layout,
     drop_untyped,
     precisions,
