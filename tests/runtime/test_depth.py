@@ -1,6 +1,7 @@
 """Programs nested deeply are read, run and written; what is nested beyond all sense is refused at its place."""
 
 import threading
+from collections.abc import Callable
 
 import pytest
 
@@ -58,18 +59,6 @@ def test_a_thousand_nested_blocks_are_read_and_run(language: str) -> None:
     result = run_program(read.program)
     assert (result.status, result.fault) == ("finished", None)
     assert result.statements >= 1002
-
-
-@pytest.mark.parametrize("target", registry.target_names())
-def test_nested_blocks_are_written_in_every_language(target: str) -> None:
-    read, diagnostics = nested_blocks("rapid", 150)
-    written = translate_program(read, target, diagnostics=diagnostics)
-    assert written.losses == ()
-    again = Diagnostics()
-    sources = [source_from_text(file.path, file.data.decode("utf-8")) for file in written.files]
-    back = read_sources(sources, target, again)
-    assert of_severity(again, Severity.ERROR) == []
-    assert run_program(back.program).status == "finished"
 
 
 def test_blocks_beyond_all_sense_are_refused_at_their_place() -> None:
@@ -166,6 +155,83 @@ def test_long_chains_of_operators_are_written() -> None:
     written = translate_program(read, "urscript", diagnostics=diagnostics)
     assert written.losses == ()
     assert b"+ 1 + 1" in written.files[0].data or b"300" in written.files[0].data
+
+
+_ELSE = {"urscript": "else:"}
+_LOOP = {
+    "rapid": ("WHILE {} DO", "ENDWHILE"),
+    "krl": ("WHILE {}", "ENDWHILE"),
+    "rpl": ("WHILE {}", "END WHILE"),
+    "urscript": ("while {}:", "end"),
+    "vplus": ("WHILE {} DO", "END"),
+    "inform": ("WHILE {}", "ENDWHILE"),
+}
+_VALUE = {"inform": "I000", "tp": "R[1]"}
+
+
+def blocks(language: str, depth: int) -> list[str]:
+    _, _, assignment, begin, end = FORMS[language]
+    return [assignment.format("1"), *[begin] * depth, assignment.format("7"), *[end] * depth]
+
+
+def branches(language: str, depth: int) -> list[str]:
+    """Each `else` holds the next question."""
+    _, _, assignment, begin, end = FORMS[language]
+    asked = [line for at in range(depth) for line in (begin, assignment.format(at), _ELSE.get(language, "ELSE"))]
+    return [assignment.format("0"), *asked, assignment.format("5"), *[end] * depth]
+
+
+def loops(language: str, depth: int) -> list[str]:
+    _, _, assignment, *_ = FORMS[language]
+    begin, end = _LOOP[language]
+    begin = begin.format(f"{_VALUE.get(language, 'x')}<1")
+    return [assignment.format("0"), *[begin] * depth, assignment.format("7"), *[end] * depth]
+
+
+def long_sum(language: str, terms: int) -> list[str]:
+    assignment = FORMS[language][2]
+    return [assignment.format("1"), assignment.format("+".join([_VALUE.get(language, "x")] * terms))]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("target", registry.target_names())
+@pytest.mark.parametrize(("make", "size"), [(blocks, 400), (branches, 200), (loops, 200), (long_sum, 300)])
+@pytest.mark.parametrize("language", FORMS)
+def test_deep_programs_are_written_in_every_language(
+    language: str, make: Callable[[str, int], list[str]], size: int, target: str
+) -> None:
+    if make is loops and language not in _LOOP:
+        pytest.skip("it has no such loop")
+    read, diagnostics = program(language, make(language, size))
+    assert diagnostics.of(Severity.ERROR) == []
+    collected = Diagnostics()
+    written = translate_program(read, target, diagnostics=collected)
+    assert collected.of(Severity.ERROR) == []
+    if make is long_sum:
+        return  # a controller may have no room for it, and says so
+    assert written.losses == ()
+    again = Diagnostics()
+    sources = [source_from_text(file.path, file.data.decode("utf-8")) for file in written.files]
+    back = read_sources(sources, target, again)
+    assert again.of(Severity.ERROR) == []
+    assert run_program(back.program).status == "finished"
+
+
+@pytest.mark.parametrize("language", ["rapid", "inform", "urscript"])
+def test_loops_in_loops_are_each_followed_once(language: str) -> None:
+    """What follows each loop twice would follow the innermost one 2**60 times."""
+    read, _ = program(language, loops(language, 60))
+    assert translate_program(read, "krl", diagnostics=Diagnostics()).losses == ()
+
+
+def test_a_long_sum_is_cut_into_lines() -> None:
+    """V+ lines have 255 characters, so a sum of 400 terms takes a few variables, not one for each term."""
+    read, _ = program("rapid", long_sum("rapid", 400))
+    written = translate_program(read, "vplus", diagnostics=Diagnostics())
+    lines = written.files[0].data.decode().splitlines()
+    assert written.losses == ()
+    assert max(map(len, lines)) <= 255
+    assert len(lines) < 40
 
 
 def test_work_that_overflows_is_done_once_more_and_reports_once() -> None:

@@ -46,9 +46,26 @@ class Activations:
                 apart.append({id(routine)})
         if handling:
             apart.append(handling)
-        made.recursive = {key for key in made.calls if key in made.reached(made.calls[key])}
+        made.recursive = {key for key in made._beyond_leaves() if key in made.reached(made.calls[key])}
         made._find_beside(apart)
         return made
+
+    def _beyond_leaves(self) -> set[int]:
+        """Routines from which some call may lead back: all but those whose calls end. Programs have few of them."""
+        callers: dict[int, list[int]] = {}
+        for caller, callees in self.calls.items():
+            for callee in callees:
+                callers.setdefault(callee, []).append(caller)
+        left = {key: len(callees) for key, callees in self.calls.items()}
+        ending = [key for key in {*self.calls, *callers} if not left.get(key)]
+        while ending:
+            ended = ending.pop()
+            left.pop(ended, None)
+            for caller in callers.get(ended, ()):
+                left[caller] -= 1
+                if not left[caller]:
+                    ending.append(caller)
+        return set(left)
 
     def reached(self, starts: set[int]) -> set[int]:
         """These routines and all they call."""

@@ -172,10 +172,12 @@ class _Follower:
         return ((begins - {""} or never_called(self.program)) | beside) & set(self.routines)
 
     def follow(self) -> None:
+        order = list(self.routines)
         for _ in range(_ROUNDS):
             before = (dict(self.entries), dict(self.exits))
-            for name in self.routines:
+            for name in order:
                 self.routine(name)
+            order.reverse()  # what calls bring goes down a chain of them, what routines leave behind goes up
             if before == (self.entries, self.exits):
                 break
         else:
