@@ -1,4 +1,4 @@
-"""Routines that only their module sees (RAPID LOCAL PROC, KRL DEF without GLOBAL): two modules may have the same name."""
+"""Routines that only their module sees (RAPID LOCAL PROC, KRL DEF without GLOBAL): two modules may have the same."""
 
 from __future__ import annotations
 

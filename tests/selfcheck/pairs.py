@@ -104,6 +104,12 @@ PROJECTS = {
     "rpl_more_measuring": Project(KUKA, 16),
     "rapid_more_coating": Project(ABB, 20),
     "krl_more_sealing": Project(KUKA, 18, "SEALING"),
+    "krl_more_press": Project(KUKA, 18, "PRESS"),
+    "krl_more_tray": Project(KUKA, 20, "TRAY"),
+    "rapid_more_kits": Project(ABB, 22),
+    "rapid_more_watch": Project(ABB, 18),
+    "rapid_more_shift": Project(ABB, 18),
+    "krl_more_shift": Project(KUKA, 18, "SHIFT"),
 }
 TARGETS = list(registry.target_names())
 

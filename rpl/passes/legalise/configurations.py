@@ -92,6 +92,7 @@ class _Configurations(Rewriter):
         self.near = self.foreign and context.capabilities.postures == "joints"
         self.implications: Known = {}
         self.changed: tuple[str, str] | None = None  # the posture of the place looked at now, on one arm and the other
+        self.told: set[tuple[int, int]] = set()  # source and line where single axes have been told
         self.around = NOWHERE  # the declaration or statement that is looked at now
         self.unturned = ""  # why the target looked at now has flags, but none of its turns
         self.results: dict[int, dict[str, int] | _Refused] = trial.results if trial else {}
@@ -222,8 +223,11 @@ class _Configurations(Rewriter):
         """The place of a value, or of the declaration or statement around it."""
         return self.around if expression.origin is NOWHERE else expression.origin
 
-    def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+    def placed(self, statement: ir.Statement) -> list[ir.Statement]:
         self.around = statement.origin
+        return super().placed(statement)
+
+    def statement(self, statement: ir.Statement) -> list[ir.Statement]:
         if isinstance(statement, ir.Move) and statement.kind == "joint":
             return self.joint_move(statement)
         if isinstance(statement, ir.Move) and self.foreign:
@@ -317,6 +321,9 @@ class _Configurations(Rewriter):
                 self.context.diagnostics.report(FLAG_ACCESS, expression.origin, name=name)
                 self.before.append(ir.Opaque(expression.origin.text or name, origin=expression.origin))
                 return ir.IntLiteral(0)
+            case ir.Field(base=base, name=name) if self.other_arm and name in _AXES:
+                if isinstance(self.type_of(base), ir.JointsType | ir.AxesType):
+                    self.single_axis(self.at(expression))
             case ir.Aggregate():
                 type = self.type_of(expression) if _may_be_point(expression) else None
                 if isinstance(type, ir.TargetType):
@@ -324,6 +331,14 @@ class _Configurations(Rewriter):
                 if isinstance(type, ir.JointsType) and self.other_arm:
                     return self.joints(expression)
         return super().expression(expression)
+
+    def single_axis(self, origin: Origin) -> None:
+        """The angle of one axis, set or looked at, is another one on another arm; told once for each line."""
+        assert self.to_arm is not None  # only with two arms
+        line = (id(origin.source), origin.line)
+        if origin.source is not None and line not in self.told:
+            self.told.add(line)
+            self.context.diagnostics.report(JOINTS_LOST, origin, arm=self.to_arm.name)
 
     # ---- written targets
 
