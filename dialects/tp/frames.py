@@ -36,6 +36,8 @@ class _Walk:
         self, positions: dict[int, Position], diagnostics: Diagnostics, reported: set[tuple[str, int]]
     ) -> None:
         self.positions, self.diagnostics, self.reported = positions, diagnostics, reported
+        # What a loop, by identity, entered with these numbers ends with: loops in loops are followed once each.
+        self.loops: dict[tuple[int, tuple[int | None, ...]], Active] = {}
 
     def body(self, body: ir.Body, active: Active) -> Active:
         for statement in body:
@@ -59,9 +61,12 @@ class _Walk:
                 ends = [self.body(case.body, active) for case in cases]
                 return _common([*ends, self.body(default or (), active)])
             case ir.For(body=body) | ir.While(body=body):
-                inside = _common([active, self.body(body, dict.fromkeys(_BANKS))])
-                self.body(body, inside)
-                return inside
+                key = id(statement), tuple(active[bank] for bank in _BANKS)
+                if key not in self.loops:
+                    inside = _common([active, self.body(body, dict.fromkeys(_BANKS))])
+                    self.body(body, inside)
+                    self.loops[key] = inside
+                return self.loops[key]
         return active
 
     def point(self, point: ir.Expression | None, active: Active, move: ir.Move) -> None:

@@ -224,6 +224,12 @@ def test_loops_in_loops_are_each_followed_once(language: str) -> None:
     assert translate_program(read, "krl", diagnostics=Diagnostics()).losses == ()
 
 
+def test_counting_loops_in_loops_are_read_once_each() -> None:
+    lines = [*(f"FOR R[{at}]=1 TO 1" for at in range(1, 61)), "R[70]=1", *["ENDFOR"] * 60]
+    _, diagnostics = program("tp", lines)
+    assert diagnostics.of(Severity.ERROR) == []
+
+
 def test_a_long_sum_is_cut_into_lines() -> None:
     """V+ lines have 255 characters, so a sum of 400 terms takes a few variables, not one for each term."""
     read, _ = program("rapid", long_sum("rapid", 400))
