@@ -1,4 +1,4 @@
-"""Whole records compared, late calls, divisors of zero and constants of constants: the same in every target.
+"""Records, places and joints compared as a whole, late calls, divisors of zero, constants of constants: in every target.
 
 RAPID compares values of any type as a whole (kernel manual, relational operators); KRL, TP, INFORM, V+ compare numbers,
 truths and texts. A division by zero is an error that a handler can catch there, whatever the divisor looks like.
@@ -71,6 +71,32 @@ DIVISORS = """MODULE Job
   ENDPROC
 ENDMODULE
 """
+PLACES = """MODULE Job
+  RECORD pair
+    pose at;
+    jointtarget j;
+  ENDRECORD
+  CONST robtarget p1:=[[400,0,300],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  VAR robtarget p2;
+  VAR jointtarget ja:=[[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  VAR jointtarget jb;
+  VAR pair qa;
+  VAR pair qb;
+  PROC main()
+    p2:=p1;
+    jb:=ja;
+    IF p2=p1 AND jb=ja SetDO do1,1;
+    p2.trans.x:=401;
+    jb.robax.rax_3:=5;
+    IF p2<>p1 AND jb<>ja SetDO do2,1;
+    qa.at:=[[1,2,3],[1,0,0,0]];
+    qb:=qa;
+    IF qa=qb SetDO do3,1;
+    qb.j.robax.rax_6:=4;
+    IF qa<>qb SetDO do4,1;
+  ENDPROC
+ENDMODULE
+"""
 LATE = """MODULE Job
   VAR num order:=0;
   PROC main()
@@ -94,7 +120,7 @@ ENDMODULE
 
 
 @pytest.mark.parametrize("target", TARGETS)
-@pytest.mark.parametrize(("text", "count"), [(RECORDS, 5), (DIVISORS, 2), (LATE, 1)])
+@pytest.mark.parametrize(("text", "count"), [(RECORDS, 5), (PLACES, 4), (DIVISORS, 2), (LATE, 1)])
 def test_it_means_the_same(text: str, count: int, target: str) -> None:
     diagnostics = Diagnostics()
     read = read_sources([source_from_text("job.mod", text)], "rapid", diagnostics)

@@ -1,7 +1,8 @@
-"""Whole records compared, for targets that compare numbers, texts and truths only: component by component.
+"""Whole records, places and joints compared, for targets that compare numbers, texts and truths only: component by
+component.
 
-Components that are records themselves are compared in the same way. A side that is computed is stored first, so that it
-is worked out once.
+Components that are records themselves are compared in the same way; of a place, where it is and how it is turned, of
+joints the axes of the arm. A side that is computed is stored first, so that it is worked out once.
 """
 
 from __future__ import annotations
@@ -15,12 +16,12 @@ from rpl.passes.legalise.editing import Editor, Hoister, Lowered, edit_bodies, e
 from rpl.passes.typewords import component_names, component_type
 
 _PLACES = (ir.Name, ir.Index, ir.Field)
+_AXES = tuple(ir.COMPONENTS[ir.AxesType])
 
 
 def compared_records(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that do not compare records themselves."""
-    records = any(isinstance(one, ir.RecordDeclaration) for module in program.modules for one in module.declarations)
-    if context.capabilities.compares_records or not records:
+    if context.capabilities.compares_records:
         return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
@@ -41,11 +42,24 @@ class _Records(Hoister):
                     return self.comparison(expression, type)
         return super().lower(expression, lvalue)
 
-    def record(self, side: ir.Expression) -> ir.NamedType | None:
+    def record(self, side: ir.Expression) -> ir.Type | None:
         type = self.editor.type_of(side)
-        return type if isinstance(type, ir.NamedType) and component_names(type, self.editor.scope) else None
+        return type if type is not None and self.names(type) else None
 
-    def comparison(self, expression: ir.Binary, type: ir.NamedType) -> Lowered:
+    def names(self, type: ir.Type) -> tuple[str, ...]:
+        """What is compared of a value of this type; nothing where it is compared itself."""
+        match type:
+            case ir.NamedType():
+                return component_names(type, self.editor.scope)
+            case ir.TargetType() if "trans" in component_names(type, self.editor.scope):
+                return ("trans", "rot")
+            case ir.JointsType() if "robax" in component_names(type, self.editor.scope):
+                return ("robax",)
+            case ir.AxesType():
+                return _AXES
+        return ()
+
+    def comparison(self, expression: ir.Binary, type: ir.Type) -> Lowered:
         before, sides = self.several((expression.left, expression.right), (False, False))
         done = list(before)
         for at, side in enumerate(sides):
@@ -64,7 +78,7 @@ class _Records(Hoister):
         self, one: ir.Expression, other: ir.Expression, type: ir.Type
     ) -> Iterator[tuple[ir.Expression, ir.Expression]]:
         """What has to be equal, component by component; nothing for an aggregate that leaves something out."""
-        names = component_names(type, self.editor.scope) if isinstance(type, ir.NamedType) else ()
+        names = self.names(type)
         if not names:
             yield one, other
             return
