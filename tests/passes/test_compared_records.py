@@ -1,4 +1,4 @@
-"""Records, places and joints compared as a whole, late calls, divisors of zero, constants of constants: in every target.
+"""Records, places and joints compared as a whole, late calls, divisors of zero, constants of constants, in each target.
 
 RAPID compares values of any type as a whole (kernel manual, relational operators); KRL, TP, INFORM, V+ compare numbers,
 truths and texts. A division by zero is an error that a handler can catch there, whatever the divisor looks like.

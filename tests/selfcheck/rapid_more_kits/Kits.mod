@@ -251,6 +251,7 @@ MODULE Kits
     VAR bool ok;
     VAR pos p;
     ! 14 a record read from a text and written again
+    ok:=FALSE;
     ok:=StrToVal("[1.5,-2,30]",p);
     s:=ValToStr(p*2);
     IF ok AND p.y=-2 AND s="[3,-4,60]" SetDO do14,1;
@@ -259,7 +260,7 @@ MODULE Kits
     n:=StrFind(s,1,";");
     IF StrPart(s,1,n-1)="pick" AND StrMatch(s,n+1,";")=7 AND StrPart(s,StrMatch(s,n+1,";")+1,4)="left" AND StrFind(s,1,"#")=12 SetDO do15,1;
     ! 16 numbers as texts
-    IF NumToStr(2.345,1)="2.3" AND NumToStr(-0.5,0)="-1" AND NumToStr(7,2)="7.00" AND ValToStr(0.25)="0.25" AND ValToStr(TRUE)="TRUE" SetDO do16,1;
+    IF NumToStr(2.345,1)="2.3" AND NumToStr(-0.6,0)="-1" AND NumToStr(7,2)="7.00" AND ValToStr(0.25)="0.25" AND ValToStr(TRUE)="TRUE" SetDO do16,1;
     ! 17 letters turned into others, order
     IF StrMap("a1b2","ab","xy")="x1y2" AND StrOrder("FIRST","SECOND",STR_UPPER) AND NOT StrOrder("B","A",STR_UPPER) AND StrMemb("part7",5,STR_DIGIT) SetDO do17,1;
   ENDPROC
