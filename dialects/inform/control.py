@@ -96,12 +96,20 @@ class Control(Tasks):
         if word in tables.MOVES:
             done = self.on_move(command)
         elif word in _METHODS:
+            self.nothing_behind(head)
             done = _METHODS[word](self, head)
         else:
             done = self.vendor(head)
         if condition is None:
             return done
         return (ir.If(((condition, done),), origin=self.origin),)
+
+    def nothing_behind(self, command: Command) -> None:
+        """Raises StatementError where more operands stand than the instruction has: none of them means nothing."""
+        most = _OPERANDS.get(command.word, len(command.items))
+        logic = command.word == "SET" and command.items[1:2] == (Word("LOGICEXP"),)
+        if len(command.items) > most and not logic and not self.is_position(command.items[0]):
+            raise StatementError(f"{command.word} has {most} operands, here are {len(command.items)}", 0)
 
     def split_condition(self, command: Command) -> tuple[Command, ir.Expression | None]:
         """`... IF a=b` behind an instruction."""
@@ -370,6 +378,13 @@ class Control(Tasks):
         met = ir.Convert("bit", ir.Unary("not", late, origin=self.origin), origin=self.origin)
         return wait, *self.set(result, met)
 
+
+# How many operands stand behind instructions that have a fixed number of them.
+_OPERANDS = {
+    "SET": 2,
+    **dict.fromkeys((*ARITHMETIC, *BITS, *FUNCTIONS, "NOT"), 2),
+    **dict.fromkeys(("INC", "DEC", "TIMER"), 1),
+}
 
 _METHODS: dict[str, Callable[[Control, Command], Statements]] = {
     "NOP": Control.on_nop,

@@ -15,7 +15,7 @@ from lark import Tree
 
 from rpl import ir
 from rpl.reading.pieces import Block, Close, Element, Item, Middle, ModulePart, Open
-from rpl.reading.shapes import Slot, StatementError, SyntaxTree
+from rpl.reading.shapes import Slot, StatementError, SyntaxTree, real_number
 from rpl.source import NOWHERE, Origin
 
 from .signals import numbered
@@ -379,7 +379,7 @@ class _Reading:
         text = ("-" if negative else "") + self.text(child)
         real = child.real if isinstance(child, Slot) else "." in text
         if real:
-            return ir.RealLiteral(float(text), text, origin=self.origin)
+            return ir.RealLiteral(real_number(text), text, origin=self.origin)
         return ir.IntLiteral(int(text), "", origin=self.origin)
 
     def expression(self, tree: SyntaxTree) -> ir.Expression:
@@ -397,7 +397,7 @@ class _Reading:
                 return ir.IntLiteral(int(self.text(children[0])), origin=origin)
             case "real":
                 text = self.text(children[0])
-                return ir.RealLiteral(float(text), text, origin=origin)
+                return ir.RealLiteral(real_number(text), text, origin=origin)
             case "number":
                 return self.number(tree)
             case "text":

@@ -13,7 +13,7 @@ from lark import Token, Tree
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.reading.shapes import Slot, StatementError, SyntaxTree
+from rpl.reading.shapes import Slot, StatementError, SyntaxTree, real_number
 from rpl.source import Origin
 
 from . import tables
@@ -412,10 +412,7 @@ def _slot(child: object) -> int:
 
 def real_value(spelling: str) -> float:
     """A real number. Raises StatementError when it is beyond what a controller could hold."""
-    value = float(spelling)
-    if value > _LARGEST_REAL:
-        raise StatementError(f"the number {spelling} is too large", 0)
-    return value
+    return real_number(spelling, _LARGEST_REAL)
 
 
 def whole_value(spelling: str) -> int:

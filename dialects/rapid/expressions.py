@@ -10,7 +10,7 @@ from collections.abc import Callable
 from lark import Token, Tree
 
 from rpl import ir
-from rpl.reading.shapes import Slot, SyntaxTree
+from rpl.reading.shapes import Slot, SyntaxTree, real_number
 
 from .arguments import Arguments
 from .functions import FUNCTIONS
@@ -135,7 +135,7 @@ class Expressions:
         assert isinstance(slot, Slot)  # a promise of the parser
         spelling = values[slot.index]
         if slot.real:
-            return ir.RealLiteral(float(spelling), spelling)
+            return ir.RealLiteral(real_number(spelling), spelling)
         if spelling.isdecimal():
             return ir.IntLiteral(int(spelling), spelling)
         base = _BASES.get(spelling[:2].lower(), 10)

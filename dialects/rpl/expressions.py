@@ -10,7 +10,7 @@ from lark import Token, Tree
 
 from rpl import ir
 from rpl.ir import words
-from rpl.reading.shapes import Slot, StatementError, SyntaxTree
+from rpl.reading.shapes import Slot, StatementError, SyntaxTree, real_number
 from rpl.source import Origin
 
 Child = Token | Slot | SyntaxTree
@@ -95,7 +95,7 @@ def _int(tree: SyntaxTree, at: Reading) -> ir.Expression:
 
 def _real(tree: SyntaxTree, at: Reading) -> ir.Expression:
     text = at.spelling(tree.children[0])
-    return ir.RealLiteral(float(text), text, origin=at.origin)
+    return ir.RealLiteral(real_number(text), text, origin=at.origin)
 
 
 def _negative(tree: SyntaxTree, at: Reading) -> ir.Expression:
@@ -103,7 +103,7 @@ def _negative(tree: SyntaxTree, at: Reading) -> ir.Expression:
     text = at.spelling(number)
     if text.isdigit() or text[:2].lower() in ("0x", "0b"):
         return ir.IntLiteral(-at.integer(number), origin=at.origin)
-    return ir.RealLiteral(-float(text), origin=at.origin)
+    return ir.RealLiteral(-real_number(text), origin=at.origin)
 
 
 def _token(tree: SyntaxTree) -> Token:

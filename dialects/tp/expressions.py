@@ -10,7 +10,7 @@ from lark import Token, Tree
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
-from rpl.reading.shapes import Slot, StatementError, SyntaxTree
+from rpl.reading.shapes import Slot, StatementError, SyntaxTree, real_number
 from rpl.source import Origin
 
 from . import tables
@@ -117,7 +117,7 @@ class Expressions:
                 return Typed(ir.IntLiteral(int(spelling), spelling, origin=self.origin), "n")
             case "real":
                 spelling = self.spelling(tree.children[0])
-                return Typed(ir.RealLiteral(float(spelling), spelling, origin=self.origin), "n")
+                return Typed(ir.RealLiteral(real_number(spelling), spelling, origin=self.origin), "n")
             case "group":
                 return self.typed(_tree(tree.children[0]))
             case "text":

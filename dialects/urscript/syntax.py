@@ -16,7 +16,7 @@ from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.reading.pieces import Block as ReadBlock
 from rpl.reading.pieces import Close, Element, Item, Middle, ModulePart, Open, Section
-from rpl.reading.shapes import ShapeParser, Slot, StatementError, SyntaxTree
+from rpl.reading.shapes import ShapeParser, Slot, StatementError, SyntaxTree, real_number
 from rpl.source import Origin
 
 from . import nodes
@@ -183,7 +183,7 @@ class Syntax:
         spelling = numbers[child.index] if isinstance(child, Slot) else str(child)
         if spelling[:2] in ("0x", "0X"):
             return nodes.Number(int(spelling, 16), spelling)
-        return nodes.Number(int(spelling) if spelling.isdecimal() else float(spelling), spelling)
+        return nodes.Number(int(spelling) if spelling.isdecimal() else real_number(spelling), spelling)
 
     def hole(self, text: str) -> Expr:
         self.diagnostics.report(MISPLACED_HOLE, self.origin, text=text or "no value")

@@ -11,7 +11,7 @@ from lark import Token, Tree
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.reading.shapes import Slot, StatementError, SyntaxTree
+from rpl.reading.shapes import Slot, StatementError, SyntaxTree, real_number
 from rpl.source import Origin
 
 from . import tables
@@ -98,10 +98,7 @@ class Expressions(ABC):
         match tree.data:
             case "real":
                 spelling = self.spelling(tree.children[0])
-                value = float(spelling)
-                if value > _LARGEST:
-                    raise StatementError(f"the number {spelling} is too large", 0)
-                return ir.RealLiteral(value, spelling)
+                return ir.RealLiteral(real_number(spelling, _LARGEST), spelling)
             case "integer":
                 return self.integer(tree.children[0])
             case "unary":

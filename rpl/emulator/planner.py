@@ -22,13 +22,13 @@ from rpl.emulator.rotations import FloatArray, invert_pose, pose_matrix, rotatio
 from rpl.emulator.rounding import NO_WAY, NOISE, first_least, steps_of
 from rpl.emulator.timelaw import Profile, TimeLaw, mean_acceleration, of_constant_time, slowed_to
 from rpl.emulator.tracking import MotionFault, Track, solve_arm_joints, track_flanges, track_wrist_joints
+from rpl.ir.rules import SLOWEST
 
 __all__ = ["MotionFault", "MoveRequest", "MoveSamples", "PlannedMove", "plan"]
 
 Select = Callable[[FloatArray, FloatArray], Selection]
 CheckEnd = Callable[[FloatArray], str | None]
-# An axis may exceed its speed by this share through sampling before it counts.
-SPEED_SLACK = 1e-3
+SPEED_SLACK = 1e-3  # an axis may exceed its speed by this share through sampling before it counts
 # A path that needs too fast an axis is called singular when the Jacobian's condition (lengths per arm reach) is worse.
 SINGULAR_CONDITION = 25.0
 # Where a flange on a carried path is looked at first, to tell how finely the path has to be followed.
@@ -330,6 +330,8 @@ def bad_request(request: MoveRequest) -> MotionFault | None:
     for name, value in speeds.items():
         if not value > 0.0:
             return MotionFault("bad_speed", f"the {name} is {value:g}, but must be more than zero")
+        if not SLOWEST <= value < np.inf:
+            return MotionFault("bad_speed", f"the {name} is {value:g}: no robot moves like that")
     if request.target_joints is None and request.target_pose is None:
         return MotionFault("bad_target", "the move has no target")
     if request.kind == "circular" and (request.via_pose is None or request.target_pose is None):

@@ -9,6 +9,9 @@ from dataclasses import dataclass, field
 from rpl.ir.analog import AnalogPorts
 from rpl.ir.types import Type
 
+# Speeds (mm/s, deg/s, shares of the most) below this are no speeds: a move would last for months.
+SLOWEST = 1e-6
+
 
 @dataclass(frozen=True, slots=True)
 class AdvanceRules:

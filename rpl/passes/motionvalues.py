@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.ir.rules import QUANTITIES, Range, refusal
+from rpl.ir.rules import QUANTITIES, SLOWEST, Range, refusal
 from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant, constant_number
@@ -23,7 +23,7 @@ from rpl.source import Origin
 SPEED = code(
     "speed-not-positive",
     Severity.WARNING,
-    "the {what} is {value:g}: it must be more than zero, the controller stops at this move",
+    "the {what} is {value:g}: it must be more than {least}, the controller stops at this move",
 )
 ROTATION = code(
     "orientation-unusable",
@@ -186,8 +186,12 @@ class _Module:
 
     def speed(self, what: str, value: ir.Expression | None, origin: Origin, scope: Scope) -> None:
         number = None if value is None else constant_number(value, scope)
-        if number is not None and number <= 0.0:
-            self.diagnostics.report(SPEED, origin, what=what, value=number)
+        if number is not None:
+            self.speed_of(what, number, origin)
+
+    def speed_of(self, what: str, number: float, origin: Origin) -> None:
+        if number < SLOWEST:
+            self.diagnostics.report(SPEED, origin, what=what, value=number, least="zero" if number <= 0.0 else SLOWEST)
 
     def quantity(
         self, name: str, value: ir.Expression | None, origin: Origin, scope: Scope, units: tuple[str, ...] = ()
@@ -258,8 +262,8 @@ class _Module:
             self.speed("axis speed", speed.joint if speed.joint is not None else speed.axis, move.origin, scope)
             profile = constant(speed.profile, scope) if speed.profile is not None and speed.path is None else None
             path = profile.part("path") if isinstance(profile, Record) else None
-            if isinstance(path, int | float) and path <= 0.0 and speed.duration is None:
-                self.diagnostics.report(SPEED, move.origin, what="path speed", value=float(path))
+            if isinstance(path, int | float) and speed.duration is None:
+                self.speed_of("path speed", float(path), move.origin)
         for expression in (move.target, move.via, move.tool, move.frame):
             if expression is not None:
                 self.rotations(expression, move.origin, scope)

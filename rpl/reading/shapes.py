@@ -7,6 +7,7 @@ A statement's numbers are taken out, what remains is its shape; Lark parses the 
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -63,6 +64,14 @@ class TooDeepError(StatementError):
     def __init__(self, tree: SyntaxTree, numbers: tuple[str, ...]) -> None:
         super().__init__(f"its expressions are nested more than {DEEPEST_TREE} deep", 0)
         self.tree, self.numbers = tree, numbers
+
+
+def real_number(spelling: str, largest: float = sys.float_info.max) -> float:
+    """A real number as it is written. Raises StatementError for one that is larger than the language has."""
+    value = float(spelling)
+    if not -largest <= value <= largest:
+        raise StatementError(f"the number {spelling[:20]} is too large", 0)
+    return value
 
 
 class ShapeParser:

@@ -183,3 +183,33 @@ def test_an_orientation_is_told_exactly_when_it_misses_one_by_more_than_a_tenth(
     data = P0.replace("p0:", "pAny:").replace("[0,0,1,0]", f"[{one:.9f},0,{other:.9f},0]")
     codes = [name for name, _ in rapid_told(data=(data,))]
     assert ("orientation-unusable" in codes) == (abs(squares - 1.0) > 0.1)
+
+
+@pytest.mark.parametrize(
+    ("dialect", "text", "line"),
+    [
+        ("krl", "DEF p()\nREAL x\nx=1E999\nEND\n", 3),
+        ("rapid", "MODULE p\nPROC main()\nVAR num x;\nx:=1E999;\nENDPROC\nENDMODULE\n", 4),
+        ("urscript", "def p():\n  x = 1e999\n  y = -1e999\nend\n", 2),
+        ("vplus", ".PROGRAM p()\n x = 1E999\n.END\n", 2),
+        ("rpl", "x = 1e999\n", 1),
+        ("inform", "/JOB\n//NAME P\n//POS\n//INST\n///DATE 2020/01/01 00:00\n///ATTR SC,RW\nNOP\nSET R000 1e999\nEND\n", 8),
+    ],
+)
+def test_numbers_that_no_machine_holds_are_not_infinity(dialect: str, text: str, line: int) -> None:
+    assert ("unreadable-statement", line) in [(name, at) for name, at, _ in told(dialect, text)]
+
+
+@pytest.mark.parametrize("behind", ["SET R000 12.5x", "SET R000 5 7", "ADD B000 1 2", "TIMER T=1e3", "INC B000 B001"])
+def test_operands_that_mean_nothing_are_not_passed_over(behind: str) -> None:
+    """An instruction with more operands than it has is not read as if they were not there."""
+    text = f"/JOB\n//NAME P\n//POS\n//INST\n///DATE 2020/01/01 00:00\n///ATTR SC,RW\nNOP\n{behind}\nEND\n"
+    assert ("unreadable-statement", 8) in [(name, at) for name, at, _ in told("inform", text)]
+
+
+@pytest.mark.parametrize("speed", ["1E-300", "-1E-300", "0.0000001"])
+def test_speeds_at_which_a_move_never_ends_are_told_and_are_faults(speed: str) -> None:
+    data = f"CONST speeddata vNo:=[{speed},500,5000,1000];"
+    assert ("speed-not-positive", 8) in rapid_told("MoveL p1,vNo,fine,tPen;", data=(data,))
+    result = run("rapid", module("v:=" + speed + ";", "MoveL p1,v100\\V:=v,fine,tPen;", data=("VAR num v;",)), ABB)
+    assert result.fault is not None and (result.fault.code, result.fault.origin.line) == ("bad-speed", 9)
