@@ -193,7 +193,11 @@ def test_an_orientation_is_told_exactly_when_it_misses_one_by_more_than_a_tenth(
         ("urscript", "def p():\n  x = 1e999\n  y = -1e999\nend\n", 2),
         ("vplus", ".PROGRAM p()\n x = 1E999\n.END\n", 2),
         ("rpl", "x = 1e999\n", 1),
-        ("inform", "/JOB\n//NAME P\n//POS\n//INST\n///DATE 2020/01/01 00:00\n///ATTR SC,RW\nNOP\nSET R000 1e999\nEND\n", 8),
+        (
+            "inform",
+            "/JOB\n//NAME P\n//POS\n//INST\n///DATE 2020/01/01 00:00\n///ATTR SC,RW\nNOP\nSET R000 1e999\nEND\n",
+            8,
+        ),
     ],
 )
 def test_numbers_that_no_machine_holds_are_not_infinity(dialect: str, text: str, line: int) -> None:
