@@ -142,6 +142,8 @@ class Statements(Calls):
         symbol = self.symbol(target)
         if isinstance(value, nodes.Run):
             return self.run(value, target)
+        if symbol is not None and symbol.only_handle:  # what stands for no thread yet
+            return (ir.Nothing(origin=self.origin),)
         if isinstance(target, nodes.Var):
             if isinstance(value, nodes.Apply) and value.base is None and value.name in _ASKED:
                 return self.asked(target, value)

@@ -29,6 +29,7 @@ RULES = Rules(
     # Language user's guide, real and integer data types: a real has 32 bits (IEEE single, 24 bits of precision), whole
     # numbers go from -16,777,216 to 16,777,215. M: each operation rounds, and DOUBLE variables are taken as others.
     real_bits=24,
+    text_length=128,  # user's guide: a string has 0 to 128 characters
     whole_bits=24,
     advance=ADVANCE,
     components={"PoseType": _XYZABC, "TargetType": _XYZABC},

@@ -42,6 +42,7 @@ CAPABILITIES = Capabilities(
     notation="krl",
     rotation="zyx",
     enums=True,
+    text_room=(tables.DEFAULT_TEXT_CAPACITY, tables.LONGEST_TEXT),
     conversions=tables.SILENT_CONVERSIONS,
     timers=64,
     switch_types=frozenset(("IntType", "CharType", "NamedType")),

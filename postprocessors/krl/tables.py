@@ -153,3 +153,5 @@ SILENT_CONVERSIONS = frozenset(("real", "round_half_away", "code", "char"))
 ATTRIBUTES = frozenset(("ACCESS", "REL", "PARAM", "COMMENT", "USER", "TECHNOLOGY"))
 LONGEST_LINE = 474
 DEFAULT_TEXT_CAPACITY = 80
+# The controller's functions for texts take a CHAR[256] at most (its own declarations of StrToInt and kin).
+LONGEST_TEXT = 255

@@ -68,7 +68,8 @@ class Capabilities:
     dynamic_calls: a procedure may be called by a name computed at run time.
     switch_types: type classes a Switch may select by (NamedType: enumerations); empty: any type.
     switch_constant_cases: case values must be literals. switch_variables: it looks at a variable, at no signal or other
-    value. text_results: functions may return texts.
+    value. text_results: functions may return texts. text_room: each text is declared with its longest length: what it
+    gets where nothing says more, and the most that the controller's own functions take.
     kinematics: functions of the controller for the joints of a target (near joints) and for the target of joints, that
     write 0 or an error into a further argument, when that is how it says so.
     format_state: type of the state that format_into writes; None when it has none. carries_rules: the target's text
@@ -205,6 +206,7 @@ class Capabilities:
     curve_points: bool = False
     short_circuit: bool = False
     enums: bool = False
+    text_room: tuple[int, int] | None = None
     conversions: frozenset[str] = frozenset()
     signal_prefixes: Mapping[str, str] = field(default_factory=dict)
     for_real: bool = False

@@ -14,14 +14,21 @@ URSCRIPT = """def p():
   movel({goal})
 end
 """
-VPLUS = ".PROGRAM p()\nSET place = SHIFT(spot BY 0,0,AIO.IN(1))\nMOVES {goal}\n.END\n.LOCATIONS\nspot {x} 0 300 0 180 0\n.END\n"
+VPLUS = """.PROGRAM p()
+SET place = SHIFT(spot BY 0,0,AIO.IN(1))
+MOVES {goal}
+.END
+.LOCATIONS
+spot {x} 0 300 0 180 0
+.END
+"""
 
 
-def told(text: str, name: str, dialect: str, robot: str, other: str) -> dict[str, int]:
+def told(text: str, name: str, dialect: str, robot: str, other: str, target: str = "rapid") -> dict[str, int]:
     """Codes and the line of each that speaks of places on the other arm."""
     diagnostics = Diagnostics()
     read = read_sources([source_from_text(name, text)], dialect, diagnostics)
-    translate_program(read, "rapid", robot, other, diagnostics)
+    translate_program(read, target, robot, other, diagnostics)
     names = ("unreachable-on-target-arm", "place-not-looked-at")
     return {item.code.name: item.origin.line for item in diagnostics if item.code.name in names}
 
@@ -40,6 +47,11 @@ def test_places_of_urscript(goal: str, x: float, found: dict[str, int]) -> None:
     text = URSCRIPT.format(goal=goal, x=x)
     assert told(text, "p.script", "urscript", "ur10e", "abb_irb1200_5_90") == found
     assert told(text, "p.script", "urscript", "ur10e", "ur10e") == {}
+
+
+def test_a_smaller_arm_of_the_same_controller() -> None:
+    text = URSCRIPT.format(goal="spot", x=1.0)
+    assert told(text, "p.script", "urscript", "ur10e", "ur5e", "urscript") == {"unreachable-on-target-arm": 5}
 
 
 @pytest.mark.parametrize(

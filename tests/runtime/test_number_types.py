@@ -167,4 +167,23 @@ def test_what_another_precision_may_change_is_named(body: str, named: bool) -> N
     assert "precision-differs" not in codes["krl"] + codes["tp"]
 
 
+@pytest.mark.parametrize(
+    ("body", "named"),
+    [
+        ("h = (h * 257 + 3) % 65521", True),
+        ("h = (h * 31 + 3) % 65521", False),
+        ("h = 16777216\nh = h + 1", True),
+        ("h = 16777215", False),
+        ("h = h + 1", False),
+    ],
+)
+def test_whole_numbers_beyond_what_the_target_holds_exactly_are_named(body: str, named: bool) -> None:
+    text = f"def p():\nh = 1\n{body}\nset_standard_digital_out(0, h % 2 == 1)\nend\n"
+    found = {
+        t: there_and_back({"p.script": text}, "urscript", t, "ur5e").found for t in ("rapid", "vplus", "krl", "tp")
+    }
+    told = {target: "whole-number-rounded" in [item.code.name for item in items] for target, items in found.items()}
+    assert told == {"rapid": named, "vplus": named, "krl": False, "tp": False}
+
+
 _OTHERS = ("urscript", "krl", "tp")

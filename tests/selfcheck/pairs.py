@@ -110,6 +110,12 @@ PROJECTS = {
     "rapid_more_watch": Project(ABB, 18),
     "rapid_more_shift": Project(ABB, 18),
     "krl_more_shift": Project(KUKA, 18, "SHIFT"),
+    "urscript_more_gluing": Project(UR, 16),
+    "urscript_more_probing": Project(UR, 16),
+    "urscript_more_kitting": Project(UR, 16),
+    "vplus_more_dosing": Project(VIPER, 20, "dosing"),
+    "vplus_more_fixtures": Project(VIPER, 20, "fixtures"),
+    "vplus_more_crates": Project(VIPER, 20, "crates"),
 }
 TARGETS = list(registry.target_names())
 

@@ -6,6 +6,7 @@ worked out from a place is looked at here: whether the other arm comes to it at 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from rpl import ir
@@ -15,6 +16,7 @@ from rpl.passes.fold import constant
 from rpl.passes.legalise.configurations import UNREACHABLE
 from rpl.passes.legalise.context import Arm, Context
 from rpl.passes.legalise.freepostures import FREE
+from rpl.passes.legalise.rotationvectors import rotation_vectors
 from rpl.passes.legalise.whereabouts import Whereabouts
 from rpl.passes.rigid import Pose
 from rpl.passes.scope import Scope
@@ -34,7 +36,7 @@ def places_on_other_arm(program: ir.Program, context: Context) -> ir.Program:
     arm, other = context.robot, context.to_robot
     if arm is None or other is None or other.name == arm.name:
         return program
-    stands = Whereabouts(program, context)
+    stands = Whereabouts(_neutral(program, context), context)
     places = _Places(context, other)
     for module, routine in stands.scopes.routines():
         scope = stands.scopes.routine(module, routine)
@@ -44,6 +46,14 @@ def places_on_other_arm(program: ir.Program, context: Context) -> ir.Program:
                     goal = constant(node.target, scope, stands.unchanged)
                     places.move(node, goal, stands.ends[id(node)].flange, scope)
     return program
+
+
+def _neutral(program: ir.Program, context: Context) -> ir.Program:
+    """With constant rotation vectors as angles, also where the result is in the language of the source."""
+    if context.foreign:
+        return program
+    plain = replace(context.capabilities, functions=frozenset())
+    return rotation_vectors(program, replace(context, capabilities=plain, taken=set(context.taken)))
 
 
 class _Places:
@@ -62,7 +72,8 @@ class _Places:
             report(NOT_LOOKED_AT, move.origin, arm=self.arm.name)
         elif reason:
             report(UNREACHABLE, move.origin, arm=self.arm.name, what="place", reason=reason)
-        if not reason and move.kind == "joint" and not written and not _asks_for_a_posture(move):
+        free = move.kind == "joint" and not written and not _asks_for_a_posture(move)
+        if free and not reason and self.context.foreign:
             report(FREE, move.origin)
 
     def why_not(self, flange: Pose) -> str:

@@ -193,6 +193,7 @@ from rpl.passes.legalise.taskstarts import stand_before_tasks
 from rpl.passes.legalise.taskstates import task_states
 from rpl.passes.legalise.textbytes import text_bytes
 from rpl.passes.legalise.textdecimals import text_decimals
+from rpl.passes.legalise.textlengths import roomy_texts, text_lengths
 from rpl.passes.legalise.textorders import text_orders
 from rpl.passes.legalise.threepoints import three_point_arcs
 from rpl.passes.legalise.timers import timers_to_clocks
@@ -233,6 +234,7 @@ PASSES: tuple[Pass, ...] = (
     source_layout,
     drop_untyped,
     precisions,
+    text_lengths,
     grown_arrays,
     rates,
     axes_of_arm,
@@ -456,6 +458,7 @@ PASSES: tuple[Pass, ...] = (
     labels_as_remarks,
     one_spelling,
     truths_to_numbers,
+    roomy_texts,
     share_temporaries,
     drop_idle_data,
     number_data,
@@ -470,7 +473,7 @@ def legalise(program: ir.Program, context: Context) -> ir.Program:
     context.taken |= names_in(program)
     other_arm = context.robot is not None and context.to_robot is not None and context.robot is not context.to_robot
     if not context.foreign or context.capabilities.carries_rules:
-        return configurations(program, context) if other_arm else program
+        return configurations(places_on_other_arm(program, context), context) if other_arm else program
     for one in PASSES:
         program = one(program, context)
     return normalise(_governed(program, context), context.diagnostics)

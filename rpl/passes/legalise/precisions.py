@@ -24,6 +24,12 @@ PRECISION = code(
     "{what}: the source calculates with {source} bits and the target with {target}, so it may come out otherwise",
     "compare with a tolerance, or count whole steps",
 )
+WHOLE = code(
+    "whole-number-rounded",
+    Severity.WARNING,
+    "whole numbers may get beyond {most} here, up to which the target's numbers are exact",
+    "keep them smaller, or calculate in two parts",
+)
 Element = tuple[Key, tuple[int, ...]]
 _EQUAL, _ORDER = ("=", "<>"), ("<", ">", "<=", ">=")
 _STEPS = frozenset(("increment", "decrement"))
@@ -32,7 +38,11 @@ _FINEST = 2.0**10  # a step of a whole number of these parts of one is added wit
 
 def precisions(program: ir.Program, context: Context) -> ir.Program:
     """Reports only."""
-    bits = rules_of(context.source).real_bits, rules_of(context.target).real_bits
+    ours, theirs = rules_of(context.source), rules_of(context.target)
+    if ours.whole_bits > theirs.whole_bits == theirs.real_bits:
+        for statement in _Spans(program, 2**theirs.whole_bits).beyond():
+            context.diagnostics.report(WHOLE, statement.origin, most=2**theirs.whole_bits)
+    bits = ours.real_bits, theirs.real_bits
     if bits[0] == bits[1]:
         return program
     for what, statement in _Facts(program).compared():
@@ -94,6 +104,68 @@ class _Facts:
             ):
                 return True
         return False
+
+
+class _Spans:
+    """How large whole numbers get, as far as literals, remainders and what is stored say: sums and products of them."""
+
+    def __init__(self, program: ir.Program, most: int) -> None:
+        self.scopes, self.most = ProgramScope(program), most
+        self.stored: dict[Key, int | None] = {}  # None: it may be any
+        self.sizes: dict[int, int | None] = {}  # of the statement that is looked at
+        for module, routine in self.scopes.routines():
+            scope = self.scopes.routine(module, routine)
+            for node in walk(routine):
+                if isinstance(node, ir.Assign) and (key := place_key(node.target, scope)) is not None:
+                    size = self.plain(node.value)
+                    known = self.stored.get(key, 0)
+                    self.stored[key] = None if size is None or known is None else max(size, known)
+                elif isinstance(node, ir.For) and (key := place_key(ir.Name(node.counter), scope)) is not None:
+                    self.stored[key] = None
+
+    @staticmethod
+    def plain(value: ir.Expression) -> int | None:
+        match value:
+            case ir.IntLiteral(value=number):
+                return abs(number)
+            case ir.Binary(op="mod", right=ir.IntLiteral(value=number)):
+                return max(0, abs(number) - 1)
+        return None
+
+    def beyond(self) -> Iterator[ir.Statement]:
+        for module, routine in self.scopes.routines():
+            scope = self.scopes.routine(module, routine)
+            for statement in walk(routine):
+                if isinstance(statement, ir.Assign):
+                    self.sizes.clear()
+                    if any(self.large(node, scope) for node in walk(statement.value)):
+                        yield statement
+
+    def large(self, node: object, scope: Scope) -> bool:
+        """A whole number that is written out, or calculated of known ones, beyond what is exact."""
+        if not isinstance(node, ir.IntLiteral | ir.Binary):
+            return False
+        size = self.size(node, scope)
+        return size is not None and size >= self.most
+
+    def size(self, value: ir.Expression, scope: Scope) -> int | None:
+        """At most so far from zero; None: not known. What a statement asks twice is worked out once."""
+        if id(value) not in self.sizes:
+            self.sizes[id(value)] = self.worked_out(value, scope)
+        return self.sizes[id(value)]
+
+    def worked_out(self, value: ir.Expression, scope: Scope) -> int | None:
+        match value:
+            case ir.Name() | ir.Index() | ir.Field():
+                key = place_key(value, scope)
+                whole = key is not None and isinstance(type_of(value, scope), ir.IntType)
+                return self.stored.get(key) if whole and key is not None else None
+            case ir.Binary(op="+" | "-" | "*" as op, left=left, right=right):
+                one, other = self.size(left, scope), self.size(right, scope)
+                if one is None or other is None:
+                    return None
+                return one * other if op == "*" else one + other
+        return self.plain(value)
 
 
 def _conditions(statement: ir.If | ir.While | ir.Repeat | ir.Assign | ir.WaitUntil) -> list[ir.Expression]:
