@@ -21,7 +21,14 @@ def program(body: str, more: str = "") -> dict[str, str]:
         (f't = "{"a" * 60}"\nt = t & "{"b" * 40}"\nn = 100\n', "", {"rapid": 80}),
         (f't = "{"a" * 30}"\nt = t & "{"b" * 40}"\nn = 70\n', "", {}),
         # What a routine puts to a text of the project each time that it is called.
-        ('note("ab")\n', 'PROCEDURE note(s: STRING)\nwhole = whole & s\nEND PROCEDURE\n',
+        ('FOR n = 1 TO 3\nnote("ab")\nEND FOR\n', 'PROCEDURE note(s: STRING)\nwhole = whole & s\nEND PROCEDURE\n',
+         {"rapid": 80, "vplus": 128, "krl": 255}),
+        ('note("ab")\nnote("cd")\n', 'PROCEDURE note(s: STRING)\nwhole = whole & s\nEND PROCEDURE\n', {}),
+        ('note("ab")\n', 'PROCEDURE note(s: STRING)\nwhole = whole & s\nnote(s)\nEND PROCEDURE\n',
+         {"rapid": 80, "vplus": 128, "krl": 255}),
+        # Jumps: forward is once, back is a loop.
+        ('GOTO on\nt = t & "abc"\nLABEL on\nt = t & "d"\nn = 1\n', "", {}),
+        ('LABEL again\nt = t & "abc"\nn = n + 1\nIF n < 50 THEN GOTO again\n', "",
          {"rapid": 80, "vplus": 128, "krl": 255}),
         # A text that a routine begins anew stays short.
         ("show(1)\n",

@@ -39,7 +39,8 @@ CASES = [
     ("  i = 0\n  while i < 3:\n    h = run worker()\n    join h\n    i = i + 1\n  end", 3),
     ("  h = [0, 0]\n  h[0] = run worker()\n  h[1] = run worker()\n  kill h[1]\n  sleep(1)", 1),
     (
-        "  h = 0\n  def begin():\n    h = run worker()\n  end\n  def stop():\n    kill h\n  end\n  begin()\n  sleep(1)\n  stop()",
+        "  h = 0\n  def begin():\n    h = run worker()\n  end\n  def stop():\n    kill h\n  end\n"
+        "  begin()\n  sleep(1)\n  stop()",
         1,
     ),
     ("  def begin():\n    run worker()\n  end\n  begin()\n  begin()\n  sleep(1)", 2),

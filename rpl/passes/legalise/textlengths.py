@@ -1,8 +1,8 @@
 """Texts that may get longer than those of the target: RAPID stops at the 81st character, KRL leaves out what does not
 fit.
 
-How long a text may get is taken from all that is stored in it. One that is lengthened in a loop, or one of the project
-in a routine that is called, has no end that is known here.
+How long a text may get is taken from all that is stored in it. One that is lengthened in a loop, or in a routine that
+is called from one, has no end that is known here.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import bodies, walk
+from rpl.ir.walk import bodies, children, walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.effects import blocks
@@ -29,6 +29,7 @@ TOO_LONG = code(
     "{what} may get longer than {most} characters, which is all that a text of the target holds",
     "begin a new text before it is full",
 )
+_LATER = (ir.DeclareInterrupt, ir.ConnectInterrupt, ir.OrderInterrupt)  # what these name runs whenever they come
 _NUMBER, _ANY = 20, 40  # characters of a number, and of what is asked for or read
 _AS_LONG = frozenset(("text_upper", "text_lower", "text_map"))
 _SHAPED = frozenset(("format", "message_text"))
@@ -97,13 +98,13 @@ def _is_text(type: ir.Type | None) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class _Flow:
-    """What is stored in a text; `once`: put to what is there, and that once only."""
+    """What is stored in a text; `times`: put to what is there, and how often (0: it takes the place of it)."""
 
     value: ir.Expression
     scope: Scope
     origin: Origin
     name: str
-    once: bool = False
+    times: int = 0
 
 
 class _Lengths:
@@ -115,7 +116,7 @@ class _Lengths:
         self.longest: dict[Key, int] = {}
         self.scopes = ProgramScope(program)
         self.inside = {id(one): self.scopes.routine(module, one) for module, one in self.scopes.routines()}
-        self.again = {name.lower() for node in walk(*program.modules) if (name := _called(node))}
+        self.times = _Calls(self.scopes).times()
         for module in program.modules:
             self.declarations(module.declarations, self.scopes.module(module))
             for routine in module.routines:
@@ -134,24 +135,24 @@ class _Lengths:
 
     def routine(self, routine: ir.Routine, scope: Scope) -> None:
         own = {id(one) for one in routine.declarations}
-        jumps = any(isinstance(node, ir.Goto) for node in walk(routine))
+        times = self.times.get(routine.name.lower())
         for body in bodies(routine):
-            for statement, looped in _statements(body, jumps):
+            for statement, looped in _statements(body):
                 match statement:
                     case ir.Assign(target=target, value=value) if _is_text(type_of(target, scope)):
                         key = place_key(target, scope)
-                        once = not looped and (key in own or routine.name.lower() not in self.again)
-                        self.flow(key, _Flow(value, scope, statement.origin, _name(target)), target if once else None)
+                        often = None if looped else 1 if key in own else times
+                        self.flow(key, _Flow(value, scope, statement.origin, _name(target)), target, often)
                     case ir.Return(value=value) if value is not None:
                         self.flow(id(routine), _Flow(value, scope, statement.origin, routine.name))
         for node in walk(routine):
             if isinstance(node, ir.Call | ir.CallRoutine):
                 self.passed(node, scope)
 
-    def flow(self, key: Key | None, flow: _Flow, target: ir.Expression | None = None) -> None:
-        added = None if target is None else _added(target, flow.value)
+    def flow(self, key: Key | None, flow: _Flow, target: ir.Expression | None = None, times: int | None = None) -> None:
+        added = _added(target, flow.value) if target is not None and times is not None else None
         if key is not None:
-            self.flows[key].append(flow if added is None else replace(flow, value=added, once=True))
+            self.flows[key].append(flow if added is None else replace(flow, value=added, times=times or 0))
 
     def passed(self, call: ir.Call | ir.CallRoutine, scope: Scope) -> None:
         """Arguments go to the parameters by their place or name, and come back from those by reference."""
@@ -175,8 +176,8 @@ class _Lengths:
         while changed:
             changed = False
             for key, flows in self.flows.items():
-                found = max((self.length(one.value, one.scope) for one in flows if not one.once), default=0)
-                found += sum(self.length(one.value, one.scope) for one in flows if one.once)
+                found = max((self.length(one.value, one.scope) for one in flows if not one.times), default=0)
+                found += sum(one.times * self.length(one.value, one.scope) for one in flows if one.times)
                 found = min(found, self.most, self.end)
                 if found > self.longest.get(key, 0):
                     self.longest[key], changed = found, True
@@ -198,9 +199,9 @@ class _Lengths:
                 return _ANY if key is None else self.longest.get(key, 0)
             case ir.Binary(op="&" | "+", left=left, right=right):
                 return min(self.end, self.length(left, scope) + self.length(right, scope))
-            case ir.Builtin(function="text_part", arguments=(text, _, count)):
-                known, whole = constant_number(count, scope), self.length(text, scope)
-                return whole if known is None else min(whole, max(0, int(known)))
+            case ir.Builtin(function="text_part", arguments=(whole, _, count)):
+                known, most = constant_number(count, scope), self.length(whole, scope)
+                return most if known is None else min(most, max(0, int(known)))
             case ir.Builtin(function=name, arguments=arguments) if name in _AS_LONG:
                 return self.length(arguments[0], scope)
             case ir.Call(name=name):
@@ -214,29 +215,85 @@ class _Lengths:
         """Name and first place of each text that gets longer by what is put to it."""
         for key, flows in self.flows.items():
             if self.longest.get(key, 0) > most:
-                own = [one for one in flows if one.once or isinstance(one.value, ir.Binary | ir.TextLiteral)]
+                own = [one for one in flows if one.times or isinstance(one.value, ir.Binary | ir.TextLiteral)]
                 own.sort(key=lambda one: isinstance(one.value, ir.TextLiteral))
                 if own:  # else it is only handed on, and too long where it comes from
                     yield own[0].name, own[0].origin
 
 
-def _called(node: object) -> str | None:
-    match node:
-        case ir.Call(name=name) | ir.CallRoutine(name=name):
-            return name
-        case ir.TaskControl(task=name):
-            return name
-    return None
+class _Calls:
+    """How often each routine runs at most, by its folded name; none of what loops, tasks or interrupts call."""
+
+    def __init__(self, scopes: ProgramScope) -> None:
+        self.callers: defaultdict[str, list[str | None]] = defaultdict(list)  # None: any number of times
+        self.names = {routine.name.lower() for _, routine in scopes.routines() if routine.kind != "trap"}
+        for _, routine in scopes.routines():
+            for number, body in enumerate(bodies(routine)):
+                for statement, looped in _statements(body):
+                    often = looped or isinstance(statement, (*LOOPS, *_LATER)) or number > 0
+                    for node in _own_nodes(statement):
+                        match node:
+                            case ir.Call(name=name) | ir.CallRoutine(name=name, dynamic=None):
+                                self.callers[name.lower()].append(None if often else routine.name.lower())
+                            case ir.TaskControl(task=name):
+                                self.callers[name.lower()].append(None)
+                            case ir.CallRoutine():
+                                self.names = set()  # any routine could be meant
+
+    def times(self) -> dict[str, int]:
+        """Routines that call each other are in none of the rounds."""
+        found: dict[str, int] = {}
+        ready = [name for name in self.names if name not in self.callers]
+        waiting = {name: len(callers) for name, callers in self.callers.items()}
+        inside: defaultdict[str, list[str]] = defaultdict(list)
+        for name, callers in self.callers.items():
+            for one in callers:
+                if one is not None:
+                    inside[one].append(name)
+        while ready:
+            name = ready.pop()
+            found[name] = sum(found[one] for one in self.callers.get(name, ()) if one is not None) or 1
+            for callee in inside[name]:
+                waiting[callee] -= 1
+                if not waiting[callee] and callee in self.names:
+                    ready.append(callee)
+        return found
 
 
-def _statements(body: ir.Body, looped: bool) -> Iterator[tuple[ir.Statement, bool]]:
-    """All statements, and whether each may come several times while its routine runs once."""
-    stack = [(one, looped) for one in reversed(body)]
+def _own_nodes(statement: ir.Statement) -> Iterator[object]:
+    """The statement and its expressions, without the statements inside."""
+    inner = {id(one) for block in blocks(statement) for one in block}
+    stack: list[object] = [statement]
+    while stack:
+        node = stack.pop()
+        yield node
+        stack += [one for one in children(node) if id(one) not in inner]
+
+
+def _statements(body: ir.Body) -> Iterator[tuple[ir.Statement, bool]]:
+    """All statements, and whether each may come several times while its routine runs once: in loops, and between a
+    label and a jump back to it."""
+    found: list[tuple[ir.Statement, bool]] = []
+    labels: dict[str, int] = {}
+    back: list[tuple[int, int]] = []
+    stack = [(one, False) for one in reversed(body)]
     while stack:
         statement, again = stack.pop()
-        yield statement, again
+        if isinstance(statement, ir.Label):
+            labels[statement.name.lower()] = len(found)
+        elif isinstance(statement, ir.Goto) and statement.label.lower() in labels:
+            back.append((labels[statement.label.lower()], len(found)))
+        found.append((statement, again))
         inner = again or isinstance(statement, LOOPS)
         stack += [(one, inner) for block in blocks(statement) for one in reversed(block)]
+    steps = [0] * (len(found) + 1)
+    for first, last in back:
+        steps[first] += 1
+        steps[last] -= 1
+    within = 0
+    for (statement, again), step in zip(found, steps, strict=False):
+        within += step
+        yield statement, again or within > 0
 
 
 def _added(target: ir.Expression, value: ir.Expression) -> ir.Expression | None:
