@@ -30,8 +30,9 @@ _TRUE, _FALSE = ir.BoolLiteral(True), ir.BoolLiteral(False)
 @dataclass(slots=True)
 class Watch:
     """One interrupt. `armed`, `was`, `enabled`, `mask`: data that says whether it is on, whether its condition held
-    when looked at last, whether it waits (disabled), and how urgent it has to be. `of_source`: its condition and its
-    action as the program declares them."""
+    when looked at last, whether it waits (disabled), and how urgent it has to be. `came`: whether it has come and waits
+    to act, where it is served and may be held back. `of_source`: its condition and its action as the program declares
+    them."""
 
     key: int
     priority: int
@@ -42,6 +43,7 @@ class Watch:
     was: str = ""
     enabled: str = ""
     mask: str = ""
+    came: str = ""
     of_source: tuple[ir.Expression, ir.Assign | ir.CallRoutine] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -275,17 +277,17 @@ class Served:
         acting = ir.Name(self.name("rpl_acting"))
         body: list[ir.Statement] = [ir.If(((acting, (ir.Return(),)),))]
         for watch in sorted(self.watches.values(), key=lambda one: one.priority):
-            body.append(self.look(watch))
+            body.extend(self.look(watch))
         return tuple(body)
 
-    def look(self, watch: Watch) -> ir.Statement:
+    def look(self, watch: Watch) -> ir.Body:
+        """Acts where the condition has come. What is held back is noted, also when the condition goes meanwhile."""
         was, condition = ir.Name(watch.was), watch.declared.condition
         moving = self.beside.moving_name()
         comes: ir.Expression = ir.Binary("cand", ir.Name(watch.armed), ir.Unary("not", was))
         held = watch.may_come()
-        if held is not None:
-            comes = ir.Binary("cand", comes, held)
-        acts: list[ir.Statement] = [_assign(watch.was, True), _assign(self.name("rpl_acting"), True)]
+        noted = _assign(watch.came, False) if watch.came else _assign(watch.was, True)
+        acts: list[ir.Statement] = [noted, _assign(self.name("rpl_acting"), True)]
         if watch.declared.once:
             acts.insert(0, _assign(watch.armed, False))
         if watch.declared.stops:
@@ -297,7 +299,12 @@ class Served:
         if self.brakes or self.leaves:
             acts.append(self.going_on())
         came = ir.Binary("cand", condition, comes)
-        return ir.If(((came, tuple(acts)), (ir.Unary("not", condition), (_assign(watch.was, False),))))
+        gone = (ir.Unary("not", condition), (_assign(watch.was, False),))
+        if held is None:
+            return (ir.If(((came, tuple(acts)), gone)),)
+        waits = ir.Binary("cand", ir.Binary("cand", ir.Name(watch.came), ir.Name(watch.armed)), held)
+        seen = ir.If(((came, (_assign(watch.was, True), _assign(watch.came, True))), gone))
+        return (seen, ir.If(((waits, tuple(acts)),)))
 
     def next_move(self, moving: str) -> ir.Statement:
         """The move that was stopped is dropped; one that follows it through a corner begins from there."""

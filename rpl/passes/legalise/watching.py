@@ -37,7 +37,14 @@ SERVED = code(
     "interrupt-served",
     Severity.WARNING,
     "the program looks for the condition of {action} in each cycle while the robot moves and while it waits, not while"
-    " it calculates",
+    " it calculates or acts on another one",
+)
+MISSED = code(
+    "interrupt-not-noted",
+    Severity.WARNING,
+    "what comes for {action} and goes again while interrupts are disabled or locked is lost: moves of the target end at"
+    " what is there",
+    "keep the signal until it is answered",
 )
 LOST = code(
     "interrupt-not-watched",
@@ -192,6 +199,11 @@ class _Watches:
         watch.mask = self.mask
         if timed or key not in self.periods:
             watch.was = self.flag(f"rpl_interrupt_{key}_was")
+        if timed and watch.may_come() is not None:
+            if self.beside.context.capabilities.watching_tasks:
+                watch.came = self.flag(f"rpl_interrupt_{key}_came")
+            else:
+                report(MISSED, one.origin, action=_name(one.action))
         if not timed:
             self.task(watch)
         elif key in self.periods:
@@ -301,12 +313,16 @@ class _Watches:
     def armed_anew(self, body: ir.Body) -> ir.Body:
         """Without disarming what is armed again at once: the task that watches would take the moment between for an
         end of its waiting, and look no more at what it has waited for."""
-        began = {watch.armed: watch.was for watch in self.watches.values() if watch.key not in self.periods}
+        began = {
+            watch.armed: (watch.armed, watch.was, watch.came)
+            for watch in self.watches.values()
+            if watch.key not in self.periods
+        }
         done: list[ir.Statement] = []
         for statement in body:
             if (armed := _switched(statement, True)) in began:
                 place = len(done)
-                while place and _target(done[place - 1]) in (armed, began[armed]):
+                while place and _target(done[place - 1]) in began[armed]:
                     place -= 1
                     if _switched(done[place], False) == armed and not done[place].origin.comments:
                         del done[place]
@@ -344,6 +360,8 @@ class _Watches:
         for watch in chosen:
             if op == "on" and watch.was:
                 done.append(ir.Assign(ir.Name(watch.was), watch.declared.condition, origin=tidy(statement.origin)))
+            if op == "on" and watch.came:
+                done.append(ir.Assign(ir.Name(watch.came), ir.BoolLiteral(False)))
             if op in ("on", "off", "delete"):
                 done.append(_set(watch.armed, op == "on", statement))
             elif op in ("enable", "disable") and watch.enabled:
