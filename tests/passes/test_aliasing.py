@@ -15,6 +15,7 @@ ROUTINES = """
   VAR num g:=1;
   VAR num h:=1;
   VAR num t{3}:=[1,2,3];
+  VAR string who:="";
   PROC bump(INOUT num v) g:=g+10; v:=v+1; ENDPROC
   PROC over(INOUT num v) bump v; ENDPROC
   PROC plain(INOUT num v) h:=h+10; v:=v+1; ENDPROC
@@ -40,6 +41,8 @@ ALIASED = {
     "of a function": "n:=taken(g); IF g=3 SetDO do1,1;",
     "in a condition": "IF taken(g)=3 SetDO do1,1;",
     "in the condition of a loop": "WHILE taken(g)<9 DO n:=n+1; ENDWHILE SetDO do1,1;",
+    "by a computed name": 'who:="bump"; IF h=1 who:="plain"; %who%g; IF g=12 SetDO do1,1;',
+    "by a name that is put together": '%"bu"+who%g; IF g=12 SetDO do1,1;',
     "beside a function that changes it": "add g,raised(); IF g=4 SetDO do1,1;",
 }
 # What can.
@@ -47,6 +50,7 @@ APART = {
     "another variable": "plain g; IF g=2 AND h=11 SetDO do1,1;",
     "read by both": "look g; IF h=2 SetDO do1,1;",
     "read by two": "both g,g; IF h=2 SetDO do1,1;",
+    "by a computed name": 'who:="plain"; IF h=1 who:="look"; %who%g; IF h=2 SetDO do1,1;',
     "two elements": "two t{1},t{2}; IF t{1}=3 AND t{2}=12 SetDO do1,1;",
     "two elements side by side": "n:=2; two t{n},t{n+1}; IF t{2}=4 AND t{3}=13 SetDO do1,1;",
     "two variables": "two g,h; IF g=3 AND h=11 SetDO do1,1;",

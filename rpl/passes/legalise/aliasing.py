@@ -20,6 +20,7 @@ from rpl.passes.legalise.activations import Activations
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.effects import blocks
+from rpl.passes.legalise.heldtexts import HeldTexts, named_by
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.scope import ProgramScope, Scope
 
@@ -67,11 +68,32 @@ def without_shared_references(program: ir.Program, context: Context) -> ir.Progr
     return edit_routines(program, context, work)
 
 
+class _Named:
+    """Which routines calls by a computed name may mean: those that its text tells, else each that takes so many
+    arguments."""
+
+    def __init__(self, program: ir.Program) -> None:
+        self.program = program
+        self.routines: list[ir.Routine] | None = None
+
+    def of(self, call: ir.CallRoutine) -> list[ir.Routine]:
+        if not call.arguments:
+            return []
+        if self.routines is None:
+            procedures = (one for module in self.program.modules for one in module.routines)
+            self.routines = [one for one in procedures if one.kind == "procedure"]
+            self.held = HeldTexts.of(self.program)
+        told = named_by(call, self.held, {one.name.lower() for one in self.routines})
+        meant = [one for one in self.routines if not told or one.name.lower() in told]
+        return [one for one in meant if len(one.parameters) == len(call.arguments)]
+
+
 @dataclass(slots=True)
 class _Uses:
     """What a stretch of the program reads and writes, by name or by handing it on; the calls in it."""
 
     scope: Scope
+    named: _Named
     reads: list[Place] = field(default_factory=list)
     writes: list[Place] = field(default_factory=list)
     passed: list[tuple[tuple[int, str], Place]] = field(default_factory=list)
@@ -120,22 +142,30 @@ class _Uses:
 
     def called(self, call: ir.Call | ir.CallRoutine) -> list[object]:
         """Notes a call; gives what is evaluated for it."""
-        routine = self.scope.routine(call.name)
+        candidates = self.candidates(call)
         if isinstance(call, ir.CallRoutine) and call.dynamic is not None:
             self.dynamic = True
+        else:
+            self.callees.update(map(id, candidates))
+        if not candidates:
             return children(call)
-        if routine is None:
-            return children(call)
-        self.callees.add(id(routine))
-        left: list[object] = []
-        for parameter, value in paired(routine, call.arguments):
-            place, below = placed(value, self.scope)
-            if parameter is None or parameter.mode == "value" or place is None:
-                left.append(value)
-                continue
-            self.passed.append(((id(routine), parameter.name.lower()), place))
-            left.extend(below)
+        left: list[object] = [] if isinstance(call, ir.Call) or call.dynamic is None else [call.dynamic]
+        for routine in candidates:
+            for parameter, value in paired(routine, call.arguments):
+                place, below = placed(value, self.scope)
+                if parameter is None or parameter.mode == "value" or place is None:
+                    left.append(value)
+                    continue
+                self.passed.append(((id(routine), parameter.name.lower()), place))
+                left.extend(below)
         return left
+
+    def candidates(self, call: ir.Call | ir.CallRoutine) -> list[ir.Routine]:
+        """The routines that a call may reach: one, or by a computed name each that takes so many arguments."""
+        if isinstance(call, ir.CallRoutine) and call.dynamic is not None:
+            return self.named.of(call)
+        routine = self.scope.routine(call.name)
+        return [] if routine is None else [routine]
 
 
 class _Facts:
@@ -146,8 +176,9 @@ class _Facts:
         self.uses: dict[int, _Uses] = {}
         self.names: dict[int, ir.Routine] = {}
         scopes = ProgramScope(program)
+        named = _Named(program)
         for module, routine in scopes.routines():
-            uses = self.uses[id(routine)] = _Uses(scopes.routine(module, routine))
+            uses = self.uses[id(routine)] = _Uses(scopes.routine(module, routine), named)
             self.names[id(routine)] = routine
             for body in bodies(routine):
                 uses.look(body)
@@ -192,7 +223,7 @@ class _Facts:
         """What interrupts and points on the path look at and assign themselves."""
         for uses in self.uses.values():
             for statement in uses.beside:
-                apart = _Uses(uses.scope)
+                apart = _Uses(uses.scope, uses.named)
                 apart.look(children(statement))
                 yield apart
 
@@ -226,14 +257,14 @@ class _Facts:
         found: dict[int, str] = {}
         for key, uses in self.uses.items():
             for statement, call in reversed(uses.calls):
-                routine = uses.scope.routine(call.name)
-                if routine is None or id(routine) not in self.uses:
-                    continue
-                why = self.why(key, uses, call, routine)
-                if why is not None:
-                    found[id(statement)] = call.name
+                for routine in uses.candidates(call):
+                    why = self.why(key, uses, call, routine) if id(routine) in self.uses else None
+                    if why is None:
+                        continue
+                    found[id(statement)] = routine.name
                     what, reason = why
-                    context.diagnostics.report(ALIASED, statement.origin, name=call.name, what=what, reason=reason)
+                    context.diagnostics.report(ALIASED, statement.origin, name=routine.name, what=what, reason=reason)
+                    break
         return found
 
     def why(
@@ -245,7 +276,7 @@ class _Facts:
             place, _ = placed(value, uses.scope)
             if declared is not None and declared.mode != "value" and place is not None:
                 given.append(((id(routine), declared.name.lower()), place, _called(value)))
-        nested = _Uses(uses.scope)
+        nested = _Uses(uses.scope, uses.named)
         nested.look(argument.value for argument in call.arguments if argument.value is not None)
         inner = {one for callee in nested.callees for one in self.reached(callee)}
         for at, (parameter, here, what) in enumerate(given):
@@ -256,7 +287,7 @@ class _Facts:
             if isinstance(here[0], tuple) or not self.used(parameter):
                 continue
             if self.clashes(parameter, self.uses_of(self.reached(id(routine)), here)):
-                return what, f"{call.name} or what it calls uses {_base(what)} by its own name"
+                return what, f"{routine.name} or what it calls uses {_base(what)} by its own name"
             if True in self.uses_of(inner, here):
                 return what, f"another argument's function changes {_base(what)}"
             if self.clashes(parameter, self.meanwhile(caller, here)):
