@@ -34,6 +34,12 @@ ALWAYS_TRUE = code(
 BEHIND_END = code(
     "vplus-text-behind-end", Severity.WARNING, "{text} behind END is read over", "write it behind a semicolon"
 )
+DOUBLE = code(
+    "vplus-double-as-single",
+    Severity.WARNING,
+    "DOUBLE variables have eight bytes on the controller; here they are calculated with four as all others",
+    "compare what depends on the further digits with a tolerance",
+)
 UNKNOWN_TASK = code(
     "vplus-unknown-task",
     Severity.WARNING,
@@ -164,6 +170,8 @@ class Statements(Functions):
             if len(parts) > 1:
                 bounds = tuple(self.optional(subtree(bound)) for bound in subtree(parts[1]).children)
             names.append((self.name(str(parts[0])), bounds))
+        if type == "double":
+            self.diagnostics.report(DOUBLE, origin)
         return ModulePart("declared", (), (), Declared(kind, type, tuple(names)), origin)
 
     # ---- assignments and calls

@@ -151,6 +151,19 @@ def test_a_register_that_may_be_tuned_keeps_its_fraction() -> None:
         ("x:=tuned/3; IF x=1 SetDO do1,1;", True),
         ("IF 0.1+0.2=0.3 SetDO do1,1;", True),
         ("FOR k FROM 0 TO 1 STEP 0.1 DO n:=n+1; ENDFOR", True),
+        ("WHILE x<1 DO grow x,0.1; ENDWHILE", True),
+        ("WHILE x<1 DO x:=more(x); ENDWHILE", True),
+        ("x:=third(1); IF x=1 SetDO do1,1;", True),
+        ("IF third(n)=1 SetDO do1,1;", True),
+        ("x:=tuned/3; n:=x; IF n=1 SetDO do1,1;", True),
+        ("IF near(tuned,x,0.000001) SetDO do1,1;", True),
+        ("IF Sqrt(tuned)=3 SetDO do1,1;", True),
+        ("n:=Trunc(tuned*0.01); IF n=1 SetDO do1,1;", True),
+        ("WHILE x<1 DO grow x,0.25; ENDWHILE", True),
+        ("WHILE n<3 DO n:=twice(n)+1; ENDWHILE", False),
+        ("IF near(tuned,x,0.01) SetDO do1,1;", False),
+        ("IF Abs(tuned*0.1-x)<0.001 SetDO do1,1;", False),
+        ("n:=Trunc(tuned/10); IF n=1 SetDO do1,1;", False),
         ("WHILE x<1 DO x:=x+0.25; ENDWHILE", False),
         ("WHILE n<10 DO n:=n+1; ENDWHILE", False),
         ("x:=0.1; IF x=0.1 SetDO do1,1;", False),
@@ -159,7 +172,7 @@ def test_a_register_that_may_be_tuned_keeps_its_fraction() -> None:
     ],
 )
 def test_what_another_precision_may_change_is_named(body: str, named: bool) -> None:
-    text = _RAPID.format(body=body)
+    text = _RAPID.format(body=body).replace("  PROC main", _ROUTINES + "  PROC main")
     codes = {
         target: [i.code.name for i in there_and_back({"m.mod": text}, "rapid", target).found] for target in _OTHERS
     }
@@ -187,3 +200,10 @@ def test_whole_numbers_beyond_what_the_target_holds_exactly_are_named(body: str,
 
 
 _OTHERS = ("urscript", "krl", "tp")
+_ROUTINES = (
+    "  PROC grow(INOUT num v,num by) v:=v+0.1*by; ENDPROC\n"
+    "  FUNC num more(num v) RETURN v+0.1; ENDFUNC\n"
+    "  FUNC num third(num v) RETURN v/3; ENDFUNC\n"
+    "  FUNC num twice(num v) RETURN v*2; ENDFUNC\n"
+    "  FUNC bool near(num a,num b,num within) RETURN Abs(a-b)<within; ENDFUNC\n"
+)

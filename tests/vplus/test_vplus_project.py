@@ -81,7 +81,7 @@ def test_storage_of_declared_names() -> None:
     program, diagnostics = read(
         program_of("AUTO a, b[4]\nLOCAL REAL c\nAUTO DOUBLE d\nAUTO LOC e, #f\nGLOBAL $g\na = 1")
     )
-    assert not list(diagnostics)
+    assert [item.code.name for item in diagnostics] == ["vplus-double-as-single"]
     found = {d.name: d for d in program.modules[0].routines[0].declarations if isinstance(d, ir.Variable)}
     assert {name: d.storage for name, d in found.items()} == {
         "a": "variable", "b": "variable", "c": "persistent", "d": "variable", "e": "variable", "#f": "variable",

@@ -2,19 +2,22 @@
 
 Sums of 0.1 reach 1 after ten steps with four bytes and after eleven with eight. Where whole numbers, halves and
 quarters are added, or a value is only handed on, both are exact; what is named here was added up in steps that are not
-exact, or is looked at for equality behind a calculation with fractions.
+exact, or is looked at for equality behind a calculation with fractions, or with a tolerance that four bytes do not
+resolve, or cut to whole numbers behind one. Values are followed through assignments, arguments and results.
 """
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import statements, walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.wholes import Key, place_key
+from rpl.passes.legalise.effects import children
+from rpl.passes.legalise.wholes import Key, Wholes, place_key
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 
@@ -34,6 +37,17 @@ Element = tuple[Key, tuple[int, ...]]
 _EQUAL, _ORDER = ("=", "<>"), ("<", ">", "<=", ">=")
 _STEPS = frozenset(("increment", "decrement"))
 _FINEST = 2.0**10  # a step of a whole number of these parts of one is added without rounding, up to 16,000
+_TOLERANCE = 1e-4  # numbers of four bytes near 1,000 lie 0.00006 apart: a finer tolerance says nothing
+_CUTS = frozenset(("trunc", "floor", "ceil"))
+# Functions whose result is rounded, whatever they are given.
+_ROUNDING = frozenset(
+    (
+        *("sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "power", "log", "log10", "distance"),
+        *("magnitude", "dot", "euler_x", "euler_y", "euler_z", "rotation_vector_x", "rotation_vector_y"),
+        *("rotation_vector_z", "zyz_yaw", "zyz_pitch", "zyz_roll", "rotation_angle"),
+    )
+)
+_ANY = -1  # a subscript that is computed
 
 
 def precisions(program: ir.Program, context: Context) -> ir.Program:
@@ -50,60 +64,154 @@ def precisions(program: ir.Program, context: Context) -> ir.Program:
     return program
 
 
+class _Places:
+    """A set of places. One of a list counts for its elements; elements whose subscript is computed are a place of their
+    own, or one of them would make all registers of a controller suspect."""
+
+    def __init__(self) -> None:
+        self.elements: set[Element] = set()
+        self.keys: set[Key] = set()
+
+    def add(self, element: Element) -> bool:
+        """Is it new?"""
+        if element in self.elements:
+            return False
+        self.elements.add(element)
+        self.keys.add(element[0])
+        return True
+
+    def __contains__(self, element: Element | None) -> bool:
+        if element is None or element[0] not in self.keys:
+            return False
+        key, numbers = element
+        return element in self.elements or not numbers or (key, ()) in self.elements
+
+
 class _Facts:
-    """`added`: places that grow in steps that are not exact. `rounded`: those, and results of calculations."""
+    """`added`: places that grow in steps that are not exact. `rounded`: those, and results of calculations. `fine`:
+    places that hold a tolerance which four bytes do not resolve."""
 
     def __init__(self, program: ir.Program) -> None:
         self.scopes = ProgramScope(program)
-        self.added: set[Element | None] = set()
-        self.rounded: set[Element | None] = set()
-        self.loops: list[ir.For] = []
+        self.added, self.rounded, self.fine = _Places(), _Places(), _Places()
+        self.loops: set[int] = set()
+        self.steps: list[tuple[Element, Element]] = []
+        self.edges: defaultdict[Key, list[tuple[Element, Element, bool]]] = defaultdict(list)
+        passing: set[Key] = set()
         for module, routine in self.scopes.routines():
             scope = self.scopes.routine(module, routine)
+            passing |= {id(routine), *map(id, routine.parameters)}
             for node in walk(routine):
                 self.note(node, scope)
+        wholes = Wholes.of(program, self.scopes)
+        for place, value, scope in wholes.flows:
+            if place in passing:
+                self.flow((place, ()), value, scope)
+        for one, others in wholes.equal.items():
+            for other in others:
+                self.edges[one].append(((one, ()), (other, ()), True))
+        self.grown()
+        for places in (self.added, self.rounded, self.fine):
+            self.spread(places, plainly=places is self.fine)
 
     def note(self, node: object, scope: Scope) -> None:
         match node:
-            case ir.Assign(target=target, value=ir.Binary() as value) if inexact(value, scope):
-                key = _element(target, scope)
-                if key is not None:
-                    self.rounded.add(key)
-                    if value.op in ("+", "-") and target in (value.left, value.right):
-                        self.added.add(key)
+            case ir.Assign(target=target, value=value) if isinstance(type_of(target, scope), ir.RealType):
+                element = _element(target, scope)
+                if element is None:
+                    return
+                self.flow(element, value, scope)
             case ir.Do(procedure=procedure, arguments=(place, step)) if procedure in _STEPS and place and step:
-                key = _element(place, scope)
-                if key is not None and not _exact(step, scope):
-                    self.added.add(key)
-                    self.rounded.add(key)
+                element = _element(place, scope)
+                if element is not None and not _exact(step, scope):
+                    self.added.add(element)
+                    self.rounded.add(element)
             case ir.For(step=step) if step is not None and not _exact(step, scope):
-                self.loops.append(node)
+                self.loops.add(id(node))
+
+    def flow(self, target: Element, value: ir.Expression, scope: Scope) -> None:
+        number = constant_number(value, scope)
+        if number is not None:
+            if 0 < abs(number) < _TOLERANCE:
+                self.fine.add(target)
+            return
+        if inexact(value, scope):
+            self.rounded.add(target)
+        plainly = _element(value, scope) is not None
+        reads = _reads(value, scope)
+        for read in reads:
+            self.edges[read[0]].append((read, target, plainly))
+        if isinstance(value, ir.Binary) and value.op in ("+", "-") and inexact(value, scope):
+            self.steps.extend((read, target) for read in reads)
+
+    def grown(self) -> None:
+        """What is added to comes back to where it was read: in its own statement, or by way of calls and copies."""
+        known: dict[Element, _Places] = {}
+        for read, target in self.steps:
+            if read != target and target not in known:
+                known[target] = _Places()
+                known[target].add(target)
+                self.spread(known[target], plainly=False)
+            if read == target or read in known[target]:
+                self.added.add(target)
+
+    def spread(self, places: _Places, plainly: bool) -> None:
+        """Adds what gets its value from them, by arithmetic too unless `plainly`."""
+        work = list(places.keys)
+        while work:
+            for read, target, plain in self.edges.get(work.pop(), ()):
+                if (plain or not plainly) and read in places and places.add(target):
+                    work.append(target[0])
 
     def compared(self) -> Iterator[tuple[str, ir.Statement]]:
         for module, routine in self.scopes.routines():
             scope = self.scopes.routine(module, routine)
-            for statement in walk(routine):
-                match statement:
-                    case ir.If() | ir.While() | ir.Repeat() | ir.Assign() | ir.WaitUntil():
-                        for condition in _conditions(statement):
-                            if self.differs(condition, scope):
-                                yield "a comparison behind calculations with fractions", statement
-                                break
-                    case ir.For() if any(statement is one for one in self.loops):
-                        yield "a loop that counts in fractions", statement
+            for statement in statements(routine):
+                if id(statement) in self.loops:
+                    yield "a loop that counts in fractions", statement
+                    continue
+                for node in walk(tuple(children(statement))):
+                    what = self.differs(node, scope)
+                    if what:
+                        yield what, statement
+                        break
 
-    def differs(self, condition: ir.Expression, scope: Scope) -> bool:
-        for node in walk((condition,)):
-            if not isinstance(node, ir.Binary) or node.op not in (*_EQUAL, *_ORDER):
-                continue
-            sides = [node.left, node.right]
-            if any(_element(side, scope) in self.added for side in sides):
-                return True
-            if node.op in _EQUAL and any(
-                _element(side, scope) in self.rounded or inexact(side, scope) for side in sides
-            ):
-                return True
-        return False
+    def differs(self, node: object, scope: Scope) -> str:
+        """What may come out otherwise in this expression; empty when nothing."""
+        match node:
+            case ir.Binary(op="=" | "<>" | "<" | ">" | "<=" | ">=" as op, left=left, right=right):
+                sides = (left, right)
+                if any(_element(side, scope) in self.added for side in sides):
+                    return _COMPARISON
+                if op in _EQUAL and any(self.is_rounded(side, scope) for side in sides):
+                    return _COMPARISON
+                if op in _ORDER and (self.resolves(left, right, scope) or self.resolves(right, left, scope)):
+                    return "a comparison with a tolerance that four bytes do not resolve"
+            case ir.Builtin(function=function, arguments=(value,)) if function in _CUTS and self.cut(value, scope):
+                return _CUT
+            case ir.Convert(how="trunc", operand=value) if self.cut(value, scope):
+                return _CUT
+        return ""
+
+    def is_rounded(self, side: ir.Expression, scope: Scope) -> bool:
+        return _element(side, scope) in self.rounded or inexact(side, scope)
+
+    def resolves(self, tolerance: ir.Expression, value: ir.Expression, scope: Scope) -> bool:
+        """Is a calculated value compared with a tolerance that is too fine for four bytes?"""
+        number = constant_number(tolerance, scope)
+        if not (0 < abs(number) < _TOLERANCE if number is not None else _element(tolerance, scope) in self.fine):
+            return False
+        return constant_number(value, scope) is None and (
+            isinstance(value, ir.Binary | ir.Builtin) or self.is_rounded(value, scope)
+        )
+
+    def cut(self, value: ir.Expression, scope: Scope) -> bool:
+        """May a value that is cut lie on either side of a whole number?"""
+        if constant_number(value, scope) is not None:
+            return False
+        if isinstance(value, ir.Binary) and value.op in ("+", "-", "*") and inexact(value, scope):
+            return True
+        return any(read in self.added for read in _reads(value, scope))
 
 
 class _Spans:
@@ -168,14 +276,28 @@ class _Spans:
         return self.plain(value)
 
 
-def _conditions(statement: ir.If | ir.While | ir.Repeat | ir.Assign | ir.WaitUntil) -> list[ir.Expression]:
-    match statement:
-        case ir.If(branches=branches):
-            return [condition for condition, _ in branches]
-        case ir.While(condition=condition) | ir.WaitUntil(condition=condition) | ir.Repeat(until=condition):
-            return [condition]
-        case ir.Assign(value=value):
-            return [value]
+_COMPARISON = "a comparison behind calculations with fractions"
+_CUT = "the whole part of what is calculated with fractions"
+
+
+def _reads(value: ir.Expression, scope: Scope) -> list[Element]:
+    """The places and the results of calls that a number is calculated from, without what only chooses or rounds."""
+    found: list[Element] = []
+    work: list[object] = [value]
+    while work:
+        node = work.pop()
+        match node:
+            case ir.Name() | ir.Index() | ir.Field() | ir.Call():
+                element = _element(node, scope)
+                if element is not None:
+                    found.append(element)
+            case ir.Binary(op="+" | "-" | "*" | "/" | "**", left=left, right=right):
+                work += (left, right)
+            case ir.Unary(op="-" | "+", operand=operand):
+                work.append(operand)
+            case ir.Builtin(function="abs" | "min" | "max", arguments=arguments):
+                work += arguments
+    return found
 
 
 def inexact(value: ir.Expression, scope: Scope) -> bool:
@@ -188,13 +310,20 @@ def inexact(value: ir.Expression, scope: Scope) -> bool:
         case ir.Binary(op="+" | "-" | "*" | "**"):
             literals = (one for one in walk((value,)) if isinstance(one, ir.RealLiteral | ir.IntLiteral))
             return any(not _exact(one, scope) for one in literals) and isinstance(type_of(value, scope), ir.RealType)
+        case ir.Builtin(function=function):
+            return function in _ROUNDING
     return False
 
 
-def _element(place: ir.Expression, scope: Scope) -> Element | None:
-    """A variable, component or list; of elements with a number each is a place of its own."""
+def _element(place: object, scope: Scope) -> Element | None:
+    """A variable, component or list; of elements with a number each is a place of its own; what a function gives."""
+    if isinstance(place, ir.Call):
+        routine = scope.routine(place.name)
+        return None if routine is None else (id(routine), ())
+    if not isinstance(place, ir.Name | ir.Index | ir.Field):
+        return None
     key = place_key(place, scope)
-    numbers = tuple(one.value if isinstance(one, ir.IntLiteral) else -1 for one in getattr(place, "indices", ()))
+    numbers = tuple(one.value if isinstance(one, ir.IntLiteral) else _ANY for one in getattr(place, "indices", ()))
     return None if key is None else (key, numbers)
 
 
