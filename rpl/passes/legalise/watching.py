@@ -314,7 +314,7 @@ class _Watches:
         """Without disarming what is armed again at once: the task that watches would take the moment between for an
         end of its waiting, and look no more at what it has waited for."""
         began = {
-            watch.armed: (watch.armed, watch.was, watch.came)
+            watch.armed: {watch.armed, watch.was, watch.came} - {""}
             for watch in self.watches.values()
             if watch.key not in self.periods
         }
