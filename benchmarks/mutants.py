@@ -1,6 +1,6 @@
 """Tests the proof by mutants: programs with one change, which it must not call equal.
 
-    python benchmarks/mutants.py [--write] [--seconds 600] [--per-operator N] [--only SAMPLE] [--processes 2]
+    python benchmarks/mutants.py [--write] [--seconds 600] [--per-operator N] [--only SAMPLE] [--across] [--seed 14]
 
 Within one controller a sample is compared with its mutants; across two, a sample with what is read back of its
 translation, with the change in either. A mutant is told when the verdict is another one than without the change, or
@@ -64,6 +64,14 @@ class Outcome:
     place: str
     result: str
     change: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """Which mutants are chosen: by a seed, at most so many of each operator in one program."""
+
+    seed: int = SEED
+    per_operator: int | None = None
 
 
 @dataclass(slots=True)
@@ -223,21 +231,19 @@ def _plain(value: object) -> object:
 # ---- one pair
 
 
-def chosen(program: ir.Program, name: str, per_operator: int | None) -> list[Mutant]:
+def chosen(program: ir.Program, name: str, drawn: Drawn) -> list[Mutant]:
     """Mutants of a program, the operators in turn; at most so many of each operator, by a seeded choice."""
     by_operator: dict[str, list[Mutant]] = defaultdict(list)
     for mutant in mutants(program):
         by_operator[mutant.operator].append(mutant)
     for operator, many in by_operator.items():
-        random.Random(f"{SEED} {name} {operator}").shuffle(many)
-        del many[per_operator if per_operator is not None else len(many) :]
+        random.Random(f"{drawn.seed} {name} {operator}").shuffle(many)
+        del many[drawn.per_operator if drawn.per_operator is not None else len(many) :]
     rows = list(by_operator.values())
     return [row[turn] for turn in range(max(map(len, rows), default=0)) for row in rows if turn < len(row)]
 
 
-def results_of(
-    sides: tuple[Side, Side], changed: int, pair: str, per_operator: int | None, until: float
-) -> Iterator[Outcome]:
+def results_of(sides: tuple[Side, Side], changed: int, pair: str, drawn: Drawn, until: float) -> Iterator[Outcome]:
     """The mutants of one of two programs, compared with the other one as it is."""
     a, b = sides
     before = prove_recorded(a.record, b.record, a.program, b.program)
@@ -245,7 +251,7 @@ def results_of(
     reached, limits = Reached(side.program, side.result), side.limits()
     as_it_was = shown(side.result)
     word = ("source", "translation")[changed] if "->" in pair else "program"
-    for mutant in chosen(side.program, f"{pair} {word}", per_operator):
+    for mutant in chosen(side.program, f"{pair} {word}", drawn):
         if time.monotonic() > until:
             return
         said = Outcome(pair, word, mutant.operator, mutant.site.place, UNREACHED, _change(mutant))
@@ -271,13 +277,13 @@ def _change(mutant: Mutant) -> str:
     return " ".join(text.split())[:70]
 
 
-def job(folder: str, target: str | None, per_operator: int | None, seconds: float) -> list[Outcome]:
+def job(folder: str, target: str | None, drawn: Drawn, seconds: float) -> list[Outcome]:
     """All outcomes of a sample within its controller, or of its translation."""
     sample = sample_of(Path(folder))
     source = sample.side()
     if target is None:
         until = time.monotonic() + seconds
-        return list(results_of((source, source), 1, sample.name, per_operator, until))
+        return list(results_of((source, source), 1, sample.name, drawn, until))
     try:
         other = translated(sample, target)
     except RplError:
@@ -288,17 +294,18 @@ def job(folder: str, target: str | None, per_operator: int | None, seconds: floa
     pair, found = f"{sample.name} -> {target}", []
     for changed in (0, 1):
         until = time.monotonic() + seconds / 2.0
-        found += results_of((source, other), changed, pair, per_operator, until)
+        found += results_of((source, other), changed, pair, drawn, until)
     return found
 
 
-def jobs(only: str, targets: int) -> Iterator[tuple[str, str | None]]:
-    """Every sample by itself, and with some of the other languages in turn, so that all pairs of languages come."""
+def jobs(only: str, targets: int, across: bool) -> Iterator[tuple[str, str | None]]:
+    """Every sample by itself (unless only proofs `across` controllers are asked for), and with some of the other
+    languages in turn, so that all pairs of languages come."""
     names = [name for name in registry.target_names() if name != "rpl"]
     folders = sorted(path.parent for path in (ROOT / "samples").glob("*/*/expected.toml"))
     kept = [folder for folder in folders if only in f"{folder.parent.name}/{folder.name}"]
-    for folder in kept:
-        yield str(folder), None
+    if not across:
+        yield from ((str(folder), None) for folder in kept)
     for number, folder in enumerate(kept):
         others = [name for name in names if name != folder.parent.name]
         for turn in range(targets):
@@ -379,11 +386,12 @@ def write(outcomes: list[Outcome]) -> None:
 
 def run(given: argparse.Namespace) -> list[Outcome]:
     """All outcomes, sample by sample; each pair has the same share of the time."""
-    todo = list(jobs(given.only, given.targets))
+    todo = list(jobs(given.only, given.targets, given.across))
     share = given.seconds / max(len(todo), 1)
     outcomes: list[Outcome] = []
+    drawn = Drawn(given.seed, given.per_operator)
     with ProcessPoolExecutor(given.processes) as pool:
-        running = [pool.submit(job, folder, target, given.per_operator, share) for folder, target in todo]
+        running = [pool.submit(job, folder, target, drawn, share) for folder, target in todo]
         for future, (folder, target) in zip(running, todo, strict=True):
             found = future.result()
             outcomes += found
@@ -405,6 +413,8 @@ def main() -> None:
     parser.add_argument("--per-operator", type=int, help="mutants of one operator in one program, at most")
     parser.add_argument("--only", default="", help="samples whose language/name holds this")
     parser.add_argument("--targets", type=int, default=2, help="other languages that each sample is compared in")
+    parser.add_argument("--across", action="store_true", help="only proofs across two controllers")
+    parser.add_argument("--seed", type=int, default=SEED, help="of the choice of mutants")
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--json", type=Path, help="write every outcome there")
     parser.add_argument("--of", type=Path, help="run nothing: make the table of outcomes that --json wrote")

@@ -110,7 +110,7 @@ def _frame(asked: _Asked, kind: str, a: rigid.Pose | None, b: rigid.Pose | None,
     mm = float(np.linalg.norm(one[:3, 3] - other[:3, 3]))
     deg = float(turn_deg(one[:3, :3], other[:3, :3]))
     if mm > asked.tolerance.path_mm or deg > asked.tolerance.turn_deg:
-        amount = max(mm, float(np.radians(deg)) * _LEVER_MM)
+        amount = float(np.hypot(mm, np.radians(deg) * _LEVER_MM))  # neither hides the other
         asked.tell(kind, amount, f"{word}: {mm:.3f} mm and {deg:.3f} deg apart")
 
 
@@ -118,7 +118,7 @@ def _loads(asked: _Asked) -> None:
     (mass, centre), (other, there) = (_whole(one.loads) for one in asked.pair)
     if abs(mass - other) > asked.tolerance.load_kg:
         asked.tell("load", abs(mass - other), f"load: {mass:g} kg in A, {other:g} kg in B")
-    elif mass > 0.0:
+    if mass > 0.0 or other > 0.0:  # of no load at all the centre is taken at the flange
         apart = float(np.linalg.norm(centre - there))
         if apart > asked.tolerance.load_mm:
             asked.tell("load-centre", apart, f"centre of the load: {apart:.3f} mm apart")

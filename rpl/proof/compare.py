@@ -23,6 +23,7 @@ from rpl.proof.motion import Pairing, compare_motion
 from rpl.proof.places import Pair, compare_places
 from rpl.proof.record import Record
 from rpl.proof.releases import compare_releases
+from rpl.proof.standing import compare_standing
 from rpl.proof.tolerance import Tolerance
 
 LEVELS = ("none", "events", "geometry", "time")
@@ -57,6 +58,7 @@ def compare(a: Record, b: Record, tolerance: Tolerance, limit_mm: float = 0.0) -
     difference = difference or compare_places(pairs, driven, pairing, found)
     if not pairing.same_language:
         difference = difference or compare_releases((a, b), pairs, driven, tolerance)
+    compare_standing((a, b), pairs, driven, tolerance, found)
     compare_lengths(pairs, not pairing.same_language, tolerance, found)
     if difference is not None:
         return _made("events", difference, found)

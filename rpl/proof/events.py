@@ -71,7 +71,7 @@ def _with_helpers(tasks: Tasks, others: Tasks) -> Tasks:
     extra = [name for name in tasks if name not in others]
     if not extra or not first:
         return tasks
-    shown = [one for name in extra for one in tasks[name] if one.kind not in ("wait", "end")]
+    shown = [replace(one, helper=True) for name in extra for one in tasks[name] if one.kind not in ("wait", "end")]
     kept = {name: happenings for name, happenings in tasks.items() if name not in extra}
     every = sorted((*tasks[first], *shown), key=lambda one: (one.kind == "end", round(one.t, 9), one.number))
     return kept | {first: tuple(every)}

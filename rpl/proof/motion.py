@@ -212,7 +212,7 @@ def _measure(task: str, groups: Sequence[Group], number: int, tolerance: Toleran
         then = " / ".join(f"line {one[0].place.line}" for one in behind if one[0].place.line)
         text = f"the tool passes the corner {mm:.3f} mm and {deg:.3f} deg apart" + (f", before {then}" if then else "")
         found.deviates("corner", mm, text, *sides, task)
-    elif deg > tolerance.turn_deg:
+    if deg > tolerance.turn_deg:
         found.deviates("turning", deg, f"in the corner the tool is turned {deg:.3f} deg apart", *sides, task)
 
 

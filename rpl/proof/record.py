@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from rpl.runtime.payloads import Payload
     from rpl.runtime.programmed import Programmed
     from rpl.runtime.reached import Reached
+    from rpl.runtime.waits import Waited
 
 Value = bool | int | float | str | None
 
@@ -97,6 +98,7 @@ class Happening:
     `named`: what names a value in the text of a message. `number`: its place among all events of the run, which tells
     what comes first where several tasks do something at one moment. `at`: where the tool was (mm), None without a
     robot. `timed`: of an output switched after a time, whether that ends a `pulse` or a `delay`, and its seconds.
+    `helper`: a task that only one of the languages needs does it.
     """
 
     kind: str
@@ -112,6 +114,7 @@ class Happening:
     number: int = 0
     at: tuple[float, float, float] | None = None
     timed: tuple[str, float] | None = None
+    helper: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -145,8 +148,8 @@ class Stretch:
 @dataclass(frozen=True, slots=True, eq=False)
 class Record:
     """A whole run: how it ended, what happened in each task, the motion of each robot by task name, the moves that a
-    controller left out or shortened, and which statements it came to. `waited`: waits for conditions that ended: task,
-    from and to (s). `inputs`: what the surroundings changed."""
+    controller left out or shortened, and which statements it came to. `waited`: waits for conditions that
+    ended. `inputs`: what the surroundings changed."""
 
     status: str
     time_s: float
@@ -156,5 +159,5 @@ class Record:
     language: str = ""
     left_out: Mapping[str, tuple[LeftOut, ...]] = field(default_factory=dict)
     reached: Reached | None = None
-    waited: tuple[tuple[str, float, float], ...] = ()
+    waited: tuple[Waited, ...] = ()
     inputs: tuple[Happening, ...] = ()

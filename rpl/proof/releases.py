@@ -17,7 +17,7 @@ from rpl.proof.record import Happening, Record
 from rpl.proof.tolerance import Tolerance
 
 # A wait ends so soon (s) after the change that it waited for: controllers look again in their cycle.
-_SOON_S = 0.05
+SOON_S = 0.05
 _SLACK_S = 1e-6
 _SHOWN = frozenset(("output", "message", "dialog"))
 
@@ -46,10 +46,12 @@ def _releases(
 ) -> Iterator[tuple[float, Happening]]:
     """When a task went on behind a wait, and the change of an input that ended it."""
     alone = len(record.tasks) == 1
-    spans = [(begin, end, _SOON_S) for name, begin, end in record.waited if alone or name.lower() == task.lower()]
+    spans = [
+        (one.begin, one.end, SOON_S) for one in record.waited if alone or one.task.lower() == task.lower()
+    ]
     for one in happenings:
         if is_looking(one, tolerance) and isinstance(one.value, int | float):
-            spans.append((one.t, one.t + float(one.value), one.longest_s + _SOON_S))
+            spans.append((one.t, one.t + float(one.value), one.longest_s + SOON_S))
     for begin, end, soon in sorted(spans):
         changes = [one for one in record.inputs if begin < one.t <= end + _SLACK_S and end - one.t <= soon]
         if changes:
@@ -113,4 +115,4 @@ def _too_soon(task: str, what: str, waiting: int, change: Happening, sides: tupl
     return Difference("wait", "events", text, *sides, task)
 
 
-__all__ = ["compare_releases"]
+__all__ = ["SOON_S", "compare_releases"]

@@ -17,7 +17,8 @@ class Tolerance:
 
     place_mm: where on a moving path an output may switch. wait_s: up to there two timed waits are one event; they
     deviate above exact_s, as pulses do. helped_s: a pulse that one side makes by a program that looks in its cycle.
-    time_share: of a whole run's time. measure_share: of speeds and accelerations.
+    looking_share: of a time, by
+    which a program that looks again and again sees its end later. time_share: of a whole run's time. measure_share: of speeds and accelerations.
     polling_share: of the time since the start, by which two polling loops may differ (other accelerations before them).
     look_s: a single wait up to this long may be one look of a polling loop. step_s: a controller's cycle.
     """
@@ -29,6 +30,7 @@ class Tolerance:
     wait_s: float = 0.002
     exact_s: float = 1e-5
     helped_s: float = 0.02
+    looking_share: float = 0.005
     time_s: float = 0.01
     time_share: float = 0.01
     measure_share: float = 0.001

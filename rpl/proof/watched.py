@@ -403,7 +403,7 @@ class _Watched(Simulation):
             frozenset(self.with_limit),
             stuck,
             tuple(self.armed),
-            tuple((begin, end) for _, begin, end in self.waited),
+            tuple((one.begin, one.end) for one in self.waited),
         )
 
 

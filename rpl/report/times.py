@@ -236,7 +236,7 @@ def _stood(result: RunResult, task: str, legs: Sequence[Leg]) -> tuple[float, fl
     timed, waited = [], []
     # A move that was ahead of the program may end while it waits: the robot's own events end no wait.
     own = [event for event in result.trace if (not task or event.task == task) and event.kind != "move"]
-    ends = {(name, begin): end for name, begin, end in result.waited}
+    ends = {(one.task, one.begin): one.end for one in result.waited}
     for event, after in zip(own, [*own[1:], None], strict=True):
         if event.kind != "wait":
             continue

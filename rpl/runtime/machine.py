@@ -24,7 +24,7 @@ from rpl.runtime.signals import Key, bit_kind, group_bits, is_bit_group, key_of,
 from rpl.runtime.task import ENDED, READY, WAITING, Task
 from rpl.runtime.trace import Event, Fault, RunResult
 from rpl.runtime.values import SignalRef, StopWatch, Value, whole
-from rpl.runtime.waits import CYCLE_S, TIMED_OUT, Wait, poll_step
+from rpl.runtime.waits import CYCLE_S, TIMED_OUT, Wait, Waited, poll_step
 from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ class Machine:
         self.answered = 0
         self.critical: int | None = None
         self.arrivals: list[meetings.Arrival] = []  # tasks that wait for others
-        self.waited: list[tuple[str, float, float]] = []  # conditions that tasks waited for: task, from, to
+        self.waited: list[Waited] = []  # conditions that tasks waited for
         self.held: list[int] = []
         self.timers: dict[int, StopWatch] = {}
         self.cyclic: dict[int, tuple[Values, Read]] = {}  # flag -> frame and expression

@@ -13,7 +13,7 @@ from rpl.runtime.faults import FATAL, ProgramError, name_of, number_of
 from rpl.runtime.interrupts import Interrupt, Interrupts
 from rpl.runtime.values import Value
 from rpl.runtime.velocities import let_rest
-from rpl.runtime.waits import CYCLE_S, TIMED_OUT, Wait, poll_step
+from rpl.runtime.waits import CYCLE_S, TIMED_OUT, Wait, Waited, poll_step
 from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
@@ -276,7 +276,7 @@ class Task:
         if wait is None:
             return
         if wait.kind in ("condition", "meeting"):
-            self.machine.waited.append((self.name, wait.since, self.machine.now))
+            self.machine.waited.append(Waited(self.name, wait.since, self.machine.now, timed_out))
         if wait.kind not in TIMED_OUT:
             return
         if wait.timed_out is not None and wait.values is not None:

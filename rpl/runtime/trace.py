@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rpl.runtime.payloads import Payload
     from rpl.runtime.programmed import Programmed
     from rpl.runtime.reached import Reached
+    from rpl.runtime.waits import Waited
 
 KINDS = ("move", "output", "input", "message", "warning", "wait", "call", "fault", "end")
 
@@ -98,7 +99,7 @@ class RunInterrupted(KeyboardInterrupt):
 class RunResult:
     """How a run ended. status: finished, stopped, fault, deadlock, limit, interrupted. `outputs` are changes in order:
     time, name of the physical signal, value. `joints` at the end (None without a robot). `waited`: the waits for
-    conditions that ended, met or timed out: task, from and to (s). `reached`: which statements it came to (see
+    conditions that ended, met or timed out. `reached`: which statements it came to (see
     rpl.proof.reach)."""
 
     status: str
@@ -111,7 +112,7 @@ class RunResult:
     trace: tuple[Event, ...]
     joints: tuple[float, ...] | None = None
     waiting: tuple[str, ...] = ()
-    waited: tuple[tuple[str, float, float], ...] = ()
+    waited: tuple[Waited, ...] = ()
     reached: Reached | None = field(default=None, compare=False, repr=False)
 
     def _parts(self) -> list[str]:

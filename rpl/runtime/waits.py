@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from rpl.runtime.code import Read, Values, Write
 
@@ -17,6 +17,16 @@ CYCLE_S = 0.012
 # A long wait is looked at less often: at this share of the time it has taken so far, at most every POLL_MOST_S.
 POLL_SHARE = 0.002
 POLL_MOST_S = 0.1
+
+
+class Waited(NamedTuple):
+    """A wait for a condition that has ended: the task, from and to (s), and whether its time ran out before the
+    condition came."""
+
+    task: str
+    begin: float
+    end: float
+    timed_out: bool = False
 
 
 def poll_step(waited_s: float, least_s: float = CYCLE_S) -> float:
