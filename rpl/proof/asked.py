@@ -48,30 +48,33 @@ class _Asked:
 def compare_asked(
     task: str,
     pair: tuple[Stretch, Stretch],
+    whole: bool,
     same_arm: bool,
     same_language: bool,
     tolerance: Tolerance,
     found: Findings,
 ) -> Difference | None:
-    """Tell every measure of a move that deviates; the difference where the arm is to stand in another way."""
+    """Tell every measure of a move that deviates; the difference where the arm is to stand in another way. `whole`: one
+    move is all of the other, else both drive a part of the same way."""
     first, second = pair
     a, b = first.asked, second.asked
-    if a is None or b is None or (first.cut and second.cut):
+    if a is None or b is None:
         return None
     asked = _Asked(task, pair, tolerance, found)
-    _speeds(asked, a, b)
-    if a.acceleration is not None and b.acceleration is not None and a.acceleration[1] == b.acceleration[1]:
-        asked.share("acceleration", "acceleration", a.acceleration[1], a.acceleration[0], b.acceleration[0])
-    _corners(asked, a, b)
+    _speeds(asked, a, b, whole)
+    _accelerations(asked, a, b)
+    if whole and not (first.cut and second.cut):
+        _corners(asked, a, b)
     _loads(asked)
     _frame(asked, "tool", a.tool, b.tool, same_language)
     _frame(asked, "frame", a.frame, b.frame, same_language)
     return _joints(task, pair, tolerance, found) if same_arm else None
 
 
-def _speeds(asked: _Asked, a: Programmed, b: Programmed) -> None:
+def _speeds(asked: _Asked, a: Programmed, b: Programmed, whole: bool) -> None:
     if a.seconds or b.seconds:
-        asked.share("move-time", "time of the move", "s", a.planned_s or None, b.planned_s or None)
+        if whole:
+            asked.share("move-time", "time of the move", "s", a.planned_s or None, b.planned_s or None)
         return
     asked.share("path-speed", "path speed", "mm/s", a.path_mm_s, b.path_mm_s)
     asked.share("joint-speed", "joint speed", "% of the axes'", a.joint_share, b.joint_share, 100.0)
@@ -80,8 +83,24 @@ def _speeds(asked: _Asked, a: Programmed, b: Programmed) -> None:
         return
     if a.turning_deg_s is not None and b.turning_deg_s is not None:
         asked.share("turning-speed", "turning speed", "deg/s", a.turning_deg_s, b.turning_deg_s)
-    elif a.path_mm_s == b.path_mm_s:  # the turning may govern how fast the path is
+    elif whole and a.path_mm_s == b.path_mm_s:  # the turning may govern how fast the path is
         asked.share("turning-speed", "turning speed in force", "deg/s", a.rate, b.rate, turned)
+
+
+def _accelerations(asked: _Asked, a: Programmed, b: Programmed) -> None:
+    """In one unit by their share. One that is absolute and one that is a share of what a controller has do not compare:
+    that is told with what they come to on this arm."""
+    if a.acceleration is None or b.acceleration is None:
+        return
+    (one, unit), (other, there) = a.acceleration, b.acceleration
+    if unit == there:
+        asked.share("acceleration", "acceleration", unit, one, other)
+    elif a.driven_acceleration is not None and b.driven_acceleration is not None and a.kind == b.kind:
+        percent = 100.0 * abs(a.driven_acceleration - b.driven_acceleration) / max(abs(a.driven_acceleration), 1e-12)
+        if (a.usual_acceleration or b.usual_acceleration) and percent <= 100.0 * asked.tolerance.measure_share:
+            return  # one says what the other's language begins with
+        text = f"acceleration: {one:.4g} {unit} in A, {other:.4g} {there} in B, on this arm {percent:.4g} % apart"
+        asked.tell("acceleration-unit", percent, text)
 
 
 def _corners(asked: _Asked, a: Programmed, b: Programmed) -> None:

@@ -16,7 +16,7 @@ from itertools import chain
 from rpl.proof.bits import in_bits
 from rpl.proof.deviations import Deviation
 from rpl.proof.difference import Difference
-from rpl.proof.events import event_difference, paired, same_event, without_conditions
+from rpl.proof.events import crossed_difference, event_difference, paired, same_event, without_conditions
 from rpl.proof.findings import Findings
 from rpl.proof.moments import compare_lengths, compare_moments
 from rpl.proof.motion import Pairing, compare_motion
@@ -52,6 +52,7 @@ def compare(a: Record, b: Record, tolerance: Tolerance, limit_mm: float = 0.0) -
     events = event_difference(a, b, tolerance)
     pairs = _pairs(a, b)
     difference, driven = compare_motion(a, b, pairing, found)
+    events = events or crossed_difference(pairs, tolerance, not pairing.same_language)
     if events is not None:
         return _made("none", events, found)
     found.compared += sum(one.kind != "end" for one in chain.from_iterable(ours for _, ours, _ in pairs))

@@ -24,6 +24,7 @@ KINDS: dict[str, tuple[str, str]] = {
     "joint-speed": ("joint speeds differ by up to {amount} at {count} moves", "%"),
     "move-time": ("programmed times of moves differ by up to {amount} at {count} moves", "%"),
     "acceleration": ("accelerations differ by up to {amount} at {count} moves", "%"),
+    "acceleration-unit": ("accelerations are said in units that do not compare at {count} moves", "%"),
     "corner-size": ("programmed corners differ by up to {amount} at {count} moves", "mm"),
     "load": ("loads differ by up to {amount} at {count} moves", "kg"),
     "load-centre": ("centres of loads differ by up to {amount} at {count} moves", "mm"),

@@ -141,6 +141,36 @@ def same_event(a: Happening, b: Happening, tolerance: Tolerance, foreign: bool =
             return a.value == b.value
 
 
+def crossed_difference(pairs: Sequence[Pair], tolerance: Tolerance, foreign: bool) -> Difference | None:
+    """Two programs may number their outputs in two ways; but what are two outputs of one are two of the other. The
+    first event at which that is not so."""
+    met: tuple[dict[frozenset[str], tuple[frozenset[str], Happening]], ...] = ({}, {})
+    for task, ours, theirs in pairs:
+        for a, b in matched(ours, theirs, tolerance, foreign):
+            if a is None or b is None or a.kind != "output":
+                continue
+            keys = _identity(a), _identity(b)
+            for which, one, other in ((0, a, b), (1, b, a)):
+                known, before = met[which].setdefault(keys[which], (keys[1 - which], other))
+                if known != keys[1 - which]:
+                    return _crossed(task, "AB"[which], one, (before, other), (a, b))
+    return None
+
+
+def _identity(output: Happening) -> frozenset[str]:
+    """What makes it the same output again: its numbers, where it has some."""
+    numbers = frozenset(name for name in output.names if ":" in name)
+    return numbers or output.names
+
+
+def _crossed(
+    task: str, who: str, one: Happening, others: tuple[Happening, Happening], both: tuple[Happening, Happening]
+) -> Difference:
+    names = " and ".join(_shown_name(other.names) for other in others)
+    text = f"one output of {who} is two of the other: {_shown_name(one.names)} is {names}"
+    return Difference("output", "events", text, side(both[0]), side(both[1]), task)
+
+
 def _numbered(happening: Happening) -> bool:
     return any(":" in name for name in happening.names)
 
@@ -209,6 +239,7 @@ def _event_difference(task: str, a: Happening | None, b: Happening | None) -> Di
 
 
 __all__ = [
+    "crossed_difference",
     "event_difference",
     "in_words",
     "is_looking",

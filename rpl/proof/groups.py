@@ -4,12 +4,13 @@ moves what another says with one (splines, relative moves).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rpl.proof.paths import length_mm
 from rpl.proof.record import Stretch
 
 if TYPE_CHECKING:
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 SAME_GOAL_MM = 0.1
 # Axes that are that near (deg or mm) to each other stand alike.
 _SAME_AXIS = 1e-3
+# Moves that share less of a way (mm, share of the shorter one) only touch there: corners shift where a move ends.
+_SHARED_MM, _SHARED = 2.0, 0.2
 
 Group = tuple[Sequence[Stretch], Sequence[Stretch]]
 
@@ -117,3 +120,24 @@ def _other(before: FloatArray | None, behind: FloatArray | None) -> bool:
     if before is None or behind is None or len(before) != len(behind):
         return False
     return bool(np.abs(before - behind).max(initial=0.0) > _SAME_AXIS)
+
+
+def beside(group: Group) -> Iterator[tuple[Stretch, Stretch]]:
+    """Moves of a group that drive the same part of the way, and those at its end: one may ask something else of it than
+    the other."""
+    a, b = group
+    if len(a) == len(b) == 1:
+        yield a[0], b[0]
+        return
+    spans = [_shares(side) for side in group]
+    for one, (begin, end) in zip(a, spans[0], strict=True):
+        for other, (since, until) in zip(b, spans[1], strict=True):
+            shared = min(end, until) - max(begin, since)
+            if shared > max(_SHARED_MM, _SHARED * min(end - begin, until - since)):
+                yield one, other
+
+
+def _shares(side: Sequence[Stretch]) -> list[tuple[float, float]]:
+    """From and to (mm of the way) of each move."""
+    ends = np.cumsum([length_mm(one.poses) for one in side])
+    return list(zip([0.0, *ends[:-1].tolist()], ends.tolist(), strict=True))

@@ -15,7 +15,7 @@ from rpl.proof.asked import compare_asked
 from rpl.proof.corners import Corner, aside, between, corner_behind, ways
 from rpl.proof.difference import Difference, Side
 from rpl.proof.findings import Findings
-from rpl.proof.groups import Group, aligned
+from rpl.proof.groups import Group, aligned, beside
 from rpl.proof.paths import Gap, gap
 from rpl.proof.postures import cut_short_difference, left_out_difference, posture_difference
 from rpl.proof.record import Record, Stretch
@@ -80,14 +80,10 @@ def _task(
     for number, (a, b) in enumerate(groups):
         found.compared += 1
         if number in sensed:
-            _apart_by_sensor(task, groups[number], pairing, found)
-            difference = None
+            difference = _by_sensor(task, groups[number], pairing, found)
         else:
             difference = _group(task, groups, number, pairing, found, loose)
-        if a and b and len(a) == len(b) == 1:
-            stands = pairing.same_arm and number not in sensed
-            asked = compare_asked(task, (a[0], b[0]), stands, pairing.same_language, pairing.tolerance, found)
-            difference = difference or asked
+        difference = difference or _asked(task, groups[number], number in sensed, pairing, found)
         if a and b and number not in sensed:
             ends = a[-1], b[-1]
             difference = difference or posture_difference(task, *ends) or cut_short_difference(task, *ends)
@@ -95,6 +91,19 @@ def _task(
     for number in sorted(loose):
         _measure(task, groups, number, pairing.tolerance, found)
     return first, Driven(tuple(groups), frozenset(loose), sensed)
+
+
+def _asked(task: str, group: Group, sensed: bool, pairing: Pairing, found: Findings) -> Difference | None:
+    """What both programs ask of the moves of a group; of moves that a sensor divides only where they are single."""
+    whole = len(group[0]) == len(group[1]) == 1
+    if sensed and not whole:
+        return None
+    first: Difference | None = None
+    for pair in beside(group):
+        stands = pairing.same_arm and whole and not sensed
+        difference = compare_asked(task, pair, whole, stands, pairing.same_language, pairing.tolerance, found)
+        first = first or difference
+    return first
 
 
 def _group(
@@ -129,19 +138,24 @@ def _group(
         difference = _another_way(task, groups[number], worst, pairing, found)
         if difference is not None:
             return difference
-    if pairing.same_language and a[-1].cut and b[-1].cut:  # the way alone does not show where they were to go
-        difference = _apart_goals(task, a[-1], b[-1], pairing, found)
-        if difference is not None:
-            return difference
+    difference = _apart_aims(task, a, b, pairing)
+    if difference is not None:
+        return difference
     return _joints(task, a, b, pairing, found)
 
 
-def _apart_by_sensor(task: str, group: Group, pairing: Pairing, found: Findings) -> None:
+def _by_sensor(task: str, group: Group, pairing: Pairing, found: Findings) -> Difference | None:
+    """Moves that hang on where a sensor answered: how far apart they are left, and whether they were to be one."""
     worst = gap(*ways(group))
     found.apart(worst.mm)
     if worst.mm > pairing.tolerance.path_mm:
         text = f"where a sensor ends the move, or behind it, the tool is up to {worst.mm:.3f} mm apart"
         found.deviates("sensed", worst.mm, text, move_side(group[0]), move_side(group[1]), task)
+    a, b = group
+    if len(a) == len(b) == 1 and a[0].motion != b[0].motion and worst.mm > pairing.tolerance.path_mm:
+        text = f"beside what a sensor ends A makes a {a[0].motion} move, B a {b[0].motion} one"
+        return Difference("move", "geometry", text, move_side(a), move_side(b), task)
+    return _apart_aims(task, a, b, pairing)
 
 
 def _apart(worst: Gap, tolerance: Tolerance) -> bool:
@@ -181,6 +195,20 @@ def _goals(
     if corner is None or (a.cut and b.cut):
         return None
     return _apart_goals(task, a, b, pairing, found)
+
+
+def _apart_aims(task: str, a: Sequence[Stretch], b: Sequence[Stretch], pairing: Pairing) -> Difference | None:
+    """Moves that both are ended on their way: the way alone does not show where they were to go."""
+    if len(a) != 1 or len(b) != 1 or not (a[0].cut and b[0].cut) or a[0].motion != b[0].motion:
+        return None
+    aims = a[0].aim, b[0].aim
+    if aims[0] is None or aims[1] is None:
+        return None
+    worst = gap(aims[0][None], aims[1][None])
+    if not _apart(worst, pairing.tolerance):
+        return None
+    text = f"the moves that are ended on their way head for points {worst.mm:.3f} mm and {worst.deg:.3f} deg apart"
+    return Difference("path", "geometry", text, move_side(a), move_side(b), task)
 
 
 def _apart_goals(task: str, a: Stretch, b: Stretch, pairing: Pairing, found: Findings) -> Difference | None:

@@ -121,9 +121,10 @@ class Happening:
 class Stretch:
     """One move as it was driven: tool poses (k, 4, 4) in the robot's base frame, mm, at times (k,), and the joints (n,)
     at its end. motion: joint, linear, circular, spline. `stops`: the robot came to rest at its end. `goal`: the
-    programmed end, x y z in mm and the quaternion w x y z (7,), which a blended move passes at a distance. `cut`: an
-    interrupt or a search ended it on its way. `own_measure`: its corner is as large as the controller's speed or
-    percent make it, not a length. `corner_at`: the pose with which the corner at its end begins, None without one.
+    programmed end, x y z in mm and the quaternion w x y z (7,), which a blended move passes at a distance. `aim`: the
+    pose (4, 4) at the end of what was planned, also of a move that did not come there. `cut`: an interrupt or a search
+    ended it on its way. `own_measure`: its corner is as large as the controller's speed or axes make it. `corner_at`:
+    the pose with which the corner at its end begins, None without one.
     `asked`: what the program asks of it. `loads`: what the robot carries in it, as the program says. `family`: the
     posture of the arm at the programmed goal; `cut_short`: the controller stopped in place of its corner (postures).
     external: its external axes at its end (deg, mm)."""
@@ -135,6 +136,7 @@ class Stretch:
     stops: bool = True
     place: Place = field(default_factory=Place)
     goal: FloatArray | None = None
+    aim: FloatArray | None = None
     cut: bool = False
     own_measure: bool = False
     corner_at: int | None = None

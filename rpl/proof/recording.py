@@ -227,6 +227,7 @@ def _stretch(event: Event) -> Stretch:
         event.stops,
         place_of(event.origin),
         goal,
+        aim=_aim(event.legs),
         cut=bool(event.data.get("interrupted")),
         own_measure=event.blend in ("percent", "speed"),
         corner_at=_corner_at(event.legs, poses),
@@ -234,6 +235,12 @@ def _stretch(event: Event) -> Stretch:
         loads=event.payloads,
         external=_external(last),
     )
+
+
+def _aim(legs: Sequence[Leg]) -> FloatArray | None:
+    """The end of the planned geometry, which a move that a sensor ends does not reach; None of a corner alone."""
+    planned = next((leg.plan for leg in legs if leg.plan.kind != "corner"), None)
+    return None if planned is None else np.asarray(planned.geometry.tcp(np.ones(1))[0])
 
 
 def _external(leg: Leg) -> FloatArray | None:

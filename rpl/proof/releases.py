@@ -46,9 +46,7 @@ def _releases(
 ) -> Iterator[tuple[float, Happening]]:
     """When a task went on behind a wait, and the change of an input that ended it."""
     alone = len(record.tasks) == 1
-    spans = [
-        (one.begin, one.end, SOON_S) for one in record.waited if alone or one.task.lower() == task.lower()
-    ]
+    spans = [(one.begin, one.end, SOON_S) for one in record.waited if alone or one.task.lower() == task.lower()]
     for one in happenings:
         if is_looking(one, tolerance) and isinstance(one.value, int | float):
             spans.append((one.t, one.t + float(one.value), one.longest_s + SOON_S))

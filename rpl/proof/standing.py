@@ -1,7 +1,7 @@
 """How long the robot stands: between two events, before the first move, between two moves, behind the last one.
 
-Nothing moves then, so that no acceleration says when the next event comes: a wait that ends by its time-out, one that is
-left out and one that is made at another point show in what the robot stands for. Where an input ends the wait, its
+Nothing moves then, so that no acceleration says when the next event comes: a wait that ends by its time-out, one that
+is left out and one that is made at another point show in what the robot stands for. Where an input ends the wait, its
 moment is the surroundings', and the stand is left out (releases.py).
 """
 
@@ -91,7 +91,16 @@ class _Spans:
         self.changes = [one.t for one in record.inputs]
         self.waits = [(one.begin, one.end, not one.timed_out, 0.0) for one in own]
         self.waits += [(one.t, one.t + float(one.value or 0.0), True, one.longest_s) for one in looks]
+        # A wait that is no moment of its own: from and to, as far as it may end by its time.
+        self.timed = [(one.begin, one.end) for one in own if one.timed_out]
+        self.timed += [
+            (one.t, one.t + float(one.value)) for one in happenings if one.kind == "wait" and one.value is not None
+        ]
         self.alone = alone
+
+    def begun_before(self, begin: float) -> bool:
+        """Does the task wait here for a time that began while the robot still moved?"""
+        return any(since < begin - _SLACK_S and until > begin + _SLACK_S for since, until in self.timed)
 
     def released(self, begin: float, end: float) -> bool:
         """Did something outside of the task say when this time ended, or a part of it?"""
@@ -119,6 +128,8 @@ def _compare(
     tolerance: Tolerance,
     found: Findings,
 ) -> None:
+    if any(one.begun_before(begin) for one, begin in zip(spans, stand.begin, strict=True)):
+        return  # how much of it is left depends on how fast the robot came here
     last = stand.begin
     for first, second in shown:
         if not (_within(first, stand, 0, last[0]) and _within(second, stand, 1, last[1])):

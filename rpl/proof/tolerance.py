@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 from rpl.errors import UsageError
 from rpl.proof.deviations import KINDS, Deviation
+from rpl.proof.paths import TURN_LEVER_MM
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,8 +19,8 @@ class Tolerance:
 
     place_mm: where on a moving path an output may switch. wait_s: up to there two timed waits are one event; they
     deviate above exact_s, as pulses do. helped_s: a pulse that one side makes by a program that looks in its cycle.
-    looking_share: of a time, by
-    which a program that looks again and again sees its end later. time_share: of a whole run's time. measure_share: of speeds and accelerations.
+    looking_share: of a time, by which a program that looks again and again sees its end later. time_share: of a whole
+    run's time. measure_share: of speeds and accelerations.
     polling_share: of the time since the start, by which two polling loops may differ (other accelerations before them).
     look_s: a single wait up to this long may be one look of a polling loop. step_s: a controller's cycle.
     """
@@ -48,7 +50,13 @@ class Tolerance:
 
 
 # Kinds of deviation that a limit accepts, by the name of the limit.
-_LIMITED = {"corner": "corner_mm", "corner-size": "corner_mm", "path": "path_mm", "time": "time_share"}
+_LIMITED = {
+    "corner": "corner_mm",
+    "turning": "corner_mm",
+    "corner-size": "corner_mm",
+    "path": "path_mm",
+    "time": "time_share",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +76,8 @@ class Accepted:
             return True
         limit = getattr(self, _LIMITED.get(deviation.kind, ""), None) if deviation.kind in _LIMITED else None
         amount = deviation.share if deviation.kind == "time" else deviation.amount
+        if deviation.kind == "turning":  # in a corner; as far as it moves a point of the tool at the usual lever
+            amount = math.radians(amount) * TURN_LEVER_MM
         return limit is not None and amount <= limit
 
 

@@ -25,7 +25,9 @@ class Programmed:
 
     path_mm_s: of the tool on a path. turning_deg_s: of its orientation. joint_share: of the leading axis' greatest
     speed. seconds: a time of its own, and planned_s what that gives. acceleration: with its unit, absolute or a share
-    of what the controller has. corner_mm: the size of the corner at its end, 0 for a stop, None where it is not a
+    of what the controller has; driven_acceleration: what this arm makes of it (mm/s2 on a path, else the share of the
+    axes' own), for two that do not compare. usual_acceleration: the program says none, and its language has a
+    value of its own at the start. corner_mm: the size of the corner at its end, 0 for a stop, None where it is not a
     length. tool: the tool centre point in the flange. frame: the work object. joints (n,): where the arm is to stand,
     with turns. rate: the part of a path per second at which the slowest of path, turning and external axes lets it go.
     """
@@ -37,6 +39,8 @@ class Programmed:
     seconds: float | None = None
     planned_s: float = 0.0
     acceleration: tuple[float, str] | None = None
+    driven_acceleration: float | None = None
+    usual_acceleration: bool = False
     corner_mm: float | None = None
     tool: rigid.Pose | None = None
     frame: rigid.Pose | None = None
@@ -68,6 +72,8 @@ def programmed_of(order: Order, request: MoveRequest, plan: Planning, planned: P
         seconds=request.duration_s,
         planned_s=planned.duration_s if planned is not None else 0.0,
         acceleration=_acceleration(order, request, plan),
+        driven_acceleration=request.path_acc_mm_s2 if request.kind != "joint" else float(np.min(request.joint_acc)),
+        usual_acceleration=request.kind != "joint" and _is_usual(order, plan),
         corner_mm=_corner_mm(order.blend),
         tool=tool,
         frame=frame,
@@ -95,6 +101,11 @@ def _says(name: str, order: Order, plan: Planning) -> bool:
     return value is not None and value != order.rules.system_defaults.get(name)
 
 
+def _is_usual(order: Order, plan: Planning) -> bool:
+    known = order.rules.system_defaults.get("path_acceleration") is not None
+    return known and order.speed.path_acceleration is None and not _says("path_acceleration", order, plan)
+
+
 def _acceleration(order: Order, request: MoveRequest, plan: Planning) -> tuple[float, str] | None:
     """The acceleration in force and its unit: an absolute one, or a share of the controller's own. A move by time has
     none."""
@@ -106,9 +117,7 @@ def _acceleration(order: Order, request: MoveRequest, plan: Planning) -> tuple[f
         import numpy as np
 
         return float(np.min(request.joint_acc)), "of the axes'"
-    absolute = order.speed.path_acceleration is not None or any(
-        table.get("path_acceleration") is not None for table in (order.modal, plan.modal)
-    )
+    absolute = order.speed.path_acceleration is not None or _says("path_acceleration", order, plan)
     return (request.path_acc_mm_s2, "mm/s2") if absolute else (request.effort, "of the controller's")
 
 

@@ -26,7 +26,8 @@ OUT = Happening("output", 1.0, True, signal_names("digital_out", ["grip"], 3), P
 NOTE = Happening("message", 1.1, "part  ready", place=Place("a.src", 5, 'MSG("part ready")'), along=100.0)
 WAIT = Happening("wait", 1.2, 0.5, longest_s=0.5, place=Place("a.src", 6, "WAIT SEC 0.5"), along=100.0)
 END = Happening("end", 2.0, "finished", place=Place("a.src", 7, "END"), along=100.0)
-MOTION = (line((0, 0, 0), (100, 0, 0)), line((100, 0, 0), (100, 50, 0)))
+SECOND = np.linspace(1, 2, 20)
+MOTION = (line((0, 0, 0), (100, 0, 0)), replace(line((100, 0, 0), (100, 50, 0)), times=SECOND))
 RUN = Record("finished", 2.0, {"main": (OUT, NOTE, WAIT, END)}, {"main": MOTION}, "arm", "krl")
 
 
@@ -87,7 +88,9 @@ def test_other_geometry_is_refuted_with_both_lines(other: Record, kind: str) -> 
 
 
 def test_time_counts_between_programs_of_one_language_only() -> None:
-    slower = changed(*(replace(event, t=event.t * 1.5) for event in RUN.tasks["main"]))
+    late = tuple(replace(event, t=event.t + 0.5) for event in RUN.tasks["main"])
+    moves = tuple(replace(move, times=move.times * 1.5) for move in MOTION)
+    slower = replace(RUN, tasks={"main": late}, motion={"main": moves}, time_s=RUN.time_s + 0.5)
     verdict = compare(RUN, slower, TOLERANCE)
     assert (verdict.level, verdict.difference) == ("geometry", None)
     assert {one.kind for one in verdict.deviations} == {"time"}

@@ -69,7 +69,7 @@ def test_what_is_changed_is_told(name: str) -> None:
     before = mutation.prove_recorded(one.record, one.record, one.program, one.program)
     as_it_was = mutation.shown(one.result)
     chosen: dict[str, Mutant] = {}
-    for mutant in mutation.chosen(one.program, name, None):
+    for mutant in mutation.chosen(one.program, name, mutation.Drawn()):
         if mutant.operator in SEEN and all(reached.holds(needed) for needed in mutant.needs):
             chosen.setdefault(mutant.operator, mutant)
     assert len(chosen) >= 5

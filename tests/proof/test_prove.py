@@ -119,7 +119,7 @@ def test_two_languages_say_the_same() -> None:
     result = prove_texts(KRL, RAPID, "krl", "rapid")
     assert result.agrees, result.as_text()
     assert (result.level, result.verdict) == ("geometry", "alike")
-    assert [one.kind for one in result.open] == ["joint-speed", "load"]
+    assert [one.kind for one in result.open] == ["joint-speed", "load", "load-centre"]
     assert result.max_path_mm < 0.01
 
 
