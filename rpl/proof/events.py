@@ -141,7 +141,9 @@ def same_event(a: Happening, b: Happening, tolerance: Tolerance, foreign: bool =
             return a.value == b.value
 
 
-def crossed_difference(pairs: Sequence[Pair], tolerance: Tolerance, foreign: bool) -> Difference | None:
+def crossed_difference(
+    pairs: Sequence[tuple[str, Sequence[Happening], Sequence[Happening]]], tolerance: Tolerance, foreign: bool
+) -> Difference | None:
     """Two programs may number their outputs in two ways; but what are two outputs of one are two of the other. The
     first event at which that is not so."""
     met: tuple[dict[frozenset[str], tuple[frozenset[str], Happening]], ...] = ({}, {})
