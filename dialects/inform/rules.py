@@ -23,6 +23,11 @@ COMPONENTS = {
 _VOLTS = AnalogRange((0.0, 1.0), (0.0, 1.0))
 ANALOG = (AnalogPorts("analog_in", _VOLTS), AnalogPorts("analog_out", _VOLTS))
 
+# Operator's manuals, variables: B holds 0 to 255, I has 16 bits, D has 32. M: a value beyond is an alarm, wherever it is
+# stored.
+_WIDTHS = {"B": Range(0, 255), "I": Range(-(2**15), 2**15 - 1), "D": Range(-(2**31), 2**31 - 1)}
+_HELD = {f"{local}{bank}": held for bank, held in _WIDTHS.items() for local in ("", "L")}
+
 RULES = Rules(
     name="inform",
     case_sensitive=True,  # M: jobs and labels are kept as they are written; controllers use capitals
@@ -51,7 +56,9 @@ RULES = Rules(
     },
     # Operator's manuals: VJ is 0.01 to 100 percent.
     # M: VJ and EV end at 100 %.
-    inputs=InputRules(ranges={"joint_speed": Range(most=100.0), "external_speed": Range(most=100.0)}),
+    inputs=InputRules(
+        ranges={"joint_speed": Range(most=100.0), "external_speed": Range(most=100.0)}, variable_ranges=_HELD
+    ),
     blend_levels=tables.LEVELS,
     # MOVS is the parabola through three points; where two of them overlap "a composite path" is made (operator's
     # manuals). M: the composite is their mean, weighted evenly along the way from one to the other.

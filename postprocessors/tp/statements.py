@@ -194,6 +194,8 @@ class Printer(StatementPrinter[Line]):
                 self.limited_alone(statement)
             case ir.Message():
                 self.message(statement)
+            case ir.Wait(time=time) if (measured(time, "s") or 0) * 100 > tables.MOST_HUNDREDTHS:
+                self.put([Line(one) for one in self.long_wait(time, origin)], origin)
             case ir.Opaque() | ir.Vendor():
                 self.put([Line(f"  {part.strip()}") for part in self.own_text(statement).splitlines()], origin)
             case _:
@@ -250,6 +252,15 @@ class Printer(StatementPrinter[Line]):
         if abs(shown - found) > 1e-9:
             self.diagnostics.report(WAIT_ROUNDED, origin, time=found)
         return f"{shown:6.2f}(sec)"
+
+    def long_wait(self, time: ir.Expression, origin: Origin) -> list[str]:
+        """A time that is longer than one wait, in several."""
+        longest = tables.MOST_HUNDREDTHS / 100
+        left = float(measured(time, "s") or 0.0)
+        whole = int(left // longest)
+        parts = [f"  WAIT {longest:6.2f}(sec)"] * whole
+        left = round(left - whole * longest, 6)
+        return [*parts, f"  WAIT {self.seconds(ir.Quantity(ir.RealLiteral(left), 's'), origin)}"] if left else parts
 
     def call(self, call: ir.CallRoutine) -> str:
         name = call.name.upper() if call.dynamic is None else self.expressions.place(call.dynamic)
@@ -525,6 +536,8 @@ class Printer(StatementPrinter[Line]):
         """The limit of a wait counts in hundredths of a second."""
         found = measured(time, "s")
         if found is not None:
+            if found * 100 > tables.MOST_HUNDREDTHS:
+                raise CannotSayError(f"a wait has a limit of {tables.MOST_HUNDREDTHS / 100:g} s at most")
             return f"({max(1, round(found * 100))})"
         inner = time.value if isinstance(time, ir.Quantity) else time
         factor = 100 * (ir.UNITS[time.unit] if isinstance(time, ir.Quantity) else 1.0)

@@ -72,7 +72,9 @@ class Texts:
         type = self.expressions.type(value)
         if not isinstance(type, ir.RealType | ir.IntType):
             self.refuse("a text of anything but a number")
-        return [("/G0.8", self.item(value))]
+        # Six digits, as the languages that show any value have them; whole numbers that are known as such in full.
+        whole = isinstance(type, ir.IntType) or isinstance(value, ir.IntLiteral)
+        return [("/G0.8" if whole else "/G0.6", self.item(value))]
 
     def refuse(self, reason: str) -> None:
 

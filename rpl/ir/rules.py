@@ -160,7 +160,7 @@ class InputRules:
     overlapping_blends: what is logged when a move is left out whose blend (`radius` mm) and that of the move before it
         (`before`) are longer than the `way` between both; empty: no move is.
     ranges: values of quantities that it takes, where they differ from RANGES; variable_ranges: those of the language's
-    own variables, by name (FANUC UTOOL_NUM).
+    own variables, by name, without the digits at its end where it has a number (FANUC UTOOL_NUM, INFORM B000).
     """
 
     rotation_limits: tuple[float, float] | None = None
@@ -175,6 +175,10 @@ class InputRules:
     def range_of(self, name: str) -> Range | None:
         """The values that the controller takes of a quantity; None: any."""
         return self.ranges.get(name, RANGES.get(name))
+
+    def range_of_variable(self, name: str) -> Range | None:
+        """The values that one of the language's own variables, or a list of them, holds; None: any."""
+        return self.variable_ranges.get(name) or self.variable_ranges.get(name.rstrip("0123456789"))
 
 
 @dataclass(frozen=True, slots=True)

@@ -46,8 +46,8 @@ def _allowed(compiler: Compiler, target: ir.Expression) -> tuple[str, Range] | N
     match target:
         case ir.System(name=name):
             found = inputs.range_of(name)
-        case ir.Name(id=name):
-            found = inputs.variable_ranges.get(name)
+        case ir.Name(id=name) | ir.Index(base=ir.Name(id=name)):
+            found = inputs.range_of_variable(name) if inputs.variable_ranges else None
         case _:
             return None
     return (name, found) if found is not None else None

@@ -175,8 +175,8 @@ class _Module:
                     self.rotations(value, statement.origin, scope)
                     if isinstance(target, ir.System):
                         self.quantity(target.name, value, statement.origin, scope)
-                    elif isinstance(target, ir.Name) and target.id in self.rules.variable_ranges:
-                        self.within(target.id, self.rules.variable_ranges[target.id], value, statement.origin, scope)
+                    elif isinstance(target, ir.Name) and (held := self.rules.range_of_variable(target.id)) is not None:
+                        self.within(target.id, held, value, statement.origin, scope)
                 case ir.Nothing() | ir.Trigger() | ir.LookAhead():
                     continue
                 case _:

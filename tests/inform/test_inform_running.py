@@ -142,3 +142,23 @@ def test_the_last_value_of_a_loop_is_looked_up_once(also: str) -> None:
     text = f"SET D003 0\nSET D002 4\nFOR D000=1 TO D002\nSET D002 2\nADD D003 D000\nNEXT D000{also}"
     checked = "\nDOUT OT#(1) ON IF D003=10\nDOUT OT#(2) ON IF D000=5"
     assert outputs(run(job(text + checked))) == [("OT#(1)", True), ("OT#(2)", True)]
+
+
+@pytest.mark.parametrize(
+    ("lines", "good"),
+    [
+        ("SET B000 255\nADD B000 0", True),
+        ("SET B000 250\nADD B000 10", False),
+        ("SET B000 0\nDEC B000", False),
+        ("SET LB000 200\nADD LB000 LB000", False),
+        ("SET D000 3\nSET B[D000] 300", False),
+        ("SET I000 32767\nINC I000", False),
+        ("SET I000 -32768", True),
+        ("SET D000 2147483647\nINC D000", False),
+        ("SET D000 65536\nMUL D000 32767", True),
+    ],
+)
+def test_numbers_beyond_their_variable_are_an_alarm(lines: str, good: bool) -> None:
+    """Operator's manuals: B has one byte without a sign, I two, D four. M: the alarm comes where the value is stored."""
+    result = run(job(f"{lines}\nDOUT OT#(1) ON"))
+    assert (result.status == "finished") is good and bool(result.outputs) is good
