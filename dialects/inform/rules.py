@@ -23,7 +23,7 @@ COMPONENTS = {
 _VOLTS = AnalogRange((0.0, 1.0), (0.0, 1.0))
 ANALOG = (AnalogPorts("analog_in", _VOLTS), AnalogPorts("analog_out", _VOLTS))
 
-# Operator's manuals, variables: B holds 0 to 255, I has 16 bits, D has 32. M: a value beyond is an alarm, wherever it is
+# Operator's manuals, variables: B holds 0 to 255, I has 16 bits, D 32. M: a value beyond is an alarm wherever it is
 # stored.
 _WIDTHS = {"B": Range(0, 255), "I": Range(-(2**15), 2**15 - 1), "D": Range(-(2**31), 2**31 - 1)}
 _HELD = {f"{local}{bank}": held for bank, held in _WIDTHS.items() for local in ("", "L")}

@@ -64,6 +64,7 @@ CAPABILITIES = Capabilities(
     last_flag=tables.FLAGS,
     fixed_arcs=True,
     text_parts=True,
+    text_parts_cut=True,
     text_decimals=6,
     printable_texts=True,
     places_in_base=True,

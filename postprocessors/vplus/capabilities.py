@@ -73,6 +73,7 @@ CAPABILITIES = Capabilities(
     next_move_settings=True,
     text_ordering=True,
     text_parts=True,
+    text_parts_cut=True,
     leading_numbers=True,
     stopping_reactions=True,
     interrupt_masks=True,

@@ -126,6 +126,7 @@ class Capabilities:
     computed_decimals: a number can be rounded to a count of decimals that is computed.
     text_parts: without numbered storage as well, helpers read numbers from texts and search them by cutting and
     comparing parts.
+    text_parts_cut: a part that goes beyond the end of its text is shorter or empty (else the controller stops).
     truth: `minus_one` when TRUE is the number -1 and there is no type of truth values.
     faults_outside: the controller stops at an index outside of an array (else the program looks first).
     index_base: where arrays start; None: anywhere. expressions: `steps` when an assignment has one operator or function
@@ -296,6 +297,7 @@ class Capabilities:
     truth: str = "bool"
     index_base: int | None = 1
     faults_outside: bool = True
+    text_parts_cut: bool = False
     expressions: str = "any"
     calculated_places: bool = True
     arcs_by_angle: bool = False

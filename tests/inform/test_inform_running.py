@@ -159,6 +159,6 @@ def test_the_last_value_of_a_loop_is_looked_up_once(also: str) -> None:
     ],
 )
 def test_numbers_beyond_their_variable_are_an_alarm(lines: str, good: bool) -> None:
-    """Operator's manuals: B has one byte without a sign, I two, D four. M: the alarm comes where the value is stored."""
+    """Operator's manuals: B has one byte without sign, I two, D four. M: the alarm comes where it is stored."""
     result = run(job(f"{lines}\nDOUT OT#(1) ON"))
     assert (result.status == "finished") is good and bool(result.outputs) is good

@@ -1,4 +1,4 @@
-"""Times that one WAIT cannot hold. $WAITTMOUT counts up to 32,767 hundredths of a second; M: a WAIT for a time as well."""
+"""Times that one WAIT cannot hold. $WAITTMOUT counts to 32,767 hundredths of a second; M: a WAIT for a time too."""
 
 import pytest
 

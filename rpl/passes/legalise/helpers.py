@@ -268,6 +268,10 @@ END FUNCTION
     "rpl_text_part": """
 PROCEDURE rpl_text_part(REFERENCE result: STRING, REFERENCE t: STRING, first: INT, count: INT)
     VAR i: INT
+    IF first < 1 OR count < 0 OR first + count - 1 > text_length(t) THEN
+        MESSAGE "A part of a text is outside"
+        HALT
+    END IF
     text_clear(result)
     FOR i = 1 TO count
         result[i] = t[first + i - 1]

@@ -195,6 +195,7 @@ from rpl.passes.legalise.textbytes import text_bytes
 from rpl.passes.legalise.textdecimals import text_decimals
 from rpl.passes.legalise.textlengths import roomy_texts, text_lengths
 from rpl.passes.legalise.textorders import text_orders
+from rpl.passes.legalise.textpartchecks import checked_text_parts
 from rpl.passes.legalise.threepoints import three_point_arcs
 from rpl.passes.legalise.timers import timers_to_clocks
 from rpl.passes.legalise.tooldata import tool_data
@@ -379,6 +380,7 @@ PASSES: tuple[Pass, ...] = (
     asked_elements,
     copy_value_arrays,
     checked_subscripts,
+    checked_text_parts,
     array_sizes,
     check_errors,
     labels_to_structure,
