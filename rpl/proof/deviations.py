@@ -30,6 +30,8 @@ KINDS: dict[str, tuple[str, str]] = {
     "load-centre": ("centres of loads differ by up to {amount} at {count} moves", "mm"),
     "tool": ("tools differ by up to {amount} at {count} moves", "mm"),
     "frame": ("work objects differ by up to {amount} at {count} moves", "mm"),
+    "sender": ("messages have other senders or titles at {count} places", ""),
+    "output-number": ("outputs have other numbers at {count} places", ""),
     "wait": ("waits differ by up to {amount} at {count} places", "s"),
     "pulse": ("pulses differ by up to {amount} at {count} places", "s"),
     "time": ("moments differ by up to {amount} at {count} places", "s"),

@@ -2,16 +2,17 @@
 that the other shows.
 
 A language whose messages show constant text only says in its rules what names a register there; such a name stands for
-any value of its kind. Where a screen shows a message in several lines, the lines together are one message.
+what the register holds then, and for any value of its kind where that is not known. Where a screen shows a message in
+several lines, the lines together are one message.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from rpl.proof.record import Happening, Named
+from rpl.proof.record import Happening, Named, Value
 
 _BLANKS = r"\s*"
 _NUMBER, _TEXT = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", r".*"
@@ -56,18 +57,41 @@ def _goes_on(ours: Sequence[Happening], theirs: Sequence[Happening]) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class _Said:
-    """A text as it was shown and without blanks, and the expression that says what else would say the same."""
+    """A text as it was shown and without blanks, and the expression that says what else would say the same; `held`: the
+    values of its groups, which stand for what the named registers hold."""
 
     shown: str
     text: str
     pattern: str
+    held: tuple[Value, ...]
 
     @classmethod
     def of(cls, lines: Sequence[Happening]) -> _Said:
         named = next((one.named for one in lines), Named())
-        texts = [str(one.value) for one in lines]
-        pattern = _BLANKS.join(_pattern(text, named) for text in texts)
-        return cls(" ".join(texts), "".join(map(_bare, texts)), rf"\s*{pattern}\s*")
+        known = {name: value for one in lines for name, value in one.held}
+        texts, patterns, held = [str(one.value) for one in lines], [], []
+        for text in texts:
+            pattern, values = _pattern(text, named, known)
+            patterns.append(pattern)
+            held += values
+        pattern = _BLANKS.join(patterns)
+        return cls(" ".join(texts), "".join(map(_bare, texts)), rf"\s*{pattern}\s*", tuple(held))
+
+    def stands_for(self, shown: str) -> bool:
+        """Does a text show what this one names?"""
+        found = re.fullmatch(self.pattern, shown, re.DOTALL)
+        return found is not None and all(map(_shows, found.groups(), self.held))
+
+
+def _shows(text: str, value: Value) -> bool:
+    """Is a text the value? A number may be shown with as many decimals as a language likes."""
+    if isinstance(value, str):
+        return _bare(text) == _bare(value)
+    assert isinstance(value, int | float)  # what _pattern makes groups for
+    number = text.lower().partition("e")
+    decimals = len(number[0].partition(".")[2])
+    slack = 0.5 * 10.0 ** (int(number[2] or 0) - decimals) + 1e-6 * abs(value)
+    return abs(float(text) - value) <= slack
 
 
 def _same(ours: Sequence[Happening], theirs: Sequence[Happening]) -> bool:
@@ -76,19 +100,26 @@ def _same(ours: Sequence[Happening], theirs: Sequence[Happening]) -> bool:
         return True
     if ours[0].named == theirs[0].named:
         return False
-    return bool(re.fullmatch(a.pattern, b.shown, re.DOTALL) or re.fullmatch(b.pattern, a.shown, re.DOTALL))
+    return a.stands_for(b.shown) or b.stands_for(a.shown)
 
 
-def _pattern(text: str, named: Named) -> str:
-    """The text with what it names left open; blanks may stand anywhere but inside of a number."""
+def _pattern(text: str, named: Named, known: Mapping[str, Value]) -> tuple[str, list[Value]]:
+    """The text with what it names left open, as groups where it is known what the names hold, and these values; blanks
+    may stand anywhere but inside of a number."""
     if not named.numbers and not named.texts:
-        return _constant(text)
+        return _constant(text), []
     names = re.compile(rf"\b(?:(?P<number>{named.numbers or '(?!)'})|(?P<text>{named.texts or '(?!)'}))\b")
-    done, at = [], 0
+    done: list[str] = []
+    held: list[Value] = []
+    at = 0
     for found in names.finditer(text):
-        done += [_constant(text[at : found.start()]), _NUMBER if found["number"] else _TEXT]
+        kind, value = _NUMBER if found["number"] else _TEXT, known.get(found[0])
+        wanted = int | float if found["number"] else str
+        shown = isinstance(value, wanted) and not isinstance(value, bool)
+        held += [value] if shown else []
+        done += [_constant(text[at : found.start()]), f"({kind})" if shown else kind]
         at = found.end()
-    return _BLANKS.join((*done, _constant(text[at:])))
+    return _BLANKS.join((*done, _constant(text[at:]))), held
 
 
 def _constant(text: str) -> str:

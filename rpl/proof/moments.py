@@ -22,7 +22,10 @@ def compare_lengths(pairs: Sequence[Pair], foreign: bool, tolerance: Tolerance, 
         for first, second in _both(ours, theirs, tolerance, foreign):
             if first.kind == "wait":
                 _wait(task, first, second, tolerance, found)
+            elif first.kind == "message":
+                _sender(task, first, second, foreign, found)
             elif first.kind == "output":
+                _number(task, first, second, foreign, found)
                 _pulse(task, (first, second), last.get(first.names), tolerance, found)
                 last[first.names] = first, second
 
@@ -46,6 +49,21 @@ def _wait(task: str, a: Happening, b: Happening, tolerance: Tolerance, found: Fi
     if apart > tolerance.exact_s:
         text = f"waits {a.value:g} s in A, {b.value:g} s in B"
         found.deviates("wait", apart, text, side(a), side(b), task)
+
+
+def _sender(task: str, a: Happening, b: Happening, foreign: bool, found: Findings) -> None:
+    """Who says a message, or its title; between two languages where both say it."""
+    one, other = (" ".join(each.sender.split()) for each in (a, b))
+    if one != other and not (foreign and not (one and other)):
+        found.deviates("sender", 1.0, f"sender of {in_words(a)}: {one!r} in A, {other!r} in B", side(a), side(b), task)
+
+
+def _number(task: str, a: Happening, b: Happening, foreign: bool, found: Findings) -> None:
+    """Outputs of one name that both programs number, and not alike. Within one language they are two outputs."""
+    one, other = (frozenset(name for name in each.names if ":" in name) for each in (a, b))
+    if foreign and one and other and not one & other:
+        text = f"{in_words(a)}: number {min(one)} in A, {min(other)} in B"
+        found.deviates("output-number", 1.0, text, side(a), side(b), task)
 
 
 def _pulse(task: str, now: Matched, before: Matched | None, tolerance: Tolerance, found: Findings) -> None:

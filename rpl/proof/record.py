@@ -95,10 +95,11 @@ class Happening:
     value: the output's value, the message's text, the seconds of a timed wait (None: on a condition), the fault's code,
     the status at the end. `along` is how far the tool had travelled on its whole path, mm; `moving` whether it moved.
     Timed waits in a row are one wait for their sum: so many `times`, the longest of them `longest_s`.
-    `named`: what names a value in the text of a message. `number`: its place among all events of the run, which tells
-    what comes first where several tasks do something at one moment. `at`: where the tool was (mm), None without a
-    robot. `timed`: of an output switched after a time, whether that ends a `pulse` or a `delay`, and its seconds.
-    `helper`: a task that only one of the languages needs does it.
+    `named`: what names a value in the text of a message; `held`: what those hold then, as far as it is known. `number`:
+    its place among all events of the run, which tells what comes first where several tasks do something at one moment.
+    `at`: where the tool was (mm), None without a robot. `timed`: of an output switched after a time, whether that ends
+    a `pulse` or a `delay`, and its seconds. `helper`: a task that only one of the languages needs does it. `sender`:
+    who says a message, or its title, where the program says that.
     """
 
     kind: str
@@ -114,7 +115,9 @@ class Happening:
     number: int = 0
     at: tuple[float, float, float] | None = None
     timed: tuple[str, float] | None = None
+    held: tuple[tuple[str, Value], ...] = ()
     helper: bool = False
+    sender: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

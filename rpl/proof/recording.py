@@ -111,7 +111,11 @@ def _happening(event: Event, way: _Way, stuck: Place) -> Happening | None:
             if event.data.get("type") == "clear":
                 return None
             text = str(event.data.get("text", ""))
-            return Happening("message", event.t, text, place=place, along=along, moving=moving)
+            held = tuple((name, _plain(value)) for name, value in event.named)
+            sender = str(event.data.get("sender", ""))
+            return Happening(
+                "message", event.t, text, place=place, along=along, moving=moving, held=held, sender=sender
+            )
         case "wait":
             seconds = event.data.get("seconds")
             if not isinstance(seconds, int | float):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import copy
 import random
+import re
 from collections.abc import Callable, Sequence
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
@@ -463,7 +464,17 @@ class Machine:
         """A message to the operator."""
         if kind != "clear":
             self.messages.append(text)
-        self.event("message", {"text": text, "type": kind, **more}, task, origin)
+        self.event("message", {"text": text, "type": kind, **more}, task, origin, named=self._named(task, text))
+
+    def _named(self, task: Task, text: str) -> tuple[tuple[str, Value], ...]:
+        """What is held by the registers that a text names, in a language whose messages show constant text only."""
+        rules = task.frames[-1].code.rules if task.frames else None
+        if rules is None or not (rules.message_numbers or rules.message_texts):
+            return ()
+        patterns = "|".join(one for one in (rules.message_numbers, rules.message_texts) if one)
+        found = dict.fromkeys(re.findall(rf"\b(?:{patterns})\b", text))
+        held = {name: self.global_value(name) for name in found}
+        return tuple((name, value) for name, value in held.items() if isinstance(value, bool | int | float | str))
 
     # ---- ends
 

@@ -41,7 +41,7 @@ class Event:
     `stops` whether it ended in rest; `blend` the kind of its corner (see orders.BlendOrder); `payloads` what it
     carries in it, as the program says; `programmed` what the program asks of it (None without a robot).
     `timed`: of an output that is switched after a time, whether that is the end of a `pulse` or a `delay`, and its
-    seconds."""
+    seconds. `named`: what the registers hold that the text of a message names in place of their values."""
 
     t: float
     task: str
@@ -56,6 +56,7 @@ class Event:
     payloads: tuple[Payload, ...] = ()
     programmed: Programmed | None = None
     timed: tuple[str, float] | None = None
+    named: tuple[tuple[str, Value], ...] = ()
 
     def __deepcopy__(self, memo: object) -> Event:
         return self

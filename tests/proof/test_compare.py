@@ -7,9 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rpl.passes import rigid
 from rpl.proof.compare import Tolerance, compare
 from rpl.proof.paths import gap, length_mm, measure, turn_deg
 from rpl.proof.record import Happening, Place, Record, Stretch, signal_names
+from rpl.runtime.payloads import Payload
+from rpl.runtime.programmed import Programmed
 
 TOLERANCE = Tolerance()
 
@@ -208,3 +211,66 @@ def test_a_message_in_several_lines_is_one_only_for_another_language() -> None:
     assert compare(RUN, changed(OUT, *lines, WAIT, END), TOLERANCE).difference is not None
     later = replace(changed(OUT, lines[0], replace(lines[1], t=1.15), WAIT, END), language="inform")
     assert compare(RUN, later, TOLERANCE).difference is not None
+
+
+def asked(**more: object) -> Programmed:
+    return Programmed("linear", **more)  # type: ignore[arg-type]
+
+
+def load(mass: float, x: float) -> Payload:
+    return Payload(mass, rigid.Pose(rigid.Vector(x, 0.0, 0.0), rigid.Rotation((1.0, 0.0, 0.0, 0.0))), (0.0, 0.0, 0.0))
+
+
+def told(ours: Stretch, theirs: Stretch) -> dict[str, float]:
+    verdict = compare(moved(ours), replace(moved(theirs), language="rapid"), TOLERANCE)
+    assert verdict.difference is None, verdict.difference
+    return {one.kind: round(one.amount, 3) for one in verdict.deviations}
+
+
+def test_another_mass_hides_no_other_centre() -> None:
+    ours = replace(MOTION[0], asked=asked(), loads=(load(2.0, 10.0),))
+    theirs = replace(MOTION[0], asked=asked(), loads=(load(3.0, 30.0),))
+    assert told(ours, theirs) == {"load": 1.0, "load-centre": 20.0}
+    assert told(ours, replace(theirs, loads=())) == {"load": 2.0, "load-centre": 10.0}
+
+
+def test_accelerations_in_two_units_are_never_equal_in_silence() -> None:
+    ours = replace(MOTION[0], asked=asked(acceleration=(2000.0, "mm/s2"), driven_acceleration=2000.0))
+    share = asked(acceleration=(0.5, "of the controller's"), driven_acceleration=2000.0)
+    assert told(ours, replace(MOTION[0], asked=share)) == {"acceleration-unit": 0.0}
+    slower = replace(share, driven_acceleration=1500.0)
+    assert told(ours, replace(MOTION[0], asked=slower)) == {"acceleration-unit": 25.0}
+    usual = replace(share, usual_acceleration=True)
+    assert told(ours, replace(MOTION[0], asked=usual)) == {}
+
+
+def test_what_is_asked_of_a_part_of_a_way_is_compared() -> None:
+    whole = replace(line((0, 0, 0), (100, 0, 0), asked=asked(path_mm_s=100.0)), times=np.linspace(0, 2, 20))
+    first = line((0, 0, 0), (60, 0, 0), stops=False, asked=asked(path_mm_s=100.0))
+    second = replace(line((60, 0, 0), (100, 0, 0), asked=asked(path_mm_s=120.0)), times=SECOND)
+    halves = replace(moved(first, second), language="rapid")
+    verdict = compare(moved(whole), halves, TOLERANCE)
+    assert verdict.difference is None
+    assert [(one.kind, round(one.amount)) for one in verdict.deviations] == [("path-speed", 20)]
+
+
+def test_moves_that_are_ended_head_for_one_point() -> None:
+    def ended(x: float) -> Stretch:
+        aim = np.eye(4)
+        aim[0, 3] = x
+        return line((0, 0, 0), (50, 0, 0), cut=True, aim=aim)
+
+    other = replace(moved(ended(100.0)), language="rapid")
+    assert compare(moved(ended(100.0)), other, TOLERANCE).difference is None
+    difference = compare(moved(ended(101.0)), other, TOLERANCE).difference
+    assert difference is not None and "1.000 mm" in difference.explanation
+
+
+def test_a_name_with_two_numbers_and_another_sender_are_told() -> None:
+    output = replace(OUT, names=signal_names("digital_out", ["grip"], 4))
+    note = replace(NOTE, sender="cell")
+    ours, theirs = changed(OUT, replace(NOTE, sender="robot"), WAIT, END), changed(output, note, WAIT, END)
+    verdict = compare(ours, replace(theirs, language="rapid"), TOLERANCE)
+    assert {one.kind for one in verdict.deviations} == {"output-number", "sender"}
+    silent = replace(changed(OUT, NOTE, WAIT, END), language="rapid")
+    assert compare(ours, silent, TOLERANCE).deviations == ()

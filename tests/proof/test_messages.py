@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from rpl.diagnostics import Diagnostics
+from rpl.project import read_sources
 from rpl.proof.messages import as_lines, same_message
 from rpl.proof.record import Happening, Named
+from rpl.simulation import run_program
+from rpl.source import source_from_text
 
 NAMES = Named(r"R\d+", r"SR\d+")
 
@@ -36,6 +42,35 @@ def named(*texts: str, t: float = 1.0) -> list[Happening]:
 def test_a_register_stands_for_a_value_of_its_kind(one: str, other: str, same: bool) -> None:
     assert same_message(shown(one)[0], named(other)[0]) == same
     assert same_message(named(other)[0], shown(one)[0]) == same
+
+
+@pytest.mark.parametrize(
+    "text, names, held, same",
+    [
+        ("count: 17", "count: R12", {"R12": 17}, True),
+        ("count: 17", "count: R12", {"R12": 18}, False),
+        ("x 1.33 mm", "x R1 mm", {"R1": 4.0 / 3.0}, True),
+        ("x 1.34 mm", "x R1 mm", {"R1": 4.0 / 3.0}, False),
+        ("x 1.5E-3", "x R1", {"R1": 0.0015}, True),
+        ("3 of 4", "R1 of R2", {"R2": 4}, True),
+        ("3 of 5", "R1 of R2", {"R2": 4}, False),
+        ("part left", "part SR1", {"SR1": "left"}, True),
+        ("part right", "part SR1", {"SR1": "left"}, False),
+    ],
+)
+def test_what_a_named_register_holds_is_what_is_shown(
+    text: str, names: str, held: dict[str, object], same: bool
+) -> None:
+    other = replace(named(names)[0], held=tuple(held.items()))  # type: ignore[arg-type]
+    assert same_message(shown(text)[0], other) == same
+    assert same_message(other, shown(text)[0]) == same
+
+
+def test_a_run_notes_what_the_named_registers_hold() -> None:
+    text = "/PROG P\n/MN\n   1:  R[1]=7 ;\n   2:  MESSAGE[count R1] ;\n/END\n"
+    program = read_sources([source_from_text("p.ls", text)], "tp", Diagnostics()).program
+    (message,) = (event for event in run_program(program).trace if event.kind == "message")
+    assert message.named == (("R1", 7),)
 
 
 def test_two_sides_that_name_registers_have_the_same_text() -> None:
