@@ -11,7 +11,8 @@ from rpl.source import Source
 
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
-    from rpl.ir import Module
+    from rpl.ir import Module, Program
+    from rpl.ir.analog import AnalogPorts
     from rpl.ir.rules import Rules
 
 
@@ -19,6 +20,12 @@ def _recognise(path: str, text: str) -> int:
     from .recognise import recognise
 
     return recognise(path, text)
+
+
+def _analog_said(program: Program) -> tuple[AnalogPorts, ...]:
+    from .iosignals import said
+
+    return said(program)
 
 
 def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
@@ -65,4 +72,5 @@ DIALECT = Dialect(
     notation_fields=("cf1", "cf4", "cf6", "cfx"),
     flag_terms=_flag_terms,
     aliases=("abb",),
+    analog_said=_analog_said,
 )

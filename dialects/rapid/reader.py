@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache
 
 from rpl import ir
@@ -18,6 +19,7 @@ from rpl.source import Origin, Source
 from .blocks import Blocks, is_statement, part
 from .dialogs import with_dialogs
 from .instructions import INSTRUCTIONS
+from .iosignals import attribute, is_configuration, ranges
 from .parser import RapidParser
 from .prelude import PREDEFINED_NAMES
 from .project import Project, survey
@@ -44,7 +46,8 @@ def _parser() -> RapidParser:
 
 def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     """All sources of one project together."""
-    usable = [source for source in sources if not encoded(source.data)]
+    configurations = [source for source in sources if is_configuration(source.text)]
+    usable = [source for source in sources if not encoded(source.data) and source not in configurations]
     project = survey(usable, PREDEFINED_NAMES)
     parser = _parser()
     modules: list[ir.Module] = []
@@ -54,9 +57,15 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
             diagnostics.report(ENCODED, Origin(source, 0, 0))
             reports.append(FileReport(source.path, "rapid", 0, 0))
             continue
+        if source in configurations:
+            reports.append(FileReport(source.path, "rapid", 0, 0))
+            continue
         found, report = _read_file(source, project, parser, diagnostics)
         modules.extend(found)
         reports.append(report)
+    if modules:
+        kept = tuple(attribute(one) for source in configurations for one in ranges(source.text))
+        modules[0] = replace(modules[0], attributes=(*modules[0].attributes, *kept))
     own = frozenset(project.routines.union(*project.local_routines.values()))
     program = with_dialogs(ir.Program(tuple(modules), _tasks(modules)), own, diagnostics)
     return ReadResult(program, tuple(reports))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from .iosignals import is_configuration
+
 # Each text is looked at, logs of thousands of blank lines too: no pattern may have two ways through the same blanks.
 _COMMENTS = r"(?:[\s\ufeff]|![^\r\n]*+)*+"
 _HEADER = re.compile(rf"{_COMMENTS}%%%\s*VERSION\s*:\s*\d", re.IGNORECASE)
@@ -31,6 +33,8 @@ def encoded(data: bytes) -> bool:
 
 def recognise(path: str, text: str) -> int:
     """0..100: how sure the text is RAPID."""
+    if is_configuration(text):
+        return 99
     sample = text[:200_000]
     if sample[:1] in "\xfc\xfe" and encoded(sample[:512].encode("latin-1", "replace")):
         return 60 if path.lower().endswith((".mod", ".sys", ".modx", ".sysx")) else 0

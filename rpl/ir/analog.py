@@ -41,12 +41,14 @@ class AnalogRange:
 
 @dataclass(frozen=True, slots=True)
 class AnalogPorts:
-    """The range of a language's signals `first` to `last` of a kind (`analog_in`, `analog_out`); None: it changes."""
+    """The range of a language's signals `first` to `last` of a kind (`analog_in`, `analog_out`); None: it changes.
+    `name`: of the one signal that a program calls so instead."""
 
     kind: str
     range: AnalogRange | None
     first: int = 0
     last: int = EVERY
+    name: str = ""
 
 
 @dataclass(frozen=True, slots=True)

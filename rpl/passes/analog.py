@@ -36,7 +36,9 @@ class AnalogRanges:
         if not known and own:
             return None
         for ports in (*self.said, *rules_of(self.language).analog):
-            if ports.kind != kind:
+            if ports.name and ports.kind == kind and ports.name.lower() in known:
+                return ports.range
+            if ports.kind != kind or ports.name:
                 continue
             if number is None and ports.first <= 1 and ports.last == EVERY:
                 return ports.range

@@ -26,7 +26,7 @@ from rpl.proof.recording import record_of
 from rpl.proof.tolerance import Accepted, Tolerance
 from rpl.proof.verdict import Explored, ProofResult
 from rpl.proof.watched import side_of
-from rpl.proof.wiring import in_words_of, wired_bits
+from rpl.proof.wiring import in_words_of, wired_bits, with_ranges_said
 from rpl.runtime.limits import DEFAULTS, Limits
 
 if TYPE_CHECKING:
@@ -110,6 +110,7 @@ def prove_against(
 ) -> ProofResult:
     """Run B and compare it with a run of A that was recorded before, for who compares A with several programs."""
     theirs = in_words_of(cell, program_a, program_b) if cell is not None else None
+    theirs = with_ranges_said(theirs, program_a, program_b)
     record_b = recorded_run(program_b, robot_b, theirs, to_entry, limits, controller)
     return prove_recorded(record_a, record_b, program_a, program_b, to_entry=to_entry, accepted=accepted)
 

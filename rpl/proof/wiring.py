@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from rpl import ir, registry
 from rpl.cell import Cell
+from rpl.ir.analog import AnalogSetting
 from rpl.linking import link
 from rpl.passes.analog import AnalogRanges, analog_ranges
 from rpl.proof.record import bits_of
@@ -97,6 +98,21 @@ def _bases(program: ir.Program) -> dict[str, tuple[int, int]]:
                 case ir.Variable(name=name, type=ir.ArrayType(base=base, dimensions=(ir.IntLiteral(value=last),))):
                     found[name.lower()] = (base, last - base + 1)
     return found
+
+
+def with_ranges_said(cell: Cell | None, first: ir.Program, second: ir.Program) -> Cell | None:
+    """The cell with what the first program's files say of the analogue signals of a language that both are in: it is
+    the same controller."""
+    shared = {module.dialect for module in first.modules} & {module.dialect for module in second.modules}
+    said = tuple(
+        AnalogSetting(one, ports.name, ports.range)
+        for one in sorted(shared)
+        for ports in registry.dialect(one).analog_said(first)
+        if ports.name and ports.range is not None
+    )
+    if not said:
+        return cell
+    return replace(cell if cell is not None else Cell(), analog=(*(cell.analog if cell is not None else ()), *said))
 
 
 def in_words_of(cell: Cell, first: ir.Program, second: ir.Program) -> Cell:
