@@ -107,7 +107,8 @@ LONGEST_MESSAGE: Final = 24
 SHOWN: Final = ("R", "SR", "F", "PR")  # registers that a message may name in place of a value
 LONGEST_TEXT: Final = 254
 MOST_ARGUMENTS: Final = 10
-MOST_HUNDREDTHS: Final = 32767  # of the limit of a wait ($WAITTMOUT). M: of a wait for a time as well
+# The limit of a wait ($WAITTMOUT): one page of a course names 0 to 32767, no manual was found. M: of a timed wait too.
+MOST_HUNDREDTHS: Final = 32767
 MOST_TRIGGERS: Final = 5  # M: actions on the path of one move
 DEEPEST_BLOCK: Final = 10
 DEEPEST_CALL: Final = 10  # M: programs that call each other, with the usual stack size of a program

@@ -2,7 +2,7 @@
 
 V+ Language User's Guide, REACT: an event that comes while its priority is not above the program's waits until the
 priority goes down. KUKA Expert Programming, INTERRUPT DISABLE: an interrupt that is detected while it is disabled is
-stored and executed when it is enabled again.
+stored and executed when it is enabled again. M: both from memory, to be looked up.
 """
 
 from __future__ import annotations
