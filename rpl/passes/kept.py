@@ -14,13 +14,10 @@ from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import is_statement, walk
 from rpl.passes.rewrite import visit_parts
-from rpl.passes.scope import rules_of
 from rpl.source import Origin
 
 Keys = frozenset[str]
 _NONE: Keys = frozenset()
-# All components of a place; setting each of them sets the place.
-_WHOLE = tuple(frozenset(names) for names in (("x", "y", "z", "a", "b", "c"), ("j1", "j2", "j3", "j4", "j5", "j6")))
 # Built-in procedures that read their first argument before they change it.
 _CHANGING = frozenset(("increment", "decrement", "text_append"))
 
@@ -36,11 +33,7 @@ TAKEN_AS_ZERO = code(
 
 def report_taken_as_zero(program: ir.Program, diagnostics: Diagnostics) -> None:
     """What a run takes for granted about data that the controller keeps: once for each."""
-    unset = unset_reads(program)
-    faults = _faulting(program) if unset else frozenset()
-    for one in unset:
-        if one.key.partition("[")[0] in faults:
-            continue  # a run that reads such a place ends there
+    for one in unset_reads(program):
         diagnostics.report(TAKEN_AS_ZERO, one.origin, name=one.name, path=one.path)
 
 
@@ -55,19 +48,6 @@ class UnsetRead:
     path: str
     origin: Origin
     roots: tuple[str, ...]
-
-
-def _faulting(program: ir.Program) -> Keys:
-    """Kept places, and lists of such, of languages in which a place without a value is a fault where it is read."""
-    found: set[str] = set()
-    for module in program.modules:
-        if not rules_of(module.dialect).undefined:
-            continue
-        for one in module.declarations:
-            if isinstance(one, ir.Variable) and one.storage == "persistent":
-                type = one.type.element if isinstance(one.type, ir.ArrayType) else one.type
-                found |= {one.name.lower()} if zero_of(type) is None else set()
-    return frozenset(found)
 
 
 def kept_values(program: ir.Program) -> dict[str, tuple[str, str]]:
@@ -106,10 +86,7 @@ def unset_reads(program: ir.Program) -> list[UnsetRead]:
     found: dict[str, tuple[Origin, list[str]]] = {}
     for flow in roots:
         for key, origin in flow.needs.items():
-            whole = key.partition(".")[0]
-            names = found.setdefault(whole, (origin, []))[1]
-            if flow.name not in names:
-                names.append(flow.name)
+            found.setdefault(key, (origin, []))[1].append(flow.name)
     return [UnsetRead(key, *kept[key], origin, tuple(names)) for key, (origin, names) in sorted(found.items())]
 
 
@@ -121,7 +98,6 @@ class _Step:
     sets: Keys = _NONE
     calls: str = ""
     starts: str = ""
-    joins: str = ""
     ways: tuple[str, ...] = ()
     falls: bool = True
     leaves: bool = False
@@ -264,8 +240,6 @@ class _Flow:
             match node:
                 case ir.CallRoutine(name=name) if node is statement:
                     self.run(_Step(calls=name.lower()), name)
-                case ir.TaskControl(op="join", task=name):
-                    self.steps.append(_Step(joins=name.lower()))
                 case ir.CallRoutine(name=name) | ir.TaskControl(op="start", task=name):
                     self.run(_Step(starts=name.lower()), name)
                 case ir.Call(name=name):
@@ -279,9 +253,6 @@ class _Flow:
         """What an assignment to the place sets; the numbers of its elements are read."""
         if isinstance(target, ir.Index):
             read.extend(target.indices)
-        if isinstance(target, ir.Field):
-            key = self.key(target.base)
-            return {f"{key}.{target.name.lower()}"} if key and "[]" not in key else set()
         key = self.key(target)
         return {key} if key else set()
 
@@ -299,11 +270,9 @@ class _Flow:
         """A step that reads what stands in the part."""
         found: dict[str, Origin] = {}
         for node in _nodes(part):
-            key, name = self.key(node), ""
-            if isinstance(node, ir.Field):
-                key, name = self.key(node.base), f".{node.name.lower()}"
+            key = self.key(node)
             if key and key in self.kept:
-                found.setdefault(key + name, origin)
+                found.setdefault(key, origin)
         if found:
             self.steps.append(_Step(reads=found))
 
@@ -329,9 +298,6 @@ class _Flow:
                         self.needs.setdefault(key, origin)
                 if step.calls:
                     behind = None if flow.gives is None else state | flow.gives
-            if step.joins in flows:
-                given = flows[step.joins].gives  # what the task sets is set when it has ended
-                behind = None if given is None else state | given
             if behind is None:
                 continue
             if step.leaves:
@@ -358,11 +324,6 @@ class _Look:
 def _is_set(key: str, state: Keys) -> bool:
     if key in state:
         return True
-    whole, dot, _ = key.partition(".")
-    if dot:
-        return _is_set(whole, state)
-    if any(all(f"{key}.{name}" in state for name in names) for names in _WHOLE):
-        return True
     name, bracket, _ = key.partition("[")
     if not bracket:
         return False
@@ -380,17 +341,9 @@ def _nodes(part: object) -> Iterator[object]:
             continue
         if one is None:
             continue
-        match one:
-            case ir.Builtin(function="element_difference", arguments=(left, right)) if left == right:
-                continue  # PR[1]=PR[1]-PR[1] makes zero of whatever there is
         yield one
         below: list[object] = []
-        if isinstance(one, ir.Field):
-            # A component of a place, not the whole of it; the numbers of elements are read.
-            base = one.base
-            below += base.indices if isinstance(base, ir.Index) else () if isinstance(base, ir.Name) else (base,)
-        else:
-            visit_parts(one, below.append)
+        visit_parts(one, below.append)
         stack.extend(reversed(below))
 
 
@@ -408,33 +361,25 @@ def without_unknown(program: ir.Program) -> ir.Program:
     if not kept_values(program):
         return program
 
+    def declared(one: ir.Declaration) -> ir.Declaration:
+        if not isinstance(one, ir.Variable) or one.storage != "persistent":
+            return one
+        match one.initial:
+            case ir.VendorValue(type=type):
+                return replace(one, initial=zero_of(type))
+            case ir.Aggregate(entries=entries):
+                if any(isinstance(value, ir.VendorValue) for _, value in entries):
+                    filled = tuple(
+                        (name, (zero_of(value.type) or value) if isinstance(value, ir.VendorValue) else value)
+                        for name, value in entries
+                    )
+                    return replace(one, initial=replace(one.initial, entries=filled))
+        return one
+
     modules = tuple(
-        replace(module, declarations=tuple(one for given in module.declarations for one in _begun(given)))
-        for module in program.modules
+        replace(module, declarations=tuple(declared(one) for one in module.declarations)) for module in program.modules
     )
     return replace(program, modules=modules)
-
-
-def _begun(one: ir.Declaration) -> tuple[ir.Declaration, ...]:
-    """A declaration without unknown values; known ones in a list of places, which have no zero, are set behind it."""
-    if not isinstance(one, ir.Variable) or one.storage != "persistent":
-        return (one,)
-    match one.initial, one.type:
-        case ir.VendorValue(type=type), _:
-            return (replace(one, initial=zero_of(type)),)
-        case ir.Aggregate(entries=entries), ir.ArrayType(base=base):
-            filled = tuple((name, _known(value)) for name, value in entries)
-            if not any(isinstance(value, ir.VendorValue) for _, value in filled):
-                return (replace(one, initial=replace(one.initial, entries=filled)),)
-            known = [(at, value) for at, (_, value) in enumerate(filled, base) if not isinstance(value, ir.VendorValue)]
-            elements = ((ir.Index(ir.Name(one.name), (ir.IntLiteral(at),)), value) for at, value in known)
-            given = (ir.Assign(element, value, origin=value.origin) for element, value in elements)
-            return (replace(one, initial=None), *(ir.Initialise(each, origin=each.origin) for each in given))
-    return (one,)
-
-
-def _known(value: ir.Expression) -> ir.Expression:
-    return (zero_of(value.type) or value) if isinstance(value, ir.VendorValue) else value
 
 
 def zero_of(type: ir.Type) -> ir.Expression | None:

@@ -52,17 +52,6 @@ CASES: list[tuple[tuple[str, ...], list[str]]] = [
     (("R[R[2]]=1",), ["R[2]"]),
     (("SR[1]=SR[2]",), ["SR[2]"]),
     (("WAIT R[2]=1",), ["R[2]"]),
-    (("J PR[1:home] 50% FINE",), ["PR[1:home]"]),
-    (("PR[1]=LPOS", "J PR[1] 50% FINE"), []),
-    (("PR[2]=PR[1]", "PR[2,3]=PR[2,3]+10", "J PR[2] 50% FINE"), ["PR[1]"]),
-    (("R[1]=PR[4,2]",), ["PR[4]"]),
-    (("PR[4,2]=5", "R[1]=PR[4,2]"), []),
-    (("PR[4,2]=5", "J PR[4] 50% FINE"), ["PR[4]"]),
-    ((*(f"PR[4,{axis}]=0" for axis in range(1, 7)), "J PR[4] 50% FINE"), []),
-    (("PR[1]=PR[1]-PR[1]", "PR[1,3]=50", "L PR[1] 100mm/sec FINE"), []),  # the usual zero
-    (("R[1]=1", "J PR[R[1]] 50% FINE"), ["PR[...]"]),
-    (("R[1]=1", "PR[2]=LPOS", "J PR[R[1]] 50% FINE"), []),  # some element was set
-    (("R[1]=1", "PR[R[1]]=LPOS", "J PR[2] 50% FINE"), []),
 ]
 
 
@@ -96,39 +85,6 @@ def test_it_is_one_loss_by_name_and_a_stop(target: str) -> None:
     back = read_sources([source_from_bytes(file.path, file.data) for file in written.files], target, Diagnostics())
     result = run_program(back.program)
     assert (result.status, result.outputs) == ("stopped", ())
-
-
-@pytest.mark.parametrize("target", ["krl", "rapid", "urscript", "vplus"])
-def test_at_the_declaration_stands_what_is_to_be_filled_in(target: str) -> None:
-    """A zero in a declaration looks like a value; where the numbers are to be read off is said there."""
-    program = read("tp", listing("J PR[1:home] 50% FINE", "L PR[1] R[2:speed]mm/sec FINE"))
-    text = "\n".join(file.data.decode("latin-1") for file in translate_program(program, target).files)
-    assert "fill in: R[2:speed] as on the controller (DATA, Registers)" in text
-    assert "fill in: PR[1:home] as on the controller (DATA, Position Registers)" in text
-
-
-@pytest.mark.parametrize("target", ["krl", "rapid", "tp", "urscript", "vplus"])
-def test_position_variables_without_a_value_are_named(target: str) -> None:
-    program = read("inform", job("MOVJ P001 VJ=50.00", "MOVL P002 V=100.0"))
-    found = Diagnostics()
-    written = translate_program(program, target, None, None, found)
-    names = [item.message.split()[0] for item in found.of(Severity.LOSS) if item.code.name == "kept-value-unknown"]
-    assert names == ["P001", "P002"]
-    back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
-    result = run_program(back.program, "motoman_gp7")
-    assert result.status == "stopped" and not [event for event in result.trace if event.kind == "move"]
-
-
-def test_known_elements_of_a_list_of_places_are_kept() -> None:
-    posreg = """[*POSREG*]$POSREG  Storage: CMOS  Access: RW  : ARRAY[1,100] OF Position Reg
-    [1,1] =   'up'   Group: 1   Config: N U T, 0, 0, 0
-  X:   400.000   Y:     0.000   Z:   450.000
-  W:   180.000   P:     0.000   R:     0.000
-"""
-    found = Diagnostics()
-    program = read("tp", listing("R[1]=1", "J PR[R[1]] 50% FINE"), ("POSREG.VA", posreg))
-    text = "\n".join(f.data.decode("latin-1") for f in translate_program(program, "rapid", diagnostics=found).files)
-    assert not found.has_losses and "PR{1}:=[[400,0,450]" in text
 
 
 @pytest.mark.parametrize("target", TARGETS)
