@@ -28,7 +28,7 @@ __all__ = ["MotionFault", "MoveRequest", "MoveSamples", "PlannedMove", "plan"]
 
 Select = Callable[[FloatArray, FloatArray], Selection]
 CheckEnd = Callable[[FloatArray], str | None]
-SPEED_SLACK = 1e-3  # an axis may exceed its speed by this share through sampling before it counts
+SPEED_SLACK, NO_SHARE = 1e-3, 1e-15  # shares of an axis' speed: more by sampling does not count; less never ends a move
 # A path that needs too fast an axis is called singular when the Jacobian's condition (lengths per arm reach) is worse.
 SINGULAR_CONDITION = 25.0
 # Where a flange on a carried path is looked at first, to tell how finely the path has to be followed.
@@ -330,7 +330,7 @@ def bad_request(request: MoveRequest) -> MotionFault | None:
     for name, value in speeds.items():
         if not value > 0.0:
             return MotionFault("bad_speed", f"the {name} is {value:g}, but must be more than zero")
-        if not SLOWEST <= value < np.inf:
+        if not (NO_SHARE if name.startswith("joint") else SLOWEST) <= value < np.inf:
             return MotionFault("bad_speed", f"the {name} is {value:g}: no robot moves like that")
     if request.target_joints is None and request.target_pose is None:
         return MotionFault("bad_target", "the move has no target")

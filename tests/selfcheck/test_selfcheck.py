@@ -40,10 +40,14 @@ def switched_on(read: ReadProgram, robot: str | None) -> set[int]:
     return {number for number, on in state.items() if on}
 
 
-def translated(read: ReadProgram, target: str, robot: str | None, to_robot: str | None) -> ReadProgram:
+def translated(
+    read: ReadProgram, target: str, robot: str | None, to_robot: str | None, known: frozenset[str] = frozenset()
+) -> ReadProgram:
+    """The program written in the target and read back. `known`: codes of the losses that may come."""
     diagnostics = Diagnostics()
     written = translate_program(read, target, robot, to_robot, diagnostics)
-    problems = [item.as_text() for item in diagnostics if item.severity.word in ("error", "loss")]
+    found = [item for item in diagnostics if item.severity.word in ("error", "loss")]
+    problems = [item.as_text() for item in found if item.code.name not in known]
     assert not problems
     again = Diagnostics()
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, again)
@@ -74,5 +78,7 @@ def test_every_expectation_is_met_on_another_arm() -> None:
     # A relative joint move is the one arm's own (it is refused for another), and so are joint values read back.
     text = (HERE / "moves.src").read_text("utf-8").replace("PTP_REL {A1 10}\n", "")
     sources = [source_from_text("moves.src", text), read_source(HERE / "moves.dat")]
-    back = translated(read_sources(sources, "krl", Diagnostics()), "rapid", robot, ABB)
+    back = translated(
+        read_sources(sources, "krl", Diagnostics()), "rapid", robot, ABB, frozenset(("joints-not-converted",))
+    )
     assert set(expected) - {1, 7} - switched_on(back, ABB) == set()
