@@ -1,4 +1,5 @@
-"""Exploring reaches every sample: what is left is listed with its reason in docs/reach.md.
+"""Exploring reaches at least 95 of 100 statements of every sample, whatever could not be reached counted too: what is
+left is listed with its reason in docs/reach.md.
 
 `python tests/conformance/test_conformance_reach.py` writes the page anew.
 """
@@ -24,7 +25,8 @@ LEAST = 0.95
 HEAD = """# What the proof reaches
 
 For every sample: its statements, how many a run in its own cell reaches, how many an exploration from there reaches
-(`rpl prove --explore`), how many nothing can reach, and what is left with the reason. The page is generated.
+(`rpl prove --explore`), how many nothing can reach, and what is left with the reason. At least 95 of
+100 statements of every sample are reached, those that nothing can reach counted too. The page is generated.
 
 | sample | statements | its own cell | explored | cannot be | not reached |
 |---|---|---|---|---|---|
@@ -55,7 +57,7 @@ def row_of(sample: Path, alone: Reach, reach: Reach) -> str:
 @pytest.mark.parametrize("sample", SAMPLES, ids=name_of)
 def test_every_sample_is_reached(sample: Path) -> None:
     alone, reach = reaches_of(sample)
-    assert reach.share_of_possible >= LEAST, reach.as_text()
+    assert reach.share >= LEAST, reach.as_text()
     assert all(one.reason for one in reach.unreached)
     assert row_of(sample, alone, reach) in PAGE.read_text("utf-8").splitlines(), f"see {PAGE.name}, which is generated"
 

@@ -151,6 +151,8 @@ MODULE Calculation
     nCalls:=0;
     Expect bGood,(FALSE AND Counted())=FALSE;
     Expect bGood,(TRUE OR Counted()) AND (nCalls=0);
+    Expect bGood,Counted();
+    Expect bGood,nCalls=1;
   ENDPROC
 
   FUNC num Factorial(num n)

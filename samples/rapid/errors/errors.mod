@@ -13,7 +13,8 @@ MODULE Errors
     Stubborn;
     IF nCalls=3 Set doRetried;
     Careless;
-    nValue:=Guarded(4);
+    nValue:=Guarded(2);
+    IF nValue=2 nValue:=Guarded(4);
     IF nValue=14 Set doReturned;
     nValue:=0;
     Outer;
@@ -21,7 +22,7 @@ MODULE Errors
     Deadline;
   ENDPROC
 
-  ! Succeeds at the third try: RETRY executes the failed statement again.
+  ! Succeeds at the third try: RETRY executes the failed statement again. Errors of another number are passed on.
   PROC Stubborn()
     Fail;
   ERROR
@@ -32,6 +33,7 @@ MODULE Errors
   PROC Fail()
     Incr nCalls;
     IF nCalls<3 RAISE 11;
+    IF nCalls>3 RAISE ERR_BOOKED;
   ENDPROC
 
   ! TRYNEXT goes on behind the failed statement.
@@ -62,7 +64,8 @@ MODULE Errors
   ENDPROC
 
   PROC Middle()
-    RAISE ERR_BOOKED;
+    nCalls:=3;
+    Stubborn;
   ERROR
     Set doSeen;
     RAISE;
