@@ -16,6 +16,7 @@ from rpl.passes.capabilities import Bank
 from rpl.passes.fold import Unchanged, constant, lasting, literal
 from rpl.passes.legalise.banks import MIXED, NO_BANK, Numbers, Wanted, enlarged, fits, held, main_types, sizes_of
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.labels import structure_to_labels
 from rpl.passes.legalise.operands import is_operand
 from rpl.passes.legalise.parameters import ARGUMENTS
 from rpl.passes.legalise.points import Points
@@ -61,7 +62,10 @@ def number_data(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with banks."""
     if not context.capabilities.banks:
         return program
-    return _Numbered(program, context).program()
+    worker = _Numbered(program, context)
+    done = worker.program()
+    # Where the number of an element is computed first, its wait has become a loop.
+    return structure_to_labels(done, context) if worker.made_loops else done
 
 
 class _Numbered(Rewriter):

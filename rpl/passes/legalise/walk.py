@@ -42,6 +42,7 @@ class Rewriter:
         self.scopes = ProgramScope(program)
         self.before: list[ir.Statement] = []
         self.locals: list[ir.Variable] = []
+        self.made_loops = False
         if program.modules:
             self.scope = self.scopes.module(program.modules[0])
 
@@ -189,8 +190,10 @@ class Rewriter:
         if wait.timeout is not None and wait.timed_out is None:
             self.context.diagnostics.report(EARLY, statement.origin)
             return _in_order([*first, wait], statement)
-        self.context.diagnostics.report(POLLED, statement.origin, seconds=POLL_S)
-        pause = ir.Wait(ir.Quantity(ir.RealLiteral(POLL_S), "s"))
+        shortest = self.context.capabilities.shortest_wait_s or POLL_S
+        period = ir.RealLiteral(round(round(POLL_S / shortest) * shortest, 6))
+        self.context.diagnostics.report(POLLED, statement.origin, seconds=period.value)
+        pause = ir.Wait(ir.Quantity(period, "s"))
         leave = ir.If(((wait.condition, (ir.ExitLoop(),)),))
         before: list[ir.Statement] = [ir.WaitForMotion()] if wait.in_position else []
         late: list[ir.Statement] = []
@@ -201,7 +204,8 @@ class Rewriter:
             before.append(ir.Assign(wait.timed_out, ir.BoolLiteral(False)))
             over = (ir.Assign(wait.timed_out, ir.BoolLiteral(True)), ir.ExitLoop())
             late.append(ir.If(((ir.Binary(">=", waited, limit), over),)))
-            late.append(ir.Assign(waited, ir.Binary("+", waited, ir.RealLiteral(POLL_S))))
+            late.append(ir.Assign(waited, ir.Binary("+", waited, period)))
+        self.made_loops = True
         return _in_order([*before, ir.Loop((*_bare(first), leave, *late, pause))], statement)
 
     def loop(self, statement: ir.While, condition: ir.Expression, body: ir.Body) -> list[ir.Statement]:
@@ -210,6 +214,7 @@ class Rewriter:
         if not first:
             return [replace(statement, condition=condition, body=inner)]
         leave = ir.If(((ir.Unary("not", condition), (ir.ExitLoop(),)),))
+        self.made_loops = True
         return [ir.Loop((*_bare(first), leave, *inner), origin=statement.origin)]
 
     def counting(self, statement: ir.For) -> list[ir.Statement]:
