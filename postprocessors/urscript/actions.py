@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Protocol
 
 from rpl import ir
 from rpl.ir.walk import expressions as all_expressions
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.jumps import opposite
 from rpl.passes.typewords import component_names, word_type
 from rpl.source import Origin
@@ -270,10 +272,35 @@ class Actions:
         elif _reads(back, statement.signal):
             raise CannotSayError("an output that changes later to the opposite of what it is")
         name = printer.output.fresh("output_later")
-        set_back = self.assignment(ir.Assign(statement.signal, back))
-        sleep = f"  sleep({self.expressions.measured(delay, 's')})"
-        printer.output.threads.append((f"thread {name}():", sleep, f"  {set_back}", "end"))
-        printer.more(f"run {name}()")
+        change, delay, begun = self.as_begun(ir.Assign(statement.signal, back), delay)
+        try:
+            lines = (f"  sleep({self.expressions.measured(delay, 's')})", f"  {self.assignment(change)}")
+        finally:
+            self.expressions.scope = scope
+        printer.output.threads.append((f"thread {name}():", *begun, *lines, "end"))
+        printer.more(f"run {name}()", *(["sync()"] if begun else []))
+
+    def as_begun(self, change: ir.Assign, delay: ir.Expression) -> tuple[ir.Assign, ir.Expression, list[str]]:
+        """The change and its delay with copies of the variables that the thread takes as it begins, before the program
+        goes on (which gives it a step of the controller for that), and the lines that take them."""
+        scope, taken, lines = self.expressions.scope, {}, []
+        for node in all_expressions(change.target, change.value, delay):
+            symbol = scope.value(node.id) if isinstance(node, ir.Name) else None
+            if not isinstance(node, ir.Name) or node.id.lower() in taken or symbol is None:
+                continue
+            declared = symbol.declaration
+            if not isinstance(declared, ir.Variable) or declared.storage == "constant":
+                continue
+            copy = f"{node.id}_begun"
+            taken[node.id.lower()] = copy
+            lines.append(f"  local {copy} = {self.expressions.text(node)}")
+            self.expressions.scope = self.expressions.scope.with_value(replace(declared, name=copy))
+
+        def copied(node: object) -> object:
+            known = taken.get(node.id.lower()) if isinstance(node, ir.Name) else None
+            return node if known is None else ir.Name(known)
+
+        return rewrite(change, copied), rewrite(delay, copied), lines
 
     # ---- the operator
 

@@ -22,6 +22,13 @@ KEYS = code(
 TIMER_RUNS = code(
     "vplus-timer-runs", Severity.WARNING, "timers of V+ cannot be stopped; what is read later is the time until then"
 )
+ONE_PULSE = code(
+    "vplus-one-pulse",
+    Severity.WARNING,
+    "the output of this pulse is computed: task {task} ends it, and another one of this statement can only begin when"
+    " that has ended (a program that runs is not executed again)",
+    "give each output a statement of its own",
+)
 SENDER = code("vplus-sender", Severity.WARNING, "a message has no sender in V+; its name is left out")
 WATCHED = code(
     "vplus-watched",
@@ -413,6 +420,8 @@ class Actions:
         if _is_number(then) and _is_number(time):
             self.printer.line(f"EXECUTE {task} {output.later(then, time)}()")
             return
+        if not _is_number(then):
+            self.printer.diagnostics.report(ONE_PULSE, statement.origin, task=task)
         self.printer.line(f"EXECUTE {task} rpl.later({_by_value(then)}, {_by_value(time)})")
         self.expressions.notes.helpers.add("rpl.later")
 
