@@ -7,7 +7,7 @@ from typing import Protocol
 
 from rpl import ir
 from rpl.ir.walk import expressions as all_expressions
-from rpl.ir.walk import rewrite
+from rpl.passes.fold import constant
 from rpl.passes.legalise.jumps import opposite
 from rpl.passes.typewords import component_names, word_type
 from rpl.source import Origin
@@ -271,6 +271,8 @@ class Actions:
             back = statement.value  # the other way round, and back again
         elif _reads(back, statement.signal):
             raise CannotSayError("an output that changes later to the opposite of what it is")
+        if isinstance(statement, ir.Pulse) and any(isinstance(node, ir.Call) for node in all_expressions(statement)):
+            raise CannotSayError("a pulse by a function, which would be called twice")
         name = printer.output.fresh("output_later")
         change, delay, begun = self.as_begun(ir.Assign(statement.signal, back), delay)
         try:
@@ -281,26 +283,36 @@ class Actions:
         printer.more(f"run {name}()", *(["sync()"] if begun else []))
 
     def as_begun(self, change: ir.Assign, delay: ir.Expression) -> tuple[ir.Assign, ir.Expression, list[str]]:
-        """The change and its delay with copies of the variables that the thread takes as it begins, before the program
-        goes on (which gives it a step of the controller for that), and the lines that take them."""
-        scope, taken, lines = self.expressions.scope, {}, []
-        for node in all_expressions(change.target, change.value, delay):
-            symbol = scope.value(node.id) if isinstance(node, ir.Name) else None
-            if not isinstance(node, ir.Name) or node.id.lower() in taken or symbol is None:
-                continue
-            declared = symbol.declaration
-            if not isinstance(declared, ir.Variable) or declared.storage == "constant":
-                continue
-            copy = f"{node.id}_begun"
-            taken[node.id.lower()] = copy
-            lines.append(f"  local {copy} = {self.expressions.text(node)}")
-            self.expressions.scope = self.expressions.scope.with_value(replace(declared, name=copy))
+        """The change and its delay by what the thread takes as it begins, before the program goes on (which gives it a
+        step of the controller for that), and the lines that take it. The scope knows these values until it is put
+        back."""
+        lines: list[str] = []
 
-        def copied(node: object) -> object:
-            known = taken.get(node.id.lower()) if isinstance(node, ir.Name) else None
-            return node if known is None else ir.Name(known)
+        def begun(value: ir.Expression, stem: str) -> ir.Expression:
+            if constant(value, self.expressions.scope) is not None:
+                return value
+            type = self.expressions.type(value)
+            if type is None:
+                raise CannotSayError("an output that changes later by a value whose type is not known")
+            name = self.printer.output.fresh(stem)
+            lines.append(f"  local {name} = {self.expressions.text(value)}")
+            self.expressions.scope = self.expressions.scope.with_value(ir.Variable(name, type, scope="routine"))
+            return ir.Name(name)
 
-        return rewrite(change, copied), rewrite(delay, copied), lines
+        signal, value = change.target, change.value
+        match signal:
+            case ir.Signal(index=index, last=last):
+                first = begun(index, "number") if index is not None else None
+                signal = replace(signal, index=first, last=begun(last, "last") if last is not None else None)
+            case ir.System(indices=indices):
+                signal = replace(signal, indices=tuple(begun(index, "number") for index in indices))
+            case ir.Name():
+                pass
+            case _:
+                raise CannotSayError("an output that changes later and is neither a signal nor a name")
+        value = ir.Unary("not", signal) if value == ir.Unary("not", change.target) else begun(value, "level")
+        seconds = begun(self.expressions.in_unit(delay, "s"), "seconds")
+        return ir.Assign(signal, value), ir.Quantity(seconds, "s"), lines
 
     # ---- the operator
 
