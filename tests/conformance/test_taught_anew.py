@@ -151,3 +151,55 @@ def test_points_that_happen_to_be_equal_stay_two_points() -> None:
     text = text.replace("  ENDPROC", "    MoveL pPlace,v100,fine,tGrip;\n  ENDPROC")
     job = there_and_back({"m.mod": text}, "rapid", "inform", ARMS["rapid"]).text
     assert "MOVL C00000 " in job and "MOVL C00001 " in job
+
+
+HEAD = """DEF main()
+  BAS(#INITMOV,0)
+  $TOOL=$NULLFRAME
+  $BASE=$NULLFRAME
+  $VEL.CP=0.5
+  PTP {A1 0,A2 -90,A3 90,A4 0,A5 90,A6 0}
+%s
+END
+"""
+DATA = "DEFDAT main\nDECL E6POS xPick={X 500,Y 100,Z 250,A 0,B 180,C 0,S 2,T 3}\nENDDAT\n"
+ARC = "CIRC xPick:{X 50,Y -20,Z 0,A 0,B 0,C 0},xPick:{X 100,Y 0,Z 0,A 0,B 0,C 0}"
+NAMED = ["taught-value-written"]
+# moves, how far each ends beside its old place when the point is taught 40 mm farther, what is said where it is not so
+FOLLOWING = {
+    "what a place leaves out": ("LIN xPick\nLIN {Z 300}\nLIN {X 450}\nLIN {Y 20}", [0, 40, 40, 40, 0], ()),
+    "what a joint move leaves out": ("PTP xPick\nPTP {Z 300}\nLIN {Z 350}", [0, 40, 40, 40], ("vplus",)),
+    "behind a computed place": ("LIN xPick:{X 0,Y 0,Z -100,A 0,B 0,C 0}\nLIN {X 450}", [0, 40, 40], ()),
+    "a way that turns": ("LIN xPick\nLIN_REL {Z 30,A 10}\nLIN_REL {Z -20,C 5} #TOOL", [0, 40, 40, 40], ()),
+    "an arc by an angle": (f"LIN xPick\n{ARC},CA 270", [0, 40, 40], ("tp", "vplus")),
+    "an arc": (f"LIN xPick\n{ARC}", [0, 40, 40], ()),
+}
+
+
+@pytest.mark.parametrize("target", ["urscript", "vplus", "inform", "tp", "rapid"])
+@pytest.mark.parametrize("name", FOLLOWING)
+def test_what_rests_on_a_taught_point_follows_or_is_named(name: str, target: str) -> None:
+    moves, wanted, stays = FOLLOWING[name]
+    journey = there_and_back({"main.src": HEAD % moves, "main.dat": DATA}, "krl", target, ARMS["krl"])
+    said = [item.code.name for item in journey.found if item.code.name in NAMED]
+    assert bool(said) == (target in stays), said
+    if said:
+        assert all("xPick" in item.message and item.origin.line for item in journey.found if item.code.name in NAMED)
+        return
+    written = texts(journey)
+    pattern, new = TAUGHT[target]
+    before = ends(written, target, ARMS["krl"])
+    after = ends({name: re.sub(pattern, new, text) for name, text in written.items()}, target, ARMS["krl"])
+    moved = [round(late - early) for early, late in zip(before, after, strict=True)]
+    assert not journey.losses and (moved[:1], moved[-1], set(moved)) == ([0], wanted[-1], set(wanted)), journey.text
+
+
+@pytest.mark.parametrize("target", ["rapid", "tp", "vplus", "inform"])
+def test_joints_that_are_worked_out_of_a_taught_place_are_named(target: str) -> None:
+    text = (
+        "def main():\n  global pick = p[0.5, 0.1, 0.25, 0, 3.141592654, 0]\n  movej([0,-1.57,1.57,-1.57,-1.57,0],a=1,v=1)\n"
+        "  movej(get_inverse_kin(pick,qnear=[0,-1.57,1.57,-1.57,-1.57,0]),a=1,v=1)\nend\n"
+    )
+    found = there_and_back({"main.script": text}, "urscript", target, "ur10e").found
+    (one,) = [item for item in found if item.code.name in NAMED]
+    assert "pick" in one.message and one.origin.line == 4

@@ -43,7 +43,9 @@ class _Composed(Rewriter):
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
         if isinstance(statement, ir.Move) and self.context.capabilities.move_functions:
             target = self.at_move(statement.target)
-            via = None if statement.via is None else self.at_move(statement.via)
+            both = isinstance(target, ir.Binary | ir.Builtin)  # a move says from where one of its places is seen
+            seen = self.expression if both and self.product else self.at_move
+            via = None if statement.via is None else seen(statement.via)
             (done,) = super().statement(replace(statement, target=ir.IntLiteral(0), via=None))
             return [replace(done, target=target, via=via)] if isinstance(done, ir.Move) else [done]
         return super().statement(statement)

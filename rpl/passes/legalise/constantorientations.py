@@ -18,6 +18,7 @@ from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.fixedarcs import FixedArcs, is_fixed
+from rpl.passes.legalise.taughtvalues import WRITTEN, taught_names
 from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.rigid import NO_TURN, Pose, Rotation
@@ -62,10 +63,12 @@ class _State:
 
     mode: str = ""
     last: Rotation | None = None
+    taught: tuple[str, ...] = ()  # taught data that decides the orientation
 
     def met(self, other: _State) -> _State:
         same = self.last is not None and other.last is not None and _same(self.last, other.last)
-        return _State(self.mode if self.mode == other.mode else "", self.last if same else None)
+        taught = tuple(sorted({*self.taught, *other.taught}))
+        return _State(self.mode if self.mode == other.mode else "", self.last if same else None, taught)
 
 
 @dataclass(slots=True)
@@ -154,7 +157,7 @@ class _Paths:
         met = ends[0]
         for end in ends[1:]:
             met = met.met(end)
-        state.mode, state.last = met.mode, met.last
+        state.mode, state.last, state.taught = met.mode, met.last, met.taught
         return statement
 
     def loop(self, statement: ir.Statement, body: ir.Body, state: _State) -> ir.Statement:
@@ -164,7 +167,7 @@ class _Paths:
             after = replace(state)
             self.body(body, after)
             met = state.met(after)
-            state.mode, state.last = met.mode, met.last
+            state.mode, state.last, state.taught = met.mode, met.last, met.taught
         self.reports = outer
         inside = replace(state)
         new = self.body(body, inside)
@@ -199,8 +202,9 @@ class _Paths:
         there = (
             value.pose.rotation if isinstance(value, Target) else value.rotation if isinstance(value, Pose) else None
         )
+        names = () if self.scope is None else tuple(taught_names(self.scope, move.target))
         if mode != "constant" or move.kind not in ("linear", "circular"):
-            state.last = there
+            state.last, state.taught = there, names
             return move
         start = state.last
         if start is None or there is None or is_fixed(move):
@@ -214,6 +218,9 @@ class _Paths:
         if _same(start, there):
             return move
         assert isinstance(value, Target | Pose)  # there is a rotation
+        if self.reports and (names or state.taught):
+            shown = ", ".join(sorted({*names, *state.taught}))
+            self.context.diagnostics.report(WRITTEN, move.origin, what="the end of this path", names=shown)
         return replace(move, target=_written(value, start))
 
     def unturned(self, move: ir.Move) -> ir.Move:

@@ -18,6 +18,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.taughtvalues import tell_written
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.legalise.whereabouts import Whereabouts
 from rpl.passes.values import Target, real
@@ -132,8 +133,8 @@ class _Free(Rewriter):
             return None
         return found[0]
 
-    @staticmethod
-    def to_joints(move: ir.Move, joints: Any) -> ir.Move:
+    def to_joints(self, move: ir.Move, joints: Any) -> ir.Move:
+        tell_written(self.context, self.scope, move.origin, "the joint values of this move", move.target)
         entries = tuple((name, real(round(float(one), 9))) for name, one in zip(_AXES, joints, strict=False))
         return replace(move, target=ir.Aggregate(entries, type_name="joints"))
 

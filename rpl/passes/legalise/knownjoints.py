@@ -13,6 +13,7 @@ from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.taughtvalues import tell_written
 from rpl.passes.legalise.walk import Rewriter, unchanged_in
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.values import Record, Target, component, pose_of, real
@@ -48,6 +49,7 @@ class _Known(Rewriter):
             ):
                 found = self.solved(given, _SOLVED[function])
                 if found is not None:
+                    tell_written(self.context, self.scope, expression.origin, "these joint values", *given)
                     entries = tuple((name, real(round(float(one), 9))) for name, one in zip(_AXES, found, strict=False))
                     return ir.Aggregate(entries, type_name="joints", origin=expression.origin)
         return rewrite_parts(expression, self.expression)

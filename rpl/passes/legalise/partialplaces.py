@@ -1,23 +1,26 @@
 """Targets of some components behind a move that ends at a known place, for targets whose moves want whole places.
 
-What is left out stays as it was where the last move ended. Where those components are known (taught or written data
-that nothing assigns), they are written into the target. What is not known is left for `whole_targets`, which takes it
-from the robot.
+What is left out stays as it was where the last move ended. Where those components are known, they are written into the
+target: as numbers where these stand in the program, as the place with the given components changed where a taught place
+decides them, so that a place that is taught anew takes them along. What is not known is left for `whole_targets`, which
+takes it from the robot.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.ir.walk import walk
-from rpl.passes.fold import constant, constant_number
+from rpl.passes.fold import constant, constant_number, lasting
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies
+from rpl.passes.legalise.taughtvalues import WRITTEN, taught_names
 from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.rigid import Pose
 from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.typing import type_of
 from rpl.passes.values import Target, real
 
 _POSITION = ("x", "y", "z")
@@ -27,14 +30,33 @@ _FRAMES = ("tool", "base", "robot_root", "interpolation")
 _PLACES = 9
 _BLOCKS = (ir.While, ir.For, ir.Loop, ir.Repeat)
 
-Known = dict[str, float]  # components of the last commanded place, seen in the frame in force: mm, degrees
+
+@dataclass(slots=True)
+class Known:
+    """The last commanded place, seen in the frame in force: its components (mm, degrees), and the taught data that
+    decides them. `place`: an expression that gives the whole of it in a run. `joint`: a joint move went there, so that
+    its posture is the one that a place says."""
+
+    parts: dict[str, float] = field(default_factory=dict)
+    taught: tuple[str, ...] = ()
+    place: ir.Expression | None = None
+    joint: bool = False
+
+    def copy(self) -> Known:
+        return replace(self, parts=dict(self.parts))
+
+    def become(self, other: Known) -> None:
+        self.parts, self.taught, self.place, self.joint = other.parts, other.taught, other.place, other.joint
+
+    def has(self, names: tuple[str, ...]) -> bool:
+        return all(name in self.parts for name in names)
 
 
 def partial_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without places of some components."""
     if context.capabilities.partial_targets or not any(_is_partial_move(node) for node in walk(program)):
         return program
-    return _Places(program).program()
+    return _Places(program, context).program()
 
 
 def _is_partial_move(node: object) -> bool:
@@ -56,10 +78,11 @@ def _by_components(place: ir.Aggregate) -> bool:
 
 
 class _Places:
-    def __init__(self, program: ir.Program) -> None:
-        self.source = program
+    def __init__(self, program: ir.Program, context: Context) -> None:
+        self.source, self.context = program, context
         self.unchanged, self.moving = unchanged_in(program), moving_routines(program)
         self.scope: Scope | None = None
+        self.declared: list[ir.Declaration] = []
 
     def program(self) -> ir.Program:
         scopes = ProgramScope(self.source)
@@ -67,72 +90,117 @@ class _Places:
         for module in self.source.modules:
             routines = []
             for routine in module.routines:
-                self.scope = scopes.routine(module, routine)
-                routines.append(edit_bodies(routine, lambda body: self.body(body, {})))
+                self.scope, self.declared = scopes.routine(module, routine), []
+                done = edit_bodies(routine, lambda body: self.body(body, Known()))
+                routines.append(replace(done, declarations=(*done.declarations, *self.declared)))
             modules.append(replace(module, routines=tuple(routines)))
         return replace(self.source, modules=tuple(modules))
 
     def body(self, body: ir.Body, known: Known) -> ir.Body:
         """The body; `known` becomes what is known behind it."""
-        return tuple(self.statement(statement, known) for statement in body)
+        return tuple(one for statement in body for one in self.statement(statement, known))
 
-    def statement(self, statement: ir.Statement, known: Known) -> ir.Statement:
+    def statement(self, statement: ir.Statement, known: Known) -> ir.Body:
         if isinstance(statement, ir.Move):
-            done = self.filled(statement, known)
-            found = self.behind(done, known)
-            known.clear()
-            known.update(found)
-            return done
+            *first, done = self.filled(statement, known)
+            assert isinstance(done, ir.Move)  # `filled` ends with it
+            known.become(self.behind(done, known))
+            return (*first, done)
         stays = not may_move(statement, self.moving)
         if isinstance(statement, _BLOCKS):
-            inside: Known = dict(known) if stays else {}
+            inside = known.copy() if stays else Known()
             new = self.body(statement.body, inside)
             statement = rewrite_parts(statement, lambda value: value, None, {"body": new})
         else:
-            statement = rewrite_parts(statement, lambda value: value, lambda body: self.body(body, dict(known)))
+            statement = rewrite_parts(statement, lambda value: value, lambda body: self.body(body, known.copy()))
         if not stays:
-            known.clear()
-        return statement
+            known.become(Known())
+        return (statement,)
 
-    def filled(self, move: ir.Move, known: Known) -> ir.Move:
-        """The move with the components that are known."""
+    def filled(self, move: ir.Move, known: Known) -> list[ir.Statement]:
+        """The move with the components that are known, behind what works them out."""
         if move.relative is not None or _own_frame(move):
-            return move
-        via = None if move.via is None else _with(move.via, known)
-        return replace(move, target=_with(move.target, known), via=via)
+            return [move]
+        steps: list[ir.Statement] = []
+        via = None if move.via is None else self.whole(move.via, move, known, steps)
+        target = self.whole(move.target, move, known, steps)
+        if steps:
+            steps = [replace(steps[0], origin=move.origin), *steps[1:]]
+            move = replace(move, origin=replace(move.origin, comments=()))
+        return [*steps, replace(move, target=target, via=via)]
+
+    def whole(self, place: ir.Expression, move: ir.Move, known: Known, steps: list[ir.Statement]) -> ir.Expression:
+        """A written place with those of its missing components that are known, if that makes it whole."""
+        missing = _missing(place)
+        if not missing or not isinstance(place, ir.Aggregate) or not known.has(missing):
+            return place
+        later = replace(move.origin, comments=())
+        type = None if known.place is None or self.scope is None else type_of(known.place, self.scope)
+        postured = known.joint or move.kind != "joint"
+        if known.taught and known.place is not None and postured and isinstance(type, ir.PoseType | ir.TargetType):
+            name = ir.Name(self.context.fresh("rpl_here"))
+            self.declare(ir.Variable(name.id, type, scope="routine"))
+            steps.append(ir.Assign(name, known.place, origin=later))
+            parts = ((part, value) for part, value in place.entries if part is not None)
+            steps += [ir.Assign(ir.Field(name, part), value, origin=later) for part, value in parts]
+            return name
+        if known.taught:
+            what = "what this place leaves out"
+            self.context.diagnostics.report(WRITTEN, move.origin, what=what, names=", ".join(known.taught))
+        given = dict(place.entries)
+        entries = tuple((name, given.get(name) or real(known.parts[name])) for name in _NAMES)
+        rest = tuple((name, value) for name, value in place.entries if name not in _NAMES)
+        return replace(place, entries=(*entries, *rest))
+
+    def declare(self, variable: ir.Variable) -> None:
+        assert self.scope is not None  # a routine is being looked at
+        self.declared.append(variable)
+        self.scope = self.scope.with_value(variable)
 
     def behind(self, move: ir.Move, known: Known) -> Known:
         """What is known where the move ends."""
         if move.search is not None or move.swept is not None or _own_frame(move) or self.scope is None:
-            return {}
+            return Known()
         if isinstance(move.target, ir.Aggregate) and (move.relative is not None or _by_components(move.target)):
             return self.changed(move, move.target, known)
         if move.relative is not None:
-            return {}
+            return Known()
+        joint = move.kind == "joint"
+        if any(isinstance(one, ir.Variable) and move.target == ir.Name(one.name) for one in self.declared):
+            return self.changed_copy(move, known, joint)
         value = constant(move.target, self.scope, self.unchanged)
         pose = value.pose if isinstance(value, Target) else value
         if not isinstance(pose, Pose):
-            return {}
+            return Known()
         place = (pose.position.x, pose.position.y, pose.position.z, *pose.rotation.zyx)
-        return {name: round(number, _PLACES) for name, number in zip(_NAMES, place, strict=True)}
+        parts = {name: round(number, _PLACES) for name, number in zip(_NAMES, place, strict=True)}
+        if lasting(move.target, self.scope) is not None:
+            return Known(parts, joint=joint)
+        return Known(parts, tuple(taught_names(self.scope, move.target)), move.target, joint)
+
+    def changed_copy(self, move: ir.Move, known: Known, joint: bool) -> Known:
+        """Behind a move to a place that was made here: its components may be any numbers, the place gives them."""
+        return Known(dict.fromkeys(_NAMES, 0.0), known.taught, move.target, joint and known.joint)
 
     def changed(self, move: ir.Move, place: ir.Aggregate, known: Known) -> Known:
         """Components that are set, or added to those of the last place."""
         assert self.scope is not None  # the caller has asked
         if (place.type_name or "").startswith("joints"):
-            return {}
+            return Known()
         given = {name: constant_number(value, self.scope, self.unchanged) for name, value in place.entries if name}
+        taught = tuple(sorted({*known.taught, *taught_names(self.scope, place)}))
         if move.relative is None:
-            found = {**known, **{name: value for name, value in given.items() if name in _NAMES and value is not None}}
-            return {name: value for name, value in found.items() if given.get(name, value) is not None}
+            found = {**known.parts, **{n: value for n, value in given.items() if n in _NAMES and value is not None}}
+            found = {name: value for name, value in found.items() if given.get(name, value) is not None}
+            return Known(found, () if set(_NAMES) <= given.keys() and not taught_names(self.scope, place) else taught)
         turned = any(given.get(name, 0.0) != 0.0 for name in _ANGLES)
-        found = {} if turned else {name: value for name, value in known.items() if name in _ANGLES}
+        found = {} if turned else {name: value for name, value in known.parts.items() if name in _ANGLES}
         if move.relative == "base":
             for name in _POSITION:
                 step = given.get(name, 0.0)
-                if step is not None and name in known:
-                    found[name] = known[name] + step
-        return found
+                if step is not None and name in known.parts:
+                    found[name] = known.parts[name] + step
+        return Known(found, taught)
 
 
 def may_move(statement: ir.Statement, moving: set[str]) -> bool:
@@ -154,17 +222,6 @@ def _own_frame(move: ir.Move) -> bool:
     """Is the place of the move seen otherwise than that of the moves around it?"""
     set_here = any(not isinstance(one, ir.System) or one.name in _FRAMES for one, _ in move.settings)
     return set_here or move.tool is not None or move.frame is not None or move.group != 1
-
-
-def _with(place: ir.Expression, known: Known) -> ir.Expression:
-    """A written place with those of its missing components that are known, if that makes it whole."""
-    missing = _missing(place)
-    if not missing or not isinstance(place, ir.Aggregate) or not all(name in known for name in missing):
-        return place
-    given = dict(place.entries)
-    whole = tuple((name, given.get(name) or real(known[name])) for name in _NAMES)
-    rest = tuple((name, value) for name, value in place.entries if name not in _NAMES)
-    return replace(place, entries=(*whole, *rest))
 
 
 def _sets_frame(target: ir.Expression) -> bool:

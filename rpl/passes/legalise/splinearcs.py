@@ -20,6 +20,7 @@ from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.curvepoints import AS_POINTS, SAME_CURVE_MM, apart, through_points
 from rpl.passes.legalise.partialplaces import may_move
+from rpl.passes.legalise.taughtvalues import tell_written
 from rpl.passes.rigid import Pose, Rotation, Vector
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import type_word
@@ -95,7 +96,10 @@ class SplineArcs:
         if not self._known_modes([start, *(leg.end for leg in legs)], spline):
             return None
         points = self._points(spline, moves, before, curve)
+        last = next((one for one in reversed(before) if isinstance(one, ir.Move)), None)
+        begins = last.target if last is not None else None
         if points is not None:
+            tell_written(self.context, self.scope, spline.origin, "where this curve begins", begins)
             return points
         found = _pieces(runs)
         if found is None:
@@ -104,6 +108,8 @@ class SplineArcs:
         triggers = self._triggers(spline, pieces)
         if triggers is None:
             return None
+        rests_on = [begins, *(one for move in moves for one in (move.target, move.via))]
+        tell_written(self.context, self.scope, spline.origin, "this curve", *rests_on)
         self.context.diagnostics.report(AS_ARCS, spline.origin, count=len(pieces), deviation=max(deviation, 0.001))
         if _blends(before):
             self.context.diagnostics.report(SMALLER_CORNER, spline.origin, size=0.5 * pieces[0].length)

@@ -13,7 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes import rigid
-from rpl.passes.fold import Unchanged, constant, constant_number
+from rpl.passes.fold import Unchanged, constant, constant_number, lasting
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.editing import edit_bodies, map_body
 from rpl.passes.legalise.jumps import inside
@@ -196,7 +196,7 @@ class Whole:
 
     def folded(self, start: ir.Expression | None, target: ir.Aggregate, adds: bool) -> ir.Aggregate | None:
         """Joint values with those of the target in their places, where all are constants."""
-        value = None if start is None else constant(start, self.scope, self.unchanged)
+        value = None if start is None else lasting(start, self.scope)
         if not isinstance(value, Record):
             return None
         axes = {name: part for name, part in value.parts if isinstance(part, int | float)}

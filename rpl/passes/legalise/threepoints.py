@@ -17,7 +17,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes import rigid
-from rpl.passes.fold import Unchanged, constant, constant_number
+from rpl.passes.fold import Unchanged, constant, constant_number, lasting
 from rpl.passes.legalise.arcends import COMPUTED, computed_arc
 from rpl.passes.legalise.arctriggers import placeable, shared_out
 from rpl.passes.legalise.circles import has_arcs
@@ -25,6 +25,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.modalflow import Flow
+from rpl.passes.legalise.taughtvalues import tell_written
 from rpl.passes.legalise.usage import base_name
 from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.typewords import type_word
@@ -227,6 +228,8 @@ class _Arcs:
         if circle is None or angle == 0.0:
             return self.lost(move, "its points fix no circle")
         count = 1 if abs(angle) < 360.0 else _parts_of(angle)
+        if self.follows(move, count):
+            return self.computed(move, angle)
         if count == 1:
             return self.look(_to(move, circle, angle, end.rotation, self.context.source), self.rule(move))
         rule = self.rule(move)
@@ -236,6 +239,19 @@ class _Arcs:
             return self.lost(move, "it goes around, and actions or a search belong to it")
         rotations = circle.rotations(angle, start.rotation, end.rotation, rule == "path")
         return self.parts(move, circle, angle, count, rotations)
+
+    def follows(self, move: ir.Move, count: int) -> bool:
+        """Is the end of this arc better computed in the run, because its points are taught? Not where the arc is
+        written in parts, or where how the tool turns on the way hangs on where the end is."""
+        assert self.last is not None and move.via is not None  # the caller knows all three points
+        points = (self.last.target, move.via, move.target)
+        if all(lasting(one, self.editor.scope) is not None for one in points):
+            return False
+        own = "circle_orientation" in self.context.capabilities.system_variables
+        if count == 1 and _steady(self.last.target) and (own or self.rule(move) == _default(self.context.target)):
+            return True
+        tell_written(self.context, self.editor.scope, move.origin, "the end of this arc", *points)
+        return False
 
     def computed(self, move: ir.Move, angle: float) -> ir.Body:
         """The arc to a point that the program computes."""

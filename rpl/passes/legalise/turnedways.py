@@ -12,7 +12,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes import rigid
-from rpl.passes.fold import Unchanged, constant
+from rpl.passes.fold import Unchanged, constant, lasting
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.explicit import usual_places
@@ -88,7 +88,8 @@ class _Turned(Whole):
             start = here(replace(move, tool=move.tool or tool, frame=move.frame or frame))
         known, way = self.pose(start), self.way(move.target)
         shift = self.pose(way)
-        if known is not None and shift is not None:
+        steady = lasting(start, self.scope) is not None and lasting(way, self.scope) is not None
+        if known is not None and shift is not None and steady:
             return [replace(move, target=self.goal(known, shift, move), relative=None)]
         later = replace(move.origin, comments=())
         if move.relative == "tool":

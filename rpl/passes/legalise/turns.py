@@ -16,6 +16,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.taughtvalues import tell_written
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.legalise.whereabouts import Joints, Stand, Whereabouts
 from rpl.passes.scope import Scope
@@ -122,8 +123,8 @@ class _Turns(Rewriter):
         """Axes that the program turns so far that the shortest way from one end to the other is not the way back."""
         return sorted({*self.others(None, self.low), *self.others(None, self.high)})
 
-    @staticmethod
-    def to_joints(move: ir.Move, joints: Joints) -> ir.Move:
+    def to_joints(self, move: ir.Move, joints: Joints) -> ir.Move:
+        tell_written(self.context, self.scope, move.origin, "the joint values of this move", move.target)
         entries = tuple((name, real(round(one, 9))) for name, one in zip(_AXES, joints, strict=False))
         return replace(move, target=ir.Aggregate(entries, type_name="joints"))
 
