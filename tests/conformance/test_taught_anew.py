@@ -197,7 +197,8 @@ def test_what_rests_on_a_taught_point_follows_or_is_named(name: str, target: str
 @pytest.mark.parametrize("target", ["rapid", "tp", "vplus", "inform"])
 def test_joints_that_are_worked_out_of_a_taught_place_are_named(target: str) -> None:
     text = (
-        "def main():\n  global pick = p[0.5, 0.1, 0.25, 0, 3.141592654, 0]\n  movej([0,-1.57,1.57,-1.57,-1.57,0],a=1,v=1)\n"
+        "def main():\n  global pick = p[0.5, 0.1, 0.25, 0, 3.141592654, 0]\n"
+        "  movej([0,-1.57,1.57,-1.57,-1.57,0],a=1,v=1)\n"
         "  movej(get_inverse_kin(pick,qnear=[0,-1.57,1.57,-1.57,-1.57,0]),a=1,v=1)\nend\n"
     )
     found = there_and_back({"main.script": text}, "urscript", target, "ur10e").found
