@@ -38,13 +38,21 @@ SUBMIT = "DEF sps()\nWAIT FOR $IN[9]\nEND\n"
 
 
 def filled(lines: str) -> list[bool]:
-    """Of each move whose target is written by components: are all six there behind the pass?"""
+    """Of each move whose target is written by components: is it a whole place behind the pass, as numbers or as a copy
+    of the place before in which these components are set?"""
     sources = [source_from_text("a.src", f"{HEAD}{lines}\n{REST}"), source_from_text("a.dat", DATA)]
     program = normalise(read_sources(sources, "krl", Diagnostics()).program, Diagnostics())
     context = Context("krl", "rapid", registry.target("rapid").capabilities(), Diagnostics())
-    targets = [node.target for node in walk(partial_places(program, context)) if isinstance(node, ir.Move)]
-    written = [one for one in targets if isinstance(one, ir.Aggregate) and one.type_name != "joints"]
-    return [{"x", "y", "z", "a", "b", "c"} <= {name for name, _ in one.entries} for one in written]
+    before = [node.target for node in walk(program) if isinstance(node, ir.Move)]
+    after = [node.target for node in walk(partial_places(program, context)) if isinstance(node, ir.Move)]
+    parts = [isinstance(one, ir.Aggregate) and one.type_name != "joints" for one in before]
+    whole = [
+        isinstance(one, ir.Name) or {"x", "y", "z", "a", "b", "c"} <= {name for name, _ in one.entries}
+        for one, asked in zip(after, parts, strict=True)
+        if asked and isinstance(one, ir.Name | ir.Aggregate)
+    ]
+    assert len(whole) == sum(parts)
+    return whole
 
 
 CASES = {
@@ -57,7 +65,7 @@ CASES = {
     "around a loop": ("PTP XP\nFOR I=1 TO 2\nLIN {Y 50.0}\nLIN XP\nENDFOR\nLIN {Y 40.0}", [False, False]),
     "a computed component": (
         "H=300.0\nPTP XP\nLIN {Z H}\nLIN {X 500.0,Y 9.0,Z 310.0}\nLIN {Z H}\nLIN {Y 5.0}",
-        [True, True, True, False],
+        [True, True, True, True],  # the copy of the taught place keeps what H was
     ),
     "steps": (
         "PTP XP\nLIN_REL {X 10.0}\nLIN {Y 50.0}\nLIN_REL {X 10.0} #TOOL\nLIN {Y 40.0}",

@@ -28,6 +28,7 @@ _ANGLES = ("a", "b", "c")
 _NAMES = (*_POSITION, *_ANGLES)
 _FRAMES = ("tool", "base", "robot_root", "interpolation")
 _PLACES = 9
+_STRAIGHT_DEG = 0.01
 _BLOCKS = (ir.While, ir.For, ir.Loop, ir.Repeat)
 
 
@@ -50,6 +51,12 @@ class Known:
 
     def has(self, names: tuple[str, ...]) -> bool:
         return all(name in self.parts for name in names)
+
+    def splits(self, missing: tuple[str, ...]) -> bool:
+        """Do the angles that a copy of the place keeps stay what they are when others are set? At b = 90 degrees a and
+        c turn about the same axis, and controllers share the turn out otherwise."""
+        kept = [name for name in _ANGLES if name in missing]
+        return len(kept) in (0, 3) or abs(abs(self.parts.get("b", 90.0)) - 90.0) > _STRAIGHT_DEG
 
 
 def partial_places(program: ir.Program, context: Context) -> ir.Program:
@@ -104,7 +111,7 @@ class _Places:
         if isinstance(statement, ir.Move):
             *first, done = self.filled(statement, known)
             assert isinstance(done, ir.Move)  # `filled` ends with it
-            known.become(self.behind(done, known))
+            known.become(self.behind(done, statement.target, known))
             return (*first, done)
         stays = not may_move(statement, self.moving)
         if isinstance(statement, _BLOCKS):
@@ -132,18 +139,20 @@ class _Places:
     def whole(self, place: ir.Expression, move: ir.Move, known: Known, steps: list[ir.Statement]) -> ir.Expression:
         """A written place with those of its missing components that are known, if that makes it whole."""
         missing = _missing(place)
-        if not missing or not isinstance(place, ir.Aggregate) or not known.has(missing):
+        if not missing or not isinstance(place, ir.Aggregate):
             return place
         later = replace(move.origin, comments=())
         type = None if known.place is None or self.scope is None else type_of(known.place, self.scope)
-        postured = known.joint or move.kind != "joint"
-        if known.taught and known.place is not None and postured and isinstance(type, ir.PoseType | ir.TargetType):
+        fits = (known.joint or move.kind != "joint") and known.splits(missing)
+        if known.taught and known.place is not None and fits and isinstance(type, ir.PoseType | ir.TargetType):
             name = ir.Name(self.context.fresh("rpl_here"))
             self.declare(ir.Variable(name.id, type, scope="routine"))
             steps.append(ir.Assign(name, known.place, origin=later))
             parts = ((part, value) for part, value in place.entries if part is not None)
             steps += [ir.Assign(ir.Field(name, part), value, origin=later) for part, value in parts]
             return name
+        if not known.has(missing):
+            return place
         if known.taught:
             what = "what this place leaves out"
             self.context.diagnostics.report(WRITTEN, move.origin, what=what, names=", ".join(known.taught))
@@ -157,8 +166,8 @@ class _Places:
         self.declared.append(variable)
         self.scope = self.scope.with_value(variable)
 
-    def behind(self, move: ir.Move, known: Known) -> Known:
-        """What is known where the move ends."""
+    def behind(self, move: ir.Move, asked: ir.Expression, known: Known) -> Known:
+        """What is known where the move ends. `asked`: its target as the program has it."""
         if move.search is not None or move.swept is not None or _own_frame(move) or self.scope is None:
             return Known()
         if isinstance(move.target, ir.Aggregate) and (move.relative is not None or _by_components(move.target)):
@@ -166,8 +175,9 @@ class _Places:
         if move.relative is not None:
             return Known()
         joint = move.kind == "joint"
-        if any(isinstance(one, ir.Variable) and move.target == ir.Name(one.name) for one in self.declared):
-            return self.changed_copy(move, known, joint)
+        if isinstance(asked, ir.Aggregate) and isinstance(move.target, ir.Name):
+            copied = self.changed(move, asked, known)  # a variable that was made here gives the place
+            return replace(copied, taught=copied.taught or known.taught, place=move.target, joint=joint and known.joint)
         value = constant(move.target, self.scope, self.unchanged)
         pose = value.pose if isinstance(value, Target) else value
         if not isinstance(pose, Pose):
@@ -177,10 +187,6 @@ class _Places:
         if lasting(move.target, self.scope) is not None:
             return Known(parts, joint=joint)
         return Known(parts, tuple(taught_names(self.scope, move.target)), move.target, joint)
-
-    def changed_copy(self, move: ir.Move, known: Known, joint: bool) -> Known:
-        """Behind a move to a place that was made here: its components may be any numbers, the place gives them."""
-        return Known(dict.fromkeys(_NAMES, 0.0), known.taught, move.target, joint and known.joint)
 
     def changed(self, move: ir.Move, place: ir.Aggregate, known: Known) -> Known:
         """Components that are set, or added to those of the last place."""

@@ -15,21 +15,32 @@ from rpl.source import Origin
 WRITTEN = code(
     "taught-value-written",
     Severity.WARNING,
-    "{what} is worked out of {names} as taught now, and does not follow when that is taught anew on the target",
+    "{what}: worked out of {names} as taught now, and it stays where it is when that is taught anew on the target",
     "teach what is written here anew together with it",
 )
 
 
 def taught_names(scope: Scope, *expressions: ir.Expression | None) -> list[str]:
-    """Taught data of the program that the expressions name, in order of names."""
-    given = tuple(one for one in expressions if one is not None)
+    """Taught data of the program that decides what the expressions give, in order of names: what they name, and what
+    the numbers and records that they name begin with. What the language predefines is never taught."""
     found: set[str] = set()
-    for node in walk(*given):
-        if isinstance(node, ir.Name):
+    pending = [one for one in expressions if one is not None]
+    seen: set[str] = set()
+    while pending:
+        for node in walk(pending.pop()):
+            if not isinstance(node, ir.Name) or node.id in seen:
+                continue
+            seen.add(node.id)
             symbol = scope.value(node.id)
-            declaration = None if symbol is None else symbol.declaration
-            if isinstance(declaration, ir.Variable) and is_taught_type(declaration.type, scope):
+            if symbol is None or (symbol.module is None and symbol.routine is None):
+                continue
+            declaration = symbol.declaration
+            if not isinstance(declaration, ir.Variable):
+                continue
+            if is_taught_type(declaration.type, scope):
                 found.add(declaration.name)
+            elif declaration.initial is not None:
+                pending.append(declaration.initial)
     return sorted(found)
 
 

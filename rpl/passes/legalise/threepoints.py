@@ -25,11 +25,12 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.legalise.modalflow import Flow
+from rpl.passes.legalise.straightplaces import StraightPlaces
 from rpl.passes.legalise.taughtvalues import tell_written
 from rpl.passes.legalise.usage import base_name
 from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.typewords import type_word
-from rpl.passes.values import Target, real
+from rpl.passes.values import pose_of, real
 
 IN_PARTS = code(
     "arc-in-parts",
@@ -144,11 +145,13 @@ class _Arcs:
     last: ir.Move | None = None  # the move before, under the same tool and frame
     temporaries: dict[tuple[str, ir.Type], ir.Name] = field(default_factory=dict)
     pending: list[ir.Statement] = field(default_factory=list)  # the actions on the path in front of the arc at hand
+    places: StraightPlaces = field(default_factory=StraightPlaces)
 
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
-        self.last = None
+        self.last, self.places = None, StraightPlaces()
         for statement in body:
+            self.places.follow(statement, self.editor.scope, self.known)
             match statement:
                 case ir.Move(kind="circular", swept=swept) if swept is not None and self.without_angle:
                     self.pending = _taken(done)
@@ -176,7 +179,7 @@ class _Arcs:
                     pass
                 case _:
                     statement = inside(statement, self.body)
-                    self.last = None
+                    self.last, self.places = None, StraightPlaces()
             done.append(statement)
         return tuple(done)
 
@@ -203,6 +206,7 @@ class _Arcs:
         if circle is None:
             return (move,)
         angle = circle.angle(end.position)
+        assert self.last is not None  # its place is known
         rotations = circle.rotations(angle, start.rotation, end.rotation, ours == "path")
         splits = bool(ours) and self.placeable(move)
         apart = 0.0
@@ -212,7 +216,14 @@ class _Arcs:
                 break
         else:
             self.context.diagnostics.report(TURNS_OTHERWISE, move.origin, how=f"by {apart:.3g} degrees between")
+        if count > 1:
+            self.tell("the parts of this arc", move, self.last.target)
         return self.parts(move, circle, angle, count, rotations)
+
+    def tell(self, what: str, move: ir.Move, start: ir.Expression) -> None:
+        """Name the taught points that decide the numbers of an arc."""
+        points = self.places.rest_on(start, move.via, move.target)
+        tell_written(self.context, self.editor.scope, move.origin, what, *points)
 
     def arc(self, move: ir.Move, swept: ir.Expression) -> ir.Body:
         """The arc, or the arcs, without an angle."""
@@ -250,7 +261,7 @@ class _Arcs:
         own = "circle_orientation" in self.context.capabilities.system_variables
         if count == 1 and _steady(self.last.target) and (own or self.rule(move) == _default(self.context.target)):
             return True
-        tell_written(self.context, self.editor.scope, move.origin, "the end of this arc", *points)
+        self.tell("the end of this arc", move, self.last.target)
         return False
 
     def computed(self, move: ir.Move, angle: float) -> ir.Body:
@@ -337,9 +348,7 @@ class _Arcs:
         return known and not move.triggers and move.search is None
 
     def pose(self, expression: ir.Expression) -> rigid.Pose | None:
-        value = constant(expression, self.editor.scope, self.known)
-        value = value.pose if isinstance(value, Target) else value
-        return value if isinstance(value, rigid.Pose) else None
+        return pose_of(constant(expression, self.editor.scope, self.known, self.places.values))
 
     def lost(self, move: ir.Move, reason: str) -> ir.Body:
         self.context.diagnostics.report(NOT_KNOWN, move.origin, reason=reason)
