@@ -173,6 +173,13 @@ FOLLOWING = {
     "a way that turns": ("LIN xPick\nLIN_REL {Z 30,A 10}\nLIN_REL {Z -20,C 5} #TOOL", [0, 40, 40, 40], ()),
     "an arc by an angle": (f"LIN xPick\n{ARC},CA 270", [0, 40, 40], ("tp", "vplus")),
     "an arc": (f"LIN xPick\n{ARC}", [0, 40, 40], ()),
+    "an arc of some components": ("LIN xPick\nCIRC {X 530,Z 270},{X 560}", [0, 40, 40], ()),
+    "an arc that turns as seen from the base": (
+        "$CIRC_TYPE=#BASE\nLIN xPick\nCIRC {X 530,Z 270},{X 560,A 20}",
+        [0, 40, 40],
+        ("tp", "vplus"),
+    ),
+    "a joint move behind a straight one": ("LIN xPick\nLIN {Z 300}\nPTP {Z 350}", [], list(TAUGHT)),
 }
 
 
@@ -180,11 +187,13 @@ FOLLOWING = {
 @pytest.mark.parametrize("name", FOLLOWING)
 def test_what_rests_on_a_taught_point_follows_or_is_named(name: str, target: str) -> None:
     moves, wanted, stays = FOLLOWING[name]
-    journey = there_and_back({"main.src": HEAD % moves, "main.dat": DATA}, "krl", target, ARMS["krl"])
+    source = {"main.src": HEAD % moves, "main.dat": DATA}
+    journey = there_and_back(source, "krl", target, ARMS["krl"])
     said = [item.code.name for item in journey.found if item.code.name in NAMED]
     assert bool(said) == (target in stays), said
     if said:
         assert all("xPick" in item.message and item.origin.line for item in journey.found if item.code.name in NAMED)
+        assert ends(texts(journey), target, ARMS["krl"])[-1] == ends(source, "krl", ARMS["krl"])[-1]
         return
     written = texts(journey)
     pattern, new = TAUGHT[target]

@@ -48,10 +48,12 @@ class StraightPlaces:
                     self.values[name], self.given[name] = after, (*sources, *self.rest_on(statement.value))
 
     def rest_on(self, *expressions: ir.Expression | None) -> tuple[ir.Expression, ...]:
-        """The expressions, and those that made the variables in them."""
-        found = [one for one in expressions if one is not None]
-        named = {one.id.lower() for one in walk(*found) if isinstance(one, ir.Name)}
-        return (*found, *(one for name in sorted(named) for one in self.given.get(name, ())))
+        """The names in the expressions; instead of variables that were made here the names in what made them."""
+        found: list[ir.Expression] = []
+        for one in walk(*(one for one in expressions if one is not None)):
+            if isinstance(one, ir.Name):
+                found += self.given.get(one.id.lower(), (one,))
+        return tuple(found)
 
 
 def _changed(place: Pose | Target, part: str, value: Value) -> Value | None:
