@@ -10,6 +10,7 @@ import click
 from rpl.cli.files import force_option, refuse_others
 from rpl.cli.limits import limit_options, limits_of
 from rpl.cli.output import (
+    STANDARD_INPUT,
     collector,
     dialect_exists,
     json_option,
@@ -84,7 +85,7 @@ def command(
     deviate, each is named), different (1: the first difference is shown with both lines), or undecided (1: the runs do
     not show enough).
     """
-    from rpl.proof.certificate import Question, as_text, certificate
+    from rpl.proof.certificate import Question, as_bytes, certificate
     from rpl.proof.tolerance import accepted_kinds
 
     if check is not None:
@@ -93,7 +94,10 @@ def command(
         return _checked(check, as_json)
     if a is None or b is None:
         raise UsageError("name two programs, A and B, or a certificate with --check")
-    refuse_others([kept] if kept is not None else [])
+    if kept is not None:
+        if STANDARD_INPUT in (a, b):
+            raise UsageError("--certificate takes files: what standard input gave cannot be read again")
+        refuse_others([kept])
     words = tuple(sorted(accepted_kinds(accepted.kinds)))
     limits: dict[str, Any] = {
         "path_mm": accepted.path_mm,
@@ -104,7 +108,7 @@ def command(
     result, programs = _answer(question)
     if kept is not None:
         document = certificate(question, [one.sources for one in programs], result, kept.absolute())
-        write_file(kept, as_text(document).encode("utf-8"))
+        write_file(kept, as_bytes(document))
     if as_json:
         print_json(result.as_json())
     else:
@@ -114,10 +118,14 @@ def command(
 
 def _checked(path: Path, as_json: bool) -> int:
     """Ask the question of a certificate again: 0 when it still holds, 1 when it does not."""
-    from rpl.proof.certificate import certificate, changes, read_certificate
+    from rpl.proof.certificate import certificate, changes
+    from rpl.proof.kept import read_certificate
 
     question, then = read_certificate(path)
-    result, programs = _answer(question)
+    try:
+        result, programs = _answer(question)
+    except UsageError as error:
+        raise UsageError(f"{path}: the question cannot be asked again: {error}") from None
     now = certificate(question, [one.sources for one in programs], result, path.absolute())
     found = changes(then, now)
     if as_json:

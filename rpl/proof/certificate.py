@@ -11,7 +11,7 @@ import json
 import os
 import platform
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass
 from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -60,8 +60,8 @@ class Question:
         return Accepted(frozenset(self.accept), self.path_mm, self.corner_mm, self.time_share)
 
 
-_PATHS = ("a", "b", "cell")
-_FILES_OR_NAMES = ("robot", "to_robot", "controller")
+PATHS = ("a", "b", "cell")
+FILES_OR_NAMES = ("robot", "to_robot", "controller")
 
 
 def certificate(
@@ -69,9 +69,9 @@ def certificate(
 ) -> dict[str, object]:
     """The document. `sources`: the files that A and B were read from; `beside`: where the certificate will lie."""
     asked: dict[str, object] = asdict(question) | {"accept": sorted(question.accept)}
-    for name in (*_PATHS, *_FILES_OR_NAMES):
+    for name in (*PATHS, *FILES_OR_NAMES):
         value = getattr(question, name)
-        if value is not None and (name in _PATHS or _is_file(value)):
+        if value is not None and (name in PATHS or _is_file(value)):
             asked[name] = _from(beside, value)
     return {
         "format": FORMAT,
@@ -88,34 +88,14 @@ def certificate(
     }
 
 
-def as_text(document: Mapping[str, object]) -> str:
-    """The document as it is written to a file."""
-    return json.dumps(document, indent=1, ensure_ascii=False, sort_keys=True) + "\n"
-
-
-def read_certificate(path: str | Path) -> tuple[Question, dict[str, object]]:
-    """The question of a certificate, its paths as they are from here, and the document. Raises UsageError for a file
-    that is none."""
-    place = Path(path)
+def as_bytes(document: Mapping[str, object]) -> bytes:
+    """The document as it is written to a file. Raises UsageError for a name of a file that is no text."""
+    text = json.dumps(document, indent=1, ensure_ascii=False, sort_keys=True) + "\n"
     try:
-        document = json.loads(place.read_text("utf-8"))
-    except OSError as error:
-        raise UsageError(f"{path}: cannot read the certificate: {error.strerror}") from None
-    except (UnicodeDecodeError, ValueError) as error:
-        raise UsageError(f"{path}: this is no certificate: {error}") from None
-    asked = document.get("question") if isinstance(document, dict) else None
-    if not isinstance(asked, dict) or document.get("format") != FORMAT:
-        raise UsageError(f"{path}: this is no certificate: it has no format {FORMAT!r}")
-    known = {field.name for field in fields(Question)}
-    if set(asked) != known:
-        odd = ", ".join(sorted(set(asked) ^ known))
-        raise UsageError(f"{path}: the certificate's question has other keys than it should: {odd}")
-    here = dict(asked) | {"accept": tuple(asked["accept"])}
-    for name in (*_PATHS, *_FILES_OR_NAMES):
-        value = here[name]
-        if isinstance(value, str) and (name in _PATHS or _looks_like_file(value)):
-            here[name] = str(place.parent / value)
-    return Question(**here), document
+        return text.encode("utf-8")
+    except UnicodeEncodeError as error:
+        name = ascii(text[max(0, error.start - 20) : error.end + 20])
+        raise UsageError(f"a certificate cannot hold a name of a file that is no UTF-8: {name}") from None
 
 
 def changes(then: Mapping[str, object], now: Mapping[str, object]) -> list[str]:
@@ -179,7 +159,9 @@ def _same(then: object, now: object) -> bool:
         return set(then) == set(now) and all(_same(then[key], now[key]) for key in then if key not in shown)
     if isinstance(then, list) and isinstance(now, list):
         return len(then) == len(now) and all(map(_same, then, now))
-    if isinstance(then, float | int) and isinstance(now, float | int) and not isinstance(then, bool):
+    if isinstance(then, bool) or isinstance(now, bool):
+        return then is now
+    if isinstance(then, float | int) and isinstance(now, float | int):
         return abs(then - now) <= max(_SAME_AMOUNT, _SAME_SHARE * max(abs(then), abs(now)))
     return then == now
 
@@ -212,12 +194,12 @@ def _described(question: Question) -> dict[str, bytes]:
     return found
 
 
-def _looks_like_file(word: str) -> bool:
+def looks_like_file(word: str) -> bool:
     return word.endswith((".toml", ".urdf"))
 
 
 def _is_file(word: str) -> bool:
-    return _looks_like_file(word) and Path(word).is_file()
+    return looks_like_file(word) and Path(word).is_file()
 
 
 def _from(beside: Path, path: str) -> str:
@@ -229,4 +211,4 @@ def _hash(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
 
 
-__all__ = ["FORMAT", "Question", "as_text", "certificate", "changes", "read_certificate"]
+__all__ = ["FILES_OR_NAMES", "FORMAT", "PATHS", "Question", "as_bytes", "certificate", "changes", "looks_like_file"]

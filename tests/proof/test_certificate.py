@@ -1,12 +1,14 @@
 """Certificates of proofs: kept, done again, and what makes them fail."""
 
 import json
+import os
 import shutil
 from pathlib import Path
 
 import pytest
 
 from rpl.cli.main import run
+from rpl.proof import kept
 
 ROBOT = "kuka_kr6r900sixx"
 A = "DEF part()\n$OUT[1]=TRUE\nPTP {A1 10,A2 -90,A3 90,A4 0,A5 45,A6 0}\nWAIT SEC 0.5\n$OUT[1]=FALSE\nEND\n"
@@ -102,7 +104,11 @@ def test_deviations_and_what_is_accepted_stand_in_it(folder: Path, capsys: pytes
         ("{", "this is no certificate"),
         ("{}", "this is no certificate"),
         ("[1]", "this is no certificate"),
-        ('{"format": "rpl proof certificate 1", "question": {}}', "other keys"),
+        ('{"format": "rpl proof certificate 1", "question": {}}', "the certificate has other keys than it should"),
+        ('{"format": "rpl proof certificate 2"}', "no format 'rpl proof certificate 1', but 'rpl proof certificate 2'"),
+        ('{"format": {}, "format": 1}', "the key 'format' is there more than once"),
+        pytest.param("9" * 5000, "this is no certificate", id="a number of 5000 digits"),
+        pytest.param("[" * 100_000, "it is nested too deeply", id="deep"),
     ],
 )
 def test_what_is_no_certificate_is_refused(
@@ -111,7 +117,66 @@ def test_what_is_no_certificate_is_refused(
     path = tmp_path / "proof.json"
     path.write_text(text)
     assert run(["prove", "--check", str(path)]) == 2
-    assert words in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert words in said and str(path) in said
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('"explore": false', '"explore": 0', "question.explore: must be true or false, not 0"),
+        ('"accept": []', '"accept": ["all"]', "question.accept: --accept all: no measure of a proof"),
+        ('"accept": []', '"accept": [[]]', "question.accept: must be a list of words, not a list"),
+        ('"path_mm": null', '"path_mm": -1', "question.path_mm: must be a number from 0 on, not -1"),
+        ('"path_mm": null', '"path_mm": NaN', "question.path_mm: must be a finite number, not nan"),
+        ('"path_mm": null', '"path_mm": 1e999', "question.path_mm: must be a finite number, not inf"),
+        ('"max_steps": null', '"max_steps": 1.5', "question.max_steps: must be a whole number above 0, not 1.5"),
+        ('"max_time": null', f'"max_time": {10**400}', "question.max_time: must be a number of at most 64 bits"),
+        ('"entry": null', '"entry": "\\u0000"', "question.entry: must be a text without null signs"),
+        ('"entry": null', '"entry": "\\ud800"', "question.entry: must be a text without null signs"),
+        ('"entry": null', '"entry": "other"', "the question cannot be asked again: "),
+        (f'"robot": "{ROBOT}"', '"robot": "kuka"', "the question cannot be asked again: "),
+        ('"a": "a"', '"a": "none"', "the question cannot be asked again: "),
+        ('"entry": null', '"start": null', "the certificate's question has other keys than it should: entry, start"),
+        ('"verdict": "equal"', '"verdict": true', "verdict: must be one of equal, alike, different, undecided"),
+        ('"path": "b/part.src"', '"file": "b/part.src"', "programs.b[0] has other keys than it should: file, path"),
+        ('"path": "b/part.src"', '"path": 5', "programs.b[0].path: must be a text, not 5"),
+        ('"place_mm": 1.0', '"place_mm": true', "tolerance.place_mm: must be a number, not true"),
+    ],
+)
+def test_what_is_wrong_in_a_certificate_is_said_with_file_and_key(
+    folder: Path, old: str, new: str, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert prove(folder) == 0
+    path = folder / "proof.json"
+    text = path.read_text("utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new), "utf-8")
+    capsys.readouterr()
+    assert run(["prove", "--check", str(path)]) == 2
+    said = capsys.readouterr()
+    assert said.err.startswith(f"rpl: {path}: ") and words in said.err and not said.out
+
+
+def test_folders_pipes_and_what_is_too_large_are_no_certificates(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    os.mkfifo(tmp_path / "pipe.json")
+    (tmp_path / "large.json").write_text("{}")
+    monkeypatch.setattr(kept, "_LARGEST", 1)
+    for name, words in ((".", "is a directory"), ("pipe.json", "a pipe"), ("large.json", "larger than")):
+        assert run(["prove", "--check", str(tmp_path / name)]) == 2
+        assert words in capsys.readouterr().err
+
+
+def test_a_certificate_names_only_what_can_be_asked_for_again(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    odd = folder / os.fsdecode(b"\xff")
+    shutil.copytree(folder / "b", odd)
+    for other, words in ((str(odd), "no UTF-8"), ("-", "standard input")):
+        target = folder / "odd.json"
+        command = ["prove", str(folder / "a"), other, "--robot", ROBOT, "--certificate", str(target)]
+        assert run(command) == 2
+        assert words in capsys.readouterr().err and not target.exists()
 
 
 def test_programs_or_a_certificate_are_needed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
