@@ -48,6 +48,12 @@ def neutral_name(spelling: str) -> str:
     return _NEUTRAL.get(spelling.lower(), spelling.lower())
 
 
+def unhandled_text(routine: str) -> str:
+    """What a translation says, and then stops, where an error leaves the outermost routine and the target has no
+    handlers; a proof knows that stop by it."""
+    return f"Error in {routine} is not handled"
+
+
 def spelled_among(spelling: str, names: Iterable[str]) -> str | None:
     """Which of a language's error names means the same as this one."""
     wanted = neutral_name(spelling)

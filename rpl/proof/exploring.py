@@ -24,6 +24,7 @@ def worst_of(base: ProofResult, cells: Sequence[Cell], prove: Callable[[Cell], P
     """
     deviations = list(base.deviations)
     reason, tried = base.reason, 0
+    notes = dict.fromkeys(base.notes)
     most = [base.max_path_mm, base.max_joint_deg, base.max_time_s]
     for tried, cell in enumerate(cells, 1):
         if base.verdict == DIFFERENT:
@@ -37,12 +38,14 @@ def worst_of(base: ProofResult, cells: Sequence[Cell], prove: Callable[[Cell], P
             )
         if found.verdict != UNDECIDED and difference is None:
             reason = ""
+        notes |= dict.fromkeys(found.notes)
         deviations += found.deviations
         most = [max(pair) for pair in zip(most, _maxima(found), strict=True)]
     return replace(
         base,
         deviations=_each_once(deviations),
         reason=reason,
+        notes=tuple(notes),
         max_path_mm=most[0],
         max_joint_deg=most[1],
         max_time_s=most[2],

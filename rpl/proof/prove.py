@@ -23,6 +23,7 @@ from rpl.proof.paths import TURN_LEVER_MM
 from rpl.proof.reach import reach_of
 from rpl.proof.record import Record
 from rpl.proof.recording import record_of
+from rpl.proof.stops import with_written_stop
 from rpl.proof.tolerance import Accepted, Tolerance
 from rpl.proof.verdict import Explored, ProofResult
 from rpl.proof.watched import side_of
@@ -129,9 +130,17 @@ def prove_recorded(
         with_wired_groups(record_a, wired_bits(program_b)),
         with_wired_groups(record_b, wired_bits(program_a)),
     )
+    stopped_a, stopped_b = with_written_stop(record_a, record_b), with_written_stop(record_b, record_a)
+    written = "A" if stopped_a is not record_a else "B" if stopped_b is not record_b else ""
+    record_a, record_b = stopped_a, stopped_b
     tolerance, limit = _tolerance(accepted)
     found = compare(record_a, record_b, tolerance, limit)
     reason = "" if found.difference is not None else _undecided(record_a, record_b, program_a, program_b, found)
+    stop = (
+        ()
+        if found.difference is not None or not written
+        else (_WRITTEN.format(where=_where(record_b if written == "A" else record_a), who=written),)
+    )
     return ProofResult(
         found.level,
         found.difference,
@@ -139,8 +148,8 @@ def prove_recorded(
         found.max_joint_deg,
         found.max_time_s,
         found.deviations,
-        reason,
-        _notes(record_a, record_b),
+        stop[0] if stop else reason,
+        (*_notes(record_a, record_b), *stop),
         tolerance,
         accepted,
         reach_of(program_a, (record_a.reached,)),
@@ -197,6 +206,12 @@ _ENDED = {
 }
 
 
+_WRITTEN = (
+    "both runs stop with an unhandled fault{where}, {who} by the stop that is written for it:"
+    " what lies behind was not compared"
+)
+
+
 def _undecided(a: Record, b: Record, program_a: ir.Program, program_b: ir.Program, found: Comparison) -> str:
     """Why runs without a difference decide nothing; empty where they do."""
     if a.status in _ENDED:
@@ -213,7 +228,8 @@ def _where(record: Record) -> str:
     """The place of the fault or of the wait in A."""
     ends = [happenings[-1] for happenings in record.tasks.values() if happenings]
     place = next((one.place for one in ends if one.place.line), None)
-    fault = next((one.value for one in ends if one.kind == "fault"), None)
+    every = (one for happenings in record.tasks.values() for one in happenings)
+    fault = next((one.value for one in every if one.kind == "fault"), None)
     words = f" ({fault})" if fault else ""
     return f"{words} at {place}" if place is not None else words
 

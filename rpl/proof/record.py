@@ -93,7 +93,8 @@ class Happening:
     """Something that can be seen from outside. kind: output, message, dialog, wait, fault, end.
 
     value: the output's value, the message's text, the seconds of a timed wait (None: on a condition), the fault's code,
-    the status at the end. `along` is how far the tool had travelled on its whole path, mm; `moving` whether it moved.
+    the status at the end. `names`: of a signal, or the routine that an error left unhandled (fault). `along` is how far
+    the tool had travelled on its whole path, mm; `moving` whether it moved.
     Timed waits in a row are one wait for their sum: so many `times`, the longest of them `longest_s`.
     `named`: what names a value in the text of a message; `held`: what those hold then, as far as it is known. `number`:
     its place among all events of the run, which tells what comes first where several tasks do something at one moment.

@@ -125,7 +125,7 @@ def _happening(event: Event, way: _Way, stuck: Place) -> Happening | None:
             value = float(seconds)
             return Happening("wait", event.t, value, place=place, along=along, moving=moving, longest_s=value)
         case "fault":
-            return Happening("fault", event.t, _plain(event.data.get("code")), place=place, along=along)
+            return Happening("fault", event.t, _plain(event.data.get("code")), frozenset(event.names), place, along)
         case "end":
             return Happening("end", event.t, _plain(event.data.get("status")), place=stuck, along=along)
         case _:

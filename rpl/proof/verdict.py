@@ -159,7 +159,7 @@ class ProofResult:
         lines += [told for side, one in (("A", self.reach_a), ("B", self.reach_b)) for told in _reach_lines(side, one)]
         if self.explored is not None:
             lines.append(self.explored.as_text())
-        return "\n".join((*lines, *(f"note: {note}" for note in self.notes)))
+        return "\n".join((*lines, *(f"note: {note}" for note in self.notes if note != self.reason)))
 
 
 def _reach_lines(side: str, reach: Reach | None) -> list[str]:

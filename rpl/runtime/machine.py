@@ -511,12 +511,14 @@ class Machine:
         """The program's own stop."""
         self.end("stopped")
 
-    def fault(self, code: str, message: str, task: Task, origin: Origin) -> None:
-        """The run ends here: the controller would stop with an error."""
+    def fault(self, code: str, message: str, task: Task, origin: Origin, unhandled: str = "") -> None:
+        """The run ends here: the controller would stop with an error. `unhandled`: the routine that an error left which
+        a handler could have taken."""
         if self.status:
             return
         self.end_fault = Fault(code, message, task.name, origin)
-        self.event("fault", {"code": code, "message": message}, task, origin)
+        names = (unhandled,) if unhandled else ()
+        self.event("fault", {"code": code, "message": message}, task, origin, names=names)
         self.end("fault")
 
     def deadlock(self, task: Task, what: str) -> None:

@@ -439,7 +439,8 @@ class Task:
     def _unhandled(self, error: ProgramError, number: float | None, origin: Origin, rules: Rules) -> None:
         named = name_of(number, rules.errors) if number is not None else ""
         message = f"{error.message} ({named})" if named and named not in error.message else error.message
-        self.machine.fault(error.name.replace("_", "-"), message, self, origin)
+        left = self.frame.code.name if number is not None and error.name not in FATAL else ""
+        self.machine.fault(error.name.replace("_", "-"), message, self, origin, left)
 
     def undone(self) -> int:
         """The undo part has run: the error goes on to the caller."""

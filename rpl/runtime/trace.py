@@ -37,9 +37,10 @@ class Leg:
 @dataclass(frozen=True, slots=True, eq=False)
 class Event:
     """One happening. `data` is what the trace prints beside time, task, kind and place. For comparing runs: `port` is
-    the signal of an output or input, `names` all its names; `legs` is how a move was driven (empty without a robot) and
-    `stops` whether it ended in rest; `blend` the kind of its corner (see orders.BlendOrder); `payloads` what it
-    carries in it, as the program says; `programmed` what the program asks of it (None without a robot).
+    the signal of an output or input, `names` all its names, of a fault the routine that an error left unhandled; `legs`
+    is how a move was driven (empty without a robot) and `stops` whether it ended in rest; `blend` the kind of its
+    corner (see orders.BlendOrder); `payloads` what it carries in it, as the program says; `programmed` what the program
+    asks of it (None without a robot).
     `timed`: of an output that is switched after a time, whether that is the end of a `pulse` or a `delay`, and its
     seconds. `named`: what the registers hold that the text of a message names in place of their values."""
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.errornames import unhandled_text
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import (
@@ -280,7 +281,7 @@ class _Passing(Hoister):
         """How an error gets out of this routine."""
         undo = self.routine.undo
         if self.facts.is_top(self.routine):
-            text = ir.TextLiteral(f"Error in {self.routine.name} is not handled")
+            text = ir.TextLiteral(unhandled_text(self.routine.name))
             return (*undo, ir.Message("error", text), ir.Halt("exit"))
         if self.routine.returns is None:
             return (*undo, ir.Return())
