@@ -11,13 +11,14 @@ from __future__ import annotations
 
 import random
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
 
-from rpl.cell import Cell
+from rpl.cell import Cell, Input
 from rpl.errors import RplError
 from rpl.proof.candidates import Given, Names, constants_of, values_for, with_given
+from rpl.proof.progress import Progress, moment, progress_of
 from rpl.proof.unreached import UNDRIVEN, Key, key_of
 from rpl.proof.watched import EVENT, RECENT, STATEMENT, WAIT, Look, Seen, Side, Source
 from rpl.runtime.code import Branch, Code
@@ -32,8 +33,12 @@ _TOGETHER = 4
 _MARGIN_S, _MARGIN_SHARE = 0.02, 0.01
 _LOOKS_OF_A_LOOP = 3
 _RANDOM_TRIES = 20
+_MOST_KEPT = 64  # runs of the second program whose progress is remembered
 # Sources that have one value for a whole run.
 _TIMELESS = frozenset(("variable", "answer", "seed"))
+
+
+_Clock = Callable[[float], float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,13 +53,15 @@ class Budget:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Exploration:
-    """cells: the found ones, without the user's own. tried: how many were run. ended: what ended it early (`cells`,
+    """cells: the found ones, without the user's own; others: the same for the second program, whose inputs come when
+    that one is as far (progress.py). tried: how many were run. ended: what ended it early (`cells`,
     `seconds`), empty when nothing was left to try. reached: per side, by the runs in the user's cell and the found
     ones; remarks: per side, about statements whose condition never went the other way; one_way: per side, whether
     nothing that can be changed was ever looked at (see reach.reach_of). time_s: how long a run in a found cell took at
     most."""
 
     cells: tuple[Cell, ...]
+    others: tuple[Cell, ...]
     tried: int
     ended: str
     reached: tuple[tuple[Reached, ...], ...]
@@ -104,10 +111,15 @@ def _marks(seen: Seen) -> dict[Code, int]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Step:
-    """A cell that led on, and what each side showed in it."""
+    """A cell that led on, as each side has it, and what each side showed in it."""
 
-    cell: Cell
+    cells: tuple[Cell, ...]
     seen: tuple[Seen, ...]
+
+    @property
+    def cell(self) -> Cell:
+        """As the first side has it."""
+        return self.cells[0]
 
 
 class _Explorer:
@@ -121,12 +133,15 @@ class _Explorer:
         self.tried = 0
         self.begun = time.process_time()
         self.limits = [side.limits for side in self.sides]
+        self.moments: dict[object, float] = {}
+        self.progress: dict[object, Progress | None] = {}
         self.branches: dict[Code, dict[int, Branch]] = {}
         self.every = [{code: _every(code) for _, code in side.linked.codes()} for side in self.sides]
 
     def explore(self) -> Exploration:
         """All of it."""
-        self._take(_Step(self.start, tuple(side.run(self.start, side.limits) for side in self.sides)))
+        seen = tuple(side.run(self.start, side.limits) for side in self.sides)
+        self._take(_Step((self.start,) * len(self.sides), seen))
         self.limits = [_tighter(side.limits, seen) for side, seen in zip(self.sides, self.steps[0].seen, strict=True)]
         at, ended = 0, ""
         while at < len(self.steps) and not ended:
@@ -145,8 +160,8 @@ class _Explorer:
             for number in range(len(self.sides))
         )
         longest = max(limits.time_s for limits in self.limits)
-        cells = tuple(step.cell for step in kept[1:])
-        return Exploration(cells, self.tried, ended, reached, remarks, one_way, longest)
+        cells, others = tuple(step.cell for step in kept[1:]), tuple(step.cells[-1] for step in kept[1:])
+        return Exploration(cells, others, self.tried, ended, reached, remarks, one_way, longest)
 
     # ---- trying
 
@@ -163,12 +178,51 @@ class _Explorer:
                 return "seconds"
             self.tried += 1
             try:
-                seen = tuple(side.run(cell, limits) for side, limits in zip(self.sides, self.limits, strict=True))
+                step = self._run(cell)
             except RplError:
                 continue  # a value that does not fit the variable: not a cell for this program
-            if len(self.sides) == 1 or self._is_robust(cell, seen):
-                self._take(_Step(cell, seen))
+            if len(self.sides) == 1 or self._is_robust(step):
+                self._take(step)
         return ""
+
+    def _run(self, cell: Cell) -> _Step:
+        """Run all sides in a cell; each input comes to a second program where that one is as far as the first one."""
+        first = self.sides[0].run(cell, self.limits[0])
+        if len(self.sides) == 1:
+            return _Step((cell,), (first,))
+        timed = any(one.time_s > 0.0 for one in cell.inputs)
+        ours = self._progress(0, first) if timed else None
+        there = self._in_step(cell, ours) if ours is not None else cell
+        return _Step((cell, there), (first, self.sides[1].run(there, self.limits[1])))
+
+    def _in_step(self, cell: Cell, ours: Progress) -> Cell:
+        """The cell for the second side, whose inputs come one by one: where it is as far it shows without those that
+        come later."""
+        done: list[Input] = []
+        for number, one in enumerate(cell.inputs):
+            before = done[-1].time_s if done else 0.0
+            key = (_identity(replace(cell, inputs=cell.inputs[:number])), one.time_s)
+            if one.time_s > 0.0 and key not in self.moments:
+                theirs = self._without(replace(cell, inputs=tuple(done)))
+                self.moments[key] = moment(one.time_s, ours, theirs) if theirs is not None else one.time_s
+            done.append(replace(one, time_s=max(before, self.moments[key]) if one.time_s > 0.0 else one.time_s))
+        return replace(cell, inputs=tuple(done))
+
+    def _without(self, cell: Cell) -> Progress | None:
+        """How far the second side is in a cell in which further inputs have not come."""
+        key = _identity(cell)
+        if key not in self.progress:
+            if len(self.progress) >= _MOST_KEPT:
+                self.progress.clear()
+            self.progress[key] = self._progress(1, self.sides[1].run(cell, self.limits[1]))
+        return self.progress[key]
+
+    def _progress(self, number: int, seen: Seen) -> Progress | None:
+        """How far a side is when; None where that does not matter, in one language."""
+        languages = [side.program.modules[0].dialect for side in self.sides]
+        if languages[0] == languages[-1]:
+            return None
+        return progress_of(seen.result, self.sides[number].program)
 
     def _take(self, step: _Step) -> None:
         """Keep a step that leads on."""
@@ -176,18 +230,24 @@ class _Explorer:
         if any(new) or not self.steps:
             self.steps.append(step)
 
-    def _is_robust(self, cell: Cell, seen: Sequence[Seen]) -> bool:
-        """Does no statement of either side look at an input about when it changes? Two programs come there at slightly
-        different times, and would see different values."""
-        given = [one for one in cell.inputs if one.time_s > 0.0 and one not in self.start.inputs]
-        for number, run in enumerate(seen):
+    def _is_robust(self, step: _Step) -> bool:
+        """Does no statement of either side look at an input about when it changes, and does nothing begin to watch it
+        then? Two programs come there at slightly different times, and would see different values."""
+        for number, run in enumerate(step.seen):
+            both = zip(step.cells[0].inputs, step.cells[number].inputs, strict=True)
+            given = [own for one, own in both if one.time_s > 0.0 and one not in self.start.inputs]
+            watched: set[Source] = set()
             for look in run.looks:
-                if look.how != STATEMENT or look.times > _LOOKS_OF_A_LOOP or look.source.kind in _TIMELESS:
+                begins = look.how == EVENT and look.source not in watched
+                watched |= {look.source} if begins else set()
+                looks = look.how == STATEMENT and look.times <= _LOOKS_OF_A_LOOP
+                if not (looks or begins) or look.source.kind in _TIMELESS:
                     continue
                 texts = self.names.texts(number, look.source)
                 for one in given:
                     margin = _MARGIN_S + _MARGIN_SHARE * one.time_s
-                    near = min(abs(look.first_s - one.time_s), abs(look.last_s - one.time_s)) < margin
+                    last = look.last_s if looks else look.first_s
+                    near = min(abs(look.first_s - one.time_s), abs(last - one.time_s)) < margin
                     if near and any(self.names.same(one.signal, text) for text in texts):
                         return False
         return True
@@ -198,15 +258,25 @@ class _Explorer:
         """Cells that may lead on from a step: for each decision that never went the other way, each wait, each armed
         interrupt; then every source by itself."""
         for number, seen in enumerate(step.seen):
-            yield from self._of_waits(number, step.cell, seen)
-            yield from self._of_decisions(number, step.cell, seen)
-            yield from self._of_events(number, step.cell, seen)
+            clock = self._clock(number, step)
+            yield from self._of_waits(number, step.cell, seen, clock)
+            yield from self._of_decisions(number, step.cell, seen, clock)
+            yield from self._of_events(number, step.cell, seen, clock)
         for number, seen in enumerate(step.seen):
             for look in _each_source(seen.looks):
                 for given in self._given(number, look):
                     if self._is_done():
                         return
                     yield with_given(step.cell, given, 0.0, self.names)
+
+    def _clock(self, number: int, step: _Step) -> _Clock:
+        """When the first side is where this one is at a moment."""
+        if number == 0:
+            return lambda time_s: time_s
+        ours, theirs = self._progress(number, step.seen[number]), self._progress(0, step.seen[0])
+        if ours is None or theirs is None:
+            return lambda time_s: time_s
+        return lambda time_s: round(moment(time_s, ours, theirs), 3) if time_s > 0.0 else time_s
 
     def _is_done(self) -> bool:
         """Has everything been gone that the runs came near to?"""
@@ -229,13 +299,13 @@ class _Explorer:
             self.branches[code] = {branch.at: branch for branch in code.branches}
         return self.branches[code].get(at)
 
-    def _of_waits(self, number: int, cell: Cell, seen: Seen) -> Iterator[Cell]:
+    def _of_waits(self, number: int, cell: Cell, seen: Seen, clock: _Clock) -> Iterator[Cell]:
         """What the tasks waited for at the end comes; what a wait with a time limit waited for does not come."""
         for code, at, since in seen.stuck:
             if self._is_done():
                 break
             looks = [look for look in _each_source(reversed(seen.looks)) if (look.code, look.at) == (code, at)]
-            yield from self._changed(number, cell, looks, since + _AFTER_S)
+            yield from self._changed(number, cell, looks, clock(since + _AFTER_S))
         for code, at in sorted(seen.timed, key=lambda place: _order(*place)):
             if ("late", code, at) in self.ways[number].looks:
                 continue
@@ -246,7 +316,7 @@ class _Explorer:
                     if texts and look.source.kind not in _TIMELESS:
                         yield with_given(cell, Given(look.source, texts, value), 0.0, self.names)
 
-    def _of_decisions(self, number: int, cell: Cell, seen: Seen) -> Iterator[Cell]:
+    def _of_decisions(self, number: int, cell: Cell, seen: Seen, clock: _Clock) -> Iterator[Cell]:
         """For each decision: the way that was not gone, then the values that its sources did not have there."""
         ways = self.ways[number]
         for (code, at), index in seen.evaluated.items():
@@ -259,11 +329,11 @@ class _Explorer:
             yield from self._together(number, cell, (code, at), direct[:_TOGETHER])
             for look in list(_each_source((*direct, *before)))[:RECENT]:
                 moments = _moments(look, seen.looks) if look.source.kind not in _TIMELESS else [0.0]
-                for moment, given in product(moments, self._given(number, look, key)):
+                for time_s, given in product(moments, self._given(number, look, key)):
                     met = (code, at, frozenset(((look.source, given.value),)))
                     one_way = not (ways.has(code, branch.held) and ways.has(code, ~at))
-                    if met not in ways.looks or (one_way and moment > 0.0):
-                        yield with_given(cell, given, moment, self.names)
+                    if met not in ways.looks or (one_way and time_s > 0.0):
+                        yield with_given(cell, given, clock(time_s), self.names)
 
     def _together(self, number: int, cell: Cell, place: tuple[Code, int], looks: Sequence[Look]) -> Iterator[Cell]:
         """All combinations of the sources of one condition."""
@@ -292,7 +362,7 @@ class _Explorer:
         for chosen in product(*several):
             yield self._all_given(cell, chosen, time_s)
 
-    def _of_events(self, number: int, cell: Cell, seen: Seen) -> Iterator[Cell]:
+    def _of_events(self, number: int, cell: Cell, seen: Seen, clock: _Clock) -> Iterator[Cell]:
         """What interrupts and searches wait for comes while they do: best while the program waits, where both programs
         are at one place."""
         ways = self.ways[number]
@@ -304,10 +374,10 @@ class _Explorer:
         for look in _each_source(seen.looks):
             if look.source.kind in _TIMELESS or not (armed or look.source in watched):
                 continue
-            for moment, given in product(moments, self._given(number, look)):
+            for time_s, given in product(moments, self._given(number, look)):
                 if self._is_done():
                     return
-                yield with_given(cell, given, moment, self.names)
+                yield with_given(cell, given, clock(time_s), self.names)
 
     def _random(self) -> Iterator[Cell]:
         """Several sources at once, by chance, for what nothing else led to."""
@@ -324,7 +394,7 @@ class _Explorer:
             step = chance.choice(self.steps)
             cell = step.cell
             for number, look in chance.sample(sources, min(len(sources), chance.randint(2, _TOGETHER))):
-                moments = [0.0, *_spread(step.seen[number])]
+                moments = [0.0, *map(self._clock(number, step), _spread(step.seen[number]))]
                 cell = with_given(cell, chance.choice(self._given(number, look)), chance.choice(moments), self.names)
             yield cell
 

@@ -15,8 +15,10 @@ _WAITING = frozenset(("deadlock", "limit"))
 _MOST_TOLD = 6
 
 
-def worst_of(base: ProofResult, cells: Sequence[Cell], prove: Callable[[Cell], ProofResult]) -> ProofResult:
-    """The result in the user's cell joined with those in the found cells.
+def worst_of(
+    base: ProofResult, cells: Sequence[tuple[Cell, Cell]], prove: Callable[[Cell, Cell], ProofResult]
+) -> ProofResult:
+    """The result in the user's cell joined with those in the found cells, each as A and as B has it.
 
     A difference anywhere is a difference. In a found cell both programs may end in the same fault or wait for good:
     that is an end like any other, and no reason to doubt. The user's own cell decides nothing only as long as no found
@@ -26,10 +28,10 @@ def worst_of(base: ProofResult, cells: Sequence[Cell], prove: Callable[[Cell], P
     reason, tried = base.reason, 0
     notes = dict.fromkeys(base.notes)
     most = [base.max_path_mm, base.max_joint_deg, base.max_time_s]
-    for tried, cell in enumerate(cells, 1):
+    for tried, (cell, other) in enumerate(cells, 1):
         if base.verdict == DIFFERENT:
             break
-        found = prove(cell)
+        found = prove(cell, other)
         difference = found.difference
         if difference is not None and not _both_wait(difference):
             told = replace(difference, explanation=f"{difference.explanation} ({_told(cell)})")

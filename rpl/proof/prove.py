@@ -65,14 +65,14 @@ def prove_programs(
         second = first
     to_entry = to_entry if to_entry is not None else entry
 
-    def proved(cell: Cell | None, limits: Limits) -> ProofResult:
+    def proved(cell: Cell | None, limits: Limits, other: Cell | None = None) -> ProofResult:
         record_a = recorded_run(program_a, first, cell, entry, limits, controller)
         return prove_against(
             record_a,
             program_a,
             program_b,
             second,
-            cell,
+            cell if other is None else other,
             to_entry=to_entry,
             accepted=accepted,
             limits=limits,
@@ -88,7 +88,8 @@ def prove_programs(
     )
     found = explore(sides, cell, budget)
     shorter = replace(limits, time_s=min(limits.time_s, found.time_s))
-    joined = worst_of(result, found.cells, lambda cell: proved(cell, shorter))
+    cells = tuple(zip(found.cells, found.others, strict=True))
+    joined = worst_of(result, cells, lambda cell, other: proved(cell, shorter, other))
     reaches = [
         reach_of(side.program, found.reached[number], side.entry, found.remarks[number], found.one_way[number])
         for number, side in enumerate(sides)

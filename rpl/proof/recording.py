@@ -34,7 +34,7 @@ _COUNTED = frozenset(("output", "message", "wait", "fault", "end"))
 
 def record_of(result: RunResult, program: ir.Program, robot: RobotModel | None = None) -> Record:
     """The record of a run of that program."""
-    ways = _ways(_by_task(result.trace), program)
+    ways = ways_of(result, program)
     language = next((module.dialect for module in program.modules), "")
     named = _named(language)
     tasks = {}
@@ -65,14 +65,15 @@ def _input(event: Event) -> Happening:
     return Happening("input", event.t, value, signal_names(kind, known, index, last))
 
 
-def _ways(tasks: dict[str, list[Event]], program: ir.Program) -> dict[str, _Way]:
-    """What happened in each task, and the way of its robot. Of a program with one robot it is the robot's, whichever
-    task moves it (a language without searches moves in one task and looks in another)."""
+def ways_of(result: RunResult, program: ir.Program) -> dict[str, Way]:
+    """What happened in each task of a run, and the way of its robot. Of a program with one robot it is the robot's,
+    whichever task moves it (a language without searches moves in one task and looks in another)."""
+    tasks = _by_task(result.trace)
     if sum(task.kind == "motion" for task in program.tasks) > 1:
-        return {task: _Way(task, events, _moves(events)) for task, events in tasks.items()}
+        return {task: Way(task, events, _moves(events)) for task, events in tasks.items()}
     every = sorted((move for events in tasks.values() for move in _moves(events)), key=lambda one: one.legs[0].start_s)
     mover = next((task for task, events in tasks.items() if _moves(events)), "")
-    return {task: _Way(mover, events, every) for task, events in tasks.items()}
+    return {task: Way(mover, events, every) for task, events in tasks.items()}
 
 
 def _moves(events: list[Event]) -> list[Event]:
@@ -93,7 +94,7 @@ def _by_task(trace: Sequence[Event]) -> dict[str, list[Event]]:
     return found
 
 
-def _happening(event: Event, way: _Way, stuck: Place) -> Happening | None:
+def _happening(event: Event, way: Way, stuck: Place) -> Happening | None:
     """The event as a happening; None when it does not count. `stuck`: where the run could not go on, if so."""
     if event.kind not in _COUNTED:
         return None
@@ -162,7 +163,7 @@ def _plain(value: object) -> Value:
     return value if isinstance(value, bool | int | float | str) or value is None else str(value)
 
 
-class _Way:
+class Way:
     """The events of one task; the moves of its robot, and how far its tool had come at any moment."""
 
     def __init__(self, mover: str, events: list[Event], moves: list[Event]) -> None:

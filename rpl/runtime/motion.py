@@ -584,7 +584,11 @@ class MotionQueue(RobotState):
             self.planned_joints = self.joints
 
     def finish(self) -> None:
-        """The run ends: show the move that was cut off."""
+        """The run ends: show the moves that were cut off, first those that were put aside or stand on their way."""
+        for piece in (*(one.piece for one in self.stored), self.halted):
+            if piece is not None and piece.drive.legs and self.model is not None:
+                self._show(piece.drive, True, True)
+        self.halted = None
         if self.piece is not None and self.model is not None:
             piece = self.piece
             self._close_leg(piece, self.machine.now)

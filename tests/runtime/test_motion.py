@@ -100,6 +100,19 @@ def test_a_trigger_with_a_delay_and_one_that_calls() -> None:
     assert result.messages == ("5",)
 
 
+def test_a_move_that_stands_braked_when_the_run_ends_is_shown() -> None:
+    """Both ends show how far the robot came: the brake that nothing releases, and the move that was cut off."""
+    body = (
+        "$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\n$VEL.CP=0.1\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 90,A6 0}\n"
+        "GLOBAL INTERRUPT DECL 3 WHEN $IN[1] DO HIT( )\nINTERRUPT ON 3\nLIN_REL {Y 200}\n$OUT[1]=TRUE"
+    )
+    handler = "GLOBAL DEF HIT( )\nBRAKE\nWAIT FOR $IN[2]\nEND"
+    result = krl(body, more=handler, robot=KUKA, cell='[[input]]\ntime = 2.5\nsignal = "$IN[1]"\nvalue = true\n')
+    assert result.status == "deadlock"
+    last = moves(result)[-1]
+    assert last.data["interrupted"] and 0.0 < last.data["xyz_mm"][1] < 200.0
+
+
 def test_brake_and_resume_leave_the_interrupted_routine() -> None:
     body = (
         INIT + START + "INTERRUPT DECL 10 WHEN $IN[1] DO HIT( )\nINTERRUPT ON 10\nSEARCH( )\nINTERRUPT OFF 10\n"
