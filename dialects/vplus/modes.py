@@ -38,24 +38,49 @@ def by_value(programs: dict[str, ProgramPart], symbols: Symbols) -> frozenset[Sy
         for name, count in part.header.parameters
         if not count and (key, significant(name)) not in changes[key]
     }
+    parameters = {(key, significant(name)) for key, part in programs.items() for name, _ in part.header.parameters}
     before = -1
     while before != len(candidates):
         before = len(candidates)
         for key, call in calls:
             callee = significant(call.name)
-            for (name, _), argument in zip(programs[callee].header.parameters, call.arguments, strict=False):
-                given = root_name(argument.value)
-                parameter = (callee, significant(name))
-                if given is None:
-                    continue
-                passed = symbols.symbol(key, given)
+            passed = _passed(symbols, key, call, programs[callee])
+            for parameter, symbol in passed:
                 if parameter not in candidates:
-                    candidates.discard(passed)
-                elif not passed[0] and passed in changes[callee]:
+                    candidates.discard(symbol)
+                elif _changed_meanwhile(parameter, symbol, passed, changes[callee], parameters - candidates):
                     candidates.discard(parameter)
     if any(isinstance(node, ir.CallRoutine) and node.dynamic is not None for all in nodes.values() for node in all):
         return frozenset()
     return frozenset(candidates)
+
+
+def _passed(symbols: Symbols, key: str, call: ir.CallRoutine, part: ProgramPart) -> list[tuple[Symbol, Symbol]]:
+    """Parameter and symbol of each argument that is a variable, an element or an array."""
+    callee = significant(call.name)
+    return [
+        ((callee, significant(name)), symbols.symbol(key, given))
+        for (name, _), argument in zip(part.header.parameters, call.arguments, strict=False)
+        if (given := root_name(argument.value)) is not None
+    ]
+
+
+def _changed_meanwhile(
+    parameter: Symbol,
+    symbol: Symbol,
+    passed: list[tuple[Symbol, Symbol]],
+    changes: set[Symbol],
+    references: set[Symbol],
+) -> bool:
+    """May a program that changes `changes` store into what it gets as `parameter`: by the variable's own name, or by
+    another parameter that stands for the same variable or array? What the caller itself has by reference may be any
+    variable."""
+    others = [(other, given) for other, given in passed if other != parameter and other in changes]
+    if symbol in references:
+        return bool(others) or any(not place for place, _ in changes)
+    if any(given == symbol or (given in references and not symbol[0]) for _, given in others):
+        return True
+    return not symbol[0] and symbol in changes
 
 
 def _stored(key: str, nodes: list[object], symbols: Symbols) -> set[Symbol]:
