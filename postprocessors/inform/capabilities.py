@@ -51,6 +51,7 @@ CAPABILITIES = Capabilities(
     local_routines=False,
     function_routines=False,
     faults_outside=False,
+    faults_fractions=False,
     parameters="none",
     locals=False,
     flags=False,

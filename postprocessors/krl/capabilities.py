@@ -36,6 +36,7 @@ CAPABILITIES = Capabilities(
     ),
     modal_motion=True,
     concurrent_moves="advance",
+    faults_fractions=False,
     paths_to_joints=False,
     module_points="list",
     widest_group=32,

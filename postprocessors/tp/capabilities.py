@@ -87,6 +87,7 @@ CAPABILITIES = Capabilities(
     local_routines=False,
     function_routines=False,
     faults_outside=False,
+    faults_fractions=False,
     parameters="numbered",
     locals=False,
     recursion=False,

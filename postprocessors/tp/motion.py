@@ -269,7 +269,7 @@ class Motion:
     def noted(self, shown: str, move: ir.Move) -> None:
         inner = shown[2:-1].partition(":")[0]
         if shown.startswith("P[") and inner.isdigit():
-            self.points.used(int(inner), self.frame, self.tool, move.kind == "joint")
+            self.points.used(int(inner), self.frame, self.tool, move.kind == "joint", move.origin)
 
     def register(self, pose: ir.Expression) -> str:
         if isinstance(pose, ir.Builtin) and pose.function == "pose_of":

@@ -15,6 +15,7 @@ from rpl import ir
 from rpl.passes.fold import constant
 from rpl.passes.scope import Scope
 from rpl.passes.values import Record, Target, pose_of
+from rpl.source import NOWHERE, Origin
 from rpl.writing.statements import CannotSayError
 from rpl.writing.text import number_text
 
@@ -69,12 +70,14 @@ def _recorded(text: str) -> Recorded | None:
 
 class Reached(NamedTuple):
     """A move to the point of that number, with frame and tool by number ('': not known). `joint`: by its axes, so that
-    it takes the turns that the point tells; a path leaves each axis in the turn it is in."""
+    it takes the turns that the point tells; a path leaves each axis in the turn it is in. `origin`: where the source
+    says so."""
 
     number: int
     frame: str
     tool: str
     joint: bool
+    origin: Origin = NOWHERE
 
 
 @dataclass(slots=True)
@@ -123,10 +126,10 @@ class Points:
         self.anonymous[position] = number
         return number
 
-    def used(self, number: int, frame: str, tool: str, joint: bool = True) -> None:
+    def used(self, number: int, frame: str, tool: str, joint: bool = True, origin: Origin = NOWHERE) -> None:
         """A move goes to the point with this frame and tool in force ('': not known); `joint`: by its axes."""
         self.frames.setdefault(number, set()).add((frame or "F", tool or "F"))
-        self.order.append(Reached(number, frame, tool, joint))
+        self.order.append(Reached(number, frame, tool, joint, origin))
 
     def place(self, number: int) -> str:
         label = self.labels.get(number, "")

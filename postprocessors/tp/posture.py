@@ -14,24 +14,25 @@ from rpl import registry
 
 from .frames import Frames
 from .lines import Line
-from .positions import Points, Position
+from .positions import Points, Position, Reached
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
     from rpl.emulator.rotations import FloatArray
 
 
-def choose_postures(points: Points, frames: Frames, robot: RobotModel) -> list[tuple[int, str]]:
+def choose_postures(points: Points, frames: Frames, robot: RobotModel) -> list[tuple[Reached, str]]:
     """Fill in the flags of points without any, in the order of the moves. A path comes to its point in the turns that
     the axes are in, whatever the point tells.
 
-    The numbers of points of joint moves whose flags the arm cannot follow inside its limits, with the reason."""
+    The first joint move to each point whose flags the arm cannot follow inside its limits, with the reason."""
     make = registry.dialect("tp").notation
     if make is None:
         return []
     notation, near = make(), robot.home
-    wrong: dict[int, str] = {}
-    for number, frame, tool, joint in points.order:
+    wrong: dict[int, tuple[Reached, str]] = {}
+    for reached in points.order:
+        number, frame, tool, joint = reached.number, reached.frame, reached.tool, reached.joint
         position = points.found.get(number)
         if position is None:
             continue  # reported where it is declared
@@ -46,13 +47,13 @@ def choose_postures(points: Points, frames: Frames, robot: RobotModel) -> list[t
             selection = notation.select(robot, flange, dict(position.flags), near)
             joints = selection.joints
             if joints is None:
-                wrong.setdefault(number, selection.reason)
+                wrong.setdefault(number, (reached, selection.reason))
         else:
             joints = robot.nearest(flange, near)
             if joints is not None and not position.flags:
                 points.found[number] = position.with_flags(notation.encode(robot, joints))
         near = near if joints is None else joints
-    return list(wrong.items())
+    return list(wrong.values())
 
 
 _REGISTER = r"PR\[(\d+)(?::[^\]]*)?\]"

@@ -229,8 +229,9 @@ class _Writer:
                 listing.lines[head:head] = [*first, *self.frames.setup(), *selected, *begin]
             robot = self.context.robot
             if robot is not None and listing.name not in self.from_listings:
-                for number, reason in choose_postures(listing.points, self.frames, robot):
-                    self.diagnostics.report(WRONG_FLAGS, NOWHERE, point=f"{listing.name} P[{number}]", reason=reason)
+                for reached, reason in choose_postures(listing.points, self.frames, robot):
+                    point = f"{listing.name} P[{reached.number}]"
+                    self.diagnostics.report(WRONG_FLAGS, reached.origin, point=point, reason=reason)
                 self.assumed(listing, listings, robot)
             for task in tasks:
                 if task.cyclic and task.entry.upper() == listing.name:

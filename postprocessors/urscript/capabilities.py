@@ -53,6 +53,7 @@ CAPABILITIES = Capabilities(
     named_aggregates=True,
     partial_aggregates=False,
     index_base=0,
+    faults_fractions=False,
     row_sizes=False,
     move_settings=frozenset(("frame", "speed", "blend")),
     speeds=frozenset(("joint", "axis", "path", "duration", "path_acceleration", "axis_acceleration")),

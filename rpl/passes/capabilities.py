@@ -129,6 +129,7 @@ class Capabilities:
     text_parts_cut: a part that goes beyond the end of its text is shorter or empty (else the controller stops).
     truth: `minus_one` when TRUE is the number -1 and there is no type of truth values.
     faults_outside: the controller stops at an index outside of an array (else the program looks first).
+    faults_fractions: it stops at an index with a fraction, in place of rounding or cutting it (the same).
     index_base: where arrays start; None: anywhere. expressions: `steps` when an assignment has one operator or function
     of constants and variables. calculated_places: moves, signals, waits take any expression. conditions: `comparisons`
     of two simple operands, joined by and/or.
@@ -297,6 +298,7 @@ class Capabilities:
     truth: str = "bool"
     index_base: int | None = 1
     faults_outside: bool = True
+    faults_fractions: bool = True
     text_parts_cut: bool = False
     expressions: str = "any"
     calculated_places: bool = True

@@ -13,11 +13,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from postprocessors.tp.positions import Points, Position, Reached
+from postprocessors.tp.positions import Points, Position
 from postprocessors.tp.posture import choose_postures
 from rpl.cli.main import run
 from rpl.emulator.model import load_robot
 from rpl.emulator.rotations import matrix_to_quaternion, matrix_to_zyx, zyx_to_matrix
+from rpl.source import Origin, source_from_text
 
 # Name, place, turn of the tool about z, and the turn of axis 6.
 TARGETS = [
@@ -77,7 +78,9 @@ def test_flags_that_no_joints_have_are_an_error(turn: int, wrong: bool) -> None:
     flange = robot.forward(np.array([0.0, 20.0, -20.0, 0.0, -50.0, 180.0]))
     values = tuple(float(one) for one in (*flange[:3, 3], *matrix_to_zyx(flange)))
     flags = {"flip": 0, "down": 0, "back": 0, "t1": 0, "t4": 0, "t6": turn}
-    points = Points({1: Position("pose", values).with_flags(flags)}, order=[Reached(1, "0", "0", True)])
+    points = Points({1: Position("pose", values).with_flags(flags)})
+    here = Origin(source_from_text("a.src", "PTP P1\n"), 0, 6)
+    points.used(1, "0", "0", True, here)
     found = choose_postures(points, _Bare(), robot)  # type: ignore[arg-type]
-    assert [number for number, _ in found] == ([1] if wrong else [])
+    assert [(reached.number, reached.origin) for reached, _ in found] == ([(1, here)] if wrong else [])
     assert all("cannot be reached" in reason for _, reason in found)

@@ -1,8 +1,9 @@
 """Number types: whole numbers of a language with one number type for targets with two, and the reverse.
 
-From one type (RAPID num): what holds whole numbers only becomes INT, so that it can index, select and count; a real
-number in such a place is rounded by a function, as its own language does. Arithmetic that the target lacks (remainder,
-rounding, minimum, ...) goes by functions too. To one type: whole numbers are declared as real, characters as texts.
+From one type (RAPID num): what holds whole numbers only becomes INT, so that it can index, select and count; a
+real number in such a place is rounded by a function (passes.legalise.wholesubscripts has looked at subscripts before).
+Arithmetic that the target lacks (remainder, rounding, minimum, ...) goes by functions too. To one type: whole numbers
+are declared as real, characters as texts.
 """
 
 from __future__ import annotations
@@ -169,10 +170,14 @@ class _Split(Rewriter):
             return new
         return self.library.call("round", new) if isinstance(self.type_of(old), ir.RealType) else new
 
+    def subscript(self, old: ir.Expression) -> ir.Expression:
+        """A subscript: rounded only where the controller would not stop at a fraction, as the source's does."""
+        return self.expression(old) if self.context.capabilities.faults_fractions else self.whole(old)
+
     def expression(self, expression: ir.Expression) -> ir.Expression:
         match expression:
             case ir.Index(base=base, indices=indices):
-                return replace(expression, base=self.expression(base), indices=tuple(map(self.whole, indices)))
+                return replace(expression, base=self.expression(base), indices=tuple(map(self.subscript, indices)))
             case ir.System(indices=indices) if indices:
                 return replace(expression, indices=tuple(map(self.whole, indices)))
             case ir.Signal(index=index, last=last) if index is not None:

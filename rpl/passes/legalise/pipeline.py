@@ -215,6 +215,7 @@ from rpl.passes.legalise.valuearrays import copy_value_arrays
 from rpl.passes.legalise.waits import fit_waits
 from rpl.passes.legalise.watches import counted_watches
 from rpl.passes.legalise.watching import watching
+from rpl.passes.legalise.wholesubscripts import whole_subscripts
 from rpl.passes.legalise.wholetexts import whole_texts
 from rpl.passes.legalise.wholetimes import whole_times
 from rpl.passes.legalise.wholeturns import whole_turns
@@ -372,6 +373,7 @@ PASSES: tuple[Pass, ...] = (
     name_groups,
     groups_to_bits,
     kept_outputs,
+    whole_subscripts,
     numbers,
     starting_values,
     fit_parameters,

@@ -34,12 +34,12 @@ def checked_subscripts(program: ir.Program, context: Context) -> ir.Program:
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         found = unproven(routine, editor.scope, alone)
-        return edit_bodies(routine, _Checks(editor, found).body) if found else routine
+        return edit_bodies(routine, Checks(editor, found).body) if found else routine
 
     return edit_routines(program, context, work)
 
 
-class _Checks(Hoister):
+class Checks(Hoister):
     """One routine; `found` are its Index expressions (by identity) that may be outside."""
 
     def __init__(self, editor: Editor, found: set[int]) -> None:
