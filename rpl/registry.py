@@ -20,7 +20,7 @@ from rpl.source import Source
 
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
-    from rpl.ir import Module, Program
+    from rpl.ir import Module, Program, Signal
     from rpl.ir.analog import AnalogPorts
     from rpl.ir.rules import Rules
     from rpl.reading.ledger import FileReport
@@ -51,6 +51,10 @@ def _signal_name(kind: str, number: int) -> str:
     return f"{kind}[{number}]"
 
 
+def _no_signal(text: str) -> Signal | None:
+    return None
+
+
 def _no_flag_terms(arm: str) -> Mapping[str, tuple[tuple[int, str, int], ...]]:
     return {}
 
@@ -74,7 +78,8 @@ class Dialect:
     the language spells a numbered signal. flag_terms(arm): what each flag of the notation is the sum of: weight, a fact
     of rpl.emulator.model.Posture (or `negative`, `quarter`: the sign and the quarter turn of an axis) and the axis.
     aliases: other words that people ask for it by, such as its maker's name; capitals do not count.
-    analog_said(program): the ranges of analogue signals that a program of the language itself says.
+    analog_said(program): the ranges of analogue signals that a program of the language itself says. signal_of(text):
+    what a spelling of a group of numbered signals means (`OG#(2)`: outputs 9 to 16), or None.
     """
 
     name: str
@@ -91,6 +96,7 @@ class Dialect:
     flag_terms: Callable[[str], Mapping[str, tuple[tuple[int, str, int], ...]]] = _no_flag_terms
     aliases: tuple[str, ...] = ()
     analog_said: Callable[[Program], tuple[AnalogPorts, ...]] = _nothing_said
+    signal_of: Callable[[str], Signal | None] = _no_signal
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from rpl.diagnostics import Diagnostics
 from rpl.registry import Dialect, ReadResult
 from rpl.source import Source
 
-from .signals import signal_name
+from .signals import signal_name, signal_of
 
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
@@ -81,6 +81,7 @@ DIALECT = Dialect(
     notation=_notation,
     notation_fields=("noflip", "lower", "rear", "r180", "t180", "s180"),
     signal_name=signal_name,
+    signal_of=signal_of,
     companions=_companions,
     aliases=("yaskawa", "motoman"),
 )

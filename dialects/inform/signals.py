@@ -5,8 +5,10 @@ Groups have eight (IG, OG) or four (IGH, OGH) consecutive signals: IG#(2) is IN#
 
 from __future__ import annotations
 
+import re
+
 from rpl import ir
-from rpl.source import Origin
+from rpl.source import NOWHERE, Origin
 
 SINGLE: dict[str, str] = {"IN": "digital_in", "OT": "digital_out", "AO": "analog_out", "AI": "analog_in"}
 GROUPS: dict[str, tuple[str, int]] = {
@@ -15,6 +17,7 @@ GROUPS: dict[str, tuple[str, int]] = {
     "IGH": ("group_in", 4),
     "OGH": ("group_out", 4),
 }
+_GROUP = re.compile(rf"({'|'.join(GROUPS)})#\((\d+)\)")
 _SINGLE = ("digital_in", "digital_out", "flag")
 # Direct inputs have numbers of their own; here they follow behind all others, so that they can be computed too.
 DIRECT_INPUTS = 9000
@@ -61,6 +64,12 @@ def _line(number: ir.Expression, bits: int, add: int) -> ir.Expression:
 
 def is_digital(signal: ir.Expression) -> bool:
     return isinstance(signal, ir.Signal) and signal.last is None and signal.kind in _SINGLE
+
+
+def signal_of(text: str) -> ir.Signal | None:
+    """The signals that a spelling of a group means: `OG#(2)` outputs 9 to 16, `IGH#(2)` inputs 5 to 8."""
+    found = _GROUP.fullmatch(text.upper())
+    return numbered(found[1], ir.IntLiteral(int(found[2])), NOWHERE) if found is not None else None
 
 
 def signal_name(kind: str, number: int) -> str:

@@ -19,7 +19,7 @@ from rpl.passes.analog import AnalogRanges, analog_ranges
 from rpl.passes.scope import Fold, ProgramScope, Scope, rules_of
 from rpl.passes.typing import normalise
 from rpl.runtime.code import Code, Read, Values
-from rpl.runtime.signals import Key, bit_kind, group_bits, is_bit_group, key_of
+from rpl.runtime.signals import Key, bit_kind, bits_named, group_bits, is_bit_group, key_of
 from rpl.runtime.values import SignalRef, Value
 from rpl.source import NOWHERE
 
@@ -222,14 +222,26 @@ class LinkedProgram:
                     names.append(declaration.name)
         return port
 
+    @property
+    def signals_named(self) -> int:
+        """How many names of signals are known by now."""
+        return len(self._aliases)
+
     def languages(self) -> tuple[str, ...]:
         """The dialects of the program's modules, each once."""
         return tuple(dict.fromkeys(module.dialect for module in self.program.modules))
 
     def alias(self, name: str) -> SignalRef | None:
         """The signal that a name in the cell file means, by declaration or by a language's own spelling."""
-        declared = self._aliases.get(name.strip().lower())
-        return declared if declared is not None else self._spelled(name.strip().lower())
+        declared = self._aliases.get(name.strip().lower()) or bits_named(name)
+        return declared or self._spelled_group(name.strip()) or self._spelled(name.strip().lower())
+
+    def _spelled_group(self, name: str) -> SignalRef | None:
+        for dialect in self.languages():
+            signal = registry.dialect(dialect).signal_of(name)
+            if signal is not None and (port := constant_port(signal, name)) is not None:
+                return port
+        return None
 
     def _spelled(self, name: str) -> SignalRef | None:
         digits = "".join(character for character in name if character.isdigit())

@@ -39,7 +39,7 @@ def signal_names(
         numbered = {f"{found[0]}:{found[1]}" for name in keys if (found := usual_key(name)) and "group" in found[0]}
         return frozenset(keys | numbered | {f"{bits_of(kind)}:{index}-{last}"})
     usual = [found for name in keys if (found := usual_key(name)) is not None]
-    groups = {group for name in keys if (group := _group_key(name)) is not None}
+    groups = {group for name in keys if (group := group_key(name)) is not None}
     return frozenset(keys | groups | {f"{word}:{number}" for word, number in usual})
 
 
@@ -48,7 +48,7 @@ def bits_of(kind: str) -> str:
     return kind.replace("digital_", "group_")
 
 
-def _group_key(name: str) -> str | None:
+def group_key(name: str) -> str | None:
     """`go9_16` is the group of the signals 9 to 16."""
     first, _, last = name.rpartition("_")
     found = usual_key(first) if last.isdigit() else None

@@ -12,10 +12,11 @@ from dataclasses import replace
 from rpl import ir, registry
 from rpl.cell import Cell
 from rpl.ir.analog import AnalogSetting
+from rpl.ir.walk import walk
 from rpl.linking import link
 from rpl.passes.analog import AnalogRanges, analog_ranges
-from rpl.proof.record import bits_of
-from rpl.runtime.signals import joined_name, usual_key
+from rpl.proof.record import bits_of, group_key
+from rpl.runtime.signals import joined_name, name_of_bits, usual_key
 from rpl.runtime.values import SignalRef
 
 _WIRING = "signal_names"
@@ -57,6 +58,13 @@ def wired_groups(program: ir.Program) -> Wired:
                     if key[0].startswith("group"):
                         found[key] = (name, first, last)
     return found
+
+
+def _named_groups(program: ir.Program) -> dict[str, str]:
+    """Groups of bits that a language without numbers of signals names by them: `group_in:9-16` -> `gi9_16`."""
+    names = (node.name if isinstance(node, ir.Signal) else node.id for node in walk(*program.modules)
+             if isinstance(node, ir.Signal | ir.Name))  # fmt: skip
+    return {key: name for name in names if name and (key := group_key(name)) is not None}
 
 
 def wired_bits(program: ir.Program) -> dict[str, str]:
@@ -128,15 +136,17 @@ def in_words_of(cell: Cell, first: ir.Program, second: ir.Program) -> Cell:
     known, spell = link(first).alias, registry.dialect(*theirs).signal_name
     declared = {name for module in first.modules for name in _declared(module)}
     numbered = {name for module in second.modules for name in _declared(module)}
-    groups = wired_groups(second)
+    groups, own_groups = wired_groups(second), _named_groups(second)
 
     def named(signal: str) -> str:
         whole = joined_name(signal)
         if whole is not None and whole.lower() in numbered:  # RIN#(1), kept as RIN1, which has a number now
             return whole
         port = known(signal) if signal.lower() not in declared else None
-        if port is None or port.name is not None or port.number is None or port.last is not None:
+        if port is None or port.name is not None or port.number is None:
             return signal
+        if port.last is not None:  # bits in a row, which keep their numbers
+            return own_groups.get(name_of_bits(port), name_of_bits(port))
         if (port.kind, port.number) in groups:
             return groups[port.kind, port.number][0]
         return spell(port.kind, port.number)

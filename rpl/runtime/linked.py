@@ -29,6 +29,10 @@ class Linked(Protocol):
     def languages(self) -> tuple[str, ...]:
         """The dialects of the program's modules, each once."""
 
+    @property
+    def signals_named(self) -> int:
+        """How many names of signals are known by now: those of a routine are when it is linked."""
+
     def alias(self, name: str) -> SignalRef | None:
         """The physical signal behind a declared name."""
 

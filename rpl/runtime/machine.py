@@ -29,7 +29,7 @@ from rpl.runtime.waits import CYCLE_S, TIMED_OUT, Wait, Waited, poll_step
 from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
-    from rpl.cell import Cell
+    from rpl.cell import Cell, Reaction
     from rpl.controllers import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.runtime.linked import Linked
@@ -94,7 +94,9 @@ class Machine:
         self.cyclic: dict[int, tuple[Values, Read]] = {}  # flag -> frame and expression
         self.evaluating: list[int] = []  # cyclic flags that are being read
         self.random = random.Random(cell.seed)
-        self.reactions = [(keys_named(r.when, linked.alias(r.when)), r) for r in cell.reactions]
+        self.reactions: list[tuple[frozenset[Key], Reaction]] = []
+        self.group_reactions: list[tuple[list[Key], Reaction]] = []
+        self.names_known = -1  # how many names of signals the linker had when the reactions were sorted
         for given in cell.inputs:
             self.schedule(given.time_s, INPUTS, "input", 0, given.signal, given.value)
 
@@ -356,6 +358,7 @@ class Machine:
             name = self.physical_name(key, port, task)
             self.outputs.append((self.now, name, value))
             self._show_output(task, port, name, value, origin, (key,))
+            self._react_to_groups({key})
         self.changed()
 
     def _set_group(self, task: Task, port: SignalRef, value: int, origin: Origin) -> None:
@@ -365,10 +368,12 @@ class Machine:
         if self.read(port) == value:
             return
         kind = bit_kind(port.kind)
+        turned: set[Key] = set()
         for place, key in enumerate(keys):
             bit = bool(value >> place & 1)
             if bool(self.signals.get(key)) != bit:
                 self.signals[key] = bit
+                turned.add(key)
                 if kind.endswith("_out"):
                     name = self.physical_name(key, SignalRef(kind, whole(key[1])), task)
                     self.outputs.append((self.now, name, bit))
@@ -377,6 +382,7 @@ class Machine:
             first, last = (self.physical_name(key, SignalRef(kind, whole(key[1])), task) for key in (keys[0], keys[-1]))
             group = port._replace(last=port.last if port.last is not None else port.number)
             self._show_output(task, group, f"{first} TO {last}", value, origin, ())
+            self._react_to_groups(turned)
         self.changed()
 
     def _show_output(
@@ -396,11 +402,34 @@ class Machine:
             return {}
         return {"level": round(found.level(value), 9), "unit": found.unit}
 
+    def _sort_reactions(self) -> None:
+        """By what they answer to: a signal, or a group of bits. A routine that is linked brings names of its own."""
+        if self.names_known == self.linked.signals_named:
+            return
+        self.names_known = self.linked.signals_named
+        ports = [(self.linked.alias(each.when), each) for each in self.cell.reactions]
+        self.reactions = [(keys_named(r.when, p), r) for p, r in ports if p is None or not is_bit_group(p)]
+        self.group_reactions = [(group_bits(p), r) for p, r in ports if p is not None and is_bit_group(p)]
+
     def _react(self, value: Value, keys: tuple[Key, ...]) -> None:
         """The world's answers to an output. Each bit of a group is an output by itself."""
+        self._sort_reactions()
         for wanted, reaction in self.reactions:
             if reaction.value == value and any(key in wanted or usual(key) in wanted for key in keys):
                 self.schedule(self.now + reaction.after_s, INPUTS, "input", 0, reaction.signal, reaction.result)
+
+    def _react_to_groups(self, turned: set[Key]) -> None:
+        """The world's answers to the number that a group of bits shows now, some of which have just turned."""
+        self._sort_reactions()
+        if not self.group_reactions:
+            return
+        usually = {usual(key) for key in turned}
+        levels = {usual(key): value for key, value in self.signals.items()}
+        for bits, reaction in self.group_reactions:
+            if not usually.isdisjoint(bits):
+                shown = sum(1 << place for place, key in enumerate(bits) if levels.get(key))
+                if shown == reaction.value:
+                    self.schedule(self.now + reaction.after_s, INPUTS, "input", 0, reaction.signal, reaction.result)
 
     def physical_name(self, key: Key, port: SignalRef, task: Task) -> str:
         """The one name of a signal: its own, or its number as its language spells it."""

@@ -48,6 +48,20 @@ def usual(key: Key) -> Key:
     return found if found is not None else key
 
 
+_BITS = re.compile(r"(group_(?:in|out)):(\d+)-(\d+)")
+
+
+def bits_named(name: str) -> SignalRef | None:
+    """The group that a name in neutral words means by its bits: `group_out:9-16`."""
+    found = _BITS.fullmatch(name.strip())
+    return SignalRef(found[1], int(found[2]), int(found[3])) if found is not None else None
+
+
+def name_of_bits(port: SignalRef) -> str:
+    """The other way round of `bits_named`."""
+    return f"group_{'in' if port.kind.endswith('_in') else 'out'}:{port.number}-{port.last}"
+
+
 def bit_kind(kind: str) -> str:
     """The kind of the bits that a group is made of."""
     return kind.replace("group_", "digital_")

@@ -251,6 +251,14 @@ def test_each_bit_of_a_group_has_its_own_reaction() -> None:
     }
 
 
+def test_a_group_has_its_own_reaction() -> None:
+    cell = "[[reaction]]\nwhen='NR'\nbecomes=11\nafter=0.1\nsignal='ECHO'\nvalue=7\n"
+    data = "SIGNAL NR $OUT[1] TO $OUT[4]\nSIGNAL ECHO $IN[1] TO $IN[4]\n"
+    for body in ("NR=11", "$OUT[1]=TRUE\n$OUT[2]=TRUE\n$OUT[4]=TRUE", "NR=3\nWAIT SEC 0.5\n$OUT[4]=TRUE"):
+        result = krl(f"{body}\nWAIT SEC 0.3\n$OUT[9]=(ECHO==7)", data=data, cell=cell)
+        assert on(result)["$OUT[9]"]
+
+
 def test_two_runs_are_equal_and_a_copy_goes_on_by_itself() -> None:
     text = "DEF P0( )\nDECL INT I\nFOR I=1 TO 5\n$OUT[I]=TRUE\nWAIT SEC 1\nENDFOR\nEND"
     program = read("krl", text)

@@ -76,7 +76,13 @@ class _Late:
 
 
 def _stops(move: ir.Move) -> bool:
-    return isinstance(move.blend, ir.BlendStop | None)
+    """Does the robot stand at its end? A corner of no size (CNT0) is no corner."""
+    match move.blend:
+        case None | ir.BlendStop():
+            return True
+        case ir.BlendPercent(percent=size, path=None):
+            return plain(size) == ir.RealLiteral(0.0)
+    return False
 
 
 __all__ = ["without_late_delays"]
