@@ -247,7 +247,7 @@ class LinkedProgram:
         digits = "".join(character for character in name if character.isdigit())
         if not digits:
             return None
-        for dialect in {module.dialect for module in self.program.modules}:
+        for dialect in self.languages():
             spell = registry.dialect(dialect).signal_name
             for kind in ir.SIGNAL_KINDS:
                 written = int(digits)

@@ -62,8 +62,8 @@ def wired_groups(program: ir.Program) -> Wired:
 
 def _named_groups(program: ir.Program) -> dict[str, str]:
     """Groups of bits that a language without numbers of signals names by them: `group_in:9-16` -> `gi9_16`."""
-    names = (node.name if isinstance(node, ir.Signal) else node.id for node in walk(*program.modules)
-             if isinstance(node, ir.Signal | ir.Name))  # fmt: skip
+    written = (node for node in walk(*program.modules) if isinstance(node, ir.Signal | ir.Name))
+    names = (node.name if isinstance(node, ir.Signal) else node.id for node in written)
     return {key: name for name in names if name and (key := group_key(name)) is not None}
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import copy
 import random
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
@@ -20,8 +20,9 @@ from rpl.runtime.interrupts import Interrupt
 from rpl.runtime.limits import EVENTS_OF_MOTION, MOST_WAITING, STEPS_OF_EVENT, Limits
 from rpl.runtime.motion import MotionQueue
 from rpl.runtime.reached import Reached
+from rpl.runtime.reactions import Reactions
 from rpl.runtime.scene import Scene
-from rpl.runtime.signals import Key, bit_kind, group_bits, is_bit_group, key_of, keys_named, usual, usual_key, zero_of
+from rpl.runtime.signals import Key, bit_kind, group_bits, is_bit_group, key_of, keys_named, usual_key, zero_of
 from rpl.runtime.task import ENDED, READY, WAITING, Task
 from rpl.runtime.trace import Event, Fault, RunResult
 from rpl.runtime.values import SignalRef, StopWatch, Value, whole
@@ -94,9 +95,7 @@ class Machine:
         self.cyclic: dict[int, tuple[Values, Read]] = {}  # flag -> frame and expression
         self.evaluating: list[int] = []  # cyclic flags that are being read
         self.random = random.Random(cell.seed)
-        self.reactions: list[tuple[frozenset[Key], Reaction]] = []
-        self.group_reactions: list[tuple[list[Key], Reaction]] = []
-        self.names_known = -1  # how many names of signals the linker had when the reactions were sorted
+        self.reactions = Reactions(linked, cell.reactions)
         for given in cell.inputs:
             self.schedule(given.time_s, INPUTS, "input", 0, given.signal, given.value)
 
@@ -109,8 +108,9 @@ class Machine:
         return {}
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Machine:
-        for shared in (self.linked, self.model, self.further, self.controller, self.cell, self.scene, self.on_event):
-            memo[id(shared)] = shared
+        shared = (self.linked, self.model, self.further, self.controller, self.cell, self.scene, self.on_event)
+        for each in (*shared, self.reactions):
+            memo[id(each)] = each
         twin = self.__class__.__new__(self.__class__)
         memo[id(self)] = twin
         for name, value in self.__dict__.items():
@@ -358,7 +358,7 @@ class Machine:
             name = self.physical_name(key, port, task)
             self.outputs.append((self.now, name, value))
             self._show_output(task, port, name, value, origin, (key,))
-            self._react_to_groups({key})
+            self._react(self.reactions.to_groups((key,), self.signals))
         self.changed()
 
     def _set_group(self, task: Task, port: SignalRef, value: int, origin: Origin) -> None:
@@ -377,12 +377,12 @@ class Machine:
                 if kind.endswith("_out"):
                     name = self.physical_name(key, SignalRef(kind, whole(key[1])), task)
                     self.outputs.append((self.now, name, bit))
-                    self._react(bit, (key,))
+                    self._react(self.reactions.to_signal(bit, (key,)))  # each bit is an output by itself
         if kind.endswith("_out"):
             first, last = (self.physical_name(key, SignalRef(kind, whole(key[1])), task) for key in (keys[0], keys[-1]))
             group = port._replace(last=port.last if port.last is not None else port.number)
             self._show_output(task, group, f"{first} TO {last}", value, origin, ())
-            self._react_to_groups(turned)
+            self._react(self.reactions.to_groups(turned, self.signals))
         self.changed()
 
     def _show_output(
@@ -393,7 +393,7 @@ class Machine:
         if port.kind == "analog_out":
             data |= self._level(task.frame.code.rules.name, port, names, value)
         self.event("output", data, task, origin, port=port, names=names, timed=self.timed)
-        self._react(value, keys)
+        self._react(self.reactions.to_signal(value, keys))
 
     def _level(self, language: str, port: SignalRef, names: Sequence[str], value: Value) -> dict[str, Value]:
         """What the number of an analogue signal stands for, in V or mA, where that is known."""
@@ -402,34 +402,10 @@ class Machine:
             return {}
         return {"level": round(found.level(value), 9), "unit": found.unit}
 
-    def _sort_reactions(self) -> None:
-        """By what they answer to: a signal, or a group of bits. A routine that is linked brings names of its own."""
-        if self.names_known == self.linked.signals_named:
-            return
-        self.names_known = self.linked.signals_named
-        ports = [(self.linked.alias(each.when), each) for each in self.cell.reactions]
-        self.reactions = [(keys_named(r.when, p), r) for p, r in ports if p is None or not is_bit_group(p)]
-        self.group_reactions = [(group_bits(p), r) for p, r in ports if p is not None and is_bit_group(p)]
-
-    def _react(self, value: Value, keys: tuple[Key, ...]) -> None:
-        """The world's answers to an output. Each bit of a group is an output by itself."""
-        self._sort_reactions()
-        for wanted, reaction in self.reactions:
-            if reaction.value == value and any(key in wanted or usual(key) in wanted for key in keys):
-                self.schedule(self.now + reaction.after_s, INPUTS, "input", 0, reaction.signal, reaction.result)
-
-    def _react_to_groups(self, turned: set[Key]) -> None:
-        """The world's answers to the number that a group of bits shows now, some of which have just turned."""
-        self._sort_reactions()
-        if not self.group_reactions:
-            return
-        usually = {usual(key) for key in turned}
-        levels = {usual(key): value for key, value in self.signals.items()}
-        for bits, reaction in self.group_reactions:
-            if not usually.isdisjoint(bits):
-                shown = sum(1 << place for place, key in enumerate(bits) if levels.get(key))
-                if shown == reaction.value:
-                    self.schedule(self.now + reaction.after_s, INPUTS, "input", 0, reaction.signal, reaction.result)
+    def _react(self, reactions: Iterable[Reaction]) -> None:
+        """The world's answers to an output."""
+        for each in reactions:
+            self.schedule(self.now + each.after_s, INPUTS, "input", 0, each.signal, each.result)
 
     def physical_name(self, key: Key, port: SignalRef, task: Task) -> str:
         """The one name of a signal: its own, or its number as its language spells it."""

@@ -55,8 +55,8 @@ class _Late:
     def statement(self, statement: ir.Statement, behind: ir.Body) -> ir.Statement:
         if isinstance(statement, ir.Trigger):
             following = next((one for one in behind if not isinstance(one, ir.Trigger | ir.Nothing)), None)
-            return self.bounded(statement) if isinstance(following, ir.Move) and _stops(following) else statement
-        if isinstance(statement, ir.Move) and statement.triggers and _stops(statement):
+            return self.bounded(statement) if isinstance(following, ir.Move) and self.stops(following) else statement
+        if isinstance(statement, ir.Move) and statement.triggers and self.stops(statement):
             own = tuple(self.bounded(one) if isinstance(one, ir.Trigger) else one for one in statement.triggers)
             unchanged = all(new is old for new, old in zip(own, statement.triggers, strict=True))
             return statement if unchanged else replace(statement, triggers=own)
@@ -74,15 +74,14 @@ class _Late:
             self.context.diagnostics.report(AT_THE_END, trigger.origin, seconds=f"{delay:g}")
         return replace(trigger, delay=None)
 
-
-def _stops(move: ir.Move) -> bool:
-    """Does the robot stand at its end? A corner of no size (CNT0) is no corner."""
-    match move.blend:
-        case None | ir.BlendStop():
-            return True
-        case ir.BlendPercent(percent=size, path=None):
-            return plain(size) == ir.RealLiteral(0.0)
-    return False
+    def stops(self, move: ir.Move) -> bool:
+        """Does the robot stand at its end? A corner of no size (CNT0) is no corner."""
+        match move.blend:
+            case None | ir.BlendStop():
+                return True
+            case ir.BlendPercent(percent=size, path=None):
+                return constant_number(plain(size), self.scope) == 0
+        return False
 
 
 __all__ = ["without_late_delays"]
