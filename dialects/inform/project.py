@@ -40,7 +40,7 @@ NOT_GIVEN = code(
     "give them in the cell file, for example {name} = {{ x = 0.0, y = 0.0, z = 120.0, a = 0.0, b = 0.0, c = 0.0 }}",
 )
 REGISTERS = "registers"
-_KEPT = frozenset(("B", "I", "D", "R", "S", "TL", "UF"))
+_KEPT = frozenset(("B", "I", "D", "R", "S", "P", "TL", "UF"))
 _IDENTITY = ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ("x", "y", "z", "a", "b", "c")))
 
 

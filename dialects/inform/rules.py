@@ -28,8 +28,21 @@ ANALOG = (AnalogPorts("analog_in", _VOLTS), AnalogPorts("analog_out", _VOLTS))
 _WIDTHS = {"B": Range(0, 255), "I": Range(-(2**15), 2**15 - 1), "D": Range(-(2**31), 2**31 - 1)}
 _HELD = {f"{local}{bank}": held for bank, held in _WIDTHS.items() for local in ("", "L")}
 
+# M: where the pendant shows what the controller keeps.
+_KEPT_AT = {
+    "B": "VARIABLE, BYTE",
+    "I": "VARIABLE, INTEGER",
+    "D": "VARIABLE, DOUBLE",
+    "R": "VARIABLE, REAL",
+    "S": "VARIABLE, STRING",
+    "P": "VARIABLE, POSITION (ROBOT)",
+    "TL": "ROBOT, TOOL",
+    "UF": "ROBOT, USER COORDINATE",
+}
+
 RULES = Rules(
     name="inform",
+    kept_at=_KEPT_AT,
     case_sensitive=True,  # M: jobs and labels are kept as they are written; controllers use capitals
     # Instructions behind a move wait until the robot has come to its point, within its positioning level.
     advance=AdvanceRules(

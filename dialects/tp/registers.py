@@ -303,23 +303,19 @@ def _bank(bank: str, facts: Facts, dump: Dump) -> Iterable[ir.Declaration]:
 
 
 def _array(bank: str, last: int, facts: Facts, dump: Dump) -> Iterable[ir.Declaration]:
-    """A whole bank as an array. Position registers without a value stay so, the others are filled one by one."""
-    bound = (ir.IntLiteral(last),)
-    if bank != "PR":
-        values = tuple((None, _one(bank, number, facts, dump)[1] or ir.IntLiteral(0)) for number in range(1, last + 1))
-        whole = _global(bank, ir.ArrayType(_one(bank, 1, facts, dump)[0], bound), ir.Aggregate(values))
-        yield replace(whole, origin=Origin(comments=_notes(facts, bank)))
-        return
-    kind = facts.register_kind(None)
-    whole = _global(bank, ir.ArrayType(type_of_kind(kind), bound), None)
-    yield replace(whole, origin=Origin(comments=_notes(facts, bank)))
+    """A whole bank as an array, with all its values."""
+    type, bound = _element_type(bank, facts), (ir.IntLiteral(last),)
+    values = []
     for number in range(1, last + 1):
-        if number in dump.positions and dump.positions[number][0].kind == kind:
-            position, origin = dump.positions[number]
-            value = value_of(position, origin)
-            if value is not None:
-                element = ir.Index(ir.Name(bank), (ir.IntLiteral(number),))
-                yield ir.Initialise(ir.Assign(element, value, origin=origin), origin=origin)
+        value = _one(bank, number, facts, dump)[1] if bank != "PR" or facts.in_array(number) else None
+        values.append((None, value or _kept(bank, number, facts, type)))
+    whole = _global(bank, ir.ArrayType(type, bound), ir.Aggregate(tuple(values)))
+    yield replace(whole, origin=Origin(comments=_notes(facts, bank)))
+
+
+def _element_type(bank: str, facts: Facts) -> ir.Type:
+    simple: dict[str, ir.Type] = {"R": tables.NUMBER, "SR": ir.StringType()}
+    return simple.get(bank) or type_of_kind(facts.register_kind(None))
 
 
 def _one(bank: str, number: int, facts: Facts, dump: Dump) -> tuple[ir.Type, ir.Expression | None]:
@@ -339,11 +335,12 @@ def _one(bank: str, number: int, facts: Facts, dump: Dump) -> tuple[ir.Type, ir.
             return ir.StringType(), ir.TextLiteral(text[0])
     kind = facts.register_kind(number)
     dumped = dump.positions.get(number)
-    return type_of_kind(kind), value_of(*dumped) if dumped is not None and dumped[0].kind == kind else None
+    place = value_of(*dumped) if dumped is not None and dumped[0].kind == kind else None
+    return type_of_kind(kind), place or _kept(bank, number, facts, type_of_kind(kind))
 
 
 def _kept(bank: str, number: int, facts: Facts, type: ir.Type) -> ir.VendorValue:
-    """The value that the controller keeps and no dump gives; on a new one it is 0, or the empty text."""
+    """The value that the controller keeps and no dump gives; on a new one it is 0, the empty text, or no place."""
     label = facts.labels.get((bank, number), "")
     return ir.VendorValue("tp", f"{bank}[{number}:{label}]" if label else f"{bank}[{number}]", type)
 

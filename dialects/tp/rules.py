@@ -31,8 +31,18 @@ _INPUTS = InputRules(
     variable_ranges={f"{bank}_NUM": Range(0.0, float(most)) for bank, most in tables.FRAMES.items()},
 )
 
+# M: where the pendant shows what the controller keeps.
+_KEPT_AT = {
+    "R": "DATA, Registers",
+    "SR": "DATA, String Registers",
+    "PR": "DATA, Position Registers",
+    "UFRAME": "SETUP, Frames, User",
+    "UTOOL": "SETUP, Frames, Tool",
+}
+
 RULES = Rules(
     name="tp",
+    kept_at=_KEPT_AT,
     inputs=_INPUTS,
     # Behind FINE the program goes on when the robot is in position, behind CNT as soon as the move slows down (M: at
     # the beginning of the corner).

@@ -92,6 +92,8 @@ def _texts(values: Mapping[int, ir.Expression], names: Names) -> OutputFile | No
 def _positions(values: Mapping[int, ir.Expression], names: Names, scope: Scope) -> OutputFile | None:
     lines = [f"[*POSREG*]$POSREG  Storage: SHADOW  Access: RW  : ARRAY[1,{tables.PR.last}] OF Position Reg"]
     for number, value in sorted(values.items()):
+        if isinstance(value, ir.VendorValue):
+            continue  # it stands on the controller only
         label = register_comment("PR", names.get(("PR", number), ""))
         lines.extend((f"    [1,{number}] =   '{label}'", *_position(value, scope)))
     return _file("POSREG", lines) if len(lines) > 1 else None

@@ -217,6 +217,7 @@ class Rules:
     real_bits: of the mantissa of real numbers; 24: four-byte floats, to which each operation rounds. whole_bits: of
     whole numbers, sign included; a larger one is a fault where the language has a type of whole numbers, else it is
     rounded like a real number.
+    kept_at: where the controller shows values that it keeps, by the word that their names begin with.
     mean_parabolas: a curve through points is the mean of the two parabolas that overlap there, weighted along the way
     (else it bends continuously; see rpl.passes.curves). analog: what numbers of analogue signals stand for, as far as
     the language fixes it; without a range the I/O configuration alone says it.
@@ -259,6 +260,7 @@ class Rules:
     inputs: InputRules = InputRules()
     real_bits: int = 53
     whole_bits: int = 64
+    kept_at: Mapping[str, str] = field(default_factory=dict)
     mean_parabolas: bool = False
     analog: tuple[AnalogPorts, ...] = ()
 

@@ -14,10 +14,14 @@ from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import is_statement, walk
 from rpl.passes.rewrite import visit_parts
+from rpl.passes.scope import rules_of
+from rpl.passes.settable import settable
 from rpl.source import Origin
 
 Keys = frozenset[str]
 _NONE: Keys = frozenset()
+# All components of a place; setting each of them sets the place.
+_WHOLE = tuple(frozenset(names) for names in (("x", "y", "z", "a", "b", "c"), ("j1", "j2", "j3", "j4", "j5", "j6")))
 # Built-in procedures that read their first argument before they change it.
 _CHANGING = frozenset(("increment", "decrement", "text_append"))
 
@@ -33,7 +37,11 @@ TAKEN_AS_ZERO = code(
 
 def report_taken_as_zero(program: ir.Program, diagnostics: Diagnostics) -> None:
     """What a run takes for granted about data that the controller keeps: once for each."""
-    for one in unset_reads(program):
+    unset = unset_reads(program)
+    faults = _places(program, faulting=True) if unset else _NONE
+    for one in unset:
+        if one.key.partition("[")[0] in faults:
+            continue  # a run that reads such a place ends there
         diagnostics.report(TAKEN_AS_ZERO, one.origin, name=one.name, path=one.path)
 
 
@@ -41,13 +49,28 @@ def report_taken_as_zero(program: ir.Program, diagnostics: Diagnostics) -> None:
 class UnsetRead:
     """A kept value that may be read before it is set. `key`: the variable (`R2`) or element (`R[2]`), folded; a whole
     list ends with `[]`. `name`: in the controller's words. `origin`: a place that reads it. `roots`: the routines that
-    nothing calls and from which that place is reached."""
+    nothing calls and from which that place is reached. `may_be_set`: it is a place that something in the program sets,
+    whole or in part, though not certainly before."""
 
     key: str
     name: str
     path: str
     origin: Origin
     roots: tuple[str, ...]
+    may_be_set: bool = False
+
+
+def _places(program: ir.Program, *, faulting: bool = False) -> Keys:
+    """Kept places, and lists of such. `faulting`: of languages in which reading one without a value is a fault."""
+    found: set[str] = set()
+    for module in program.modules:
+        if faulting and not rules_of(module.dialect).undefined:
+            continue
+        for one in module.declarations:
+            if isinstance(one, ir.Variable) and one.storage == "persistent":
+                type = one.type.element if isinstance(one.type, ir.ArrayType) else one.type
+                found |= {one.name.lower()} if zero_of(type) is None else set()
+    return frozenset(found)
 
 
 def kept_values(program: ir.Program) -> dict[str, tuple[str, str]]:
@@ -86,8 +109,17 @@ def unset_reads(program: ir.Program) -> list[UnsetRead]:
     found: dict[str, tuple[Origin, list[str]]] = {}
     for flow in roots:
         for key, origin in flow.needs.items():
-            found.setdefault(key, (origin, []))[1].append(flow.name)
-    return [UnsetRead(key, *kept[key], origin, tuple(names)) for key, (origin, names) in sorted(found.items())]
+            whole = key.partition(".")[0]
+            names = found.setdefault(whole, (origin, []))[1]
+            if flow.name not in names:
+                names.append(flow.name)
+    places = _places(program)
+    late = {key for key in found if key.partition("[")[0] in places}
+    index = settable(program) if late else None
+    return [
+        UnsetRead(key, *kept[key], origin, tuple(names), index is not None and key in late and index.may_set(key))
+        for key, (origin, names) in sorted(found.items())
+    ]
 
 
 @dataclass(slots=True)
@@ -98,6 +130,7 @@ class _Step:
     sets: Keys = _NONE
     calls: str = ""
     starts: str = ""
+    joins: str = ""
     ways: tuple[str, ...] = ()
     falls: bool = True
     leaves: bool = False
@@ -115,6 +148,7 @@ class _Flow:
         self.steps: list[_Step] = []
         self.labels: dict[str, int] = {}
         self.numbers = 0
+        self.hits: dict[str, Keys] = {}  # flag of a search, what is set where it is TRUE
         self.runs: set[str] = set()
         self.needs: dict[str, Origin] = {}
         self.gives: Keys | None = None
@@ -141,6 +175,8 @@ class _Flow:
             match item:
                 case ("label", str() as name):
                     self.labels[name] = len(self.steps)
+                case ("set", frozenset() as keys):
+                    self.steps.append(_Step(sets=keys))
                 case ("jump", str() as name):
                     self.steps.append(_Step(ways=(name,), falls=False))
                 case ("fork", tuple() as names):
@@ -166,7 +202,8 @@ class _Flow:
                 for condition, body in branches:
                     behind = self.fresh()
                     look = _Look(condition, statement.origin)
-                    made += [look, ("fork", (behind,)), *body, ("jump", end), ("label", behind)]
+                    hit, missed = self.found(condition, body)
+                    made += [look, ("fork", (behind,)), *hit, *body, ("jump", end), ("label", behind), *missed]
                 return [*made, *otherwise, ("label", end)]
             case ir.Switch(selector=selector, cases=cases, default=default):
                 self.use(selector, statement.origin)
@@ -195,6 +232,19 @@ class _Flow:
         assert is_statement(statement)
         self.plain(statement)
         return []
+
+    def found(self, condition: ir.Expression, body: ir.Body) -> tuple[list[object], list[object]]:
+        """Work that says what a search has set: where the condition, its flag, holds, and where it does not."""
+        match condition:
+            case ir.Name(id=flag) if flag in self.hits:
+                known = self.hits[flag]
+                for one in body:
+                    if isinstance(one, ir.Assign):
+                        self.hits[flag] |= self.place(one.target, [])
+                return [("set", known)], []
+            case ir.Unary(op="not", operand=ir.Name(id=flag)) if flag in self.hits:
+                return [], [("set", self.hits[flag])]
+        return [], []
 
     def loop(self, loop: ir.For | ir.While | ir.Repeat | ir.Loop) -> list[object]:
         head, again, leave = self.fresh(), self.fresh(), self.fresh()
@@ -231,6 +281,13 @@ class _Flow:
             case ir.Dialog(answer=answer):
                 read += [statement.text, statement.timeout]
                 sets |= self.place(answer, read)
+            case ir.Move(search=ir.Search(found=place, hit=flag) as search):
+                read.append(replace(statement, search=replace(search, found=None)))
+                given = _NONE if place is None else frozenset(self.place(place, read))
+                if isinstance(flag, ir.Name):
+                    self.hits[flag.id] = given  # only where it found something
+                else:
+                    sets |= given
             case _:
                 read.append(statement)
         self.use(tuple(one for one in read if one is not None), statement.origin)
@@ -240,6 +297,8 @@ class _Flow:
             match node:
                 case ir.CallRoutine(name=name) if node is statement:
                     self.run(_Step(calls=name.lower()), name)
+                case ir.TaskControl(op="join", task=name):
+                    self.steps.append(_Step(joins=name.lower()))
                 case ir.CallRoutine(name=name) | ir.TaskControl(op="start", task=name):
                     self.run(_Step(starts=name.lower()), name)
                 case ir.Call(name=name):
@@ -253,6 +312,10 @@ class _Flow:
         """What an assignment to the place sets; the numbers of its elements are read."""
         if isinstance(target, ir.Index):
             read.extend(target.indices)
+        if isinstance(target, ir.Field):
+            key = self.key(target.base)
+            read.extend(target.base.indices if isinstance(target.base, ir.Index) else ())
+            return {f"{key}.{target.name.lower()}"} if key else set()
         key = self.key(target)
         return {key} if key else set()
 
@@ -270,9 +333,11 @@ class _Flow:
         """A step that reads what stands in the part."""
         found: dict[str, Origin] = {}
         for node in _nodes(part):
-            key = self.key(node)
+            key, name = self.key(node), ""
+            if isinstance(node, ir.Field):
+                key, name = self.key(node.base), f".{node.name.lower()}"
             if key and key in self.kept:
-                found.setdefault(key, origin)
+                found.setdefault(key + name, origin)
         if found:
             self.steps.append(_Step(reads=found))
 
@@ -298,6 +363,9 @@ class _Flow:
                         self.needs.setdefault(key, origin)
                 if step.calls:
                     behind = None if flow.gives is None else state | flow.gives
+            if step.joins in flows:
+                given = flows[step.joins].gives  # what the task sets is set when it has ended
+                behind = None if given is None else state | given
             if behind is None:
                 continue
             if step.leaves:
@@ -322,13 +390,23 @@ class _Look:
 
 
 def _is_set(key: str, state: Keys) -> bool:
+    """Is the variable, element or component set? An element of a list that was filled by a computed number is, and a
+    list of which some element was set; a place of which all components were set."""
     if key in state:
         return True
-    name, bracket, _ = key.partition("[")
-    if not bracket:
-        return False
-    # An element of a list that was filled by a computed number; a list of which some element was set.
-    return f"{name}[]" in state or (key.endswith("[]") and any(one.startswith(f"{name}[") for one in state))
+    whole, dot, part = key.partition(".")
+    name, bracket, index = whole.partition("[")
+    places = {whole}
+    if bracket and index == "]":
+        places = {one.partition(".")[0] for one in state if one.startswith(f"{name}[")}
+    elif bracket:
+        places.add(f"{name}[]")
+    return any(
+        one in state
+        or (dot != "" and f"{one}.{part}" in state)
+        or any(all(f"{one}.{component}" in state for component in components) for components in _WHOLE)
+        for one in places
+    )
 
 
 def _nodes(part: object) -> Iterator[object]:
@@ -341,9 +419,17 @@ def _nodes(part: object) -> Iterator[object]:
             continue
         if one is None:
             continue
+        match one:
+            case ir.Builtin(function="element_difference", arguments=(left, right)) if left == right:
+                continue  # PR[1]=PR[1]-PR[1] makes zero of whatever there is
         yield one
         below: list[object] = []
-        visit_parts(one, below.append)
+        if isinstance(one, ir.Field):
+            # A component of a place, not the whole of it; the numbers of elements are read.
+            base = one.base
+            below += base.indices if isinstance(base, ir.Index) else () if isinstance(base, ir.Name) else (base,)
+        else:
+            visit_parts(one, below.append)
         stack.extend(reversed(below))
 
 
@@ -361,25 +447,33 @@ def without_unknown(program: ir.Program) -> ir.Program:
     if not kept_values(program):
         return program
 
-    def declared(one: ir.Declaration) -> ir.Declaration:
-        if not isinstance(one, ir.Variable) or one.storage != "persistent":
-            return one
-        match one.initial:
-            case ir.VendorValue(type=type):
-                return replace(one, initial=zero_of(type))
-            case ir.Aggregate(entries=entries):
-                if any(isinstance(value, ir.VendorValue) for _, value in entries):
-                    filled = tuple(
-                        (name, (zero_of(value.type) or value) if isinstance(value, ir.VendorValue) else value)
-                        for name, value in entries
-                    )
-                    return replace(one, initial=replace(one.initial, entries=filled))
-        return one
-
     modules = tuple(
-        replace(module, declarations=tuple(declared(one) for one in module.declarations)) for module in program.modules
+        replace(module, declarations=tuple(one for given in module.declarations for one in _begun(given)))
+        for module in program.modules
     )
     return replace(program, modules=modules)
+
+
+def _begun(one: ir.Declaration) -> tuple[ir.Declaration, ...]:
+    """A declaration without unknown values; known ones in a list of places, which have no zero, are set behind it."""
+    if not isinstance(one, ir.Variable) or one.storage != "persistent":
+        return (one,)
+    match one.initial, one.type:
+        case ir.VendorValue(type=type), _:
+            return (replace(one, initial=zero_of(type)),)
+        case ir.Aggregate(entries=entries), ir.ArrayType(base=base):
+            filled = tuple((name, _known(value)) for name, value in entries)
+            if not any(isinstance(value, ir.VendorValue) for _, value in filled):
+                return (replace(one, initial=replace(one.initial, entries=filled)),)
+            known = [(at, value) for at, (_, value) in enumerate(filled, base) if not isinstance(value, ir.VendorValue)]
+            elements = ((ir.Index(ir.Name(one.name), (ir.IntLiteral(at),)), value) for at, value in known)
+            given = (ir.Assign(element, value, origin=value.origin) for element, value in elements)
+            return (replace(one, initial=None), *(ir.Initialise(each, origin=each.origin) for each in given))
+    return (one,)
+
+
+def _known(value: ir.Expression) -> ir.Expression:
+    return (zero_of(value.type) or value) if isinstance(value, ir.VendorValue) else value
 
 
 def zero_of(type: ir.Type) -> ir.Expression | None:

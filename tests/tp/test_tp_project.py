@@ -92,7 +92,7 @@ def test_an_indexed_bank_of_positions_takes_the_values_of_the_dump() -> None:
     found = read(listing("J PR[R[1]] 50% FINE\nR[2]=PR[3,1]"), POSREG)
     assert not found[1].has_errors
     text = as_rpl(found[0])
-    assert "PR: ARRAY[100] OF TARGET.tp" in text and "PR[3] = target.tp" in text
+    assert "PR: ARRAY[100] OF TARGET.tp" in text and 'VENDOR(tp, "PR[2:gone]", TARGET.tp), target.tp {' in text
 
 
 KINDS = [

@@ -9,7 +9,7 @@ program stops in front of it; everywhere else the copy is exact and nothing is s
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import cast, get_args
 
@@ -23,6 +23,7 @@ from rpl.passes.legalise.effects import blocks
 from rpl.passes.legalise.heldtexts import HeldTexts, named_by
 from rpl.passes.legalise.jumps import inside
 from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.settable import written_places
 
 ALIASED = code(
     "reference-aliased",
@@ -375,21 +376,6 @@ def _same(one: Step, other: Step, together: bool) -> bool:
             one == other
         )
     return one == other or one is None or other is None
-
-
-def written_places(statement: ir.Statement) -> Sequence[ir.Expression]:
-    """What a statement writes, its calls not looked at. What a procedure gets counts as written."""
-    match statement:
-        case ir.Assign(target=target):
-            return (target,)
-        case ir.Do(arguments=values):
-            return [value for value in values if value is not None]
-        case ir.Move(search=ir.Search(found=found, hit=hit)):
-            return [value for value in (found, hit) if value is not None]
-        case ir.DefineTrigger(target=target):
-            return (target,)
-    named = (getattr(statement, part, None) for part in ("answer", "timed_out", "clock"))
-    return [value for value in named if isinstance(value, ir.Name | ir.Index | ir.Field)]
 
 
 def _locals(routine: ir.Routine) -> Iterator[ir.Variable]:

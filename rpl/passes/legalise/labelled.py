@@ -22,7 +22,10 @@ def labels_as_remarks(program: ir.Program, context: Context) -> ir.Program:
 
 
 def _remarked(declaration: ir.Declaration) -> ir.Declaration:
-    if not isinstance(declaration, ir.Variable) or not declaration.label or declaration.origin.comments:
+    if not isinstance(declaration, ir.Variable) or not declaration.label:
+        return declaration
+    said = declaration.origin.comments
+    if any(comment.behind for comment in said):
         return declaration
     remark = Comment(declaration.label, behind=True)
-    return replace(declaration, origin=replace(declaration.origin, comments=(remark,)))
+    return replace(declaration, origin=replace(declaration.origin, comments=(*said, remark)))
