@@ -78,6 +78,9 @@ def kept_values(program: ir.Program) -> dict[str, tuple[str, str]]:
     found: dict[str, tuple[str, str]] = {}
     for module in program.modules:
         for one in module.declarations:
+            match one:
+                case ir.Initialise(assign=ir.Assign(target=target)):
+                    _known_element(target, found)
             if not isinstance(one, ir.Variable) or one.storage != "persistent":
                 continue
             name = one.name.lower()
@@ -92,6 +95,16 @@ def kept_values(program: ir.Program) -> dict[str, tuple[str, str]]:
                     if unknown and len(unknown) >= len(entries) - (base == 0):
                         found[f"{name}[]"] = f"{one.name}[...]", f"{one.name}[{max(unknown[0], 1)}]"
     return found
+
+
+def _known_element(place: ir.Expression, found: dict[str, tuple[str, str]]) -> None:
+    """A value that is given behind the declaration: the element is known, and with it some element of the list."""
+    match place:
+        case ir.Index(base=ir.Name(id=name), indices=(ir.IntLiteral(value=at),)):
+            found.pop(f"{name.lower()}[{at}]", None)
+            found.pop(f"{name.lower()}[]", None)
+        case ir.Name(id=name):
+            found.pop(name.lower(), None)
 
 
 def unset_reads(program: ir.Program) -> list[UnsetRead]:

@@ -193,6 +193,15 @@ def test_positions_of_jobs_alike(lines: tuple[str, ...], lost: str, warned: str)
     assert " ".join(one.name for one in found if one.may_be_set) == warned
 
 
+def test_values_that_stand_in_a_job_are_known() -> None:
+    name, text = job("SET B001 2", "SET P003 P[B001]", "MOVL P[B001] V=100.0", "MOVL P002 V=100.0", "MOVL P004 V=100.0")
+    place = (
+        "///POSTYPE ROBOT\n///RECTAN\n///RCONF 1,0,0,0,0,0,0,0\nP00002=400.000,0.000,300.000,180.0000,0.0000,0.0000\n"
+    )
+    given = name, text.replace("0,0,0,0,0,0\n", f"0,0,0,1,0,0\n{place}", 1)
+    assert unset("inform", given) == ["P004"]
+
+
 def test_what_another_program_or_task_sets_is_no_loss() -> None:
     sets, uses = listing("PR[2]=LPOS", name="SETS"), listing("J PR[2] 50% FINE", name="USES")
     assert unset("tp", listing("CALL SETS", "CALL USES"), sets, uses) == []
