@@ -15,7 +15,7 @@ from rpl.ir.walk import walk
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.flow import ModalFlow
-from rpl.passes.legalise.taughtvalues import tell_written
+from rpl.passes.legalise.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.usage import doing
 from rpl.passes.legalise.walk import Rewriter, unchanged_in
 from rpl.passes.values import Record, Target, Value, component, pose_of, real
@@ -53,6 +53,7 @@ class _Asked(Rewriter):
 
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
+        self.written = JointsOfPlaces(program, context)
         arm, other = context.robot, context.to_robot
         self.arm = arm if other is None or other is arm else None
         asked = [_asked(one).items() for one in walk(*program.modules) if isinstance(one, ir.Move)]
@@ -107,7 +108,7 @@ class _Asked(Rewriter):
             for name in sorted(self.varied & asked.keys()):
                 self.context.diagnostics.report(POSTURE, move.origin, name=name.replace("_", " "))
             return plain
-        tell_written(self.context, self.scope, move.origin, "the joint values of this move", move.target)
+        self.written.tell(move, self.scope, move.target)
         entries = tuple((name, real(round(float(one), 9))) for name, one in zip(_AXES, self.here, strict=False))
         return replace(plain, target=ir.Aggregate(entries, type_name="joints"))
 

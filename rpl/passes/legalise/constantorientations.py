@@ -18,7 +18,7 @@ from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies
 from rpl.passes.legalise.fixedarcs import FixedArcs, is_fixed
-from rpl.passes.legalise.taughtvalues import WRITTEN, taught_names
+from rpl.passes.legalise.taughtvalues import WRITTEN, taught_names, tell_written
 from rpl.passes.legalise.walk import unchanged_in
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.rigid import NO_TURN, Pose, Rotation
@@ -232,6 +232,8 @@ class _Paths:
             return replace(move, target=replace(move.target, entries=entries))
         value = None if self.scope is None else constant(move.target, self.scope, self.unchanged)
         if isinstance(value, Target | Pose):
+            if self.reports and self.scope is not None:
+                tell_written(self.context, self.scope, move.origin, "the way of this move", move.target)
             return replace(move, target=_written(value, NO_TURN))
         if self.reports:
             self.context.diagnostics.report(LOST, move.origin)

@@ -18,7 +18,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.taughtvalues import tell_written
+from rpl.passes.legalise.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.legalise.whereabouts import Whereabouts
 from rpl.passes.values import Target, real
@@ -87,6 +87,7 @@ def _differ(arm: Any, ours: Any, theirs: Any, flange: Any, before: Any) -> bool:
 class _Free(Rewriter):
     def __init__(self, program: ir.Program, context: Context, ours: Any, theirs: Any) -> None:
         super().__init__(program, context)
+        self.written = JointsOfPlaces(program, context)
         self.arm: Any = context.robot
         self.ours, self.theirs = ours, theirs
         self.stands = Whereabouts(program, context)
@@ -134,7 +135,7 @@ class _Free(Rewriter):
         return found[0]
 
     def to_joints(self, move: ir.Move, joints: Any) -> ir.Move:
-        tell_written(self.context, self.scope, move.origin, "the joint values of this move", move.target)
+        self.written.tell(move, self.scope, move.target)
         entries = tuple((name, real(round(float(one), 9))) for name, one in zip(_AXES, joints, strict=False))
         return replace(move, target=ir.Aggregate(entries, type_name="joints"))
 

@@ -17,6 +17,7 @@ from rpl.passes.legalise.taughtvalues import tell_written
 from rpl.passes.legalise.walk import Rewriter, unchanged_in
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.values import Record, Target, component, pose_of, real
+from rpl.source import NOWHERE
 
 _SOLVED = {"target_to_joints": 1, "target_to_joints_near": 2}  # function -> arguments before tool and frame
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
@@ -37,9 +38,10 @@ class _Known(Rewriter):
 
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
-        self.unchanged = unchanged_in(program)
+        self.unchanged, self.here = unchanged_in(program), NOWHERE
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+        self.here = statement.origin
         return [statement] if isinstance(statement, ir.Move) else super().statement(statement)
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
@@ -49,7 +51,7 @@ class _Known(Rewriter):
             ):
                 found = self.solved(given, _SOLVED[function])
                 if found is not None:
-                    tell_written(self.context, self.scope, expression.origin, "these joint values", *given)
+                    tell_written(self.context, self.scope, self.here, "these joint values", *given)
                     entries = tuple((name, real(round(float(one), 9))) for name, one in zip(_AXES, found, strict=False))
                     return ir.Aggregate(entries, type_name="joints", origin=expression.origin)
         return rewrite_parts(expression, self.expression)

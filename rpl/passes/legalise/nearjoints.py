@@ -18,7 +18,7 @@ from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import edit_bodies, edit_each
 from rpl.passes.legalise.flow import ModalFlow
-from rpl.passes.legalise.taughtvalues import tell_written
+from rpl.passes.legalise.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.walk import Rewriter, unchanged_in
 from rpl.passes.values import Record, Value, component, pose_of, real
 
@@ -50,6 +50,7 @@ class _Solved(Rewriter):
 
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
+        self.written = JointsOfPlaces(program, context)
         self.flow, self.unchanged = ModalFlow(program, self.scopes), unchanged_in(program)
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
@@ -75,7 +76,7 @@ class _Solved(Rewriter):
             return move
         found = self.joints(move, place, joints)
         if found is not None:
-            tell_written(self.context, self.scope, move.origin, "the joint values of this move", place)
+            self.written.tell(move, self.scope, place)
             return replace(move, target=_written(found))
         if self.context.capabilities.postures == "joints":
             return replace(move, target=ir.Builtin(_NEAR, (place, _written(joints))))

@@ -16,7 +16,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.curves import SAME_MM, Leg, Segment, block, circle_through, rotation_of_vector, vector_of_rotation
-from rpl.passes.fold import Unchanged, constant, constant_number
+from rpl.passes.fold import Unchanged, constant, constant_number, lasting
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.curvepoints import AS_POINTS, SAME_CURVE_MM, apart, through_points
 from rpl.passes.legalise.partialplaces import may_move
@@ -96,10 +96,7 @@ class SplineArcs:
         if not self._known_modes([start, *(leg.end for leg in legs)], spline):
             return None
         points = self._points(spline, moves, before, curve)
-        last = next((one for one in reversed(before) if isinstance(one, ir.Move)), None)
-        begins = last.target if last is not None else None
         if points is not None:
-            tell_written(self.context, self.scope, spline.origin, "where this curve begins", begins)
             return points
         found = _pieces(runs)
         if found is None:
@@ -108,8 +105,9 @@ class SplineArcs:
         triggers = self._triggers(spline, pieces)
         if triggers is None:
             return None
-        rests_on = [begins, *(one for move in moves for one in (move.target, move.via))]
-        tell_written(self.context, self.scope, spline.origin, "this curve", *rests_on)
+        if any(piece.goal is not None for piece in pieces):
+            rests_on = [_begins(before), *(one for move in moves for one in (move.target, move.via))]
+            tell_written(self.context, self.scope, spline.origin, "this curve", *rests_on)
         self.context.diagnostics.report(AS_ARCS, spline.origin, count=len(pieces), deviation=max(deviation, 0.001))
         if _blends(before):
             self.context.diagnostics.report(SMALLER_CORNER, spline.origin, size=0.5 * pieces[0].length)
@@ -140,7 +138,10 @@ class SplineArcs:
         last = next((one for one in reversed(before) if isinstance(one, ir.Move | ir.Spline)), None)
         parted = isinstance(last, ir.Spline)
         said = [replace(move, settings=settings_of(move, spline)) for move in moves]
-        done = through_points(spline, self._place(curve[0]), said, parted) if deviation <= SAME_CURVE_MM else None
+        begins = _begins(before)  # known, so it is the same again; of taught data it stays what it is
+        if begins is None or lasting(begins, self.scope) is not None:
+            begins = self._place(curve[0])
+        done = through_points(spline, begins, said, parted) if deviation <= SAME_CURVE_MM else None
         if done is None:
             return None
         self.context.diagnostics.report(AS_POINTS, spline.origin, count=len(moves) + 1, deviation=max(deviation, 0.001))
@@ -287,6 +288,16 @@ class SplineArcs:
         values = (pose.position.x, pose.position.y, pose.position.z, *pose.rotation.zyx)
         entries = tuple((name, real(round(value, _PLACES))) for name, value in zip(_NAMES, values, strict=True))
         return ir.Aggregate(entries, type_name=type_word(ir.TargetType(self.scope.rules.name)))
+
+
+def _begins(before: Sequence[ir.Statement]) -> ir.Expression | None:
+    """Where the statements in front of a block lead to, as the program says it."""
+    for statement in reversed(before):
+        if isinstance(statement, ir.Move):
+            return statement.target
+        if isinstance(statement, ir.Spline):
+            return _begins(statement.body)
+    return None
 
 
 def _pieces(runs: Sequence[Sequence[Segment]]) -> tuple[list[_Piece], float] | None:

@@ -4,11 +4,14 @@ pendant, and a value that was worked out of them in the translation stays behind
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.fold import is_taught_type
-from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.modalflow import Flow
 from rpl.passes.scope import Scope
 from rpl.source import Origin
 
@@ -51,4 +54,22 @@ def tell_written(context: Context, scope: Scope, origin: Origin, what: str, *exp
         context.diagnostics.report(WRITTEN, origin, what=what, names=", ".join(names))
 
 
-__all__ = ["WRITTEN", "taught_names", "tell_written"]
+@dataclass(slots=True)
+class JointsOfPlaces:
+    """Names what decides the joints that are written for a place: the place, and the tool and the frame of the move.
+    The program is followed only where there is something to tell."""
+
+    program: ir.Program
+    context: Context
+    flow: Flow | None = None
+
+    def tell(self, move: ir.Move, scope: Scope, place: ir.Expression) -> None:
+        """Of a move of this program."""
+        if self.flow is None:
+            self.flow = Flow.of(self.program, dict(rules_of(self.context.source).system_defaults))
+        state = self.flow.at(move)
+        seen = (move.tool or state["tool"], move.frame or state["base"])
+        tell_written(self.context, scope, move.origin, "the joint values of this move", place, *seen)
+
+
+__all__ = ["WRITTEN", "JointsOfPlaces", "taught_names", "tell_written"]

@@ -16,7 +16,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.taughtvalues import tell_written
+from rpl.passes.legalise.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.walk import Rewriter
 from rpl.passes.legalise.whereabouts import Joints, Stand, Whereabouts
 from rpl.passes.scope import Scope
@@ -54,6 +54,7 @@ class _Turns(Rewriter):
 
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
+        self.written = JointsOfPlaces(program, context)
         self.arm: Any = context.to_robot or context.robot
         make = registry.dialect(context.capabilities.notation).notation
         self.notation: Any = None if make is None else make()
@@ -124,7 +125,7 @@ class _Turns(Rewriter):
         return sorted({*self.others(None, self.low), *self.others(None, self.high)})
 
     def to_joints(self, move: ir.Move, joints: Joints) -> ir.Move:
-        tell_written(self.context, self.scope, move.origin, "the joint values of this move", move.target)
+        self.written.tell(move, self.scope, move.target)
         entries = tuple((name, real(round(one, 9))) for name, one in zip(_AXES, joints, strict=False))
         return replace(move, target=ir.Aggregate(entries, type_name="joints"))
 
