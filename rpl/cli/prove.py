@@ -8,30 +8,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rpl.cli.files import force_option, refuse_others
-from rpl.cli.limits import limit_options, limits_of
-from rpl.cli.output import (
-    STANDARD_INPUT,
-    collector,
-    dialect_exists,
-    json_option,
-    opened,
-    print_diagnostics,
-    print_json,
-    robot_option,
-    robots_exist,
-    say,
-    waiting,
-    write_file,
-)
+from rpl.cli.limits import limit_options
+from rpl.cli.output import STANDARD_INPUT, json_option, print_json, robot_option, say
+from rpl.cli.proofs import answer, certificate_option, keep, programs_of
 from rpl.cli.verdicts import accepting, exploring, status_of
-from rpl.diagnostics import Severity
 from rpl.errors import UsageError
 
 if TYPE_CHECKING:
-    from rpl.project import ReadProgram
-    from rpl.proof.certificate import Question
     from rpl.proof.tolerance import Accepted
-    from rpl.proof.verdict import ProofResult
 
 HOLDS, FAILS = 0, 1
 
@@ -54,13 +38,7 @@ HOLDS, FAILS = 0, 1
 )
 @exploring
 @accepting
-@click.option(
-    "--certificate",
-    "kept",
-    type=click.Path(dir_okay=False, path_type=Path),
-    metavar="F.json",
-    help="Write the question, the files' hashes and the verdict there.",
-)
+@certificate_option
 @click.option(
     "--check",
     type=click.Path(dir_okay=False, path_type=Path),
@@ -85,7 +63,7 @@ def command(
     deviate, each is named), different (1: the first difference is shown with both lines), or undecided (1: the runs do
     not show enough).
     """
-    from rpl.proof.certificate import Question, as_bytes, certificate
+    from rpl.proof.certificate import Question
     from rpl.proof.tolerance import accepted_kinds
 
     if check is not None:
@@ -105,10 +83,10 @@ def command(
         "time_share": accepted.time_share,
     }
     question = Question(a, b, accept=words, **limits, **asked)
-    result, programs = _answer(question)
+    programs = programs_of(question)
+    result = answer(question, programs)
     if kept is not None:
-        document = certificate(question, [one.sources for one in programs], result, kept.absolute())
-        write_file(kept, as_bytes(document))
+        keep(kept, question, programs, result)
     if as_json:
         print_json(result.as_json())
     else:
@@ -123,7 +101,8 @@ def _checked(path: Path, as_json: bool) -> int:
 
     question, then = read_certificate(path)
     try:
-        result, programs = _answer(question)
+        programs = programs_of(question)
+        result = answer(question, programs)
     except UsageError as error:
         raise UsageError(f"{path}: the question cannot be asked again: {error}") from None
     now = certificate(question, [one.sources for one in programs], result, path.absolute())
@@ -135,50 +114,3 @@ def _checked(path: Path, as_json: bool) -> int:
         for line in found:
             say(f"  {line}")
     return FAILS if found else HOLDS
-
-
-def _answer(question: Question) -> tuple[ProofResult, list[ReadProgram]]:
-    """The verdict, and the programs as they were read."""
-    from rpl.controllers import controller_named
-    from rpl.proof.cellnames import report_unknown_signals
-    from rpl.proof.explore import Budget
-    from rpl.proof.prove import load_cell, prove_programs
-
-    limits = limits_of(question.max_time, question.max_steps, question.max_events)
-    driver = controller_named(question.controller)
-    robots_exist(question.robot, question.to_robot)
-    surroundings, unknown = load_cell(question.cell), collector()
-    programs = _both((question.a, question.b), (question.language_a, question.language_b))
-    report_unknown_signals(programs[0].program, surroundings, unknown)
-    print_diagnostics(unknown, Severity.WARNING)
-    with waiting("proving"):
-        result = prove_programs(
-            programs[0].program,
-            programs[1].program,
-            question.robot,
-            question.to_robot or question.robot,
-            surroundings,
-            entry=question.entry,
-            to_entry=question.to_entry or question.entry,
-            accepted=question.accepted,
-            controller=driver,
-            limits=limits,
-            budget=Budget() if question.explore else None,
-        )
-    return result, programs
-
-
-def _both(paths: tuple[str, str], languages: tuple[str | None, str | None]) -> list[ReadProgram]:
-    """The programs that are compared. Raises UsageError for a path without one."""
-    from rpl.project import read_program
-
-    programs = []
-    for path, source, language in zip(paths, opened(paths), languages, strict=True):
-        diagnostics = collector()
-        with waiting("reading"):
-            read = read_program([source], dialect_exists(language), diagnostics)
-        print_diagnostics(diagnostics, Severity.WARNING)
-        if not read.files:
-            raise UsageError(f"no robot program in {path}; name the language with --from or --to if there is one")
-        programs.append(read)
-    return programs

@@ -6,13 +6,14 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path, PurePosixPath
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from rpl import registry
-from rpl.cli.files import force_option, stale, write_files
+from rpl.cli.files import force_option, refuse_others, stale, write_files
 from rpl.cli.output import (
+    STANDARD_INPUT,
     collector,
     from_option,
     json_option,
@@ -26,12 +27,14 @@ from rpl.cli.output import (
     say,
     waiting,
 )
+from rpl.cli.proofs import answer, certificate_option, keep
 from rpl.cli.verdicts import accepting, exploring, status_of
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity
 from rpl.errors import InternalError, UsageError
 
 if TYPE_CHECKING:
     from rpl.project import ReadProgram
+    from rpl.proof.certificate import Question
     from rpl.proof.tolerance import Accepted
     from rpl.proof.verdict import ProofResult
     from rpl.translation import Translation
@@ -64,61 +67,62 @@ OK, NO, GUARDED = 0, 1, 3
 @click.option("--strict", is_flag=True, help="Take every approximation for an error.")
 @exploring
 @accepting
+@certificate_option
 @force_option
 @json_option
 def command(
     paths: Sequence[str],
     target: str,
     dialect: str | None,
-    robot: str | None,
-    to_robot: str | None,
     output: Path | None,
-    entry: str | None,
     proving: bool,
-    cell: str | None,
     registers: Path | None,
     options: Sequence[str],
     strict: bool,
     accepted: Accepted,
-    explore: bool,
+    kept: Path | None,
     as_json: bool,
+    **about: Any,
 ) -> int:
     """Write programs in another controller's language.
 
     What the target cannot say becomes a comment and the target's own stop, is listed, and gives exit status 3. Without
-    -o the program is printed. With --prove or --explore the first line is the verdict: equal, alike (exit status 3),
-    different or undecided (1); --accept takes measures of the proof too.
+    -o the program is printed. With --prove, --explore or --certificate the first line is the verdict: equal, alike
+    (exit status 3), different or undecided (1); --accept takes measures of the proof too.
     """
     from rpl.cell import read_cell
     from rpl.proof.cellnames import report_unknown_signals
     from rpl.translation import translate_program
     from rpl.writing.registers import read_registers
 
-    own = _options(options)
+    own, arms = _options(options), (about["robot"], about["to_robot"])
     target = _target(target, own)
-    robots_exist(robot, to_robot)
-    kept = read_registers(registers) if registers is not None else None
-    around = read_cell(cell) if cell is not None else None
+    robots_exist(*arms)
+    _certifiable(kept, paths, output)
+    numbers = read_registers(registers) if registers is not None else None
+    around = read_cell(about["cell"]) if about["cell"] is not None else None
     diagnostics = collector(sorted(accepted.kinds))
     read = read_paths(paths, dialect, diagnostics)
     if diagnostics.has_errors:
         return _refuse(diagnostics, as_json)
-    read, before = _begun_at(read, entry), len(diagnostics)
+    read, before = _begun_at(read, about["entry"]), len(diagnostics)
     with waiting("writing"):
         report_unknown_signals(read.program, around, diagnostics)
-        given = around.variables if around is not None else None
-        beside = around.mechanisms if around is not None else ()
-        levels = around.analog if around is not None else ()
-        translation = translate_program(read, target, robot, to_robot, diagnostics, kept, own, given, beside, levels)
+        given = (around.variables, around.mechanisms, around.analog) if around is not None else ()
+        translation = translate_program(read, target, *arms, diagnostics, numbers, own, *given)
     if strict:
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:
         return _refuse(diagnostics, as_json)
-    proving, alone = proving or explore, output is None and not as_json
+    proving, alone = proving or about["explore"] or kept is not None, output is None and not as_json
     shown = _printed(translation, target, proving) if alone else translation.files
-    written = _write(shown, output, _registers(translation))
-    proof = _prove(read, translation, target, (robot, to_robot), cell, accepted, entry, explore) if proving else None
-    proof = proof and replace(proof, approximations=_approximations(diagnostics.items[before:]))
+    _alone(kept, output, translation.files, target)
+    written = _write(shown, output, _registers(translation), kept)
+    proof = None
+    if proving:
+        about |= {"a": paths[0], "b": str(output), "language_a": dialect, "language_b": target}
+        asked = _question(accepted, diagnostics.items[before:], about)
+        proof = _prove(read, translation, asked, output, kept)
     print_diagnostics(diagnostics)
     if as_json:
         print_json(_document(translation, written, diagnostics, proof))
@@ -126,6 +130,47 @@ def command(
         _print(translation, written, output, proof, len(diagnostics.of(Severity.WARNING)))
     proved = status_of(proof) if proof is not None else OK
     return proved if proved != OK or not diagnostics.has_losses else GUARDED
+
+
+def _certifiable(kept: Path | None, paths: Sequence[str], output: Path | None) -> None:
+    """Raises UsageError when a certificate is asked for and nobody could do the proof again."""
+    if kept is None:
+        return
+    if output is None:
+        raise UsageError("--certificate names the files of the result: give a folder with -o")
+    if len(paths) != 1 or STANDARD_INPUT in paths:
+        raise UsageError("--certificate takes one PATH: a file, a folder or an archive that can be read again")
+    refuse_others([kept])
+
+
+def _alone(kept: Path | None, output: Path | None, files: Sequence[OutputFile], target: str) -> None:
+    """Raises UsageError when the folder of a result with a certificate holds what would be read as part of it."""
+    from rpl.project import read_program
+
+    if kept is None or output is None or not output.exists():
+        return
+    own = {output / PurePosixPath(file.path) for file in files}
+    others = [one.path for one in read_program([output], target, Diagnostics()).sources if Path(one.path) not in own]
+    if others:
+        raise UsageError(
+            f"a certificate needs a folder of its own, and {', '.join(others)} would be read with the result"
+        )
+
+
+def _question(accepted: Accepted, written: Sequence[Diagnostic], about: dict[str, Any]) -> Question:
+    """What the proof of a translation is asked. `written`: what was said while it was made; `about`: programs, arms
+    and surroundings."""
+    from rpl.proof.certificate import Question
+    from rpl.proof.deviations import KINDS
+
+    return Question(
+        accept=tuple(sorted(accepted.kinds & KINDS.keys())),
+        path_mm=accepted.path_mm,
+        corner_mm=accepted.corner_mm,
+        time_share=accepted.time_share,
+        approximations=_approximations(written),
+        **about,
+    )
 
 
 def _target(word: str, options: dict[str, str]) -> str:
@@ -173,8 +218,11 @@ def _raise_approximations(diagnostics: Diagnostics, first: int) -> None:
             diagnostics.items[index] = replace(diagnostics.items[index], severity=Severity.ERROR)
 
 
-def _write(files: Sequence[OutputFile], output: Path | None, registers: bytes | None) -> list[dict[str, object]]:
-    """Write the files, with the numbers that data has got beside them; give their text when no folder is named."""
+def _write(
+    files: Sequence[OutputFile], output: Path | None, registers: bytes | None, kept: Path | None
+) -> list[dict[str, object]]:
+    """Write the files, with the numbers that data has got beside them; give their text when no folder is named. `kept`:
+    the certificate, which is written later."""
     from rpl.writing.registers import FILE_NAME
 
     for file in files:
@@ -187,7 +235,7 @@ def _write(files: Sequence[OutputFile], output: Path | None, registers: bytes | 
     if registers is not None:
         written[output / FILE_NAME] = registers
     write_files(written)
-    for old in stale(output, list(written)):
+    for old in stale(output, [*written, *([kept] if kept is not None else [])]):
         say(f"warning: {old} is left of an earlier translation", err=True)
     return [{"path": path.relative_to(output).as_posix(), "written": str(path)} for path in written]
 
@@ -236,45 +284,33 @@ def _text(file: OutputFile) -> str:
 
 
 def _prove(
-    read: ReadProgram,
-    translation: Translation,
-    target: str,
-    arms: tuple[str | None, str | None],
-    cell: str | None,
-    accepted: Accepted,
-    entry: str | None = None,
-    explore: bool = False,
+    read: ReadProgram, translation: Translation, asked: Question, output: Path | None, kept: Path | None
 ) -> ProofResult:
-    """Read the written files back and compare the runs of both programs."""
-    from rpl.project import read_sources
-    from rpl.proof.explore import Budget
-    from rpl.proof.prove import load_cell, prove_programs
-    from rpl.proof.wiring import with_signal_names
+    """Read the written files back and compare the runs of both programs. With a certificate (`kept`) they are read from
+    the folder, as `rpl prove --check` does it."""
+    from rpl.project import read_program, read_sources
+    from rpl.proof.wiring import names_lacking
     from rpl.simulation import entry_name
     from rpl.source import source_from_bytes
 
-    sources = [source_from_bytes(file.path, file.data) for file in translation.files]
-    again = Diagnostics()
-    back = read_sources(sources, target, again)
+    again, target = Diagnostics(), str(asked.language_b)
+    if kept is None or output is None:
+        sources = [source_from_bytes(file.path, file.data) for file in translation.files]
+        back = read_sources(sources, target, again)
+    else:
+        back = read_program([output], target, again)
     errors = again.of(Severity.ERROR)
     if errors:
         raise InternalError(f"what was written cannot be read back: {errors[0].as_text()}")
-    with waiting("proving"):
-        again_named = with_signal_names(back.program, translation.program)
-        entry = entry_name(read.program, entry)
-        # A script begins with itself, also where the first routine is called besides and stands in it as one of many.
-        to_entry = back.program.entry or translation.renamed.get(entry, entry) if entry else None
-        return prove_programs(
-            read.program,
-            again_named,
-            arms[0],
-            arms[1] or arms[0],
-            load_cell(cell),
-            entry=entry,
-            to_entry=to_entry,
-            accepted=accepted,
-            budget=Budget() if explore else None,
-        )
+    entry = entry_name(read.program, asked.entry)
+    # A script begins with itself, also where the first routine is called besides and stands in it as one of many.
+    to_entry = back.program.entry or translation.renamed.get(entry, entry) if entry else None
+    signals = names_lacking(back.program, translation.program)
+    question = replace(asked, entry=entry, to_entry=to_entry, signals=signals)
+    result = answer(question, (read, back))
+    if kept is not None:
+        keep(kept, question, (read, back), result)
+    return result
 
 
 def _document(

@@ -22,6 +22,7 @@ from rpl.proof.tolerance import Accepted
 
 if TYPE_CHECKING:
     from rpl.proof.verdict import ProofResult
+    from rpl.proof.wiring import Named
     from rpl.source import Source
 
 FORMAT = "rpl proof certificate 1"
@@ -34,7 +35,9 @@ _SAME_AMOUNT = 1e-3
 @dataclass(frozen=True, slots=True)
 class Question:
     """What a proof was asked: paths of both programs, of the cell and of files that describe arms or controllers, else
-    names; accepted deviations; limits of the runs (None: the usual ones)."""
+    names; accepted deviations; limits of the runs (None: the usual ones). Where B is a translation of A: `signals`,
+    which of A's signals have which numbers in it, and `approximations` that it was written with, by code; both are left
+    out of the document where there are none."""
 
     a: str
     b: str
@@ -54,6 +57,8 @@ class Question:
     max_time: float | None = None
     max_steps: int | None = None
     max_events: int | None = None
+    signals: tuple[Named, ...] = ()
+    approximations: tuple[tuple[str, int], ...] = ()
 
     @property
     def accepted(self) -> Accepted:
@@ -61,6 +66,7 @@ class Question:
 
 
 PATHS = ("a", "b", "cell")
+OPTIONAL = ("signals", "approximations")
 FILES_OR_NAMES = ("robot", "to_robot", "controller")
 
 
@@ -69,6 +75,9 @@ def certificate(
 ) -> dict[str, object]:
     """The document. `sources`: the files that A and B were read from; `beside`: where the certificate will lie."""
     asked: dict[str, object] = asdict(question) | {"accept": sorted(question.accept)}
+    for name in OPTIONAL:
+        if asked.pop(name):
+            asked[name] = [list(one) for one in getattr(question, name)]
     for name in (*PATHS, *FILES_OR_NAMES):
         value = getattr(question, name)
         if value is not None and (name in PATHS or _is_file(value)):
@@ -84,7 +93,7 @@ def certificate(
         "files": {name: _hash(data) for name, data in _described(question).items()},
         "tolerance": asdict(result.tolerance),
         "verdict": result.verdict,
-        "result": _outcome(result),
+        "result": _outcome(result, beside),
     }
 
 
@@ -133,7 +142,7 @@ def _programs(document: Mapping[str, object], name: str) -> list[dict[str, str]]
     return [one for one in some if isinstance(one, dict)] if isinstance(some, list) else []
 
 
-def _outcome(result: ProofResult) -> dict[str, object]:
+def _outcome(result: ProofResult, beside: Path) -> dict[str, object]:
     """What is compared when the proof is made again: words, counts and amounts."""
     return {
         "level": result.level,
@@ -147,9 +156,21 @@ def _outcome(result: ProofResult) -> dict[str, object]:
         "measures": [one.as_text() for one in measures(result.deviations)],
         "max_path_mm": round(result.max_path_mm, 6),
         "max_joint_deg": round(result.max_joint_deg, 6),
-        "reach": result.as_json()["reach"],
+        "reach": _reach(result, beside),
         "notes": list(result.notes),
     }
+
+
+def _reach(result: ProofResult, beside: Path) -> dict[str, object]:
+    """As the verdict has it, with the paths of its files from there."""
+    found: dict[str, object] = {"explored": result.explored.as_json() if result.explored is not None else None}
+    for side, reach in (("a", result.reach_a), ("b", result.reach_b)):
+        if reach is not None:
+            rows = [one.as_json() for one in reach.unreached]
+            found[side] = reach.as_json() | {
+                "unreached": [row | {"file": _from(beside, str(row["file"]))} for row in rows]
+            }
+    return found
 
 
 def _same(then: object, now: object) -> bool:
@@ -211,4 +232,14 @@ def _hash(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
 
 
-__all__ = ["FILES_OR_NAMES", "FORMAT", "PATHS", "Question", "as_bytes", "certificate", "changes", "looks_like_file"]
+__all__ = [
+    "FILES_OR_NAMES",
+    "FORMAT",
+    "OPTIONAL",
+    "PATHS",
+    "Question",
+    "as_bytes",
+    "certificate",
+    "changes",
+    "looks_like_file",
+]

@@ -7,13 +7,14 @@ from __future__ import annotations
 import json
 import math
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 from rpl.errors import UsageError
-from rpl.proof.certificate import FILES_OR_NAMES, FORMAT, PATHS, Question, looks_like_file
+from rpl.ir import SIGNAL_KINDS
+from rpl.proof.certificate import FILES_OR_NAMES, FORMAT, OPTIONAL, PATHS, Question, looks_like_file
 from rpl.proof.tolerance import accepted_kinds
 from rpl.proof.verdict import VERDICTS
 from rpl.source import read_bytes
@@ -37,7 +38,8 @@ def read_certificate(path: str | Path) -> tuple[Question, dict[str, Any]]:
     reader = _Reader(str(path))
     reader.check_values(document)
     asked = reader.checked(document)
-    here = dict(asked) | {"accept": tuple(asked["accept"])}
+    here = asked | {"accept": tuple(asked["accept"])}
+    here |= {name: tuple(tuple(one) for one in asked[name]) for name in OPTIONAL if name in asked}
     for name in (*PATHS, *FILES_OR_NAMES):
         value = here[name]
         if isinstance(value, str) and (name in PATHS or looks_like_file(value)):
@@ -133,7 +135,8 @@ class _Reader:
             self._needs(f"programs.{side}", files, len({one["path"] for one in files}) == len(files), "each file once")
 
     def _question(self, asked: dict[str, Any]) -> None:
-        self._keys("the certificate's question", asked, (field.name for field in fields(Question)))
+        known = {field.name for field in fields(Question)} - (set(OPTIONAL) - set(asked))
+        self._keys("the certificate's question", asked, known)
         for name in _TEXTS + _TEXTS_OR_NULL:
             value = asked[name]
             free = value is None and name in _TEXTS_OR_NULL
@@ -155,6 +158,32 @@ class _Reader:
             accepted_kinds(accept)
         except UsageError as error:
             raise self.wrong("question.accept", str(error)) from None
+        self._rows("signals", asked, _is_signal, "a name, the kind of a signal, its number and the last one of a group")
+        self._rows("approximations", asked, _is_approximation, "a code and how often")
+
+    def _rows(self, name: str, asked: dict[str, Any], holds: Callable[[Any], bool], what: str) -> None:
+        rows = asked.get(name, [])
+        self._needs(f"question.{name}", rows, isinstance(rows, list), "a list")
+        for place, row in enumerate(rows):
+            self._needs(f"question.{name}[{place}]", row, holds(row), what)
+
+
+def _is_signal(row: Any) -> bool:
+    match row:
+        case [str(), kind, int(first), None | int()] if kind in SIGNAL_KINDS:
+            last = row[3]
+            whole = not isinstance(first, bool) and not isinstance(last, bool)
+            return whole and first >= 0 and (last is None or last >= first)
+        case _:
+            return False
+
+
+def _is_approximation(row: Any) -> bool:
+    match row:
+        case [str(), int(count)]:
+            return not isinstance(count, bool) and count > 0
+        case _:
+            return False
 
 
 def _is_number(value: Any) -> bool:

@@ -7,6 +7,7 @@ to know one physical signal in both.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import replace
 
 from rpl import ir, registry
@@ -22,20 +23,41 @@ from rpl.runtime.values import SignalRef
 _WIRING = "signal_names"
 
 
+# Name, kind, number (or first bit), last bit of a group.
+Named = tuple[str, str, int, int | None]
+
+
 def with_signal_names(program: ir.Program, written: ir.Program) -> ir.Program:
     """The program as it was read back, with the signals that the written one declares, as far as it lacks them."""
+    return with_names(program, names_lacking(program, written))
+
+
+def names_lacking(program: ir.Program, written: ir.Program) -> tuple[Named, ...]:
+    """The signals that the written program declares and the one that was read back does not, each name once."""
     known = {name for module in program.modules for name in _declared(module)}
-    names = {
-        name: declaration
-        for module in written.modules
-        for name, declaration in _declared(module).items()
-        if name not in known and declaration.signal.index is not None
-    }
-    if not names or not program.modules:
+    found: dict[str, Named] = {}
+    for module in written.modules:
+        for name, one in _declared(module).items():
+            match one.signal:
+                case ir.Signal(kind=kind, index=ir.IntLiteral(value=first), last=None) if name not in known:
+                    found[name] = (one.name, kind, first, None)
+                case ir.Signal(kind=kind, index=ir.IntLiteral(value=first), last=ir.IntLiteral(value=last)) if (
+                    name not in known
+                ):
+                    found[name] = (one.name, kind, first, last)
+    return tuple(found.values())
+
+
+def with_names(program: ir.Program, names: Iterable[Named]) -> ir.Program:
+    """The program with these signals besides."""
+    signals = []
+    for name, kind, first, last in names:
+        end = ir.IntLiteral(last) if last is not None else None
+        signals.append(ir.SignalDeclaration(name, ir.Signal(kind, ir.IntLiteral(first), end), scope="global"))
+    if not signals or not program.modules:
         return program
-    first = program.modules[0]
-    declarations = tuple(replace(one, scope="global") for one in names.values())
-    wiring = ir.Module(_WIRING, first.dialect, declarations, task=first.task, public=True)
+    home = program.modules[0]
+    wiring = ir.Module(_WIRING, home.dialect, tuple(signals), task=home.task, public=True)
     return replace(program, modules=(*program.modules, wiring))
 
 

@@ -59,6 +59,19 @@ def test_it_holds_as_long_as_nothing_changes_and_wherever_it_lies(
     assert check(elsewhere, capsys)[0] == 0
 
 
+def test_paths_of_what_was_not_reached_travel_too(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name, text in (("a", A), ("b", B)):
+        (folder / name / "part.src").write_text(text.replace("END", "IF $IN[5] THEN\n$OUT[2]=TRUE\nENDIF\nEND"))
+    monkeypatch.chdir(folder)
+    assert run(["prove", "a", "b", "--robot", ROBOT, "--certificate", "proof.json"]) == 0
+    reach = json.loads((folder / "proof.json").read_text("utf-8"))["result"]["reach"]
+    assert [one["file"] for side in "ab" for one in reach[side]["unreached"]] == ["a/part.src", "b/part.src"]
+    monkeypatch.chdir("/")
+    assert check(folder, capsys)[0] == 0
+
+
 @pytest.mark.parametrize(
     ("name", "old", "new", "words"),
     [
@@ -186,3 +199,88 @@ def test_programs_or_a_certificate_are_needed(tmp_path: Path, capsys: pytest.Cap
     assert "takes no programs" in capsys.readouterr().err
     assert run(["prove", "--check", str(tmp_path / "none.json")]) == 2
     assert "cannot read" in capsys.readouterr().err
+
+
+RAPID = """MODULE Part
+  PROC main()
+    SetDO doGrip,1;
+    WaitDI diPart,1;
+    WaitTime 0.5;
+    SetDO doGrip,0;
+  ENDPROC
+ENDMODULE
+"""
+GIVEN = '[[input]]\ntime = 1.0\nsignal = "diPart"\nvalue = true\n'
+
+
+def translated(folder: Path, *options: str) -> int:
+    (folder / "part.mod").write_text(RAPID)
+    (folder / "given.toml").write_text(GIVEN)
+    command = ["translate", str(folder / "part.mod"), "--to", "tp", "-o", str(folder / "out"), "--robot", ROBOT]
+    command += ["--cell", str(folder / "given.toml"), "--certificate", str(folder / "proof.json")]
+    return run([*command, *options])
+
+
+def test_a_translation_is_certified_as_it_lies_in_its_folder(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Signals of the source have numbers in the target: the certificate knows which."""
+    assert translated(folder) == 0
+    assert capsys.readouterr().out.startswith("equal: ")
+    document = json.loads((folder / "proof.json").read_text("utf-8"))
+    assert document["question"]["signals"] == [["diPart", "digital_in", 1, None], ["doGrip", "digital_out", 1, None]]
+    assert [one["path"] for one in document["programs"]["b"]] == ["out/MAIN.LS"]
+    status, out = check(folder, capsys)
+    assert (status, out.partition(":")[0]) == (0, "the certificate holds")
+    written = folder / "out" / "MAIN.LS"
+    assert b"=OFF" in written.read_bytes()
+    written.write_bytes(written.read_bytes().replace(b"=OFF", b"=ON"))
+    status, out = check(folder, capsys)
+    assert status == 1 and "B: out/MAIN.LS has changed" in out and "the verdict was equal and is different" in out
+
+
+def test_what_a_translation_approximates_stands_in_its_certificate(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A translation that says that it approximates is never equal; asked again it is what it was."""
+    from rpl.cli import translate
+
+    monkeypatch.setattr(translate, "_approximations", lambda written: (("some-code", 2),))
+    assert translated(folder) == 3
+    document = json.loads((folder / "proof.json").read_text("utf-8"))
+    assert (document["verdict"], document["question"]["approximations"]) == ("alike", [["some-code", 2]])
+    status, out = check(folder, capsys)
+    assert status == 0 and "written with approximations: some-code (2)" in out
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('"digital_in"', '"analogue"', "question.signals[0]: must be a name, the kind of a signal"),
+        ('"signals": [', '"signals": [ 1,', "question.signals[0]: must be a name, the kind of a signal"),
+        ('"signals"', '"approximations": {}, "signals"', "question.approximations: must be a list, not a table"),
+        ('"signals": [', '"approximations": [["a", 0]], "signals": [', "question.approximations[0]: must be a code"),
+    ],
+)
+def test_what_is_wrong_in_the_certificate_of_a_translation_is_said(
+    folder: Path, old: str, new: str, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert translated(folder) == 0
+    path = folder / "proof.json"
+    path.write_text(path.read_text("utf-8").replace(old, new, 1), "utf-8")
+    capsys.readouterr()
+    assert run(["prove", "--check", str(path)]) == 2
+    assert words in capsys.readouterr().err
+
+
+def test_the_certificate_of_a_translation_needs_files_that_can_be_read_again(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert translated(folder, str(folder / "a")) == 2
+    assert "takes one PATH" in capsys.readouterr().err
+    source, kept = str(folder / "a"), str(folder / "proof.json")
+    assert run(["translate", source, "--to", "tp", "--certificate", kept]) == 2
+    assert "give a folder with -o" in capsys.readouterr().err
+    (folder / "out").mkdir()
+    (folder / "out" / "old.ls").write_text("/PROG OLD\n/MN\n 1: END ;\n/POS\n/END\n")
+    assert translated(folder) == 2
+    assert "old.ls would be read with the result" in capsys.readouterr().err
+    assert sorted(one.name for one in (folder / "out").iterdir()) == ["old.ls"]

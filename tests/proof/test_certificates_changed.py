@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from rpl.cli.main import run
 
 PART = "DEF part()\n$OUT[1]=TRUE\nWAIT SEC 0.5\n$OUT[1]=FALSE\nEND\n"
+NAMED = "MODULE Part\n PROC main()\n  SetDO doGrip,1;\n  WaitTime 0.5;\n ENDPROC\nENDMODULE\n"
 # No sign that leads out of the folder.
 WORDS = st.one_of(
     st.sampled_from(["", "a", "b", "part", "none", "plain", "krl", "equal", "wait", "a/part.src", "x.toml"]),
@@ -35,16 +36,20 @@ VALUES = st.recursive(
 Place = tuple[str | int, ...]
 
 
-@pytest.fixture(scope="module")
-def good(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A certificate beside its programs."""
+@pytest.fixture(scope="module", params=["prove", "translate"])
+def good(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A certificate beside its programs, of both commands that make one."""
     folder = tmp_path_factory.mktemp("kept")
     for name, text in (("a", PART), ("b", PART.replace("SEC 0.5", "SEC 0.25+0.25"))):
         (folder / name).mkdir()
         (folder / name / "part.src").write_text(text)
-    (folder / "cell.toml").write_text('[[input]]\ntime = 1.0\nsignal = "$IN[1]"\nvalue = true\n')
-    programs = [str(folder / "a"), str(folder / "b"), "--cell", str(folder / "cell.toml")]
-    assert run(["prove", *programs, "--certificate", str(folder / "proof.json")]) == 0
+    (folder / "cell.toml").write_text("seed = 2\n")
+    (folder / "part.mod").write_text(NAMED)
+    command = ["prove", str(folder / "a"), str(folder / "b")]
+    if request.param == "translate":
+        command = ["translate", str(folder / "part.mod"), "--to", "tp", "-o", str(folder / "out")]
+    command += ["--cell", str(folder / "cell.toml"), "--certificate", str(folder / "proof.json")]
+    assert run(command) == 0
     return folder / "proof.json"
 
 

@@ -1,0 +1,98 @@
+"""Proofs as commands make them: the programs of a question, its answer, and the certificate that keeps both."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from rpl.cli.limits import limits_of
+from rpl.cli.output import (
+    collector,
+    dialect_exists,
+    opened,
+    print_diagnostics,
+    robots_exist,
+    waiting,
+    write_file,
+)
+from rpl.diagnostics import Severity
+from rpl.errors import UsageError
+
+if TYPE_CHECKING:
+    from rpl.project import ReadProgram
+    from rpl.proof.certificate import Question
+    from rpl.proof.verdict import ProofResult
+
+certificate_option = click.option(
+    "--certificate",
+    "kept",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="F.json",
+    help="Write the question of the proof, the files' hashes and the verdict there.",
+)
+
+
+def programs_of(question: Question) -> list[ReadProgram]:
+    """The two programs that are compared, with warnings about them and about the cell on stderr. Raises UsageError for
+    a path without one, and before anything is read for an unknown arm or controller."""
+    from rpl.controllers import controller_named
+    from rpl.project import read_program
+    from rpl.proof.cellnames import report_unknown_signals
+    from rpl.proof.prove import load_cell
+
+    limits_of(question.max_time, question.max_steps, question.max_events)
+    controller_named(question.controller)
+    robots_exist(question.robot, question.to_robot)
+    surroundings, unknown = load_cell(question.cell), collector()
+    paths, programs = (question.a, question.b), []
+    for path, source, language in zip(paths, opened(paths), (question.language_a, question.language_b), strict=True):
+        diagnostics = collector()
+        with waiting("reading"):
+            read = read_program([source], dialect_exists(language), diagnostics)
+        print_diagnostics(diagnostics, Severity.WARNING)
+        if not read.files:
+            raise UsageError(f"no robot program in {path}; name the language with --from or --to if there is one")
+        programs.append(read)
+    report_unknown_signals(programs[0].program, surroundings, unknown)
+    print_diagnostics(unknown, Severity.WARNING)
+    return programs
+
+
+def answer(question: Question, programs: Sequence[ReadProgram]) -> ProofResult:
+    """The verdict about its programs."""
+    from rpl.controllers import controller_named
+    from rpl.proof.explore import Budget
+    from rpl.proof.prove import load_cell, prove_programs
+    from rpl.proof.wiring import with_names
+
+    first, second = (one.program for one in programs)
+    with waiting("proving"):
+        result = prove_programs(
+            first,
+            with_names(second, question.signals),
+            question.robot,
+            question.to_robot or question.robot,
+            load_cell(question.cell),
+            entry=question.entry,
+            to_entry=question.to_entry or question.entry,
+            accepted=question.accepted,
+            controller=controller_named(question.controller),
+            limits=limits_of(question.max_time, question.max_steps, question.max_events),
+            budget=Budget() if question.explore else None,
+        )
+    return replace(result, approximations=question.approximations)
+
+
+def keep(kept: Path, question: Question, programs: Sequence[ReadProgram], result: ProofResult) -> None:
+    """Write the certificate. Raises UsageError when it cannot be written there."""
+    from rpl.proof.certificate import as_bytes, certificate
+
+    document = certificate(question, [one.sources for one in programs], result, kept.absolute())
+    write_file(kept, as_bytes(document))
+
+
+__all__ = ["answer", "certificate_option", "keep", "programs_of"]
