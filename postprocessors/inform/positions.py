@@ -168,6 +168,10 @@ class Positions:
         have none. The value then comes with the tool of all variables."""
         pulses = self.registers.helper("P", "pulses")
         self.lines.extend([f"GETS {pulses} $PX000", f"CNVRT {place} {pulses} BF TL#({tool})"])
+        self.as_driven(place, tool)
+
+    def as_driven(self, place: str, tool: int) -> None:
+        """A place that came with this tool gets the tool of all variables: a product has that of its first factor."""
         if tool != self.job.cell.tool_of_variables:
             self.lines.append(f"MULMAT {place} {self.kept(Position('pose', WORLD))} {place}")
 
@@ -230,24 +234,26 @@ class Positions:
 
     def converted(self, place: str, how: str, inner: ir.Expression, more: list[ir.Expression]) -> None:
         """CNVRT place source PULSE or BF, with the tool's number."""
-        tool = ""
+        tool, number = "", self.job.cell.tool_of_variables
         if more:
             known = self.constants.known(more[0])
             if known is None:
                 raise CannotSayError("a conversion with a computed tool")
-            tool = f" TL#({self.job.cell.tool(known.values)})"
+            number = self.job.cell.tool(known.values)
+            tool = f" TL#({number})"
         frame = more[1] if len(more) > 1 else ir.System("null_frame")
-        source = inner
-        if frame not in (ir.System("null_frame"), ir.System("world")):
-            if how == "joints_to_target":
-                self.lines.append(f"CNVRT {place} {self.as_variable(inner)} BF{tool}")
+        framed = frame not in (ir.System("null_frame"), ir.System("world"))
+        if how == "joints_to_target":
+            self.lines.append(f"CNVRT {place} {self.as_variable(inner)} BF{tool}")
+            if framed:
                 back = self.registers.helper("P")
                 self.position(back, ir.Builtin("inverse", (frame,)))
                 self.lines.append(f"MULMAT {place} {back} {place}")
-                return
-            source = ir.Binary(":", frame, inner)
-        word = "PULSE" if how == "target_to_joints" else "BF"
-        self.lines.append(f"CNVRT {place} {self.as_variable(source)} {word}{tool}")
+            else:
+                self.as_driven(place, number)
+            return
+        source = ir.Binary(":", frame, inner) if framed else inner
+        self.lines.append(f"CNVRT {place} {self.as_variable(source)} PULSE{tool}")
 
     def aggregate(self, place: str, value: ir.Aggregate) -> None:
         """Constant components from a variable that holds them, computed ones filled in behind."""

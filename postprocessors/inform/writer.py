@@ -338,6 +338,8 @@ def _counts_joints(program: ir.Program) -> bool:
                 return True
             case ir.System(name="actual_joint") | ir.Move(kind="joint", relative=str()) | ir.Move(relative="joints"):
                 return True
+            case ir.Builtin(function="joints_to_target", arguments=(_, _, *_)):
+                return True  # seen with a tool of its own: a pose that stands for the joints has the tool in it
     return False
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from there_and_back import there_and_back
 
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import read_sources
@@ -65,3 +66,25 @@ def test_the_place_with_a_tool_beside_those_of_the_moves(seen: str) -> None:
     back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], "inform", Diagnostics())
     result = run_program(back.program, robot, None, "MAIN")
     assert [event.data["text"] for event in result.trace if event.kind == "message"] == expected != []
+
+
+AT_JOINTS = """MODULE main
+CONST jointtarget home:=[[0,0,0,0,90,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+PERS tooldata long:=[TRUE,[[0,30,150],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
+VAR robtarget there;
+PROC main()
+  MoveAbsJ home,v500,fine,tool0;
+  there:=CalcRobT(home,long);
+  MoveL Offs(there,0,0,-50),v500,fine,tool0;
+ENDPROC
+ENDMODULE
+"""
+
+
+def test_the_place_at_joints_with_a_tool_beside_that_of_the_moves() -> None:
+    """CNVRT makes a place of pulses with the tool that it names; of a pose that stands for the joints it does not. The
+    place comes with this tool, and a move to it is driven with the tool of the move."""
+    journey = there_and_back({"main.mod": AT_JOINTS}, "rapid", "inform", "abb_irb1600_6_12")
+    result = journey.prove()
+    assert (result.verdict, result.max_path_mm < 0.01) == ("alike", True), result.as_text()
+    assert "CNVRT P001 P127 BF TL#(1)\r\nMULMAT P001 " in journey.text
