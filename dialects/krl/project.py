@@ -20,6 +20,7 @@ from rpl.source import Origin, Source
 from . import tables
 from .blocks import Builder, DataList
 from .expressions import Facts
+from .keptframes import tell_what_is_not_given
 from .motion import Motion
 from .split import SHAPE, SLOTS, split
 
@@ -103,6 +104,7 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
         _sort_items(source, done.items, modules, diagnostics)
         if "set_krlmsg" not in facts.routines and (found := _PARAMETER.search(source.text)):
             diagnostics.report(PARAMETERS, Origin(source, found.start(), found.end()))
+    tell_what_is_not_given(sources, diagnostics)
     order = {source.path: position for position, source in enumerate(sources)}
     reports.sort(key=lambda report: order[report.path])
     _connect_imports(list(modules.values()), diagnostics)
