@@ -42,6 +42,12 @@ TOO_LONG = code(
     "a number of {digits} digits, and no controller has one: nothing of this file is read",
     "give the program without it",
 )
+ZEROS = code(
+    "zero-bytes",
+    Severity.ERROR,
+    "no text, or a damaged one{reason}: nothing of this file is read",
+    "write it as UTF-8, or fetch it again",
+)
 UNREADABLE_FILE = code("unreadable-file", Severity.ERROR, "cannot read this file: {reason}")
 UNREADABLE_ARCHIVE = code("unreadable-archive", Severity.ERROR, "cannot open this archive: {reason}")
 
@@ -146,7 +152,10 @@ def _read(groups: dict[str, list[Source]], diagnostics: Diagnostics) -> ReadProg
 
 
 def _refused(source: Source, diagnostics: Diagnostics) -> bool:
-    """Has it a number that nobody can read? Only lines longer than that are looked at."""
+    """Has it zero bytes, or a number that nobody can read? For that only lines longer than it are looked at."""
+    if "\x00" in source.text:
+        diagnostics.report(ZEROS, Origin(source, source.text.index("\x00")), reason=_first_nul(source))
+        return True
     starts = source.line_starts()
     for start, end in pairwise((*starts, len(source.text))):
         if end - start <= _LONGEST_NUMBER * 5 // 6:
@@ -198,9 +207,9 @@ def _is_damaged(source: Source) -> bool:
 def _is_binary(source: Source) -> bool:
     if source.encoding.startswith("utf-16"):
         return False
-    head = source.data[:65536]
-    if b"\x00" in head:
+    if b"\x00" in source.data:
         return True
+    head = source.data[:65536]
     controls = sum(1 for byte in head if byte < 32 and byte not in _TEXT_CONTROLS)
     return controls * 50 > len(head)
 

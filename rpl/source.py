@@ -23,8 +23,8 @@ class Source:
     """One input file. `text` keeps its line ends as they were (`\\r\\n`, `\\n`, `\\r`), so offsets map to bytes."""
 
     path: str
-    data: bytes
-    text: str
+    data: bytes = field(repr=False)
+    text: str = field(repr=False)
     encoding: str
     _line_starts: list[int] = field(default_factory=list, repr=False)
 

@@ -16,6 +16,8 @@ from pathlib import Path
 import click
 
 from rpl.errors import UsageError
+from rpl.sidefiles import CONTROLLER, DATA, PAGE, TRACE, side_file
+from rpl.source import read_bytes, source_from_bytes
 
 MANIFEST = ".rpl-written.json"
 _FORCE = "rpl.force"
@@ -42,14 +44,22 @@ def refuse_others(paths: Sequence[Path]) -> None:
     if context is not None and context.meta.get(_FORCE):
         return
     given = context.params if context is not None else {}
-    kept: dict[Path, dict[str, str]] = {}
+    inputs = _inputs(given)
+    kept = {folder: _manifest(folder) for folder in dict.fromkeys(path.parent for path in paths)}
+    beside = {folder: _names(folder) for folder in kept}
     for path in paths:
-        written = kept.setdefault(path.parent, _manifest(path.parent))
+        written = kept[path.parent]
+        twin = next((name for name in beside[path.parent].get(path.name.casefold(), ()) if name != path.name), None)
+        if twin is not None and not _is_ours(path.with_name(twin), written):
+            reason = f"differs from {path.with_name(twin)} in capitals only, and many systems take them for one file"
+            raise UsageError(f"{path} {reason}: it is not written (--force does)")
         if not _is_file(path) or path.stat().st_size == 0:
             continue
-        if any(_holds(one, path) for one in _inputs(given)):
+        data = path.read_bytes()
+        ours = written.get(path.name) == _hash(data)
+        if any(_holds(one, path, ours and _is_report(path, data)) for one in inputs):
             raise UsageError(f"{path} is an input: it is not overwritten (--force does)")
-        if written.get(path.name) != _hash(path.read_bytes()):
+        if not ours:
             reason = "was not written by rpl, or has changed since"
             raise UsageError(f"{path} {reason}: it is not overwritten (--force does)")
 
@@ -63,7 +73,7 @@ def write_files(files: Mapping[Path, bytes]) -> None:
         for path, data in files.items():
             path.parent.mkdir(parents=True, exist_ok=True)
             if path.exists() and not _is_file(path):  # standard output, or what takes everything
-                path.write_bytes(data)
+                _give(path, data)
                 continue
             part = path.with_name(f".{path.name}.{os.getpid()}.part")
             made.append((part, path))
@@ -81,15 +91,22 @@ def write_files(files: Mapping[Path, bytes]) -> None:
             part.unlink(missing_ok=True)
 
 
+def _give(path: Path, data: bytes) -> None:
+    """Write to what is no file. A pipe that nobody reads is an error and not waited for."""
+    taken = os.open(path, os.O_WRONLY | os.O_NONBLOCK)
+    os.set_blocking(taken, True)
+    with os.fdopen(taken, "wb") as stream:
+        stream.write(data)
+
+
 def stale(folder: Path, written: Sequence[Path]) -> list[Path]:
-    """Files that an earlier command wrote there (or below), unchanged since, and that this one did not write."""
+    """Files that an earlier translation wrote there (or below), unchanged since, and that this one did not write."""
     new = set(written)
     found = []
     for home in sorted({folder, *(path.parent for path in written)}):
-        for name, made in sorted(_manifest(home).items()):
-            path = home / name
-            if path not in new and _is_file(path) and _hash(path.read_bytes()) == made:
-                found.append(path)
+        kept = _manifest(home)
+        ours = (home / name for name in sorted(kept) if home / name not in new)
+        found += [path for path in ours if _is_ours(path, kept) and not _is_report(path, path.read_bytes())]
     return found
 
 
@@ -105,7 +122,7 @@ def _remember(folder: Path, new: Mapping[str, bytes]) -> None:
 def _manifest(folder: Path) -> dict[str, str]:
     """Names and hashes; nothing where there is no list, or none that can be read."""
     try:
-        kept = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
+        kept = json.loads(read_bytes(folder / MANIFEST).decode("utf-8"))
     except (OSError, ValueError):
         return {}
     files = kept.get("files") if isinstance(kept, dict) else None
@@ -118,9 +135,31 @@ def _inputs(given: Mapping[str, object]) -> list[Path]:
     return [path for one in flat if isinstance(one, str | Path) and (path := Path(one)).exists()]
 
 
-def _holds(given: Path, path: Path) -> bool:
+def _holds(given: Path, path: Path, report: bool) -> bool:
+    """Is the file what is given, or in the folder that is given? There a report of ours is no input."""
     whole, one = given.resolve(), path.resolve()
-    return whole == one or (whole.is_dir() and whole in one.parents)
+    return whole == one or (not report and whole.is_dir() and whole in one.parents)
+
+
+def _is_ours(path: Path, written: Mapping[str, str]) -> bool:
+    """Was it written by us, and has it not changed since?"""
+    return path.name in written and _is_file(path) and _hash(path.read_bytes()) == written[path.name]
+
+
+def _is_report(path: Path, data: bytes) -> bool:
+    """Is it what a run, a proof or a fit leaves, by its content, and not what a translation writes?"""
+    return side_file(source_from_bytes(str(path), data)) in (TRACE, PAGE, DATA, CONTROLLER)
+
+
+def _names(folder: Path) -> dict[str, list[str]]:
+    """The names in a folder by what they are where capitals do not count."""
+    found: dict[str, list[str]] = {}
+    try:
+        for path in sorted(folder.iterdir()):
+            found.setdefault(path.name.casefold(), []).append(path.name)
+    except OSError:
+        return {}
+    return found
 
 
 def _is_file(path: Path) -> bool:

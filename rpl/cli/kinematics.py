@@ -10,6 +10,7 @@ import click
 from rpl import registry
 from rpl.cli.output import numbers
 from rpl.errors import SourceError, UsageError
+from rpl.tomlfile import FARTHEST
 
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
@@ -68,9 +69,12 @@ def pose_of(text: str, what: str, notation: Notation) -> tuple[FloatArray, dict[
     """A pose (4, 4, mm) and its flags: the dialect's notation, or x,y,z or x,y,z,a,b,c with ZYX angles."""
     if _PLAIN.fullmatch(text) is None:
         try:
-            return notation.parse_pose(text)
+            pose, flags = notation.parse_pose(text)
         except SourceError as error:
             raise UsageError(f"{what}: {error}") from None
+        if not abs(pose).max() <= FARTHEST:
+            raise UsageError(f"{what}: a place is beyond {FARTHEST:,.0f} mm")
+        return pose, flags
     from rpl.emulator.rotations import pose_matrix, zyx_to_matrix
 
     values = numbers(text, what)

@@ -21,6 +21,7 @@ OK, NO, USAGE, GUARDED = 0, 1, 2, 3
 _INTERRUPTED, _PIPE_CLOSED, _TERMINATED = 130, 141, 143
 # Commands that only list what there is: who has read enough of it may go away.
 _LISTINGS = ("dialects", "robots")
+_HELP = frozenset(("-h", "--help", "--version"))
 
 # Name -> what the list of commands says. Each lives in rpl.cli.<name> as `command`.
 COMMANDS = {
@@ -78,7 +79,15 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Entry point of the console script. Always ends by SystemExit."""
     if signal.getsignal(signal.SIGTERM) is signal.SIG_DFL:
         signal.signal(signal.SIGTERM, _terminate)
+    _open_streams()
     sys.exit(run(arguments))
+
+
+def _open_streams() -> None:
+    """Streams that the shell has closed (`>&-`) take everything and give nothing."""
+    sys.stdin = sys.stdin or os.fdopen(os.open(os.devnull, os.O_RDONLY), encoding="utf-8")
+    sys.stdout = sys.stdout or os.fdopen(os.open(os.devnull, os.O_WRONLY), "w", encoding="utf-8")
+    sys.stderr = sys.stderr or os.fdopen(os.open(os.devnull, os.O_WRONLY), "w", encoding="utf-8")
 
 
 def _terminate(number: int, frame: object) -> None:
@@ -94,7 +103,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return result if isinstance(result, int) else OK
     except click.exceptions.Exit as end:
         return int(end.exit_code)
-    except click.Abort:
+    except click.Abort as end:  # what click makes of Ctrl-C
+        _say_where(end.__cause__)
         return _INTERRUPTED
     except click.exceptions.NoArgsIsHelpError as error:
         click.echo(error.format_message(), err=True)
@@ -102,8 +112,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except click.ClickException as error:
         _say(f"rpl: {error.format_message()}")
         return USAGE
-    except KeyboardInterrupt:
-        _say("rpl: interrupted")
+    except KeyboardInterrupt as stopped:
+        _say_where(stopped)
         return _INTERRUPTED
     except SystemExit as end:  # how click ends when whoever read our output went away
         return _TERMINATED if end.code == _TERMINATED else _of_closed_pipe(arguments)
@@ -135,9 +145,20 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return USAGE
 
 
+def _say_where(stopped: BaseException | None) -> None:
+    """What Ctrl-C ended: the work, and where the program was that ran for it."""
+    from rpl.runtime.trace import RunInterrupted
+
+    _say(" ".join(("rpl: interrupted", *getattr(stopped, "__notes__", ()))))
+    if isinstance(stopped, RunInterrupted):
+        for task, origin in stopped.places:
+            _say(f"{origin.place}task {task} was here, {stopped.result.time_s:.3f} s after its start")
+
+
 def _of_closed_pipe(arguments: Sequence[str] | None) -> int:
     words = sys.argv[1:] if arguments is None else list(arguments)
-    return OK if words[:1] and words[0] in _LISTINGS else _PIPE_CLOSED
+    listing = words[:1] and words[0] in _LISTINGS
+    return OK if listing or not _HELP.isdisjoint(words) else _PIPE_CLOSED
 
 
 def _say(line: str) -> None:

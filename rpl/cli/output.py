@@ -18,6 +18,7 @@ from rpl.diagnostics import Diagnostic, Diagnostics, Severity, folded
 from rpl.errors import UsageError
 from rpl.showing import printable, printable_lines
 from rpl.source import LARGEST_FILE, Source, source_from_bytes
+from rpl.tomlfile import FARTHEST
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
@@ -137,6 +138,8 @@ def numbers(text: str, what: str, count: int | None = None) -> list[float]:
             raise UsageError(f"{what}: {part!r} is not a number; write them like 0,-90,90,0,0,0") from None
         if not math.isfinite(value):
             raise UsageError(f"{what}: {part!r} is not a finite number")
+        if abs(value) > FARTHEST:
+            raise UsageError(f"{what}: {part!r} is beyond {FARTHEST:,.0f}")
         values.append(value)
     if count is not None and len(values) != count:
         raise UsageError(f"{what}: {count} numbers are needed, {len(values)} are given")
@@ -151,7 +154,18 @@ def write_file(path: Path, data: bytes) -> None:
 
 @contextmanager
 def waiting(text: str) -> Iterator[None]:
-    """Shows on a terminal, after a moment, that work goes on. Elsewhere it costs and prints nothing."""
+    """Shows on a terminal, after a moment, that work goes on. Elsewhere it costs and prints nothing. Ctrl-C tells
+    which work it ended."""
+    try:
+        with _shown(text):
+            yield
+    except KeyboardInterrupt as stopped:
+        stopped.add_note(f"while {text}")
+        raise
+
+
+@contextmanager
+def _shown(text: str) -> Iterator[None]:
     if not sys.stderr.isatty():
         yield
         return

@@ -13,13 +13,14 @@ import re
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from rpl.cli.output import print_json, print_text, say
 from rpl.errors import SourceError, UsageError
+from rpl.source import LARGEST_FILE, read_bytes
+from rpl.tomlfile import FARTHEST
 
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
@@ -31,6 +32,7 @@ points_option = click.option(
 )
 # What is worked on at a time: memory stays the same for any length of file.
 CHUNK = 4096
+_LONGEST_CELL = 40  # what is quoted of one in a report
 PREVIOUS = "previous"
 _TEXT_COLUMNS = ("target", "pose")
 _JOINT = re.compile(r"(?:j|a|joint_?|axis_?)(\d)$")
@@ -77,12 +79,14 @@ class Outcome:
 def read_table(path: str) -> Table:
     """The rows of a file, empty ones and those that begin with # left out. Raises UsageError when it cannot be read."""
     try:
-        text = sys.stdin.read() if path == "-" else _text_of(path)
+        text = sys.stdin.read(LARGEST_FILE) if path == "-" else _text_of(path)
     except OSError as error:
         raise UsageError(f"--points: {path} cannot be read: {error.strerror}") from None
     except UnicodeError:
         raise UsageError(f"--points: {path} is no text in UTF-8") from None
     name = "<stdin>" if path == "-" else path
+    if len(text) == LARGEST_FILE:
+        raise UsageError(f"--points: {name} is larger than {LARGEST_FILE // 2**20} MiB")
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
     lines = [(number, line) for number, line in lines if not line.lstrip().startswith("#")]
     if not lines:
@@ -90,7 +94,7 @@ def read_table(path: str) -> Table:
     if _TARGET.match(lines[0][1]):
         return Table(name, ("target",), tuple(Row(number, (line.strip(),)) for number, line in lines))
     separator = max(",;\t", key=lines[0][1].count)
-    split = [Row(number, _cells(line, separator)) for number, line in lines]
+    split = [Row(number, _cells(name, number, line, separator)) for number, line in lines]
     if any(_number(cell) is None and cell for cell in split[0].cells):
         columns = tuple(_UNIT.sub("", cell.lower()) for cell in split[0].cells)
         twice = next((one for one in columns if one and columns.count(one) > 1), None)
@@ -101,11 +105,14 @@ def read_table(path: str) -> Table:
 
 
 def _text_of(path: str) -> str:
-    return Path(path).read_text(encoding="utf-8-sig")
+    return read_bytes(path, LARGEST_FILE).decode("utf-8-sig")
 
 
-def _cells(line: str, separator: str) -> tuple[str, ...]:
-    found = next(csv.reader(io.StringIO(line), delimiter=separator, skipinitialspace=True))
+def _cells(name: str, number: int, line: str, separator: str) -> tuple[str, ...]:
+    try:
+        found = next(csv.reader(io.StringIO(line), delimiter=separator, skipinitialspace=True))
+    except csv.Error as error:
+        raise UsageError(f"--points: {name}:{number}: {error}") from None
     cells = tuple(cell.strip() for cell in found)
     # Where commas do not part the cells, they are decimal ones.
     return cells if separator == "," else tuple(_DECIMAL.sub(r"\1.\2", cell) for cell in cells)
@@ -116,7 +123,17 @@ def _number(cell: str) -> float | None:
         value = float(cell)
     except ValueError:
         return None
-    return value if math.isfinite(value) else None
+    return value if abs(value) <= FARTHEST else None
+
+
+def _short(cell: str) -> str:
+    """The cell as it is quoted, and why a number is none."""
+    try:
+        far = abs(float(cell)) > FARTHEST
+    except ValueError:
+        far = False
+    shown = repr(cell if len(cell) <= _LONGEST_CELL else f"{cell[:_LONGEST_CELL]}..")
+    return f"{shown}, beyond {FARTHEST:,.0f}" if far else shown
 
 
 def chunks(rows: Sequence[Row]) -> Iterator[Sequence[Row]]:
@@ -143,7 +160,7 @@ def matrix_of(
             number = math.nan if place in gaps and cell in ("", "-") else _number(cell)
             if number is None:
                 name = table.columns[place] if table.columns else f"column {place + 1}"
-                outcome.errors.append((row.line, "bad-point", f"{name} is {cell!r}, a number is needed"))
+                outcome.errors.append((row.line, "bad-point", f"{name} is {_short(cell)}, a number is needed"))
                 break
             found.append(number)
         else:

@@ -41,7 +41,7 @@ def programs_of(question: Question) -> list[ReadProgram]:
     a path without one, and before anything is read for an unknown arm or controller."""
     from rpl.controllers import controller_named
     from rpl.project import read_program
-    from rpl.proof.cellnames import report_unknown_signals
+    from rpl.proof.cellnames import report_unknown_names
     from rpl.proof.prove import load_cell
 
     limits_of(question.max_time, question.max_steps, question.max_events)
@@ -57,7 +57,7 @@ def programs_of(question: Question) -> list[ReadProgram]:
         if not read.files:
             raise UsageError(f"no robot program in {path}; name the language with --from or --to if there is one")
         programs.append(read)
-    report_unknown_signals(programs[0].program, surroundings, unknown)
+    report_unknown_names([one.program for one in programs], surroundings, unknown)
     print_diagnostics(unknown, Severity.WARNING)
     return programs
 

@@ -29,6 +29,7 @@ from rpl.cli.output import (
 )
 from rpl.cli.reports import report_options, reports_of, show_reports
 from rpl.diagnostics import Diagnostics, Severity
+from rpl.errors import UsageError
 from rpl.passes.legalise.pulses import report_assumed, report_stations
 from rpl.runtime.trace import RunInterrupted
 from rpl.showing import printable
@@ -84,6 +85,8 @@ def command(
 
     robots_exist(*robots)
     robot, further = robots[0] if robots else None, robots[1:]
+    if trace is not None and plot is not None and trace.resolve() == plot.resolve():
+        raise UsageError(f"--trace and --plot both name {trace}: give each a file")
     refuse_others([path for path in (trace, plot) if path is not None])
     limits = limits_of(max_time, max_steps, max_events)
     reports = reports_of(plot, dynamics, payload, robot, timed, controller)
@@ -120,14 +123,14 @@ def _robot_in(robot: str | None, surroundings: Cell | None, program: ir.Program)
     """The arm with the mechanisms around it; what the run takes for granted about the program is said."""
     from rpl.passes.given import with_given
     from rpl.passes.kept import report_taken_as_zero
-    from rpl.proof.cellnames import report_unknown_signals
+    from rpl.proof.cellnames import report_unknown_names
 
     model, assumptions = robot_named(robot), collector()
     if model is not None:
         model = model.among(surroundings.mechanisms, surroundings.path) if surroundings is not None else model
         report_assumed(program, model, assumptions)
         report_stations(program, model, assumptions)
-    report_unknown_signals(program, surroundings, assumptions)
+    report_unknown_names([program], surroundings, assumptions)
     given = surroundings.variables if surroundings is not None else {}
     report_taken_as_zero(with_given(program, given), assumptions)
     print_diagnostics(assumptions, Severity.WARNING)

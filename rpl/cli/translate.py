@@ -91,7 +91,7 @@ def command(
     (exit status 3), different or undecided (1); --accept takes measures of the proof too.
     """
     from rpl.cell import read_cell
-    from rpl.proof.cellnames import report_unknown_signals
+    from rpl.proof.cellnames import report_unknown_names
     from rpl.translation import translate_program
     from rpl.writing.registers import read_registers
 
@@ -107,7 +107,7 @@ def command(
         return _refuse(diagnostics, as_json)
     read, before = _begun_at(read, about["entry"]), len(diagnostics)
     with waiting("writing"):
-        report_unknown_signals(read.program, around, diagnostics)
+        report_unknown_names([read.program], around, diagnostics)
         given = (around.variables, around.mechanisms, around.analog) if around is not None else ()
         translation = translate_program(read, target, *arms, diagnostics, numbers, own, *given)
     if strict:
@@ -350,7 +350,7 @@ def _print(
 
 
 # Warnings that concern a name or a file and no meaning.
-_NO_APPROXIMATIONS = frozenset(("signal-number-chosen", "skipped-file"))
+_NO_APPROXIMATIONS = frozenset(("signal-number-chosen", "skipped-file", "cell-unknown-variable"))
 
 
 def _approximations(written: Sequence[Diagnostic]) -> tuple[tuple[str, int], ...]:

@@ -4,7 +4,6 @@ A URDF leads to the same `Arm` as a robot file does. This is the one module of t
 and only inside the functions, so that arms of the closed-form families load without it.
 """
 
-import re
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from functools import lru_cache
@@ -18,6 +17,8 @@ from rpl.emulator.inertias import ArmInertias, Body
 from rpl.emulator.recognise import OpwFit, fit_opw
 from rpl.emulator.robotfile import RobotError, RobotFile
 from rpl.emulator.rotations import FloatArray
+from rpl.emulator.urdfnumbers import check_numbers, line_of_part
+from rpl.source import read_bytes
 
 if TYPE_CHECKING:
     import pinocchio as pin  # ships no type information
@@ -38,12 +39,13 @@ class UrdfChain:
 def read_urdf(path: Path, tip: str | None) -> UrdfChain:
     """The chain to the link `tip`, else to a link with a tool's usual name, else the longest; `RobotError` if none."""
     try:
-        written = path.read_text(encoding="utf-8")
+        written = read_bytes(path).decode("utf-8")
         tree = ET.fromstring(written)
     except OSError as error:
         raise RobotError(f"robot file {path} cannot be read: {error.strerror}") from error
     except (ET.ParseError, UnicodeDecodeError) as error:
         raise RobotError(f"{path.name} is no URDF: {error}") from error
+    check_numbers(path, written, tree)
     leading: dict[str, ET.Element] = {}
     for joint in tree.findall("joint"):
         child = joint.find("child")
@@ -94,16 +96,6 @@ def _bound(joint: ET.Element) -> None:
         limit.set("upper", str(2.0 * np.pi))
 
 
-def _limit_line(written: str, name: str) -> int:
-    """The line of a joint's limit, else of the joint (the parser keeps no places)."""
-    joint = re.search(rf"<joint\b[^>]*\bname\s*=\s*[\"']{re.escape(name)}[\"']", written)
-    if joint is None:
-        return 1
-    limit = re.compile(r"<limit\b|</joint").search(written, joint.end())
-    place = limit.start() if limit is not None and limit[0] == "<limit" else joint.start()
-    return written.count("\n", 0, place) + 1
-
-
 def _limits(path: Path, written: str, joint: ET.Element) -> tuple[float, float, float]:
     """Lower, upper and speed of a joint in degrees or mm; a missing speed is a full turn in 2 s, or 1 m/s."""
     limit = joint.find("limit")
@@ -111,7 +103,7 @@ def _limits(path: Path, written: str, joint: ET.Element) -> tuple[float, float, 
     scale = 1000.0 if sliding else 180.0 / np.pi
     values = {} if limit is None else limit.attrib
     name = joint.get("name", "")
-    place = f"{path.name}:{_limit_line(written, name)}: joint '{name}'"
+    place = f"{path.name}:{line_of_part(written, 'joint', name, 'limit')}: joint '{name}'"
     numbers = []
     for key in ("lower", "upper", "velocity"):
         text = values.get(key, "0")

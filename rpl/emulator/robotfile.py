@@ -168,7 +168,7 @@ def robot_bytes(name_or_path: str) -> bytes:
     none."""
     if name_or_path.endswith((".toml", ".urdf")):
         try:
-            return Path(name_or_path).read_bytes()
+            return read_bytes(name_or_path)
         except OSError as error:
             raise RobotError(f"robot file {name_or_path} cannot be read: {error.strerror}") from error
     if name_or_path not in robot_names():

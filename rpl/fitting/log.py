@@ -54,7 +54,11 @@ def read_log(path: str, axes: int) -> Log:
     if not lines:
         raise UsageError(f"{path}:1: the log is empty")
     separator = ";" if lines[0].count(";") > lines[0].count(",") else ","
-    rows = list(csv.reader(lines, delimiter=separator))
+    reader = csv.reader(lines, delimiter=separator)
+    try:
+        rows = list(reader)
+    except csv.Error as error:
+        raise UsageError(f"{path}:{reader.line_num}: {error}") from None
     names = [name.strip().lower() for name in rows[0]]
     time_name = next((name for name in TIMES if name in names), None)
     if time_name is None:

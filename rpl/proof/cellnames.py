@@ -1,10 +1,12 @@
-"""Signals that a cell file names and that the program cannot mean: a typing error there would only show as a wait that
-never ends. A signal is known by its declaration, by a spelling with a number, or because the program uses the name.
+"""Signals and variables that a cell file names and that no program has: a typing error there would only show as a wait
+that never ends, or as a value that is never used. A signal is known by its declaration, by a spelling with a number, or
+because the program uses the name.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator, Sequence
 from difflib import get_close_matches
 
 from rpl import ir
@@ -15,6 +17,7 @@ from rpl.ir.walk import walk
 from rpl.linking import link
 from rpl.runtime.signals import keys_named, usual_key
 from rpl.source import NOWHERE, Origin, Source, read_source
+from rpl.tomlfile import key_lines, line_of
 
 UNKNOWN_SIGNAL = code(
     "cell-unknown-signal",
@@ -22,7 +25,21 @@ UNKNOWN_SIGNAL = code(
     "the cell file names the signal {name}, which the program does not have{nearest}",
     "write the name as the program or its language does",
 )
+UNKNOWN_VARIABLE = code(
+    "cell-unknown-variable",
+    Severity.WARNING,
+    "the cell file gives a value to {name}, which the program does not have{nearest}: the value is not used",
+    "write the name as the program or its language does",
+)
+_WORD = re.compile(r"[\w$]+")
 _NEAR = 0.5  # how much of a name has to agree to be offered
+
+
+def report_unknown_names(programs: Sequence[ir.Program], cell: Cell | None, diagnostics: Diagnostics) -> None:
+    """A warning at each signal of the cell file that the first program does not have, and at each variable that none
+    has."""
+    report_unknown_signals(programs[0], cell, diagnostics)
+    report_unknown_variables(programs, cell, diagnostics)
 
 
 def report_unknown_signals(program: ir.Program, cell: Cell | None, diagnostics: Diagnostics) -> None:
@@ -35,10 +52,41 @@ def report_unknown_signals(program: ir.Program, cell: Cell | None, diagnostics: 
         alias = linked.alias(name)
         if alias is not None or usual_key(name) is not None or keys_named(name, alias) & used.keys():
             continue
-        near = get_close_matches(name.lower(), [one.lower() for one in names], 3, _NEAR)
-        found = [next(one for one in names if one.lower() == lower) for lower in near]
-        nearest = f"; the nearest are {', '.join(found)}" if found else ""
-        diagnostics.report(UNKNOWN_SIGNAL, _place(name, source), name=name, nearest=nearest)
+        diagnostics.report(UNKNOWN_SIGNAL, _place(name, source), name=name, nearest=_nearest(name, names))
+
+
+def report_unknown_variables(programs: Sequence[ir.Program], cell: Cell | None, diagnostics: Diagnostics) -> None:
+    """A warning at each variable of the cell file that none of the programs has."""
+    if cell is None or not cell.variables:
+        return
+    names = {name.lower(): name for program in programs for name in _variables(program)}
+    modules = {module.name.lower() for program in programs for module in program.modules}
+    source = _source(cell)
+    lines = key_lines(source.text) if source is not None else {}
+    for path in cell.variables:
+        words = _WORD.findall(path.lower())
+        if words and (words[0] in names or (words[0] in modules and words[1:2] and words[1] in names)):
+            continue
+        line = line_of(lines, f"variables.{path}")
+        place = Origin(source, source.line_starts()[line - 1]) if source is not None and line else NOWHERE
+        nearest = _nearest(path, names.values())
+        diagnostics.report(UNKNOWN_VARIABLE, place, name=path, nearest=nearest)
+
+
+def _variables(program: ir.Program) -> Iterator[str]:
+    """Every name that the program declares for data or uses as one."""
+    for node in walk(program):
+        if isinstance(node, ir.Variable):
+            yield node.name
+        elif isinstance(node, ir.Name):
+            yield node.id
+
+
+def _nearest(name: str, names: Iterable[str]) -> str:
+    """The end of a complaint about an unknown name: those that are most like it."""
+    known = {one.lower(): one for one in sorted(names)}
+    near = get_close_matches(name.lower(), list(known), 3, _NEAR)
+    return f"; the nearest are {', '.join(known[one] for one in near)}" if near else ""
 
 
 def _used(program: ir.Program) -> dict[str, str]:
@@ -73,4 +121,4 @@ def _place(name: str, source: Source | None) -> Origin:
     return NOWHERE
 
 
-__all__ = ["report_unknown_signals"]
+__all__ = ["report_unknown_names"]

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 from rpl.errors import UsageError
 from rpl.proof.deviations import measures
 from rpl.proof.tolerance import Accepted
+from rpl.source import read_bytes
 
 if TYPE_CHECKING:
     from rpl.proof.verdict import ProofResult
@@ -211,7 +212,7 @@ def _described(question: Question) -> dict[str, bytes]:
     for name in ("cell", "controller"):
         value = getattr(question, name)
         if value is not None and (name == "cell" or _is_file(value)):
-            found[name] = Path(value).read_bytes()
+            found[name] = read_bytes(value)
     return found
 
 

@@ -7,12 +7,16 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from rpl.errors import UsageError
+from rpl.source import read_bytes
 
 FILE_NAME = "registers.csv"
+# No bank has more than a few thousand.
+_NUMBER = re.compile(r"[0-9]{1,9}")
 _HEAD = ("bank", "number", "name", "type")
 
 Names = Mapping[tuple[str, int], str]
@@ -30,7 +34,11 @@ def registers_text(names: Names, types: Names) -> str:
 
 def parse_registers(text: str, path: str = "registers") -> dict[tuple[str, int], str]:
     """The names by bank and number. Raises UsageError for what is no such file."""
-    rows = list(csv.reader(io.StringIO(text)))
+    reader = csv.reader(io.StringIO(text))
+    try:
+        rows = list(reader)
+    except csv.Error as error:
+        raise UsageError(f"{path}:{reader.line_num}: {error}") from None
     if not rows or tuple(cell.strip().lower() for cell in rows[0][:3]) != _HEAD[:3]:
         raise UsageError(f"{path}: the first line of a map of registers is {','.join(_HEAD)}")
     return dict(_row(number, row, path) for number, row in _numbered(rows[1:]))
@@ -41,7 +49,7 @@ def _numbered(rows: Iterable[list[str]]) -> list[tuple[int, list[str]]]:
 
 
 def _row(number: int, row: list[str], path: str) -> tuple[tuple[str, int], str]:
-    if len(row) < 3 or not row[1].strip().isdigit() or not row[0].strip() or not row[2].strip():
+    if len(row) < 3 or not _NUMBER.fullmatch(row[1].strip()) or not row[0].strip() or not row[2].strip():
         raise UsageError(f"{path}:{number}: a line has a bank, a whole number and a name")
     return (row[0].strip(), int(row[1])), row[2].strip()
 
@@ -49,7 +57,8 @@ def _row(number: int, row: list[str], path: str) -> tuple[tuple[str, int], str]:
 def read_registers(path: Path) -> dict[tuple[str, int], str]:
     """The map in a file. Raises UsageError when it cannot be read."""
     try:
-        text = path.read_text("utf-8")
+        text = read_bytes(path).decode("utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise UsageError(f"{path}: {error}") from None
+        reason = error.strerror if isinstance(error, OSError) else "it is no text in UTF-8"
+        raise UsageError(f"{path}: the map of registers cannot be read: {reason}") from None
     return parse_registers(text, str(path))

@@ -71,6 +71,12 @@ def test_results_are_short(demo: Path) -> None:
     assert "fault after 0.000 s" in fault and "demo.src:3" in fault
 
 
+def test_events_and_reports_show_their_place_and_not_the_whole_file(demo: Path) -> None:
+    result = rpl.run(demo, robot="kuka_kr6r900sixx")
+    shown = [repr(event) for event in result.trace]
+    assert shown and max(len(one) for one in shown) < 1500 and all("END" not in one for one in shown)
+
+
 def test_notebooks_get_a_table_and_nothing_of_a_program_is_markup(demo: Path) -> None:
     program = rpl.read(SAMPLE)
     assert program._repr_html_().count("<tr>") == 3

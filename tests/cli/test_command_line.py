@@ -211,3 +211,15 @@ def test_a_cell_file_that_names_an_unknown_signal(
     warnings = [line for line in words(capsys)[1].splitlines() if "cell-unknown-signal" in line]
     assert len(warnings) == 1
     assert "cell.toml:15:10: warning" in warnings[0] and "the nearest are grip_closed" in warnings[0]
+
+
+def test_a_cell_file_that_gives_a_value_to_no_variable(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path, cell = tmp_path / "a.src", tmp_path / "c.toml"
+    path.write_text("DEF a()\nDECL INT i\ni=parts\nEND\n")
+    path.with_suffix(".dat").write_text("DEFDAT a\nDECL INT parts=1\nENDDAT\n")
+    cell.write_text('seed = 1\n[variables]\nparts = 2\n"part" = 3\n')
+    for command in (["run", str(path)], ["prove", str(path), str(path)], ["translate", str(path), "--to", "krl"]):
+        run([*command, "--cell", str(cell)])
+        warned = [line for line in words(capsys)[1].splitlines() if "cell-unknown-variable" in line]
+        assert len(warned) == 1
+        assert "c.toml:4:1: warning" in warned[0] and "gives a value to part," in warned[0] and "parts" in warned[0]

@@ -4,6 +4,8 @@ import gzip
 import io
 import os
 import stat
+import subprocess
+import sys
 import tarfile
 import time
 import zipfile
@@ -12,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from rpl import archives
+from rpl.cli.main import run
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import read_program
 
@@ -213,6 +216,91 @@ def test_files_of_a_folder_that_hold_no_program_are_named(tmp_path: Path) -> Non
     assert (files, errors) == (2, [])
     for name, word in (("empty", "empty"), ("nuls", "zero bytes"), ("wide", "UTF-16"), ("cut", "UTF-16")):
         assert any(f"{name}.src" in each and word in each for each in warnings), name
+
+
+@pytest.mark.parametrize("language", ["krl", "rapid", "urscript", "vplus", "rpl", "tp", "inform"])
+@pytest.mark.parametrize("data", [MAIN + b"\0", MAIN[:12] + b"\0" + MAIN[12:], MAIN.decode().encode("utf-16-be")])
+def test_zero_bytes_are_an_error_whatever_the_language_is_said_to_be(
+    tmp_path: Path, language: str, data: bytes
+) -> None:
+    path = tmp_path / "main.src"
+    path.write_bytes(data)
+    diagnostics = Diagnostics()
+    read_program([path], language, diagnostics)
+    assert [item.code.name for item in diagnostics] == ["zero-bytes"]
+
+
+def test_zero_bytes_far_behind_the_beginning_are_named(tmp_path: Path) -> None:
+    text = b"DEF main()\n" + b"; remark\n" * 9000
+    (tmp_path / "main.src").write_bytes(text + b"HALT\0\nEND\n")
+    files, errors, warnings = reports(tmp_path)
+    assert files == 0 and any("zero bytes, the first one in line 9002" in each for each in errors + warnings)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["translate", "main.src", "--to", "tp", "--registers"],
+        ["prove", "--check"],
+        ["fk", "--robot", "ur5e", "--points"],
+        ["fk", "--joints", "0,0,0,0,0,0", "--robot"],
+        ["fit", "--robot", "ur5e"],
+        ["run", "main.src", "--cell"],
+        ["run", "main.src", "--controller"],
+    ],
+)
+def test_no_command_waits_for_a_pipe_or_reads_a_device(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("main.src").write_bytes(MAIN)
+    for name in ("x.toml", "x.urdf"):
+        os.mkfifo(name)
+        command = [sys.executable, "-m", "rpl.cli.main", *arguments, name]
+        made = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+        assert made.returncode == 2
+        assert "pipe or a device" in made.stderr or "no controller" in made.stderr
+
+
+LONG_CELL = "x" * 200_000
+JOINTS = "j1,j2,j3,j4,j5,j6\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text", "complaint"),
+    [
+        (["fk", "--robot", "ur5e", "--points"], f"j1,j2,j3,j4,j5,j6,n\n0,0,0,0,0,0,{LONG_CELL}\n", "x.csv:2: field"),
+        (["fit", "--robot", "ur5e"], f"time,j1,j2,j3,j4,j5,j6,n\n0,0,0,0,0,0,0,{LONG_CELL}\n", "x.csv:2: field"),
+        (
+            ["translate", "main.src", "--to", "tp", "--registers"],
+            f"bank,number,name\nR,1,{LONG_CELL}\n",
+            "x.csv:2: fie",
+        ),
+        (
+            ["translate", "main.src", "--to", "tp", "--registers"],
+            f"bank,number,name\nR,{'9' * 5000},a\n",
+            "x.csv:2: a l",
+        ),
+        (["translate", "main.src", "--to", "tp", "--registers"], "bank,number,name\nR,\u00b2,a\n", "x.csv:2: a line"),
+        (["translate", "main.src", "--to", "tp", "--registers"], b"bank,number,name\nR,1,\xff\n", "no text in UTF-8"),
+        (["fk", "--robot", "ur5e", "--points"], f"{JOINTS}0,0,0,0,0,{'9' * 400}\n", "a number is needed"),
+        (["fk", "--robot", "ur5e", "--points"], JOINTS + "0,0,0,0,0,1e300\n", "beyond 1,000,000, a number is needed"),
+    ],
+)
+def test_tables_with_cells_that_nobody_writes_are_refused(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    arguments: list[str],
+    text: str | bytes,
+    complaint: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("main.src").write_bytes(MAIN)
+    Path("x.csv").write_bytes(text if isinstance(text, bytes) else text.encode())
+    assert run([*arguments, "x.csv"]) in (1, 2)
+    told = capsys.readouterr().err
+    assert complaint in told and len(told) < 500
 
 
 def test_pipes_and_devices_are_refused_and_never_waited_for(tmp_path: Path) -> None:

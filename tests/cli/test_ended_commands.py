@@ -8,6 +8,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
+from rpl.cli.main import run
+from rpl.runtime.trace import RunInterrupted, RunResult
+from rpl.source import Origin, read_source
+
 ENDLESS = """\
 DEF a()
 BOOL on
@@ -62,3 +68,36 @@ def test_who_is_told_to_end_shows_the_cursor_again(tmp_path: Path) -> None:
     shown += seen_until(ours, SHOW)
     os.close(ours)
     assert shown.rindex(SHOW) > shown.rindex(HIDE)
+
+
+@pytest.mark.parametrize("more", [["prove", "a.src", "a.src"], ["prove", "a.src", "a.src", "--explore"]])
+def test_ctrl_c_says_which_work_it_ended(tmp_path: Path, more: list[str]) -> None:
+    (tmp_path / "a.src").write_text(ENDLESS)
+    ours, theirs = pty.openpty()
+    command = [sys.executable, "-m", "rpl.cli.main", *more, *LIMITS]
+    made = subprocess.Popen(command, stderr=theirs, cwd=tmp_path)
+    os.close(theirs)
+    told = seen_until(ours, b"proving")
+    made.send_signal(signal.SIGINT)
+    assert made.wait(60) == 130
+    told += seen_until(ours, b"rpl: interrupted while proving")
+    os.close(ours)
+    assert b"Traceback" not in told
+
+
+def test_ctrl_c_says_where_a_run_was_that_another_command_made(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    path = tmp_path / "a.src"
+    path.write_text(ENDLESS)
+    source = read_source(path)
+    result = RunResult("interrupted", 1.5, 0, 0, (), (), None, ())
+
+    def stopped(*given: object, **more: object) -> None:
+        raise RunInterrupted(result, (("main", Origin(source, source.text.index("WAIT"))),))
+
+    monkeypatch.setattr("rpl.proof.prove.prove_programs", stopped)
+    assert run(["prove", str(path), str(path)]) == 130
+    told = capsys.readouterr().err
+    assert "rpl: interrupted while proving" in told
+    assert f"{path}:7: task main was here, 1.500 s after its start" in told

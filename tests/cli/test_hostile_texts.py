@@ -35,17 +35,45 @@ def test_no_number_as_a_limit_is_refused(tmp_path: Path) -> None:
         rpl.run(rpl.read(path), max_time_s=math.nan)
 
 
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["fk", "--robot", "ur5e", "--joints", "0,0,0,0,0,1e300"],
+        ["fk", "--robot", "ur5e", "--joints", "0,0,0,0,0,0", "--tool", "1e9,0,0"],
+        ["ik", "--robot", "ur5e", "--pose", "1e300,0,0,0,0,0"],
+        ["ik", "--robot", "ur5e", "--dialect", "urscript", "--pose", "p[1e300,0,0,0,0,0]"],
+        ["ik", "--robot", "kuka_kr6r900sixx", "--pose", "{X 1e300,Y 0,Z 0,A 0,B 0,C 0}"],
+    ],
+)
+def test_joints_and_places_beyond_every_machine_are_refused(
+    arguments: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(arguments) == 2
+    assert "beyond 1,000,000" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("value", ["nan", "inf", "-1.0", "2e9"])
 def test_times_of_a_cell_are_numbers(value: str) -> None:
     with pytest.raises(UsageError, match=r"cell.toml:2: input\[1\].time"):
         parse_cell(f'[[input]]\ntime = {value}\nsignal = "di1"\nvalue = true\n', "cell.toml")
 
 
-def test_who_has_read_enough_of_a_list_may_go() -> None:
-    made = subprocess.Popen([sys.executable, "-m", "rpl.cli.main", "robots"], stdout=subprocess.PIPE)
+@pytest.mark.parametrize("words", [["robots"], ["dialects", "--json"], ["--help"], ["run", "-h"], ["--version"]])
+def test_who_has_read_enough_of_a_list_may_go(words: list[str]) -> None:
+    made = subprocess.Popen([sys.executable, "-m", "rpl.cli.main", *words], stdout=subprocess.PIPE)
     assert made.stdout is not None
     made.stdout.close()
     assert made.wait(60) == 0
+
+
+@pytest.mark.parametrize(("closed", "status"), [(">&-", 0), ("2>&-", 0), ("<&-", 2), (">&- 2>&- <&-", 2)])
+def test_a_stream_that_the_shell_has_closed_is_no_traceback(tmp_path: Path, closed: str, status: int) -> None:
+    path = tmp_path / "a.src"
+    path.write_text("DEF a()\nWAIT SEC 1\nEND\n")
+    given = "-" if status else str(path)
+    command = f"{sys.executable} -m rpl.cli.main run {given} {closed}"
+    made = subprocess.run(["sh", "-c", command], capture_output=True, text=True, timeout=60, check=False)
+    assert made.returncode == status and "Traceback" not in made.stderr
 
 
 STEERING = ("\x1b", "\x07", "\x9b")

@@ -1,5 +1,7 @@
 """Commands write whole files or none, and never over what they did not write themselves."""
 
+import os
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -7,6 +9,7 @@ import pytest
 from rpl.cli import files
 from rpl.cli.main import run
 from rpl.diagnostics import Diagnostics
+from rpl.errors import UsageError
 from rpl.project import read_sources
 from rpl.registry import target
 from rpl.source import source_from_text
@@ -67,6 +70,48 @@ def test_a_trace_is_written_again(source: Path, tmp_path: Path) -> None:
     assert trace.read_text().count("\n") > 1
 
 
+def test_a_trace_in_the_folder_of_the_program_is_written_again(
+    source: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It is no part of the program, so it is neither an input nor left of a translation."""
+    trace = source.with_name("t.jsonl")
+    for _ in range(2):
+        assert run(["run", str(source.parent), "--trace", str(trace)]) == 0
+    assert translated(source.parent, source.parent) == 0
+    assert "earlier translation" not in capsys.readouterr().err
+    assert run(["check", str(trace), "--json"]) == 2
+    assert run(["run", str(source), "--trace", str(source.with_name("T.JSONL")), "--plot", str(trace)]) == 0
+
+
+def test_two_reports_are_two_files(source: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    trace = source.with_name("t.jsonl")
+    assert run(["run", str(source), "--trace", str(trace), "--plot", str(trace)]) == 2
+    assert "--trace and --plot" in capsys.readouterr().err and not trace.exists()
+
+
+def test_files_that_differ_from_those_of_somebody_else_in_capitals_only_are_not_written(
+    source: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """File systems of Windows (and of every controller with it) take both names for one file."""
+    other = source.rename(source.with_name("PART.Src"))
+    assert run(["translate", str(other), "--to", "krl", "-o", str(source.parent)]) == 2
+    assert "in capitals only" in capsys.readouterr().err
+    assert [path.name for path in source.parent.iterdir()] == ["PART.Src"]
+    assert run(["translate", str(other), "--to", "krl", "-o", str(source.parent), "--force"]) == 0
+
+
+def test_a_pipe_that_nobody_reads_is_not_waited_for(source: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pipe = source.with_name("pipe")
+    os.mkfifo(pipe)
+    assert run(["run", str(source), "--trace", str(pipe)]) == 2
+    assert "cannot write" in capsys.readouterr().err
+    taker = subprocess.Popen(["cat", str(pipe)], stdout=subprocess.PIPE)
+    with pipe.open("wb"):  # somebody reads from here on
+        assert run(["run", str(source), "--trace", str(pipe)]) == 0
+    taken, _ = taker.communicate(timeout=30)
+    assert taken.count(b"\n") > 1
+
+
 def test_an_input_is_not_overwritten_though_it_was_written_by_us(source: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     assert run(["translate", str(source), "--to", "krl", "-o", str(out)]) == 0
@@ -85,7 +130,7 @@ def test_a_failure_leaves_what_was_there(tmp_path: Path, monkeypatch: pytest.Mon
         return usual(path, data)
 
     monkeypatch.setattr(Path, "write_bytes", full)
-    with pytest.raises(files.UsageError, match="No space left"):
+    with pytest.raises(UsageError, match="No space left"):
         files.write_files({first: b"new a", second: b"new b"})
     assert (first.read_bytes(), second.read_bytes()) == (b"old a", b"old b")
     assert {path.name for path in tmp_path.iterdir()} == {"a.txt", "b.txt", files.MANIFEST}

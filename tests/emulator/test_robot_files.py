@@ -164,6 +164,53 @@ def test_a_wrong_urdf_is_refused_with_its_joint(
     assert f"arm.urdf:2: {message}" in str(caught.value)
 
 
+MOVING = """<robot name="r">
+<link name="a"/>
+<link name="b"><inertial><mass value="5"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+<joint name="j" type="revolute"><parent link="a"/><child link="b"/>
+<origin xyz="0 0 0.3" rpy="0 0 0"/><axis xyz="0 0 1"/>
+<limit effort="0" velocity="2" lower="-3" upper="3"/></joint></robot>"""
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "message"),
+    [
+        (
+            'velocity="2"',
+            'velocity="1e-300"',
+            "6: joint 'j': the limit's 'velocity' is 1e-300, and no joint is so slow",
+        ),
+        ('velocity="2"', 'velocity="1e300"', "6: joint 'j': the limit's 'velocity' is 1e+300, and no joint is so fast"),
+        ('upper="3"', 'upper="1e9"', "6: joint 'j': the limit's 'upper' is 1e+09, and no joint goes so far"),
+        ('upper="3"', f'upper="{"9" * 5000}"', "6: joint 'j': the limit's 'upper' is 'inf', which is no number"),
+        ('effort="0"', 'effort="nan"', "6: joint 'j': the limit's 'effort' is 'nan', which is no number"),
+        ("0 0 0.3", "0 0 nan", "5: joint 'j': the origin's 'xyz' is 'nan', where three numbers are needed"),
+        ("0 0 0.3", "0 0 1e300", "5: joint 'j': the origin's 'xyz' is 1e+300, and no arm is so large"),
+        ("0 0 0.3", "0 0", "5: joint 'j': the origin's 'xyz' is '0 0', where three numbers are needed"),
+        ('rpy="0 0 0"', 'rpy="0 0 inf"', "5: joint 'j': the origin's 'rpy' is 'inf', where three numbers are needed"),
+        ('axis xyz="0 0 1"', 'axis xyz="0 0 0"', "5: joint 'j': the axis has no direction"),
+        (
+            'axis xyz="0 0 1"',
+            'axis xyz="0 0 z"',
+            "5: joint 'j': the axis's 'xyz' is 'z', where three numbers are needed",
+        ),
+        ('mass value="5"', 'mass value="nan"', "3: link 'b': the mass's 'value' is 'nan', which is no number"),
+        ('mass value="5"', 'mass value="-5"', "3: link 'b': the mass's 'value' is -5, below zero"),
+        ('ixx="1"', 'ixx="1e300"', "3: link 'b': the inertia's 'ixx' is 1e+300, and no link is so heavy or large"),
+        ('child link="b"', 'child link="a"', "4: joint 'j': its links hang on each other in a circle"),
+    ],
+)
+def test_numbers_of_a_urdf_that_no_arm_has_are_named_with_line_and_element(
+    tmp_path: Path, right: str, wrong: str, message: str
+) -> None:
+    path = tmp_path / "arm.urdf"
+    assert right in MOVING
+    path.write_text(MOVING.replace(right, wrong, 1))
+    with pytest.raises(RobotError) as caught:
+        load_robot(str(path))
+    assert f"arm.urdf:{message}" in str(caught.value) and len(str(caught.value)) < 200
+
+
 @pytest.mark.parametrize("key", ["a1 = 25", "c4 = 80"])
 def test_a_key_that_stands_twice_is_named_with_its_line(tmp_path: Path, key: str) -> None:
     message = refused(tmp_path, key, f"{key}\n{key}")
