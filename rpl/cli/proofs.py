@@ -83,6 +83,7 @@ def answer(question: Question, programs: Sequence[ReadProgram]) -> ProofResult:
             controller=controller_named(question.controller),
             limits=limits_of(question.max_time, question.max_steps, question.max_events),
             budget=Budget() if question.explore else None,
+            kept=dict(question.names),
         )
     return replace(result, approximations=question.approximations)
 

@@ -289,7 +289,7 @@ def _prove(
     """Read the written files back and compare the runs of both programs. With a certificate (`kept`) they are read from
     the folder, as `rpl prove --check` does it."""
     from rpl.project import read_program, read_sources
-    from rpl.proof.wiring import names_lacking
+    from rpl.proof.wiring import kept_names, names_lacking
     from rpl.simulation import entry_name
     from rpl.source import source_from_bytes
 
@@ -306,7 +306,8 @@ def _prove(
     # A script begins with itself, also where the first routine is called besides and stands in it as one of many.
     to_entry = back.program.entry or translation.renamed.get(entry, entry) if entry else None
     signals = names_lacking(back.program, translation.program)
-    question = replace(asked, entry=entry, to_entry=to_entry, signals=signals)
+    names = kept_names(translation.renamed, translation.registers, back.program) if asked.explore else {}
+    question = replace(asked, entry=entry, to_entry=to_entry, signals=signals, names=tuple(sorted(names.items())))
     result = answer(question, (read, back))
     if kept is not None:
         keep(kept, question, (read, back), result)

@@ -14,7 +14,7 @@ from rpl import ir
 from rpl.cell import Answer, Cell, Input
 from rpl.ir.walk import walk
 from rpl.proof.unreached import Key, key_of
-from rpl.proof.watched import Side, Source
+from rpl.proof.watched import Look, Side, Source
 from rpl.runtime.signals import keys_named, usual_key
 from rpl.runtime.values import Member, SignalRef, Value
 
@@ -23,6 +23,7 @@ _SEEDS = 6
 # A whole step beside a number that the program compares with, and a part of a real one.
 _PART = 0.1
 _LEAST_PART = 1e-3
+_ELEMENT = re.compile(r"(\w+)\[(\d+)\](.*)", re.DOTALL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,9 +43,14 @@ class Names:
         self.sides = sides
         self.dialect = sides[0].program.modules[0].dialect
         self.found: dict[tuple[int, Source], tuple[str, ...]] = {}
+        self.set_first: list[set[Source]] = [set() for _ in sides]
+        self.choices = _of_enumerations(sides[0].program)
+        self.foreign = len({side.program.modules[0].dialect for side in sides}) > 1
 
     def texts(self, side: int, source: Source) -> tuple[str, ...]:
         """The texts for a source that this side looks at; none when the other side could not be given the same."""
+        if source.kind == "variable":
+            return self._texts(side, source)  # what a program sets itself shows only as it runs
         key = (side, source)
         if key not in self.found:
             self.found[key] = self._texts(side, source)
@@ -57,7 +63,8 @@ class Names:
             case Source("data"):
                 return ()
             case Source("variable", str() as name):
-                return (name,) if all(_variable(each, name) for each in self.sides) else ()
+                own = self._own(side, name)
+                return (own,) if own else ()
             case Source("bits", (str() as kind, int() as first, int() as last)):
                 return tuple(self._signal(side, (kind, number)) for number in range(first, last + 1))
             case Source(_, str() as name):
@@ -66,6 +73,44 @@ class Names:
             case Source(_, (str() as kind, int() as number)):
                 return (self._signal(side, (kind, number)),)
         return ()
+
+    def _own(self, side: int, name: str) -> str:
+        """The first program's name of a kept value that a side looks at; empty where not all keep it: one has none
+        such, or sets it itself before it looks at it."""
+        for own in self._names(name) if side else (name,):
+            names = [_named(each, own) for each in self.sides]
+            if names[side].lower() != name.lower() or not all(map(_variable, self.sides, names)):
+                continue
+            set_first = (self._is_set(number, there) for number, there in enumerate(names) if number != side)
+            return "" if self.foreign and any(set_first) else own
+        return ""
+
+    def _names(self, name: str) -> Iterator[str]:
+        """What the first program may call a kept value of the second one; its arrays may begin elsewhere."""
+        yield from (name, *self.sides[-1].kept.get(name.lower(), ()))
+        found = _ELEMENT.fullmatch(name)
+        if found is not None:
+            for own in (found[1], *self.sides[-1].kept.get(found[1].lower(), ())):
+                yield from (f"{own}[{int(found[2]) + step}]{found[3]}" for step in (0, 1, -1))
+
+    def means(self, side: int, look: Look) -> bool:
+        """Can all sides be given other values for what one looks at? A member of an enumeration where they know it."""
+        texts = self.texts(side, look.source)
+        if side and look.source.kind == "variable" and not isinstance(look.value, Member) and texts:
+            return texts[0].partition("[")[0].lower() not in self.choices  # what a number means there is not known
+        if not texts or not isinstance(look.value, Member) or not self.foreign:
+            return bool(texts)
+        values = (
+            next(iter(each.words(Cell(variables={texts[0]: look.value})).variables.values())) for each in self.sides
+        )
+        return all(
+            not isinstance(value, Member) or value in _members(each)
+            for value, each in zip(values, self.sides, strict=True)
+        )
+
+    def _is_set(self, side: int, name: str) -> bool:
+        whole = name.partition("[")[0].lower()
+        return any(str(one.key).lower() in (name.lower(), whole) for one in self.set_first[side])
 
     def _signal(self, side: int, key: tuple[str, int]) -> str:
         """The name that the first program declares for a signal, also for one of the second; else its number."""
@@ -80,6 +125,30 @@ class Names:
         """Do two texts of a cell mean one signal?"""
         alias = self.sides[0].linked.alias
         return bool(keys_named(text, alias(text)) & keys_named(other, alias(other)))
+
+
+def _members(side: Side) -> set[str]:
+    """All members of the enumerations of a program, folded."""
+    declared = (one for module in side.program.modules for one in module.declarations)
+    return {member.lower() for one in declared if isinstance(one, ir.EnumDeclaration) for member in one.members}
+
+
+def _of_enumerations(program: ir.Program) -> set[str]:
+    """The variables of a program that hold members of its enumerations, folded."""
+    declared = [one for module in program.modules for one in module.declarations]
+    enumerations = {one.name.lower() for one in declared if isinstance(one, ir.EnumDeclaration)}
+    found = set()
+    for one in declared:
+        if isinstance(one, ir.Variable):
+            type = one.type.element if isinstance(one.type, ir.ArrayType) else one.type
+            if isinstance(type, ir.NamedType) and type.name.lower() in enumerations:
+                found.add(one.name.lower())
+    return found
+
+
+def _named(side: Side, name: str) -> str:
+    """A variable of the first program's cell in the words of a side."""
+    return next(iter(side.words(Cell(variables={name: 0})).variables))
 
 
 def _variable(side: Side, name: str) -> bool:

@@ -37,8 +37,8 @@ _SAME_AMOUNT = 1e-3
 class Question:
     """What a proof was asked: paths of both programs, of the cell and of files that describe arms or controllers, else
     names; accepted deviations; limits of the runs (None: the usual ones). Where B is a translation of A: `signals`,
-    which of A's signals have which numbers in it, and `approximations` that it was written with, by code; both are left
-    out of the document where there are none."""
+    which of A's signals have which numbers in it, `names`, what A's variables are called in it, and `approximations`
+    that it was written with, by code; these are left out of the document where there are none."""
 
     a: str
     b: str
@@ -59,6 +59,7 @@ class Question:
     max_steps: int | None = None
     max_events: int | None = None
     signals: tuple[Named, ...] = ()
+    names: tuple[tuple[str, str], ...] = ()
     approximations: tuple[tuple[str, int], ...] = ()
 
     @property
@@ -67,7 +68,7 @@ class Question:
 
 
 PATHS = ("a", "b", "cell")
-OPTIONAL = ("signals", "approximations")
+OPTIONAL = ("signals", "names", "approximations")
 FILES_OR_NAMES = ("robot", "to_robot", "controller")
 
 

@@ -57,8 +57,9 @@ class Exploration:
     that one is as far (progress.py). tried: how many were run. ended: what ended it early (`cells`,
     `seconds`), empty when nothing was left to try. reached: per side, by the runs in the user's cell and the found
     ones; remarks: per side, about statements whose condition never went the other way; one_way: per side, whether
-    nothing that can be changed was ever looked at (see reach.reach_of). time_s: how long a run in a found cell took at
-    most."""
+    nothing that can be changed was ever looked at (see reach.reach_of). unmatched: per side, kept values that it looks
+    at and that the other one does not keep, so that they stayed as they are. time_s: how long a run in a found cell
+    took at most."""
 
     cells: tuple[Cell, ...]
     others: tuple[Cell, ...]
@@ -67,6 +68,7 @@ class Exploration:
     reached: tuple[tuple[Reached, ...], ...]
     remarks: tuple[dict[Key, str], ...]
     one_way: tuple[bool, ...]
+    unmatched: tuple[tuple[str, ...], ...]
     time_s: float
 
 
@@ -159,9 +161,10 @@ class _Explorer:
             not any(step.seen[number].looks or self.start.vendor for step in self.steps)
             for number in range(len(self.sides))
         )
+        unmatched = tuple(self._unmatched(number) for number in range(len(self.sides)))
         longest = max(limits.time_s for limits in self.limits)
         cells, others = tuple(step.cell for step in kept[1:]), tuple(step.cells[-1] for step in kept[1:])
-        return Exploration(cells, others, self.tried, ended, reached, remarks, one_way, longest)
+        return Exploration(cells, others, self.tried, ended, reached, remarks, one_way, unmatched, longest)
 
     # ---- trying
 
@@ -227,6 +230,8 @@ class _Explorer:
     def _take(self, step: _Step) -> None:
         """Keep a step that leads on."""
         new = [ways.add(seen) for ways, seen in zip(self.ways, step.seen, strict=True)]
+        for known, seen in zip(self.names.set_first, step.seen, strict=True):
+            known |= seen.set_first
         if any(new) or not self.steps:
             self.steps.append(step)
 
@@ -289,7 +294,7 @@ class _Explorer:
     def _given(self, number: int, look: Look, statement: Key | None = None) -> list[Given]:
         """Other values for a source that was looked at, for the conditions of a statement."""
         texts = self.names.texts(number, look.source)
-        if not texts:
+        if not self.names.means(number, look):
             return []
         values = values_for(look.source, look.value, look.choices, self.constants, statement)
         return [Given(look.source, texts, value) for value in values]
@@ -411,6 +416,17 @@ class _Explorer:
             if any(new):
                 kept.add(place)
         return [step for place, step in enumerate(self.steps) if place in kept]
+
+    def _unmatched(self, number: int) -> tuple[str, ...]:
+        """Kept values that a side looks at and that cannot be given to both."""
+        if len(self.sides) == 1:
+            return ()
+        names, found = self.names, []
+        for look in _each_source(look for step in self.steps for look in step.seen[number].looks):
+            given = names.texts(number, look.source) if number else names.means(number, look)
+            if look.source.kind == "variable" and not given:
+                found.append(str(look.source.key))
+        return tuple(found)
 
     def _remarks(self, number: int) -> dict[Key, str]:
         """About decisions that went one way only: whether anything that could decide them was looked at before."""

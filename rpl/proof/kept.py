@@ -159,6 +159,7 @@ class _Reader:
         except UsageError as error:
             raise self.wrong("question.accept", str(error)) from None
         self._rows("signals", asked, _is_signal, "a name, the kind of a signal, its number and the last one of a group")
+        self._rows("names", asked, _is_pair, "two names")
         self._rows("approximations", asked, _is_approximation, "a code and how often")
 
     def _rows(self, name: str, asked: dict[str, Any], holds: Callable[[Any], bool], what: str) -> None:
@@ -176,6 +177,10 @@ def _is_signal(row: Any) -> bool:
             return whole and first >= 0 and (last is None or last >= first)
         case _:
             return False
+
+
+def _is_pair(row: Any) -> bool:
+    return isinstance(row, list) and len(row) == 2 and all(isinstance(one, str) for one in row)
 
 
 def _is_approximation(row: Any) -> bool:

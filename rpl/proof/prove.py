@@ -10,6 +10,7 @@ reader and our writer of one language share a misunderstanding, both runs share 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -17,7 +18,7 @@ from rpl import ir
 from rpl.controllers import PLAIN_NAME
 from rpl.proof.bits import with_wired_groups
 from rpl.proof.compare import Comparison, compare
-from rpl.proof.explore import Budget, explore
+from rpl.proof.explore import Budget, Exploration, explore
 from rpl.proof.exploring import worst_of
 from rpl.proof.paths import TURN_LEVER_MM
 from rpl.proof.reach import reach_of
@@ -26,8 +27,8 @@ from rpl.proof.recording import record_of
 from rpl.proof.stops import with_written_stop
 from rpl.proof.tolerance import Accepted, Tolerance
 from rpl.proof.verdict import Explored, ProofResult
-from rpl.proof.watched import side_of
-from rpl.proof.wiring import in_words_of, wired_bits, with_ranges_said
+from rpl.proof.watched import Side, side_of
+from rpl.proof.wiring import in_words_of, turned, wired_bits, with_ranges_said
 from rpl.runtime.limits import DEFAULTS, Limits
 
 if TYPE_CHECKING:
@@ -52,12 +53,14 @@ def prove_programs(
     limits: Limits = DEFAULTS,
     controller: str | MotionModel = PLAIN_NAME,
     budget: Budget | None = None,
+    kept: Mapping[str, str] | None = None,
 ) -> ProofResult:
     """Run two normalised programs and compare them. `robot_b` None: the same arm as A's. `controller` drives
     both.
 
     `accepted`: what may deviate and is equal still. `budget`: explore, which finds further cells in which the programs
-    go other ways, and compare the programs in these too. Raises UsageError for an unknown robot or an entry that cannot
+    go other ways, and compare the programs in these too. `kept`: B's names of data that the controller keeps, by A's
+    (wiring.kept_names). Raises UsageError for an unknown robot or an entry that cannot
     be found.
     """
     first, second = _model(robot_a), _model(robot_b)
@@ -77,24 +80,33 @@ def prove_programs(
             accepted=accepted,
             limits=limits,
             controller=controller,
+            kept=kept,
         )
 
     result = proved(cell, limits)
     if budget is None or result.difference is not None:
         return result
+
+    def words(cell: Cell) -> Cell:
+        return in_words_of(cell, program_a, program_b, kept)
+
     sides = (
         side_of(program_a, first, entry, limits, controller),
-        side_of(program_b, second, to_entry, limits, controller, lambda cell: in_words_of(cell, program_a, program_b)),
+        side_of(program_b, second, to_entry, limits, controller, words, turned(kept or {})),
     )
     found = explore(sides, cell, budget)
     shorter = replace(limits, time_s=min(limits.time_s, found.time_s))
     cells = tuple(zip(found.cells, found.others, strict=True))
-    joined = worst_of(result, cells, lambda cell, other: proved(cell, shorter, other))
+    return _explored(worst_of(result, cells, lambda cell, other: proved(cell, shorter, other)), found, sides)
+
+
+def _explored(joined: ProofResult, found: Exploration, sides: Sequence[Side]) -> ProofResult:
+    """The joined result with what the exploration reached."""
     reaches = [
         reach_of(side.program, found.reached[number], side.entry, found.remarks[number], found.one_way[number])
         for number, side in enumerate(sides)
     ]
-    explored = Explored(len(found.cells), found.tried, found.ended)
+    explored = Explored(len(found.cells), found.tried, found.ended, found.unmatched)
     return replace(joined, reach_a=reaches[0], reach_b=reaches[1], explored=explored)
 
 
@@ -109,9 +121,10 @@ def prove_against(
     accepted: Accepted = NOTHING_ACCEPTED,
     limits: Limits = DEFAULTS,
     controller: str | MotionModel = PLAIN_NAME,
+    kept: Mapping[str, str] | None = None,
 ) -> ProofResult:
     """Run B and compare it with a run of A that was recorded before, for who compares A with several programs."""
-    theirs = in_words_of(cell, program_a, program_b) if cell is not None else None
+    theirs = in_words_of(cell, program_a, program_b, kept) if cell is not None else None
     theirs = with_ranges_said(theirs, program_a, program_b)
     record_b = recorded_run(program_b, robot_b, theirs, to_entry, limits, controller)
     return prove_recorded(record_a, record_b, program_a, program_b, to_entry=to_entry, accepted=accepted)

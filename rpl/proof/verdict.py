@@ -13,20 +13,33 @@ from rpl.showing import folded, heading, line
 
 EQUAL, ALIKE, DIFFERENT, UNDECIDED = "equal", "alike", "different", "undecided"
 VERDICTS = (EQUAL, ALIKE, DIFFERENT, UNDECIDED)
+_MOST_NAMED = 6
 
 
 @dataclass(frozen=True, slots=True)
 class Explored:
     """How far an exploration went: cells that were compared besides the user's own, cells that were tried, and what
-    ended it early (`cells`, `seconds`), if anything did."""
+    ended it early (`cells`, `seconds`), if anything did. `unmatched`: kept values of A, and of B, that the
+    other one does not keep, so that they were not changed."""
 
     cells: int
     tried: int
     ended: str = ""
+    unmatched: tuple[tuple[str, ...], ...] = ()
 
     def as_json(self) -> dict[str, object]:
-        """A stable document: cells, tried, ended."""
-        return {"cells": self.cells, "tried": self.tried, "ended": self.ended}
+        """A stable document: cells, tried, ended, unmatched (a, b)."""
+        kept = {side: list(names) for side, names in zip("ab", self.unmatched, strict=False)}
+        return {"cells": self.cells, "tried": self.tried, "ended": self.ended, "unmatched": kept}
+
+    def unchanged(self) -> str:
+        """The kept values that were not changed, for the first line; empty when there are none."""
+        told = []
+        for who, names in zip("AB", self.unmatched, strict=False):
+            more = len(names) - _MOST_NAMED
+            if names:
+                told.append(f"{', '.join(names[:_MOST_NAMED])}{f' and {more} more' if more > 0 else ''} of {who}")
+        return f"; kept by one only and not changed: {'; '.join(told)}" if told else ""
 
     def as_text(self) -> str:
         early = f"; ended early by the limit of {self.ended}" if self.ended else ""
@@ -125,7 +138,9 @@ class ProofResult:
 
     def headline(self) -> str:
         """The first line."""
-        return self._verdict() + ("" if self.difference is not None else self.unreached())
+        if self.difference is not None:
+            return self._verdict()
+        return self._verdict() + self.unreached() + (self.explored.unchanged() if self.explored is not None else "")
 
     def _verdict(self) -> str:
         told = [one.as_text() for one in self.open]

@@ -74,7 +74,8 @@ class Seen:
     """What a watched run showed. `evaluated`, `settled`: how many looks there were before an instruction that decides
     was executed first, and last; `met`: with what values it was. `late`: waits whose time ran out; `timed`: those that
     have one. `stuck`: where tasks stood waiting at the end, and since when. `armed`: actions of interrupts that were
-    waited for. `quiet`: spans of time (s) in which tasks waited."""
+    waited for. `quiet`: spans of time (s) in which tasks waited. `set_first`: kept values that the program set itself
+    before it looked at them."""
 
     result: RunResult
     looks: tuple[Look, ...]
@@ -86,11 +87,13 @@ class Seen:
     stuck: tuple[tuple[Code, int, float], ...]
     armed: tuple[Code, ...]
     quiet: tuple[tuple[float, float], ...]
+    set_first: frozenset[Source] = frozenset()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Side:
-    """A program to explore, and how it is run. `words`: the cell in the words of this program."""
+    """A program to explore, and how it is run. `words`: the cell in the words of this program; `kept`: by the folded
+    name of one of its variables the names that the first program may have for it."""
 
     program: ir.Program
     linked: LinkedProgram
@@ -100,6 +103,7 @@ class Side:
     controller: str | MotionModel | None = None
     words: Callable[[Cell], Cell] = lambda cell: cell
     kinds: Mapping[str, str] = field(default_factory=dict)
+    kept: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def run(self, cell: Cell, limits: Limits) -> Seen:
         """Run the program in the cell. Raises UsageError or RunError when the cell does not fit."""
@@ -115,11 +119,12 @@ def side_of(
     limits: Limits = DEFAULTS,
     controller: str | MotionModel | None = None,
     words: Callable[[Cell], Cell] | None = None,
+    kept: Mapping[str, tuple[str, ...]] | None = None,
 ) -> Side:
     """A normalised program as a side of an exploration; it is linked once."""
     from rpl.linking import link
 
-    side = Side(program, link(program), robot, entry, limits, controller, kinds=_named_inputs(program))
+    side = Side(program, link(program), robot, entry, limits, controller, kinds=_named_inputs(program), kept=kept or {})
     return side if words is None else replace(side, words=words)
 
 
@@ -162,6 +167,7 @@ class _Globals(Values):
     def __setitem__(self, place: int, value: Value) -> None:  # type: ignore[override]
         if self.owner is not None:
             self.written.add(place)
+            self.owner.set_variable(place)
         super().__setitem__(place, value)
 
 
@@ -175,15 +181,16 @@ class _Elements(Values):
 
     def __getitem__(self, place: Any) -> Any:
         value = super().__getitem__(place)
-        if isinstance(place, slice):
+        if isinstance(place, slice) or not (value is None or isinstance(value, _SCALAR)):
             self.owner.looked_at(Source("data", self.name), None)
-        elif place not in self.written:
+        elif place not in self.written and value is not None:
             self.owner.looked_at(Source("variable", f"{self.name}[{place + self.base}]"), value)
         return value
 
     def __setitem__(self, place: Any, value: Any) -> None:
         if isinstance(place, int):
             self.written.add(place)
+            self.owner.set_source(Source("variable", f"{self.name}[{place + self.base}]"))
         super().__setitem__(place, value)
 
     def __iter__(self) -> Iterator[Value]:
@@ -219,6 +226,8 @@ class _Watched(Simulation):
         self.late: set[tuple[Code, int]] = set()
         self.with_limit: set[tuple[Code, int]] = set()
         self.armed: dict[Code, None] = {}
+        self.sources: set[Source] = set()
+        self.set_first: set[Source] = set()
         self.dialogs = 0
         super().__init__(
             side.program,
@@ -351,9 +360,20 @@ class _Watched(Simulation):
         if not isinstance(value, Array):
             return False
         items = value.items
-        if not isinstance(items, _Elements) and items and isinstance(items[0], _SCALAR):
+        if not isinstance(items, _Elements) and items and (items[0] is None or isinstance(items[0], _SCALAR)):
             value.items = _Elements(items, self, name, value.base)
         return isinstance(value.items, _Elements)
+
+    def set_variable(self, place: int) -> None:
+        """A global variable was set."""
+        slot = self.side.linked.slots[place]
+        if slot.kept:
+            self.set_source(Source("variable", slot.name))
+
+    def set_source(self, source: Source) -> None:
+        """A kept value was set: what it was before does not count, where nothing has looked at it."""
+        if source not in self.sources:
+            self.set_first.add(source)
 
     def looked_at_chance(self) -> None:
         """A random number was asked for."""
@@ -371,6 +391,7 @@ class _Watched(Simulation):
     def looked_at(self, source: Source, value: Value, choices: tuple[int, ...] = ()) -> None:
         """A source was looked at and gave a value."""
         code, at, how = self.here
+        self.sources.add(source)
         if how != EVENT:
             self.direct[source] = value
             self.recent.pop(source, None)
@@ -404,6 +425,7 @@ class _Watched(Simulation):
             stuck,
             tuple(self.armed),
             tuple((one.begin, one.end) for one in self.waited),
+            frozenset(self.set_first),
         )
 
 

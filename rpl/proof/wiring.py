@@ -7,7 +7,7 @@ to know one physical signal in both.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from rpl import ir, registry
@@ -114,7 +114,8 @@ def _in_bases_of(cell: Cell, first: ir.Program, second: ir.Program) -> Cell:
         if found is not None and name in bases and name in others:
             (base, size), (other, count) = bases[name], others[name]
             first_left_out = int(base == 0 and count == size - 1)  # nothing uses it (passes.legalise.arrays)
-            path = f"{found[1]}[{int(found[2]) - base - first_left_out + other}]{found[3]}"
+            left_out_there = int(other == 0 and size == count - 1)  # a language whose arrays begin at 0 has it anyway
+            path = f"{found[1]}[{int(found[2]) - base - first_left_out + other + left_out_there}]{found[3]}"
         changed[path] = value
     return replace(cell, variables=changed)
 
@@ -145,14 +146,78 @@ def with_ranges_said(cell: Cell | None, first: ir.Program, second: ir.Program) -
     return replace(cell if cell is not None else Cell(), analog=(*(cell.analog if cell is not None else ()), *said))
 
 
-def in_words_of(cell: Cell, first: ir.Program, second: ir.Program) -> Cell:
+def kept_names(
+    renamed: Mapping[str, str], registers: Mapping[tuple[str, int], str], program: ir.Program
+) -> dict[str, str]:
+    """By the folded name of a variable, or of an element, in the source: what it is called in the written program,
+    where a translation has renamed it or given it a number (Translation.renamed, registers)."""
+    known = {
+        one.name.lower(): one.name
+        for module in program.modules
+        for one in module.declarations
+        if isinstance(one, ir.Variable)
+    }
+    found = {name.lower(): known[other.lower()] for name, other in renamed.items() if other.lower() in known}
+    for (bank, number), name in registers.items():
+        for text in (f"{bank}{number}", f"{bank}{number:03d}"):
+            if text.lower() in known:
+                found[name.lower()] = known[text.lower()]
+        if bank.lower() in known:
+            found[name.lower()] = f"{known[bank.lower()]}[{number}]"
+    return found
+
+
+def turned(kept: Mapping[str, str]) -> dict[str, tuple[str, ...]]:
+    """By the folded name in the written program: the names of the source that became it."""
+    found: dict[str, tuple[str, ...]] = {}
+    for name, other in kept.items():
+        found[other.lower()] = (*found.get(other.lower(), ()), name)
+    return found
+
+
+def _in_names_of(cell: Cell, kept: Mapping[str, str], first: ir.Program, second: ir.Program) -> Cell:
+    """The cell whose variables have the second program's names, and numbers for members of enumerations that it only
+    knows as numbers."""
+    numbers = _numbered_members(first, second)
+    changed: dict[str, object] = {}
+    for path, value in cell.variables.items():
+        name, bracket, rest = path.partition("[")
+        path = kept.get(path.lower(), kept.get(name.lower(), name) + bracket + rest)
+        changed[path] = numbers.get(value.lower(), value) if isinstance(value, str) else value
+    return replace(cell, variables=changed)
+
+
+def _numbered_members(first: ir.Program, second: ir.Program) -> dict[str, object]:
+    """Members of enumerations of the first program that the second one declares as numbers."""
+    members, theirs = (
+        {
+            member.lower()
+            for module in program.modules
+            for one in module.declarations
+            if isinstance(one, ir.EnumDeclaration)
+            for member in one.members
+        }
+        for program in (first, second)
+    )
+    found: dict[str, object] = {}
+    for module in second.modules:
+        for one in module.declarations:
+            match one:
+                case ir.Variable(name=name, initial=ir.IntLiteral(value=value) | ir.RealLiteral(value=value)):
+                    if name.lower() in members - theirs:
+                        found[name.lower()] = value
+    return found
+
+
+def in_words_of(cell: Cell, first: ir.Program, second: ir.Program, kept: Mapping[str, str] | None = None) -> Cell:
     """The cell for a run of the second program, when it was written for the first: signals that the first one's
     language spells by number (V+ 1001, URScript digital_in[0]) as the second one's language spells the same signal.
-    Names that the first program declares stay: the translation keeps them."""
+    Names that the first program declares stay: the translation keeps them; `kept`: but these (kept_names)."""
     ours, theirs = ({module.dialect for module in one.modules} for one in (first, second))
     if ours == theirs or not ours or len(theirs) != 1:
         return cell
-    cell = _in_bases_of(cell, first, second)
+    if cell.variables:
+        cell = _in_names_of(_in_bases_of(cell, first, second), kept or {}, first, second)
     if not (cell.inputs or cell.reactions):
         return cell
     known, spell = link(first).alias, registry.dialect(*theirs).signal_name
