@@ -1,9 +1,10 @@
 """Which real variables, parameters, results, elements and record fields of a program hold whole numbers only.
 
 Languages with one number type use it for counters, indices and states as well. Every place is taken as whole until a
-value that may have a fraction flows into it; what that makes fractional follows until nothing changes any more.
-Retained data (RAPID PERS, registers) can be given another value on the pendant, so it is whole only where the program
-counts with it: as a subscript, a bound, a case, in steps, or compared for equality with a whole number.
+value that may have a fraction flows into it; what that makes fractional follows until nothing changes any more. What
+gets multiples of itself may outgrow a whole number of 32 bits and stays real. Retained data (RAPID PERS, registers)
+can be given another value on the pendant, so it is whole only where the program counts with it: as a subscript, a
+bound, a case, in steps, or compared for equality with a whole number.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from rpl.passes.typewords import component_names
 from rpl.passes.typing import type_of
 
 LARGEST = 2**31 - 1
+_SINGLE_BITS = 24
 _WHOLE_FUNCTIONS = frozenset(
     {
         *("floor", "ceil", "length", "dimension", "bit_shift_left", "bit_shift_right", "text_length", "text_capacity"),
@@ -66,6 +68,7 @@ class Wholes:
         for _, routine in self.scopes.routines():  # what only other programs pass may be anything
             self.fractional.update(id(one) for one in routine.parameters if id(one) not in fed)
         self.fractional |= self.retained - self.counted()
+        self.fractional.update(place for place, value, scope in pending if _multiplied(place, value, scope))
         for key in list(self.fractional):
             self.demote(key)
         changed = True
@@ -152,6 +155,25 @@ class Wholes:
             case ir.Signal():
                 return isinstance(type_of(value, scope), ir.IntType)
         return False
+
+
+def _multiplied(place: Key, value: ir.Expression, scope: Scope) -> bool:
+    """Does the variable or component get a multiple of itself? Such a number soon has more than 31 bits, which reals
+    can hold. Only where the source's own reals have 4 bytes: then REAL loses nothing that they do not lose."""
+    if scope.rules.real_bits != _SINGLE_BITS:
+        return False
+    work = [(value, False)]
+    while work:
+        one, inside = work.pop()
+        match one:
+            case ir.Binary(op="+" | "-" | "*" as op, left=left, right=right):
+                work.extend(((left, inside or op == "*"), (right, inside or op == "*")))
+            case ir.Unary(op="-" | "+", operand=operand):
+                work.append((operand, inside))
+            case ir.Name() | ir.Field():
+                if inside and place_key(one, scope) == place:
+                    return True
+    return False
 
 
 def _is_whole(value: ir.Expression) -> bool:
