@@ -6,11 +6,12 @@ timer of its own. Timers are taken from the highest number down, apart from thos
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import bodies
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
 from rpl.passes.legalise.effects import blocks, children, everything, is_constant, root, statements_in
@@ -24,6 +25,13 @@ NO_TIMER = code(
     "{what} needs a timer of its own, and the {count} timers of the target are in use",
 )
 
+LATER_AS_PULSE = code(
+    "later-as-pulse",
+    Severity.WARNING,
+    "this output changes later as the end of a pulse: only where it has another level now, and other statements of the"
+    " program that switch it must not do so until then",
+)
+
 
 def fit_waits(program: ir.Program, context: Context) -> ir.Program:
     """The program with only the waits, delayed outputs and stop watches of the target."""
@@ -33,10 +41,12 @@ def fit_waits(program: ir.Program, context: Context) -> ir.Program:
         program = _without_clocks(program, context, timers)
         program = held_timers(program, context, frozenset(timers.used) - taken)
     trapped = _reached_from_interrupts(program)
+    delayed = "SetAfter" not in context.capabilities.statements
+    switched = _switched(program) if delayed else Counter()
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         key = "interrupt" if routine.name.lower() in trapped else "program"
-        return edit_bodies(routine, _Waits(editor, timers, f"{editor.scope.module.task}/{key}").body)
+        return edit_bodies(routine, _Waits(editor, timers, f"{editor.scope.module.task}/{key}", switched).body)
 
     return edit_routines(program, context, work)
 
@@ -119,8 +129,9 @@ def _reached_from_interrupts(program: ir.Program) -> set[str]:
 
 
 class _Waits:
-    def __init__(self, editor: Editor, timers: _Timers, purpose: str) -> None:
+    def __init__(self, editor: Editor, timers: _Timers, purpose: str, switched: Counter[str | int | None]) -> None:
         self.editor = editor
+        self.switched = switched
         self.timers = timers
         self.purpose = purpose
         self.capabilities = editor.capabilities
@@ -174,6 +185,9 @@ class _Waits:
             return (statement,)
         if not self._plain(statement.signal) or not self.editor.effects.safe(statement.value):
             return (statement,)
+        own = _output(statement.signal)
+        if own is None or self.switched[own] > 1 or self.switched[None] or not is_constant(statement.value):
+            self.editor.context.diagnostics.report(LATER_AS_PULSE, statement.origin)
         differs = _differs(statement.signal, statement.value)
         pulse = ir.Pulse(statement.signal, negation(statement.value), statement.delay)
         return expansion(statement.origin, (ir.If(((differs, (pulse,)),)),))
@@ -196,6 +210,27 @@ class _Waits:
 
     def _plain(self, signal: ir.Expression) -> bool:
         return all(map(self.editor.effects.safe, children(signal)))
+
+
+def _switched(program: ir.Program) -> Counter[str | int | None]:
+    """How many statements switch each output, by its name or number; None: outputs that the run chooses, and groups."""
+    found: Counter[str | int | None] = Counter()
+    for node in walk(*program.modules):
+        match node:
+            case ir.Assign(target=ir.Signal() | ir.Name() as signal):
+                found[_output(signal)] += 1
+            case ir.Pulse(signal=signal) | ir.SetAfter(signal=signal):
+                found[_output(signal)] += 1
+    return found
+
+
+def _output(signal: ir.Expression) -> str | int | None:
+    match signal:
+        case ir.Name(id=name) | ir.Signal(name=str(name)):
+            return name.lower()
+        case ir.Signal(index=ir.IntLiteral(value=number), last=None):
+            return number
+    return None
 
 
 def _negative(timeout: ir.Expression) -> ir.Expression:
