@@ -346,13 +346,13 @@ def results(name: str, targets: list[str]) -> dict[str, Outcome]:
 
 def main(only: list[str]) -> None:
     """Run every sample in every target and write file and page. With words nothing is written: only samples whose
-    name holds one of them are shown; `to:NAME`: only these targets."""
+    name holds one of them are shown; `to:NAME`: only these targets; `write`: their rows are written nevertheless."""
     sys.path.insert(0, str(HERE))
     import test_conformance_samples as samples
 
     outcomes: dict[str, dict[str, dict[str, object]]] = {}
     targets = [word.removeprefix("to:") for word in only if word.startswith("to:")] or samples.TARGETS
-    words = [word for word in only if not word.startswith("to:")]
+    words = [word for word in only if word != "write" and not word.startswith("to:")]
     chosen = {samples.name_of(sample): sample for sample in samples.SAMPLES}
     names = [name for name in chosen if not words or any(word in name for word in words)]
     with ProcessPoolExecutor() as pool:
@@ -363,8 +363,10 @@ def main(only: list[str]) -> None:
                 print(f"{name} -> {target}: {outcome.status}", *outcome.refused, sep="\n    ", flush=True)
                 if outcome.status == DIFFERENT:
                     print("   ", outcome.why.replace("\n", "\n    "), flush=True)
-    if only:
+    if only and "write" not in only:
         return
+    if only:
+        outcomes = recorded() | {name: recorded().get(name, {}) | found for name, found in outcomes.items()}
     FILE.write_text(json.dumps(dict(sorted(outcomes.items())), indent=1) + "\n", "utf-8")
     PAGE.write_text(page(outcomes), "utf-8")
 
