@@ -55,6 +55,7 @@ ANALOG = (AnalogPorts("analog_in", _SHARE), AnalogPorts("analog_out", _SHARE))
 
 RULES = Rules(
     name="krl",
+    first_signal=1,  # $IN[1]..$IN[4096], $OUT, $FLAG, $ANOUT alike
     advance=AdvanceRules(
         moves=3,
         runs_ahead_of="all",

@@ -42,6 +42,7 @@ _KEPT_AT = {
 
 RULES = Rules(
     name="tp",
+    first_signal=1,  # DO[1], F[1], AO[1]
     kept_at=_KEPT_AT,
     inputs=_INPUTS,
     # Behind FINE the program goes on when the robot is in position, behind CNT as soon as the move slows down (M: at

@@ -398,9 +398,15 @@ class Compiler:
             return SignalRef(kind, whole(first), None if last is None else whole(last))
         index = self.value(signal.index) if signal.index is not None else None
         end = self.value(signal.last) if signal.last is not None else None
-        return lambda f: SignalRef(
-            kind, whole(index(f)) if index is not None else 0, whole(end(f)) if end is not None else None
-        )
+        least = self.scope.rules.first_signal
+
+        def numbered(f: Values) -> SignalRef:
+            number = whole(index(f)) if index is not None else least
+            if number < least > 0:
+                raise ProgramError("out_of_range", f"there is no signal of the number {number}")
+            return SignalRef(kind, number, whole(end(f)) if end is not None else None)
+
+        return numbered
 
     def signal(self, expression: ir.Signal) -> Read:
         port = self.port(expression)
