@@ -195,8 +195,8 @@ class Rules:
     the controller takes of a percentage; a value beyond counts as that. errors: names of error numbers.
     group_bits: bits of a group of signals that has a name only, as its controller has them (URScript's registers: 32).
     blend_levels: distance in mm of each numbered blend level (INFORM PL). array_base: index of the first element of a
-    list that is written out. first_signal: least number of a signal (0: not told); a smaller one that the program works out is a
-    fault. number_marks: what stands before the digits of a number to another base, also in a text
+    list that is written out. first_signal: least number of a signal (0: not told); a smaller one that the program
+    works out is a fault. number_marks: what stands before the digits of a number to another base, also in a text
     that is read as a number (longest first, in small letters). leading_numbers: such a text may go on behind its
     number, and without one it is 0. errors_looked_for: errors of the controller that a handler for everything gets, so
     that a target whose controller stops at them looks in front. text_decimals: a number with a fraction shows so
