@@ -15,6 +15,7 @@ from rpl.ir.analog import AnalogSetting
 from rpl.passes.analog import analog_ranges
 from rpl.passes.given import with_given
 from rpl.passes.legalise import Context, legalise
+from rpl.passes.legality import report, unguarded
 from rpl.project import ReadProgram
 from rpl.showing import counted, folded, heading, line, table
 from rpl.source import NOWHERE, decode
@@ -120,6 +121,8 @@ def _translated(
     files = target.write(program, asked)
     collector.drop_repeated(before, legalised)
     files = _each_once(files, program, collector)
+    if source != target_name and not capabilities.carries_rules:
+        report(unguarded(program, capabilities, collector.items[before:]), collector)
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
     named = _with_signals(program, context)
     return Translation(tuple(files), named, renamed, losses, dict(context.register_names), dict(context.register_types))

@@ -27,6 +27,7 @@ CAPABILITIES = Capabilities(
             *("NamedType", "ArrayType"),
         )
     ),
+    said_otherwise=frozenset(("function parse_number", "function parse_value")),  # StrToReal and kin beside a BOOL
     names=NameRules(
         longest=24,
         case_sensitive=False,

@@ -30,6 +30,13 @@ CAPABILITIES = Capabilities(
     compares_records=True,
     operators=OPERATORS,
     types=frozenset(type.__name__ for type in TYPE_NAMES),
+    said_otherwise=frozenset(
+        (
+            "type ArrayType",  # `{n}` behind the name, of any type of the table
+            "type NamedType",  # a RECORD by its name
+            "statement Trigger",  # TriggL and kin, together with the move
+        )
+    ),
     names=NameRules(32, False, RESERVED, predefined=PREDEFINED),
     modal_motion=False,
     concurrent_moves="moves",

@@ -56,6 +56,16 @@ CAPABILITIES = Capabilities(
             *("ArrayType",),
         )
     ),
+    said_otherwise=frozenset(
+        (
+            *("operator cand", "operator cor"),  # AND and OR of conditions that neither change nor fail
+            "function text_equal",  # SR[n]=SR[m] in an IF
+            "statement Trigger",  # TB, TA and DB of the move
+            "statement WaitForMotion",  # FINE of the move before it
+            "system variable external_speed",  # of a move: reported as left out
+            "system variable flag",  # F[n]
+        )
+    ),
     names=NameRules(longest=36, case_sensitive=False, reserved=tables.RESERVED),
     modal_motion=True,
     printable_texts=True,

@@ -41,6 +41,15 @@ CAPABILITIES = Capabilities(
     system_variables=frozenset((*tables.SYSTEM, *tables.SETTINGS, "timer", "flag", "moving", "actual_joint")),
     operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary, *tables.WRITTEN_OPERATORS)),
     types=tables.words("RealType BoolType StringType PoseType TargetType JointsType ArrayType"),
+    said_otherwise=frozenset(
+        (
+            "function target_to_joints_near",  # the words of the posture that the joints mean (RIGHTY, ABOVE, FLIP)
+            "statement StartMotion",  # nothing is held back behind a BRAKE
+            "system variable remaining_distance",  # DISTANCE(HERE, DEST)
+            "system variable timer_stopped",  # timers run on; only one that is read while it stands is another matter
+            "type IntType",  # numbers of V+ are not declared, whole or not
+        )
+    ),
     names=NameRules(
         longest=tables.LONGEST_NAME,
         case_sensitive=False,

@@ -42,7 +42,9 @@ class Capabilities:
 
     statements: names of IR statement classes the writer prints (a Move may still be refused for one of its settings).
     functions, procedures, system_variables: neutral names (ir.builtins) the writer prints.
-    operators: operators printed as they are. modal_motion: tool, frame, speed and blend are modal (KRL); otherwise each
+    operators: operators printed as they are. said_otherwise: kinds of nodes (rpl.passes.legality.Illegal.kind) that
+    stand in none of these tables, so that the passes avoid them, and that the writer says in some forms of its own.
+    modal_motion: tool, frame, speed and blend are modal (KRL); otherwise each
     move names them (RAPID). for_at_least_once / for_scoped / for_automatic: the target's FOR has exactly that rule.
     postures: `flags` of the notation in a target, or `joints` that a joint move solves near to (targets have none).
     place_turns: a joint move to a place comes there in the turns that are told with it (by flags, or by the joints that
@@ -338,6 +340,7 @@ class Capabilities:
     postures: str = "flags"
     place_turns: bool = True
     move_functions: frozenset[str] = frozenset()
+    said_otherwise: frozenset[str] = frozenset()
     places_in_base: bool = False
     no_tool: str = ""
     no_frame: str = ""

@@ -24,6 +24,7 @@ from rpl.cell import Cell, read_cell
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity
 from rpl.errors import RplError
 from rpl.ir.walk import rewrite
+from rpl.passes.legality import LEFT_OVER
 from rpl.project import ReadProgram, read_program, read_sources
 from rpl.proof.record import signal_names
 from rpl.proof.wiring import in_words_of, with_signal_names
@@ -198,7 +199,8 @@ def pair_of(name: str, target: str) -> Pair:
     except RplError as error:
         return Pair(everything, end=f"error: {type(error).__name__}: {error}")
     on = switched_on(result)
-    losses = sorted({_told(item) for item in diagnostics.of(Severity.LOSS)})
+    told = [item for item in diagnostics if item.severity == Severity.LOSS or item.code is LEFT_OVER]
+    losses = sorted(set(map(_told, told)))
     return Pair(tuple(number for number in everything if number not in on), tuple(losses), _end(result))
 
 

@@ -1,0 +1,152 @@
+"""Which passes act: how often each changed or reported something, for which target, over any folder of programs.
+
+    python benchmarks/pass_use.py FOLDER... [--to TARGET ...] [--projects] [--robot R] [--csv FILE]
+
+Each file is translated by itself; with --projects each folder that holds programs is one project. A pass has acted when
+the program behind it is another one (comments and places of origin apart), or when it has reported something. Passes
+that never act on real programs are the first to ask whether they earn their lines.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import os
+import sys
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from rpl import ir, registry
+from rpl.diagnostics import Diagnostics
+from rpl.errors import RplError
+from rpl.passes.legalise import pipeline
+from rpl.passes.legalise.context import Context, Pass
+from rpl.project import read_program
+from rpl.translation import translate_program
+
+_LARGEST = 500_000  # bytes of a file
+
+
+@dataclass
+class Use:
+    """Of one program in all its targets. acted: (pass, target) of those that changed or reported something."""
+
+    acted: Counter[tuple[str, str]] = field(default_factory=Counter)
+    translations: int = 0
+    failed: list[str] = field(default_factory=list)
+
+
+def name_of(one: Pass) -> str:
+    """`module.function` of a pass."""
+    return f"{one.__module__.rpartition('.')[2]}.{getattr(one, '__name__', type(one).__name__)}"
+
+
+def watched(one: Pass, acted: set[str]) -> Pass:
+    """The pass, which says by its name when it has acted."""
+
+    def run(program: ir.Program, context: Context) -> ir.Program:
+        told = len(context.diagnostics)
+        after = one(program, context)
+        if len(context.diagnostics) != told or (after is not program and after != program):
+            acted.add(name_of(one))
+        return after
+
+    return run
+
+
+def use_of(job: tuple[tuple[Path, ...], tuple[str, ...], str | None]) -> Use:
+    """Translate one program into the targets and see which passes act."""
+    paths, targets, robot = job
+    found, acted = Use(), set[str]()
+    try:
+        read = read_program(list(paths), None, Diagnostics())
+    except RplError as error:
+        found.failed.append(f"{paths[0]}: {error}")
+        return found
+    if not read.files:
+        return found
+    plain = pipeline.PASSES
+    pipeline.PASSES = tuple(watched(one, acted) for one in plain)
+    try:
+        for target in targets:
+            if target in read.dialects:
+                continue
+            acted.clear()
+            try:
+                translate_program(read, target, robot, None, Diagnostics())
+            except RplError as error:
+                found.failed.append(f"{paths[0]} -> {target}: {error}")
+                continue
+            found.translations += 1
+            found.acted.update((name, target) for name in acted)
+    finally:
+        pipeline.PASSES = plain
+    return found
+
+
+def programs(folders: Sequence[Path], projects: bool) -> Iterator[tuple[Path, ...]]:
+    """Files, or folders of files, that any dialect reads by their suffix."""
+    suffixes = {end for name in registry.dialect_names() for end in registry.dialect(name).extensions}
+    for folder in folders:
+        files = [folder] if folder.is_file() else sorted(folder.rglob("*"))
+        found = [
+            path
+            for path in files
+            if path.suffix.lower() in suffixes and path.is_file() and path.stat().st_size <= _LARGEST
+        ]
+        if projects:
+            yield from ((parent,) for parent in sorted({path.parent for path in found}))
+        else:
+            yield from ((path,) for path in found)
+
+
+def rows_of(uses: Sequence[Use], targets: Sequence[str]) -> list[tuple[str, int, dict[str, int]]]:
+    """Per pass in the order of the pipeline: its name, in how many translations it acted, and that by target."""
+    total: Counter[tuple[str, str]] = Counter()
+    for use in uses:
+        total.update(use.acted)
+    names = list(dict.fromkeys(map(name_of, pipeline.PASSES)))
+    return [(name, sum(by.values()), by) for name in names for by in [{to: total[name, to] for to in targets}]]
+
+
+def show(uses: Sequence[Use], targets: Sequence[str], file: str | None) -> None:
+    rows = rows_of(uses, targets)
+    width = max(len(name) for name, _, _ in rows)
+    print(f"{'pass':<{width}} {'acted':>6} " + " ".join(f"{to:>9}" for to in targets))
+    for name, count, by in rows:
+        print(f"{name:<{width}} {count:>6} " + " ".join(f"{by[to] or '':>9}" for to in targets))
+    idle = sum(1 for _, count, _ in rows if not count)
+    failed = [text for use in uses for text in use.failed]
+    print(f"{sum(use.translations for use in uses)} translations; {idle} of {len(rows)} passes never acted")
+    print(*(f"failed: {text}" for text in failed), sep="\n", end="\n" if failed else "")
+    if file is not None:
+        with Path(file).open("w", encoding="utf-8", newline="") as out:
+            table = csv.writer(out)
+            table.writerow(("pass", "acted", *targets))
+            table.writerows((name, count, *(by[to] for to in targets)) for name, count, by in rows)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folders", nargs="+", type=Path)
+    parser.add_argument("--to", action="append", choices=registry.target_names(), help="only these targets")
+    parser.add_argument("--projects", action="store_true", help="a folder with programs is one project")
+    parser.add_argument("--robot", help="the arm of all of them")
+    parser.add_argument("--csv", metavar="FILE", help="write the table there as well")
+    options = parser.parse_args()
+    targets = tuple(options.to or registry.target_names())
+    jobs = [(paths, targets, options.robot) for paths in programs(options.folders, options.projects)]
+    uses = []
+    with ProcessPoolExecutor(min(2, os.cpu_count() or 1)) as pool:
+        for number, use in enumerate(pool.map(use_of, jobs), 1):
+            uses.append(use)
+            print(f"\r{number} of {len(jobs)}", end="", file=sys.stderr, flush=True)
+    print(file=sys.stderr)
+    show(uses, targets, options.csv)
+
+
+if __name__ == "__main__":
+    main()
