@@ -13,7 +13,7 @@ from rpl.diagnostics import Diagnostics
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import Capabilities, NameRules
 from rpl.passes.legalise.context import Context, names_in
-from rpl.passes.legalise.walk import Rewriter
+from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import NOWHERE, Origin
 

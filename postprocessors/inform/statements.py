@@ -8,7 +8,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.legalise.effects import blocks
+from rpl.passes.legalise.facts.effects import blocks
 from rpl.source import NOWHERE, Origin
 from rpl.writing.anywhere import Anywhere
 from rpl.writing.ledger import EmissionLedger

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.legalise.beside import closure
-from rpl.passes.legalise.externalaxes import leading, used_externals
-from rpl.passes.legalise.pulses import assumed
+from rpl.passes.legalise.postures.externalaxes import leading, used_externals
+from rpl.passes.legalise.postures.pulses import assumed
+from rpl.passes.legalise.tasks.beside import closure
 from rpl.source import NOWHERE
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
@@ -382,7 +382,7 @@ def _entries(program: ir.Program) -> set[str]:
     motion = {task.entry.lower() for task in program.tasks if task.kind == "motion"}
     if motion:
         return motion
-    from rpl.passes.legalise.datalists import never_called, started_tasks
+    from rpl.passes.legalise.data.datalists import never_called, started_tasks
 
     beside = {task.entry.lower() for task in program.tasks if task.kind == "background"}
     return never_called(program) - started_tasks(program) - beside

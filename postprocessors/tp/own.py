@@ -10,7 +10,7 @@ import re
 
 from rpl import ir
 from rpl.ir.walk import walk
-from rpl.passes.legalise.usage import doing
+from rpl.passes.legalise.facts.usage import doing
 from rpl.source import Origin
 
 from . import tables

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.legalise.externalaxes import leading, used_externals
+from rpl.passes.legalise.postures.externalaxes import leading, used_externals
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.source import NOWHERE
 from rpl.writing.ledger import EmissionLedger
@@ -216,7 +216,7 @@ class _Writer:
         """Constant tools and frames, and tasks that run beside, at the start of each program that may be started."""
         tasks = [task for task in self.program.tasks if task.kind == "background"]
         begin = [Line(f"  RUN {task.entry.upper()}") for task in tasks]
-        from rpl.passes.legalise.startdata import INITIALISE
+        from rpl.passes.legalise.data.startdata import INITIALISE
 
         values = next((one for one in listings if one.name == INITIALISE.upper() and not one.entry), None)
         if values is not None:
@@ -339,7 +339,7 @@ def _entries(program: ir.Program) -> set[str]:
     motion = {task.entry.lower() for task in program.tasks if task.kind == "motion"}
     if motion:
         return motion
-    from rpl.passes.legalise.datalists import started_first
+    from rpl.passes.legalise.data.datalists import started_first
 
     return started_first(program)
 

@@ -1,6 +1,6 @@
 """Interrupts as REACT, REACTI, IGNORE, LOCK. V+ arms a reaction where it names its program, so a declaration elsewhere
 leaves no step: it is looked up where the interrupt is switched on. It is over when it has come: a program that is to
-come again arms it in its first step (rpl.passes.legalise.onceonly)."""
+come again arms it in its first step (rpl.passes.legalise.interrupts.onceonly)."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.legalise.effects import statements_in
+from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.scope import Scope
 from rpl.source import Origin
 from rpl.writing.anywhere import Anywhere

@@ -10,7 +10,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant_number
-from rpl.passes.legalise.usage import usage_of
+from rpl.passes.legalise.facts.usage import usage_of
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 from rpl.writing.ledger import EmissionLedger

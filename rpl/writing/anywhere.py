@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from rpl import ir
 from rpl.ir.walk import walk
-from rpl.passes.legalise.effects import blocks, children
+from rpl.passes.legalise.facts.effects import blocks, children
 
 __all__ = ["Anywhere"]
 

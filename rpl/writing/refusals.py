@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
-from rpl.passes.legalise.usage import each_expression
+from rpl.passes.legalise.facts.usage import each_expression
 
 __all__ = ["UNDECLARED_PLACE", "UNKNOWN_ROUTINE", "refusal"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rpl.diagnostics import Diagnostics
-from rpl.passes.legalise.resumes import left_by_resumes
+from rpl.passes.legalise.interrupts.resumes import left_by_resumes
 from rpl.project import read_sources
 from rpl.source import source_from_text
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
-from rpl.passes.legalise.modalflow import Flow
+from rpl.passes.legalise.facts.modalflow import Flow
 from rpl.project import read_sources
 from rpl.source import source_from_text
 

@@ -11,7 +11,7 @@ from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.partialplaces import partial_places
+from rpl.passes.legalise.places.partialplaces import partial_places
 from rpl.passes.typing import normalise
 from rpl.project import read_sources
 from rpl.proof.prove import prove_programs

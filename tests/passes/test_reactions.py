@@ -8,7 +8,7 @@ from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.reactions import reactions
+from rpl.passes.legalise.interrupts.reactions import reactions
 
 DOOR = ir.Signal("digital_in", ir.IntLiteral(1))
 ACT = ir.CallRoutine("act")

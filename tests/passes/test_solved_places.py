@@ -6,7 +6,7 @@ import pytest
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.emulator.model import load_robot
 from rpl.emulator.rotations import matrix_to_zyx
-from rpl.passes.legalise.solvertexts import solver_texts
+from rpl.passes.legalise.postures.solvertexts import solver_texts
 from rpl.project import read_sources
 from rpl.simulation import Simulation, run_program
 from rpl.source import source_from_bytes, source_from_text

@@ -16,10 +16,10 @@ from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import bodies
 from rpl.passes.capabilities import Capabilities
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.editing import Editor, edit_bodies, edit_routines, map_body
-from rpl.passes.legalise.effects import statements_in
-from rpl.passes.legalise.jumps import inside
-from rpl.passes.legalise.usage import each_expression
+from rpl.passes.legalise.control.jumps import inside
+from rpl.passes.legalise.facts.effects import statements_in
+from rpl.passes.legalise.facts.usage import each_expression
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 from rpl.source import Comment

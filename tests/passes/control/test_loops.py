@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rpl import ir
-from rpl.passes.legalise.loops import fit_loops
+from rpl.passes.legalise.control.loops import fit_loops
 
 from .common import PLAIN, RICH, count, read, same_run
 

@@ -7,11 +7,11 @@ from dataclasses import replace
 import pytest
 
 from rpl import ir
-from rpl.passes.legalise.functions import functions_to_procedures
-from rpl.passes.legalise.locals import variables_of_routines
-from rpl.passes.legalise.logic import decide_logic
-from rpl.passes.legalise.parameters import fit_arguments
-from rpl.passes.legalise.polling import poll_waits
+from rpl.passes.legalise.control.logic import decide_logic
+from rpl.passes.legalise.io.polling import poll_waits
+from rpl.passes.legalise.routines.functions import functions_to_procedures
+from rpl.passes.legalise.routines.parameters import fit_arguments
+from rpl.passes.legalise.storage.locals import variables_of_routines
 
 from .common import PLAIN, legalised, nodes, read, same_run
 from .test_routines import ROUTINES, named_again

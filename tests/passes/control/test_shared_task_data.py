@@ -5,7 +5,7 @@ import pytest
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.passes.legalise.context import Context, names_in
-from rpl.passes.legalise.taskdata import shared_task_data
+from rpl.passes.legalise.tasks.taskdata import shared_task_data
 from rpl.project import read_sources
 from rpl.proof.recording import record_of
 from rpl.proof.wiring import with_signal_names

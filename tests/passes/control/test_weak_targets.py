@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from rpl import ir
 from rpl.passes.capabilities import Capabilities
 from rpl.passes.legalise import legalise
-from rpl.passes.legalise.loops import fit_loops
+from rpl.passes.legalise.control.loops import fit_loops
 
 from .common import COMMON, PLAIN, count, nodes, same_run
 from .shaped import ALL, assign, less, number, program, rewritten, same, step, target, when

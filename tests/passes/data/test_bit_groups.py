@@ -9,8 +9,8 @@ import pytest
 from rpl import ir
 from rpl.cell import parse_cell
 from rpl.ir.walk import walk
-from rpl.passes.legalise.bitgroups import groups_to_bits, shared_groups_to_bits
-from rpl.passes.legalise.signals import number_signals
+from rpl.passes.legalise.io.bitgroups import groups_to_bits, shared_groups_to_bits
+from rpl.passes.legalise.io.signals import number_signals
 from rpl.proof.prove import prove_programs
 from rpl.proof.wiring import wired_bits
 

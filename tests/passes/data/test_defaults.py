@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from rpl import ir
-from rpl.passes.legalise.defaults import starting_values
-from rpl.passes.legalise.prelude import link_prelude
-from rpl.passes.legalise.unused import drop_unused
+from rpl.passes.legalise.data.defaults import starting_values
+from rpl.passes.legalise.source.prelude import link_prelude
+from rpl.passes.legalise.storage.unused import drop_unused
 
 from .helpers import context, lines, read, show, variable
 

@@ -11,7 +11,7 @@ from rpl import ir
 from rpl.emulator.rotations import quaternion_to_matrix, zyx_to_matrix
 from rpl.passes import rigid
 from rpl.passes.fold import constant, simplify
-from rpl.passes.legalise.walk import unchanged_in
+from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Record, Target
 

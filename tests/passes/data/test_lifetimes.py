@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rpl import ir
-from rpl.passes.legalise.lifetimes import companions
+from rpl.passes.legalise.storage.lifetimes import companions
 
 REAL = ir.RealType()
 

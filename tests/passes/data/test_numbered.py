@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from rpl import ir
 from rpl.passes.capabilities import Bank
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.defaults import starting_values
-from rpl.passes.legalise.numbered import number_data
-from rpl.passes.legalise.numbers import numbers
+from rpl.passes.legalise.data.defaults import starting_values
+from rpl.passes.legalise.data.numbers import numbers
+from rpl.passes.legalise.storage.numbered import number_data
 
 from .executed import NUMBERED, context, passed, read, same
 from .helpers import lines, routine, variable

@@ -6,8 +6,8 @@ import pytest
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
-from rpl.passes.legalise.numbers import numbers
-from rpl.passes.legalise.signals import number_signals
+from rpl.passes.legalise.data.numbers import numbers
+from rpl.passes.legalise.io.signals import number_signals
 from rpl.passes.typing import normalise
 
 from .helpers import context, lines, read, routine, variable

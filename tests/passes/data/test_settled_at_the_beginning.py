@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rpl.passes.legalise.walk import unchanged_in
+from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.values import pose_of
 
 from .helpers import read

@@ -8,7 +8,7 @@ import pytest
 
 from rpl import ir
 from rpl.passes.capabilities import Bank
-from rpl.passes.legalise.sharing import share_temporaries
+from rpl.passes.legalise.storage.sharing import share_temporaries
 from rpl.source import NOWHERE
 
 from .executed import NUMBERED, context, read, same

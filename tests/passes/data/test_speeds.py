@@ -9,7 +9,7 @@ import pytest
 
 from rpl import ir
 from rpl.passes.capabilities import Capabilities
-from rpl.passes.legalise.speeds import fit_speeds
+from rpl.passes.legalise.settings.speeds import fit_speeds
 
 from .executed import EVERYTHING, context, passed, read
 from .helpers import routine

@@ -9,10 +9,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from rpl import ir
-from rpl.passes.legalise.effects import children, statements_in
-from rpl.passes.legalise.logic import decide_logic
-from rpl.passes.legalise.operands import is_operand
-from rpl.passes.legalise.steps import POLLED, steps
+from rpl.passes.legalise.control.logic import decide_logic
+from rpl.passes.legalise.control.steps import POLLED, steps
+from rpl.passes.legalise.facts.effects import children, statements_in
+from rpl.passes.legalise.rewriting.operands import is_operand
 
 from .executed import EVERYTHING, WEAK, context, passed, read, same
 from .helpers import lines, show_statement

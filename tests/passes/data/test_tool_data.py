@@ -8,8 +8,8 @@ import pytest
 
 from rpl import ir
 from rpl.cell import parse_cell
-from rpl.passes.legalise.modal import modal_to_explicit
-from rpl.passes.legalise.tooldata import tool_data
+from rpl.passes.legalise.settings.modal import modal_to_explicit
+from rpl.passes.legalise.settings.tooldata import tool_data
 from rpl.simulation import run_program
 
 from .executed import EVERYTHING, context, passed, read, same, shown

@@ -1,0 +1,1 @@
+"""Programs that run ahead of the robot: corners, actions on the way, statements that wait for the robot."""

@@ -1,0 +1,1 @@
+"""Loops, branches, jumps and conditions. Behind it they are the target's."""

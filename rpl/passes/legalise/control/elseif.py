@@ -1,0 +1,34 @@
+"""An If with several branches as Ifs inside of one another, for targets without ELSEIF."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.control.jumps import inside
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
+
+
+def nest_branches(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets whose If has one condition. Without blocks the pass of labels knows a shorter form."""
+    if context.capabilities.else_if or "If" not in context.capabilities.statements:
+        return program
+
+    def change(statement: ir.Statement) -> ir.Body:
+        done = inside(statement, lambda inner: map_body(inner, change))
+        return (nested(done) if isinstance(done, ir.If) else done,)
+
+    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        return edit_bodies(routine, lambda body: map_body(body, change))
+
+    return edit_routines(program, context, work)
+
+
+def nested(statement: ir.If) -> ir.If:
+    """The same choice with one condition at each level."""
+    first, *rest = statement.branches
+    if not rest:
+        return statement
+    inner = replace(statement, branches=tuple(rest), origin=replace(statement.origin, comments=()))
+    return replace(statement, branches=(first,), otherwise=(nested(inner),))

@@ -1,0 +1,185 @@
+"""Arrays for targets whose indices start at one, and which cannot ask an array for its size.
+
+Indices of an array that starts elsewhere are shifted. A routine that asks how large an array is that it was given gets
+the size as a parameter of its own; sizes of declared arrays are known while writing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.ir.walk import walk
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.rewriting.walk import Rewriter
+
+# routine, place of its parameter, dimension from 1
+_Asked = tuple[str, int, int]
+
+
+def array_bases(program: ir.Program, context: Context) -> ir.Program:
+    """Every array starts at one. One that starts at zero, but whose element zero nothing uses, loses that element and
+    keeps its numbers."""
+    return _Shifted(_without_unused_first(program), context).program()
+
+
+def _without_unused_first(program: ir.Program) -> ir.Program:
+    names = _from_zero(program)
+    if not names:
+        return program
+
+    def declared(declaration: ir.Declaration) -> ir.Declaration:
+        if not isinstance(declaration, ir.Variable) or declaration.name.lower() not in names:
+            return declaration
+        type, initial = declaration.type, declaration.initial
+        assert isinstance(type, ir.ArrayType)
+        shorter = replace(type, base=1)  # its bound is the last number
+        if isinstance(initial, ir.Aggregate):
+            initial = replace(initial, entries=initial.entries[1:])
+        return replace(declaration, type=shorter, initial=initial)
+
+    modules = tuple(
+        replace(module, declarations=tuple(map(declared, module.declarations))) for module in program.modules
+    )
+    return replace(program, modules=modules)
+
+
+def _from_zero(program: ir.Program) -> set[str]:
+    """Names (lower case) of global lists that start at zero and are only used by elements with a number above zero."""
+    found: dict[str, int] = {}
+    for module in program.modules:
+        for declaration in module.declarations:
+            match declaration:
+                case ir.Variable(type=ir.ArrayType(base=0, dimensions=(ir.IntLiteral(),)), initial=initial):
+                    if initial is None or isinstance(initial, ir.Aggregate):
+                        found[declaration.name.lower()] = 0
+    if not found:
+        return set()
+    for node in walk(*program.modules):
+        match node:
+            case ir.Variable(name=name) | ir.Parameter(name=name) if name.lower() in found:
+                found[name.lower()] += 1  # one declaration only
+            case ir.Name(id=name) if name.lower() in found:
+                found[name.lower()] += 2
+            case ir.Index(base=ir.Name(id=name), indices=(ir.IntLiteral(value=number),)) if name.lower() in found:
+                found[name.lower()] -= 2 if number > 0 else 0
+    return {name for name, count in found.items() if count == 1}
+
+
+class _Shifted(Rewriter):
+    def type(self, type: ir.Type) -> ir.Type:
+        done = super().type(type)
+        if not isinstance(done, ir.ArrayType) or done.base == 1:
+            return done
+        shift = 1 - done.base
+        return replace(
+            done, dimensions=tuple(None if one is None else _plus(one, shift) for one in done.dimensions), base=1
+        )
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        done = super().expression(expression)
+        if not isinstance(expression, ir.Index) or not isinstance(done, ir.Index):
+            return done
+        type = self.type_of(expression.base)
+        if not isinstance(type, ir.ArrayType) or type.base == 1:
+            return done
+        return replace(done, indices=tuple(_plus(index, 1 - type.base) for index in done.indices))
+
+
+def _plus(value: ir.Expression, shift: int) -> ir.Expression:
+    match value:
+        case ir.IntLiteral(value=number):
+            return replace(value, value=number + shift, spelling="")
+        case ir.Binary(op="-", left=left, right=ir.IntLiteral(value=number)) if number == shift:
+            return left
+    return ir.Binary("+" if shift > 0 else "-", value, ir.IntLiteral(abs(shift)), origin=value.origin)
+
+
+def array_sizes(program: ir.Program, context: Context) -> ir.Program:
+    """Sizes of arrays that a routine is given come with them."""
+    if "dimension" in context.capabilities.functions and context.capabilities.row_sizes:
+        return program
+    asked: dict[_Asked, str] = {}
+    size = -1
+    while size != len(asked):  # a size that is handed on is asked for by the caller's caller too
+        size = len(asked)
+        done = _Sized(program, context, asked).program()
+    return done if asked else program
+
+
+class _Sized(Rewriter):
+    """`asked`: names of the new parameters; grows while the program is looked through."""
+
+    def __init__(self, program: ir.Program, context: Context, asked: dict[_Asked, str]) -> None:
+        super().__init__(program, context)
+        self.asked = asked
+        self.inside: ir.Routine | None = None
+
+    def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        self.inside = routine
+        done = super().routine(module, routine)
+        self.inside = None
+        more = tuple(ir.Parameter(self.asked[key], ir.IntType()) for key in self.of(routine.name))
+        return replace(done, parameters=(*done.parameters, *more)) if more else done
+
+    def of(self, routine: str) -> list[_Asked]:
+        return sorted(key for key in self.asked if key[0] == routine.lower())
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        match expression:
+            case ir.Builtin(function="dimension", arguments=(ir.Name(id=name), ir.IntLiteral(value=number))):
+                return self.size(name, number) or super().expression(expression)
+            case ir.Builtin(function="length", arguments=(ir.Name(id=name),)):
+                return self.size(name, 1) or super().expression(expression)
+            case ir.Call(name=name, arguments=arguments):
+                done = super().expression(expression)
+                assert isinstance(done, ir.Call)
+                return replace(done, arguments=(*done.arguments, *self.sizes(name, arguments)))
+        return super().expression(expression)
+
+    def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+        done = super().statement(statement)
+        match statement, done:
+            case ir.CallRoutine(name=name, arguments=arguments, dynamic=None), [ir.CallRoutine() as call]:
+                return [replace(call, arguments=(*call.arguments, *self.sizes(name, arguments)))]
+        return done
+
+    def size(self, name: str, number: int) -> ir.Expression | None:
+        """The parameter that holds the size of an array which the routine was given."""
+        if self.inside is None:
+            return None
+        for place, parameter in enumerate(self.inside.parameters):
+            type = self.scope.resolve(parameter.type)
+            if parameter.name.lower() != name.lower() or not isinstance(type, ir.ArrayType):
+                continue
+            if number > len(type.dimensions) or type.dimensions[number - 1] is not None:
+                return None
+            if len(type.dimensions) == 1 and "dimension" in self.context.capabilities.functions:
+                return None
+            key = (self.inside.name.lower(), place, number)
+            if key not in self.asked:
+                self.asked[key] = self.context.fresh(f"{parameter.name}_size")
+            return ir.Name(self.asked[key])
+        return None
+
+    def sizes(self, routine: str, arguments: tuple[ir.Argument, ...]) -> list[ir.Argument]:
+        made = []
+        for _, place, number in self.of(routine):
+            value = arguments[place].value if place < len(arguments) else None
+            found = self.size(value.id, number) if isinstance(value, ir.Name) else None
+            if isinstance(value, ir.Aggregate):
+                found = _count(value, number)
+            elif found is None and value is not None:
+                found = ir.Builtin("dimension", (value, ir.IntLiteral(number)))
+            made.append(ir.Argument(found if found is not None else ir.IntLiteral(0)))
+        return made
+
+
+def _count(value: ir.Expression, number: int) -> ir.Expression | None:
+    """How many elements a list that is written out has in one of its dimensions."""
+    for _ in range(number - 1):
+        value = value.entries[0][1] if isinstance(value, ir.Aggregate) and value.entries else value
+    return ir.IntLiteral(len(value.entries)) if isinstance(value, ir.Aggregate) else None
+
+
+__all__ = ["array_bases", "array_sizes"]

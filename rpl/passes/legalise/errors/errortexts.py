@@ -1,0 +1,50 @@
+"""The text of an error's number (V+ $ERROR), for targets without such a function: the source's names of its errors.
+
+A number of no known error is its own text, as in a run of the source.
+"""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.ir.walk import walk
+from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.rewriting.walk import Rewriter
+
+
+def error_texts(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets without the function."""
+    asked = any(isinstance(one, ir.Builtin) and one.function == "error_text" for one in walk(*program.modules))
+    if not asked or "error_text" in context.capabilities.functions:
+        return program
+    name = context.fresh("rpl_error_text")
+    done = _Texts(program, context, name).program()
+    return with_support(done, context, (), (_function(name, context),))
+
+
+class _Texts(Rewriter):
+    def __init__(self, program: ir.Program, context: Context, function: str) -> None:
+        super().__init__(program, context)
+        self.function = function
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        done = super().expression(expression)
+        if isinstance(done, ir.Builtin) and done.function == "error_text":
+            arguments = tuple(ir.Argument(one) for one in done.arguments)
+            return ir.Call(self.function, arguments, origin=done.origin)
+        return done
+
+
+def _function(name: str, context: Context) -> ir.Routine:
+    number = ir.Name("error")
+    branches: list[tuple[ir.Expression, ir.Body]] = []
+    for text, value in rules_of(context.source).errors.items():
+        same = ir.Binary("=", number, ir.RealLiteral(float(value)))
+        branches.append((same, (ir.Return(ir.TextLiteral(text)),)))
+    itself = ir.Return(ir.Builtin("number_text", (number, ir.IntLiteral(0))))
+    body: ir.Body = (ir.If(tuple(branches)), itself) if branches else (itself,)
+    parameter = ir.Parameter("error", ir.RealType())
+    return ir.Routine(name, "function", (parameter,), ir.StringType(), body=body, scope="global")
+
+
+__all__ = ["error_texts"]

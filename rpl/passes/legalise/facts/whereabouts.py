@@ -1,0 +1,296 @@
+"""Where the robot stands before each move, as far as it is constant: its joints, its flange, and the last place as it
+was programmed.
+
+One routine at a time: at its beginning, behind labels and behind calls that move the robot nothing is known. Tool and
+frame come from `flow`; where their values are not known, a place still tells how far it is to the next one that is
+programmed in the same tool and frame.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+from rpl import ir, registry
+from rpl.ir.walk import bodies, walk
+from rpl.passes import rigid
+from rpl.passes.fold import constant
+from rpl.passes.legalise.context import Arm, Context
+from rpl.passes.legalise.control.jumps import LOOPS
+from rpl.passes.legalise.facts.effects import blocks
+from rpl.passes.legalise.facts.flow import ModalFlow
+from rpl.passes.legalise.facts.usage import doing
+from rpl.passes.legalise.rewriting.walk import unchanged_in
+from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.values import Record, Target, Value, component, pose_of
+
+_AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
+_COMPONENTS = ("x", "y", "z", "a", "b", "c")
+_NEAR = "target_to_joints_near"
+_PLACES = ("tool", "base", "robot_root")
+Joints = tuple[float, ...]
+Seen = tuple[ir.Expression | None, ir.Expression | None, rigid.Pose]
+
+
+@dataclass(frozen=True, slots=True)
+class Stand:
+    """`joints` in the arm's units (deg, mm), `flange` in the robot's base, `seen`: tool, frame and the place in it."""
+
+    joints: Joints | None = None
+    flange: rigid.Pose | None = None
+    seen: Seen | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """The way of a move, as far as known: axes in deg (mm), millimetres and degrees of the tool."""
+
+    axes: Joints | None
+    length_mm: float | None
+    turn_deg: float | None
+
+
+NOWHERE_KNOWN = Stand()
+
+
+class Whereabouts:
+    """`ways`: the way of each move by identity, where something of it is known. `starts`, `ends`: where the robot
+    stands before each move and behind it. `converted`: the flags of places are the target's already. `settled`: places
+    that the beginning of the program sets once and for all are known, too."""
+
+    def __init__(self, program: ir.Program, context: Context, converted: bool = False, settled: bool = False) -> None:
+        self.converted = converted
+        self.ways: dict[int, Way] = {}
+        self.starts: dict[int, Stand] = {}
+        self.ends: dict[int, Stand] = {}
+        self.program = program  # keeps the identities alive
+        arm, other = context.robot, context.to_robot
+        self.arm: Arm | None = arm if other is None or other is arm else None
+        self.scopes = ProgramScope(program)
+        self.flow = ModalFlow(program, self.scopes)
+        self.unchanged = unchanged_in(program, places=settled)
+        self.moving = doing(program, _moves)
+        make = registry.dialect(context.source).notation
+        self.notation: Any = None if make is None else make()
+        self.displaced = any(one == ir.System("displacement") for one in walk(*program.modules))
+        if not self.displaced:
+            for module, routine in self.scopes.routines():
+                self.scope: Scope = self.scopes.routine(module, routine)
+                for body in bodies(routine):
+                    self.body(body, NOWHERE_KNOWN)
+
+    def of(self, move: ir.Move) -> Way:
+        return self.ways.get(id(move), Way(None, None, None))
+
+    def body(self, body: ir.Body, stand: Stand) -> Stand:
+        for statement in body:
+            stand = self.statement(statement, stand)
+        return stand
+
+    def statement(self, statement: ir.Statement, stand: Stand) -> Stand:
+        match statement:
+            case ir.Move():
+                return self.moved(statement, stand)
+            case ir.Label():
+                return NOWHERE_KNOWN
+            case ir.Assign(target=ir.System(name=name) | ir.Field(base=ir.System(name=name))) if name in _PLACES:
+                return replace(stand, seen=None)
+        inner = blocks(statement)
+        if not inner:
+            return NOWHERE_KNOWN if self.moves(statement) else stand
+        if isinstance(statement, LOOPS) and self.moves(statement):
+            self.body(inner[0], NOWHERE_KNOWN)
+            return NOWHERE_KNOWN
+        if any(_moves(one) for one in walk(statement)) or self.sets(statement):
+            ends = [self.body(one, stand) for one in inner]
+            return ends[0] if all(end == ends[0] for end in ends) else NOWHERE_KNOWN
+        return NOWHERE_KNOWN if self.moves(statement) else stand
+
+    def moves(self, statement: ir.Statement) -> bool:
+        """Does it move the robot, set a place, or call what does?"""
+        for one in walk(statement):
+            if _moves(one) or (isinstance(one, ir.CallRoutine | ir.Call) and one.name.lower() in self.moving):
+                return True
+        return False
+
+    def sets(self, statement: ir.Statement) -> bool:
+        return any(isinstance(one, ir.System) and one.name in _PLACES for one in walk(statement))
+
+    def moved(self, move: ir.Move, stand: Stand) -> Stand:
+        end = self.end(move, stand)
+        self.ways[id(move)] = self.way(move, stand, end)
+        self.starts[id(move)], self.ends[id(move)] = stand, end
+        return end
+
+    def end(self, move: ir.Move, stand: Stand) -> Stand:
+        if move.search is not None:
+            return NOWHERE_KNOWN
+        if move.relative:
+            return self.further(move, stand)
+        target, near = move.target, None
+        match target:
+            case ir.Builtin(function=name, arguments=(place, asked)) if name == _NEAR:
+                target, near = place, self.axes(constant(asked, self.scope, self.unchanged))
+                if near is None or move.kind != "joint":
+                    return NOWHERE_KNOWN
+        goal = constant(target, self.scope, self.unchanged)
+        axes = None if near is not None else self.axes(goal)
+        if axes is not None:
+            flange = None if self.arm is None else rigid.pose_of_matrix(_rows(self.arm.forward(_array(axes))))
+            return Stand(axes, flange)
+        pose = pose_of(goal)
+        frames = self.flow.frames.get(id(move))
+        if pose is None:
+            return NOWHERE_KNOWN
+        flange = None if frames is None else frames.flange(pose)
+        joints = self.solved(move, goal, flange, stand) if near is None else self.nearest(flange, near)
+        return Stand(joints, flange, (move.tool, move.frame, pose))
+
+    def nearest(self, flange: rigid.Pose | None, near: Joints) -> Joints | None:
+        if self.arm is None or flange is None:
+            return None
+        found = self.arm.nearest(_array(flange.matrix), _array(near))
+        return None if found is None else tuple(float(one) for one in found)
+
+    def further(self, move: ir.Move, stand: Stand) -> Stand:
+        """Where a relative move ends, along the tool, along the axes of the frame or by axes of the arm."""
+        if move.relative == "joints":
+            steps = self.axes(constant(_whole(move), self.scope, self.unchanged))
+            known = stand.joints is not None and steps is not None
+            return (
+                Stand(tuple(a + b for a, b in zip(stand.joints or (), steps or (), strict=False))) if known else Stand()
+            )
+        by, start = pose_of(constant(_whole(move), self.scope, self.unchanged)), self.tools(move, stand, stand)[0]
+        frames = self.flow.frames.get(id(move))
+        if by is None or start is None or move.relative not in ("tool", "base"):
+            return NOWHERE_KNOWN
+        if move.relative == "tool":
+            end = start.then(by)
+        elif _angle(by.rotation, rigid.NO_TURN) < 1e-9:
+            end = rigid.Pose(start.position.plus(by.position), start.rotation)
+        else:
+            return NOWHERE_KNOWN
+        flange = None if frames is None else frames.flange(end)
+        return Stand(self.solved(move, None, flange, stand), flange, (move.tool, move.frame, end))
+
+    def axes(self, goal: Value | None) -> Joints | None:
+        if not isinstance(goal, Record):
+            return None
+        inner = goal.part("robax")
+        goal = inner if isinstance(inner, Record) else goal
+        names = _AXES if self.arm is None else _AXES[: self.arm.axes]
+        found = [component(goal, name) for name in names]
+        return tuple(float(one) for one in found if isinstance(one, int | float)) if None not in found else None
+
+    def solved(self, move: ir.Move, goal: Value | None, flange: rigid.Pose | None, stand: Stand) -> Joints | None:
+        """The joints at a place: those that its flags and the controller's rule choose, for paths the ones nearest to
+        the last."""
+        if self.arm is None or flange is None:
+            return None
+        if self.converted and move.kind == "joint" and isinstance(goal, Target):
+            return None  # what the source said about the posture is gone
+        matrix = _array(flange.matrix)
+        near = None if stand.joints is None else _array(stand.joints)
+        flags = dict(goal.flags) if isinstance(goal, Target) and self.notation is not None else {}
+        flags = {name: value for name, value in flags.items() if name in self.notation.fields} if flags else {}
+        found: Any = None
+        if move.kind == "joint" and self.notation is not None:
+            if near is not None or 0 < len(flags) == len(self.notation.fields):
+                found = self.notation.select(self.arm, matrix, flags, near).joints
+        elif near is not None and move.kind != "circular":  # an arc may turn an axis all around
+            found = self.arm.nearest(matrix, near)
+        return None if found is None else tuple(float(one) for one in found)
+
+    def way(self, move: ir.Move, start: Stand, end: Stand) -> Way:
+        axes = None
+        if move.relative == "joints":
+            steps = self.axes(constant(_whole(move), self.scope, self.unchanged))
+            return Way(None if steps is None else tuple(abs(one) for one in steps), None, None)
+        if start.joints is not None and end.joints is not None:
+            axes = tuple(abs(to - of) for of, to in zip(start.joints, end.joints, strict=False))
+        if move.kind == "joint":
+            return Way(axes, None, None)
+        by = pose_of(constant(_whole(move), self.scope, self.unchanged)) if move.relative in ("tool", "base") else None
+        if by is not None:
+            return Way(axes, by.position.length, _angle(by.rotation, rigid.NO_TURN))
+        here, there = self.tools(move, start, end)
+        if here is None or there is None:
+            return Way(axes, None, None)
+        turn = _angle(here.rotation, there.rotation)
+        if move.kind == "linear":
+            return Way(axes, _far(here.position, there.position), turn)
+        via = pose_of(constant(move.via, self.scope, self.unchanged)) if move.via is not None else None
+        if via is None or move.swept is not None or end.seen is None or start.seen is None:
+            return Way(axes, None, turn)
+        return Way(axes, arc_length(here.position, via.position, there.position), turn)
+
+    def tools(self, move: ir.Move, start: Stand, end: Stand) -> tuple[rigid.Pose | None, rigid.Pose | None]:
+        """Both ends of a path as places of the tool in the frame of the move."""
+        if start.seen is not None and end.seen is not None and start.seen[:2] == end.seen[:2]:
+            return start.seen[2], end.seen[2]
+        frames = self.flow.frames.get(id(move))
+        if frames is None or frames.tool is None or frames.base is None or start.flange is None or end.flange is None:
+            return None, None
+        back = frames.base.inverse
+        return back.then(start.flange).then(frames.tool), back.then(end.flange).then(frames.tool)
+
+
+def _whole(move: ir.Move) -> ir.Expression:
+    """The way of a relative move with every component: those that it does not name are 0."""
+    target = move.target
+    if not isinstance(target, ir.Aggregate) or any(name is None for name, _ in target.entries):
+        return target
+    names = _AXES if move.relative == "joints" else _COMPONENTS
+    given = {name.lower() for name, _ in target.entries if name is not None}
+    if not given <= set(names):
+        return target
+    missing = tuple((name, ir.RealLiteral(0.0)) for name in names if name not in given)
+    return replace(target, entries=(*target.entries, *missing))
+
+
+def _moves(node: object) -> bool:
+    match node:
+        case ir.Move() | ir.Spline() | ir.TaskControl() | ir.Vendor() | ir.Opaque():
+            return True
+        case ir.CallRoutine(dynamic=dynamic):
+            return dynamic is not None
+        case ir.Assign(target=ir.System(name=name) | ir.Field(base=ir.System(name=name))):
+            return name in _PLACES
+    return False
+
+
+def arc_length(start: rigid.Vector, via: rigid.Vector, end: rigid.Vector) -> float | None:
+    """Millimetres from start through via to end along a circle; None for points on a line."""
+    one, two = via.plus(start, -1.0), end.plus(start, -1.0)
+    normal = one.cross(two)
+    square = 4.0 * normal.dot(normal)
+    if square < 1e-9:
+        return None
+    # the centre, seen from the start: the circle through three points
+    to_centre = normal.cross(one).times(two.dot(two)).plus(two.cross(normal), one.dot(one)).times(2.0 / square)
+    from_centre, last = to_centre.times(-1.0), two.plus(to_centre, -1.0)
+    sine = from_centre.cross(last).dot(normal) / normal.length
+    angle = math.atan2(sine, from_centre.dot(last)) % (2.0 * math.pi)
+    return angle * to_centre.length
+
+
+def _angle(one: rigid.Rotation, two: rigid.Rotation) -> float:
+    return one.inverse.then(two).angle
+
+
+def _far(one: rigid.Vector, two: rigid.Vector) -> float:
+    return two.plus(one, -1.0).length
+
+
+def _array(values: Any) -> Any:
+    import numpy as np
+
+    return np.array(values, dtype=np.float64)
+
+
+def _rows(matrix: Any) -> list[list[float]]:
+    return [[float(one) for one in row] for row in matrix]
+
+
+__all__ = ["Way", "Whereabouts", "arc_length"]

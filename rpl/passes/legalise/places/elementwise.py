@@ -1,0 +1,179 @@
+"""Sums of positions component by component, positions moved by a pose, poses of targets: as functions brought along.
+
+Controllers with numbered positions add them like lists of numbers; others have no word for it. Each function is made
+once for the type it is used with, in terms of components, which the passes behind this one write as the target does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.typing import type_of
+
+_POSE = ("x", "y", "z", "a", "b", "c")
+_JOINTS = ("j1", "j2", "j3", "j4", "j5", "j6")
+_OPERATORS = {"element_sum": "+", "element_difference": "-", "element_product": "*"}
+_MOVED = ("displaced", "displaced_in_tool")
+_DONE, _ONE, _OTHER, _PRODUCT = "done", "one", "other", "product"
+
+
+def elementwise(program: ir.Program, context: Context) -> ir.Program:
+    """The program without the functions of this kind that the target lacks."""
+    can = context.capabilities
+    alone = can.functions - (can.move_functions & set(_MOVED))  # what only a move's target may be is lacking elsewhere
+    lacking = {*_OPERATORS, *_MOVED, "pose_of"} - alone
+    if not lacking:
+        return program
+    return _Worker(context, frozenset(lacking)).program(program)
+
+
+@dataclass(slots=True)
+class _Worker:
+    context: Context
+    lacking: frozenset[str]
+    names: dict[tuple[str, ir.Type, ir.Type | None], str] = field(default_factory=dict)
+    routines: list[ir.Routine] = field(default_factory=list)
+
+    def program(self, program: ir.Program) -> ir.Program:
+        scopes = ProgramScope(program)
+        modules = []
+        for module in program.modules:
+            routines = tuple(self.routine(routine, scopes.routine(module, routine)) for routine in module.routines)
+            modules.append(replace(module, routines=routines))
+        if not self.routines:
+            return program
+        first = modules[0]
+        made = ir.Module(
+            self.context.fresh("rpl_positions"), first.dialect, routines=tuple(self.routines), task=first.task
+        )
+        return replace(program, modules=(*modules, made))
+
+    def routine(self, routine: ir.Routine, scope: Scope) -> ir.Routine:
+        def expression(node: ir.Expression) -> ir.Expression:
+            node = rewrite_parts(node, expression)
+            if isinstance(node, ir.Builtin) and node.function in self.lacking:
+                return self.call(node, scope)
+            return node
+
+        def parts(statement: ir.Statement) -> ir.Statement:
+            target = statement.target if isinstance(statement, ir.Move) else None
+            if isinstance(statement, ir.Move) and isinstance(target, ir.Builtin) and self.moves(target):
+                inner = rewrite_parts(target, expression)
+                return rewrite_parts(statement, lambda node: inner if node is target else expression(node), body)
+            return rewrite_parts(statement, expression, body)
+
+        def body(statements: ir.Body) -> ir.Body:
+            return tuple(parts(statement) for statement in statements)
+
+        return edit_bodies(routine, body)
+
+    def moves(self, target: ir.Builtin) -> bool:
+        """Does a move of the target's say this itself?"""
+        can = self.context.capabilities
+        return target.function in _MOVED and target.function in can.move_functions & can.functions
+
+    def call(self, node: ir.Builtin, scope: Scope) -> ir.Expression:
+        """The call of the function for these types; the node where a type is not known."""
+        one = self.known(node.arguments[0], scope)
+        other: ir.Type | None = ir.RealType()
+        if node.function not in ("element_product", "pose_of"):
+            other = self.known(node.arguments[1], scope)
+        if one is None or other is None or (node.function == "pose_of" and not isinstance(one, ir.TargetType)):
+            return node
+        key = (node.function, one, other)
+        if key not in self.names:
+            name = self.names[key] = self.context.fresh(f"rpl_{node.function}")
+            made = _MAKERS[node.function](name, node.function, one, other)
+            whole = self.context.capabilities.rotation == "quaternion" and node.function in _MOVED
+            self.routines.append(_by_wholes(made) if whole else made)
+        arguments = tuple(ir.Argument(argument) for argument in node.arguments)
+        return ir.Call(self.names[key], arguments, origin=node.origin)
+
+    def known(self, expression: ir.Expression, scope: Scope) -> ir.Type | None:
+        if isinstance(expression, ir.Call):  # one of ours, of the type of its first argument
+            found = next((routine.returns for routine in self.routines if routine.name == expression.name), None)
+            if found is not None:
+                return found
+        type = type_of(expression, scope)
+        return type if isinstance(type, ir.TargetType | ir.PoseType | ir.JointsType) else None
+
+
+def _part(name: str, component: str) -> ir.Field:
+    return ir.Field(ir.Name(name), component)
+
+
+def _made(name: str, one: ir.Type, other: ir.Type, locals: tuple[ir.Variable, ...], body: ir.Body) -> ir.Routine:
+    return ir.Routine(
+        name,
+        "function",
+        (ir.Parameter(_ONE, one), ir.Parameter(_OTHER, other)),
+        one,
+        (ir.Variable(_DONE, one, scope="routine"), *locals),
+        (ir.Assign(ir.Name(_DONE), ir.Name(_ONE)), *body, ir.Return(ir.Name(_DONE))),
+        scope="global",
+    )
+
+
+def _element(name: str, function: str, one: ir.Type, other: ir.Type) -> ir.Routine:
+    """done := one, each component combined with that of the other (or with the number)."""
+    components = _JOINTS if isinstance(one, ir.JointsType) else _POSE
+    number = isinstance(other, ir.RealType)
+    body = tuple(
+        ir.Assign(
+            _part(_DONE, component),
+            ir.Binary(
+                _OPERATORS[function],
+                _part(_ONE, component),
+                ir.Name(_OTHER) if number else _part(_OTHER, component),
+            ),
+        )
+        for component in components
+    )
+    return _made(name, one, other, (), body)
+
+
+def _displaced(name: str, function: str, one: ir.Type, other: ir.Type) -> ir.Routine:
+    """done := one at the place of other . one (in its frame) or one . other (in its own axes)."""
+    inside = function == "displaced_in_tool"
+    left, right = (_ONE, _OTHER) if inside else (_OTHER, _ONE)
+    product = ir.Variable(_PRODUCT, other if inside else one, scope="routine")
+    body = (
+        ir.Assign(ir.Name(_PRODUCT), ir.Binary(":", ir.Name(left), ir.Name(right))),
+        *(ir.Assign(_part(_DONE, component), _part(_PRODUCT, component)) for component in _POSE),
+    )
+    return _made(name, one, other, (product,), body)
+
+
+def _by_wholes(made: ir.Routine) -> ir.Routine:
+    """Position and rotation are copied as they are where a rotation is no three angles."""
+    copies = tuple(ir.Assign(_part(_DONE, part), _part(_PRODUCT, part)) for part in ("trans", "rot"))
+    kept = tuple(one for one in made.body if not (isinstance(one, ir.Assign) and isinstance(one.target, ir.Field)))
+    return replace(made, body=(*kept[:-1], *copies, kept[-1]))
+
+
+def _pose_of(name: str, function: str, one: ir.Type, other: ir.Type) -> ir.Routine:
+    """A target's place and rotation."""
+    pose = ir.PoseType()
+    body = tuple(ir.Assign(_part(_DONE, component), _part(_ONE, component)) for component in _POSE)
+    return ir.Routine(
+        name,
+        "function",
+        (ir.Parameter(_ONE, one),),
+        pose,
+        (ir.Variable(_DONE, pose, scope="routine"),),
+        (*body, ir.Return(ir.Name(_DONE))),
+        scope="global",
+    )
+
+
+_MAKERS: dict[str, Callable[[str, str, ir.Type, ir.Type], ir.Routine]] = {
+    **dict.fromkeys(_OPERATORS, _element),
+    **dict.fromkeys(_MOVED, _displaced),
+    "pose_of": _pose_of,
+}

@@ -1,0 +1,16 @@
+"""Built-in geometric types in the target's own components: ZYX angles side by side, or a position and a quaternion."""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.places.angles import to_angles
+from rpl.passes.legalise.places.quaternions import to_quaternions
+
+
+def geometry(program: ir.Program, context: Context) -> ir.Program:
+    """Poses, targets, joints, vectors and rotations as the target writes them; moves, tools and frames are left to the
+    passes of motion, which run before."""
+    if context.capabilities.rotation == "zyx":
+        return to_angles(program, context)
+    return to_quaternions(program, context)

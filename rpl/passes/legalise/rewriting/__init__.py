@@ -1,0 +1,1 @@
+"""How a pass rewrites: statements, expressions, routines brought along, names and temporaries."""

@@ -1,0 +1,288 @@
+"""Rewriting a whole program with symbol tables at hand, and computing beforehand what an expression cannot say.
+
+A pass subclasses `Rewriter` and overrides `expression`, `statement`, `declaration` or `type`; it is given old nodes and
+asks for the types of old expressions. What a rewritten expression needs first goes to `self.before`; it is placed so
+that it runs as often as the expression did (also for the condition of a loop).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.passes.fold import Unchanged
+from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.facts.beginning import settled_at_start
+from rpl.passes.legalise.facts.usage import base_name, usage_of
+from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.typewords import word_type
+from rpl.passes.typing import counter_type, type_of
+
+EARLY = code(
+    "condition-read-once",
+    Severity.LOSS,
+    "this condition needs a value that the target computes in a statement of its own; it is computed once, before",
+)
+
+POLLED = code(
+    "polled-wait",
+    Severity.WARNING,
+    "the target cannot wait for this condition; it is computed every {seconds:g} s until it holds",
+)
+# How often a condition is computed that the target cannot wait for, s. Controllers scan every 8 to 16 ms.
+POLL_S = 0.012
+
+
+class Rewriter:
+    """One pass over one program. `scope` is where the rewriting is just now."""
+
+    def __init__(self, program: ir.Program, context: Context) -> None:
+        self.source, self.context = program, context
+        self.scopes = ProgramScope(program)
+        self.before: list[ir.Statement] = []
+        self.locals: list[ir.Variable] = []
+        self.made_loops = False
+        if program.modules:
+            self.scope = self.scopes.module(program.modules[0])
+
+    # ---- what a pass overrides
+
+    def type(self, type: ir.Type) -> ir.Type:
+        """A type in its new form."""
+        if isinstance(type, ir.ArrayType):
+            return replace(rewrite_parts(type, self.expression), element=self.type(type.element))
+        return type
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        """An expression in its new form."""
+        return rewrite_parts(expression, self.expression)
+
+    def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+        """A statement without bodies in its new form, or several."""
+        return [rewrite_parts(statement, self.expression, self.actions)]
+
+    def declaration(self, declaration: ir.Declaration) -> list[ir.Declaration]:
+        """A declaration in its new form, or several."""
+        match declaration:
+            case ir.Variable(type=type, initial=initial):
+                value = None if initial is None else self.initial(initial, declaration)
+                return [replace(declaration, type=self.type(type), initial=value)]
+            case ir.RecordDeclaration(fields=fields):
+                return [replace(declaration, fields=tuple((name, self.type(type)) for name, type in fields))]
+            case ir.AliasDeclaration(type=type):
+                return [replace(declaration, type=self.type(type))]
+        return [rewrite_parts(declaration, self.expression, self.actions)]
+
+    def initial(self, value: ir.Expression, declaration: ir.Variable) -> ir.Expression | None:
+        """An initial value in its new form."""
+        return self.expression(value)
+
+    # ---- helpers
+
+    def type_of(self, expression: ir.Expression) -> ir.Type | None:
+        """The type of an expression in its old form."""
+        match expression:  # the common cases without a walk through the expression
+            case ir.Aggregate(type_name=word) if word:
+                return word_type(word, self.scope)
+            case ir.Name(id=name):
+                symbol = self.scope.value(name)
+                return self.scope.resolve(symbol.type) if symbol is not None else None
+            case ir.IntLiteral():
+                return ir.IntType()
+            case ir.RealLiteral():
+                return ir.RealType()
+        return type_of(expression, self.scope)
+
+    def temporary(self, type: ir.Type, stem: str = "tmp") -> ir.Name:
+        """A new variable of the routine (of the module, outside of routines)."""
+        name = self.context.fresh(stem)
+        self.locals.append(ir.Variable(name, type, scope="routine"))
+        return ir.Name(name)
+
+    # ---- program, module, routine
+
+    def program(self) -> ir.Program:
+        """The whole program in its new form."""
+        return replace(self.source, modules=tuple(self.module(module) for module in self.source.modules))
+
+    def module(self, module: ir.Module) -> ir.Module:
+        self.scope, self.locals = self.scopes.module(module), []
+        declarations = [new for old in module.declarations for new in self.declaration(old)]
+        declarations.extend(replace(one, scope="module") for one in self.locals)
+        routines = tuple(self.routine(module, routine) for routine in module.routines)
+        return replace(module, declarations=tuple(declarations), routines=routines)
+
+    def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        self.scope, self.locals = self.scopes.routine(module, routine), []
+        declarations = [new for old in routine.declarations for new in self.declaration(old)]
+        done = replace(
+            routine,
+            parameters=tuple(replace(one, type=self.type(one.type)) for one in routine.parameters),
+            returns=None if routine.returns is None else self.type(routine.returns),
+            body=self.body(routine.body),
+            handlers=tuple(
+                replace(one, codes=tuple(map(self.expression, one.codes)), body=self.body(one.body))
+                for one in routine.handlers
+            ),
+            undo=self.body(routine.undo),
+            backward=self.body(routine.backward),
+        )
+        return replace(done, declarations=(*declarations, *self.locals))
+
+    # ---- bodies
+
+    def body(self, body: ir.Body) -> ir.Body:
+        outside, self.before = self.before, []
+        done = [new for statement in body for new in self.placed(statement)]
+        self.before = outside
+        return tuple(done)
+
+    def actions(self, body: ir.Body) -> ir.Body:
+        """Statements that cannot become several: actions of triggers and interrupts, the inside of a spline."""
+        return tuple(rewrite_parts(statement, self.expression, self.actions) for statement in body)
+
+    def taken(self) -> list[ir.Statement]:
+        """What must run first, taken off the list."""
+        found, self.before = self.before, []
+        return found
+
+    def placed(self, statement: ir.Statement) -> list[ir.Statement]:
+        match statement:
+            case ir.While(condition=condition, body=body):
+                return _in_order(self.loop(statement, self.expression(condition), body), statement)
+            case ir.Repeat(until=until, body=body):
+                inner = self.body(body)
+                until = self.expression(until)
+                return [replace(statement, until=until, body=(*inner, *_bare(self.taken())))]
+            case ir.Loop(body=body):
+                return [replace(statement, body=self.body(body))]
+            case ir.For():
+                return self.counting(statement)
+            case ir.If(branches=branches, otherwise=otherwise):
+                return _in_order(self.choice(list(branches), otherwise, statement), statement)
+            case ir.Switch(selector=selector, cases=cases, default=default):
+                chosen = self.expression(selector)
+                values = [tuple(map(self.expression, case.values)) for case in cases]
+                first = self.taken()
+                new = tuple(
+                    replace(case, values=value, body=self.body(case.body))
+                    for case, value in zip(cases, values, strict=True)
+                )
+                other = None if default is None else self.body(default)
+                return _in_order([*first, replace(statement, selector=chosen, cases=new, default=other)], statement)
+            case ir.WaitUntil():
+                return self.waiting(statement, self.statement(statement))
+            case ir.DeclareInterrupt() | ir.OrderInterrupt() | ir.Trigger():
+                done = self.statement(statement)
+                first = self.taken()
+                if first:
+                    self.context.diagnostics.report(EARLY, statement.origin)
+                return _in_order([*first, *done], statement)
+        done = self.statement(statement)
+        return _in_order([*self.taken(), *done], statement)
+
+    def waiting(self, statement: ir.WaitUntil, done: list[ir.Statement]) -> list[ir.Statement]:
+        """A wait; one whose condition needs statements first is a loop that computes it again and again."""
+        first, wait = [*self.taken(), *done[:-1]], done[-1]
+        if not first or not isinstance(wait, ir.WaitUntil):
+            return _in_order([*first, wait], statement)
+        if wait.timeout is not None and wait.timed_out is None:
+            self.context.diagnostics.report(EARLY, statement.origin)
+            return _in_order([*first, wait], statement)
+        shortest = self.context.capabilities.shortest_wait_s or POLL_S
+        period = ir.RealLiteral(round(round(POLL_S / shortest) * shortest, 6))
+        self.context.diagnostics.report(POLLED, statement.origin, seconds=period.value)
+        pause = ir.Wait(ir.Quantity(period, "s"))
+        leave = ir.If(((wait.condition, (ir.ExitLoop(),)),))
+        before: list[ir.Statement] = [ir.WaitForMotion()] if wait.in_position else []
+        late: list[ir.Statement] = []
+        if wait.timeout is not None and wait.timed_out is not None:
+            limit, waited = self.temporary(ir.RealType(), "limit"), self.temporary(ir.RealType(), "waited")
+            before.append(ir.Assign(limit, _seconds(wait.timeout)))
+            before.append(ir.Assign(waited, ir.RealLiteral(0.0)))
+            before.append(ir.Assign(wait.timed_out, ir.BoolLiteral(False)))
+            over = (ir.Assign(wait.timed_out, ir.BoolLiteral(True)), ir.ExitLoop())
+            late.append(ir.If(((ir.Binary(">=", waited, limit), over),)))
+            late.append(ir.Assign(waited, ir.Binary("+", waited, period)))
+        self.made_loops = True
+        return _in_order([*before, ir.Loop((*_bare(first), leave, *late, pause))], statement)
+
+    def loop(self, statement: ir.While, condition: ir.Expression, body: ir.Body) -> list[ir.Statement]:
+        first = self.taken()
+        inner = self.body(body)
+        if not first:
+            return [replace(statement, condition=condition, body=inner)]
+        leave = ir.If(((ir.Unary("not", condition), (ir.ExitLoop(),)),))
+        self.made_loops = True
+        return [ir.Loop((*_bare(first), leave, *inner), origin=statement.origin)]
+
+    def counting(self, statement: ir.For) -> list[ir.Statement]:
+        outer = self.scope
+        start, stop = self.expression(statement.start), self.expression(statement.stop)
+        step = None if statement.step is None else self.expression(statement.step)
+        first = self.taken()
+        if statement.scoped:
+            self.scope = outer.with_value(ir.Variable(statement.counter, self.counter_type(statement)))
+        inner = self.body(statement.body)
+        self.scope = outer
+        return _in_order([*first, replace(statement, start=start, stop=stop, step=step, body=inner)], statement)
+
+    def counter_type(self, statement: ir.For) -> ir.Type:
+        """The type of a counter that exists in its loop only."""
+        return counter_type(statement, self.scope)
+
+    def choice(
+        self, branches: list[tuple[ir.Expression, ir.Body]], otherwise: ir.Body, statement: ir.If
+    ) -> list[ir.Statement]:
+        """A chain of conditions; one that needs statements first begins a chain inside the ELSE of the last."""
+        done: list[tuple[ir.Expression, ir.Body]] = []
+        first: list[ir.Statement] = []
+        for at, (old, body) in enumerate(branches):
+            condition = self.expression(old)
+            needed = self.taken()
+            if needed and done:
+                later = replace(statement, origin=replace(statement.origin, comments=()))
+                rest = self.choice(branches[at:], otherwise, later)
+                return [*first, replace(statement, branches=tuple(done), otherwise=tuple(_bare(rest)))]
+            first.extend(needed)
+            done.append((condition, self.body(body)))
+        return [*first, replace(statement, branches=tuple(done), otherwise=self.body(otherwise))]
+
+
+def _seconds(time: ir.Expression) -> ir.Expression:
+    """A time as a plain number of seconds."""
+    if isinstance(time, ir.Quantity):
+        factor = ir.UNITS[time.unit]
+        return time.value if factor == 1.0 else ir.Binary("*", time.value, ir.RealLiteral(factor))
+    return time
+
+
+def _bare(statements: list[ir.Statement]) -> list[ir.Statement]:
+    return [replace(one, origin=replace(one.origin, comments=())) for one in statements]
+
+
+def _in_order(statements: list[ir.Statement], old: ir.Statement) -> list[ir.Statement]:
+    """An expansion of `old`: all have its place, the first has its comments."""
+    if len(statements) == 1:
+        return statements
+    later = replace(old.origin, comments=())
+    return [replace(one, origin=old.origin if at == 0 else later) for at, one in enumerate(statements)]
+
+
+def unchanged_in(program: ir.Program, places: bool = False) -> Unchanged:
+    """Which variables nothing assigns but their declaration and their data list, and what is settled at the start: of
+    tools and frames, and `places`: of where moves go."""
+    bare = tuple(
+        replace(module, declarations=tuple(one for one in module.declarations if not isinstance(one, ir.Initialise)))
+        for module in program.modules
+    )
+    known = Unchanged(usage_of(replace(program, modules=bare)).assigned)
+    for module in program.modules:
+        for one in module.declarations:
+            if isinstance(one, ir.Initialise):
+                name = base_name(one.assign.target)
+                if name is not None:
+                    known.initialised.setdefault(name, []).append((one.assign.target, one.assign.value, module))
+    known.settled = settled_at_start(program, known, places)
+    return known

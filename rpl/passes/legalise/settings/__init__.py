@@ -1,0 +1,3 @@
+"""Tool, frame, speed, acceleration, load and override, at a move or before it. Behind it each stands where the target
+says it.
+"""

@@ -1,0 +1,536 @@
+"""Modal motion to explicit motion, for targets whose moves name their tool, frame, speed and zone (RAPID).
+
+The modal state becomes global data of the target's own types: setting a modal variable sets a component, and each move
+names the data. Where the value at a move is a known constant, the move names the constant. What a target cannot say in
+the same measure (speeds in percent of the axes, blends in percent) is mapped by one table here and reported once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.diagnostics import Code, Severity, code
+from rpl.ir.walk import walk
+from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.facts.usage import Usage, each_expression, usage_of
+from rpl.passes.legalise.paths.circles import has_arcs
+from rpl.passes.legalise.places.carriedframes import ROOT, UNIT
+from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.legalise.settings.tooldata import HOME, PLACES, tool_of, work_object_of
+from rpl.passes.rewrite import rewrite_parts
+from rpl.source import Origin
+
+JOINT_SPEED = code(
+    "approximated-joint-speed",
+    Severity.WARNING,
+    "joint speed in percent has no counterpart; {percent} percent is written as {factor:g} mm/s a percent",
+)
+JOINT_BLEND = code(
+    "approximated-blend", Severity.WARNING, "this blend has no exact counterpart; it is written as a zone of {size}"
+)
+DROPPED = code("dropped-setting", Severity.WARNING, "the target has no setting for {name}; it is left out")
+
+UNIT_NAME = code(
+    "mechanism-name",
+    Severity.WARNING,
+    "the mechanism that carries the frame keeps its name '{unit}'; the target's configuration must have one called so",
+)
+UNIT_ROOT = code(
+    "mechanism-root",
+    Severity.WARNING,
+    "where a mechanism stands is not said by the target's programs but by its configuration; it is left out",
+)
+# A joint move's speed in percent as a tool speed: 100 % is the largest programmable tool speed of the target.
+MM_S_PER_PERCENT = 50.0
+# The path speed of a move that only its turning speed limits: the largest programmable one.
+_FREE_PATH_MM_S = 5000.0
+# A joint blend in percent (of 90 degrees on KUKA) as a zone radius; zones are capped at half the move like the blend.
+ZONE_MM_PER_PERCENT = 4.0
+_STANDARD_EXTERNAL = (ir.RealLiteral(5000.0), ir.RealLiteral(1000.0))
+# Values with which a dropped setting says what the target does anyway.
+USUAL = {
+    "orientation_mode": "variable",
+    "circle_orientation": "base",
+    "path_limit_rule": "constant",
+    "interpolation": "base",
+}
+DROPPED_SETTINGS = frozenset(
+    {
+        *("path_acceleration", "swivel_acceleration", "twist_acceleration", "joint_acceleration", "path_jerk"),
+        *("external_speed", "external_acceleration", "blend_rotation", "blend_speed", "orientation_mode"),
+        *("circle_orientation", "singular_rule", "path_limit_rule", "advance", "load", "interpolation"),
+        *("end_tolerance", "deceleration_percent"),
+    }
+)
+
+
+_OWN_SETTINGS = DROPPED_SETTINGS | {UNIT, ROOT}
+
+
+def _real(value: float) -> ir.Expression:
+    return ir.RealLiteral(float(value))
+
+
+@dataclass(slots=True)
+class _State:
+    """Names of the generated data, and which of them are needed."""
+
+    names: dict[str, str] = field(default_factory=dict)
+    read: set[str] = field(default_factory=set)
+    reported: set[tuple[Code, str]] = field(default_factory=set)
+
+
+_KINDS: dict[str, tuple[ir.Type, str]] = {
+    "tool": (ir.ToolType(), "persistent"),
+    "frame": (ir.WorkObjectType(), "persistent"),
+    "speed": (ir.SpeedType(), "variable"),
+    "joint_speed": (ir.SpeedType(), "variable"),
+    "zone": (ir.ZoneType(), "variable"),
+    "joint_zone": (ir.ZoneType(), "variable"),
+    "own_zone": (ir.ZoneType(), "variable"),
+    "with_tool": (ir.ToolType(), "persistent"),
+    "with_frame": (ir.WorkObjectType(), "persistent"),
+}
+
+
+def modal_to_explicit(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets without modal motion and sources that have it."""
+    if context.capabilities.modal_motion:
+        return program
+    usage = usage_of(program)
+    worker = _Explicit(program, context, usage)
+    program = worker.without_dead_settings(edit_all(program, worker.routine))
+    declarations = worker.declarations()
+    if declarations:
+        task = next((module.task for module in program.modules), "")
+        name = context.fresh(HOME)
+        home = ir.Module(name, program.modules[0].dialect, declarations, task=task)
+        shared = tuple(one for one in declarations if isinstance(one, ir.Variable) and one.storage == "persistent")
+        modules = tuple(_sharing(module, task, shared) for module in program.modules)
+        program = replace(program, modules=(*modules, home))
+    return program
+
+
+def _sharing(module: ir.Module, home: str, shared: tuple[ir.Variable, ...]) -> ir.Module:
+    """The module of another task with the tool and the frame that it asks for: persistent data is one for all tasks."""
+    if module.task == home:
+        return module
+    named = {node.id for node in walk(module) if isinstance(node, ir.Name)}
+    needed = tuple(one for one in shared if one.name in named)
+    return replace(module, declarations=(*module.declarations, *needed)) if needed else module
+
+
+Environment = dict[str, ir.Expression]
+
+
+class _Explicit:
+    def __init__(self, program: ir.Program, context: Context, usage: Usage) -> None:
+        self.context = context
+        self.arcs = has_arcs(program)
+        self.usage = usage
+        self.state = _State()
+        self.made = _settings_made(program)
+        self.never = {"tool", "base"} - self.made
+        self.defaults = rules_of(context.source).system_defaults
+
+    # ---- generated data
+
+    def name(self, kind: str, written: bool = False) -> ir.Expression:
+        if kind not in self.state.names:
+            self.state.names[kind] = self.context.fresh(f"rpl_{kind}")
+        if not written:
+            self.state.read.add(kind)
+        return ir.Name(self.state.names[kind])
+
+    def without_dead_settings(self, program: ir.Program) -> ir.Program:
+        """Data that no move reads, because every move names constants, is neither set nor declared."""
+        dead = {name for kind, name in self.state.names.items() if kind not in self.state.read}
+        self.state.names = {kind: name for kind, name in self.state.names.items() if name not in dead}
+
+        def body(statements: ir.Body) -> ir.Body:
+            done: list[ir.Statement] = []
+            for statement in statements:
+                match statement:
+                    case ir.Assign(target=ir.Field(base=ir.Name(id=name))) if name in dead:
+                        if statement.origin.comments:
+                            done.append(ir.Nothing(origin=statement.origin))
+                    case _:
+                        done.append(rewrite_parts(statement, lambda expression: expression, body))
+            return tuple(done)
+
+        return edit_all(program, body) if dead else program
+
+    def default(self, name: str, fallback: float) -> float:
+        value = self.defaults.get(name, fallback)
+        return float(value) if not isinstance(value, str) else fallback
+
+    def declarations(self) -> tuple[ir.Declaration, ...]:
+        initial = {
+            "tool": tool_of(),
+            "with_tool": tool_of(),
+            "frame": work_object_of(),
+            "with_frame": work_object_of(),
+            "speed": _speed(_real(self.default("path_speed", 250.0)), _real(self.default("swivel_speed", 200.0))),
+            "joint_speed": _speed(
+                _real(self.default("joint_speed", 100.0) * MM_S_PER_PERCENT), _real(self.default("swivel_speed", 200.0))
+            ),
+            "zone": _zone(_real(self.default("blend_distance", 0.0))),
+            "joint_zone": _zone(_real(self.default("blend_joint", 50.0) * ZONE_MM_PER_PERCENT)),
+            "own_zone": _zone(_real(self.default("blend_distance", 0.0))),
+        }
+        return tuple(
+            ir.Variable(name, _KINDS[kind][0], initial[kind], storage=_KINDS[kind][1], scope="global")
+            for kind, name in self.state.names.items()
+        )
+
+    def report_once(self, what: Code, statement: ir.Statement, key: str, **arguments: object) -> None:
+        if (what, key) not in self.state.reported:
+            self.state.reported.add((what, key))
+            self.context.diagnostics.report(what, statement.origin, **arguments)
+
+    # ---- flow of constants
+
+    def routine(self, body: ir.Body) -> ir.Body:
+        return self.body(body, {})
+
+    def body(self, body: ir.Body, known: Environment) -> ir.Body:
+        done: list[ir.Statement] = []
+        for statement in body:
+            done.extend(self.statement(statement, known))
+        return tuple(done)
+
+    def statement(self, statement: ir.Statement, known: Environment) -> list[ir.Statement]:
+        match statement:
+            case ir.Assign(target=ir.System(name=name)) if name in _MODAL or name in _OWN_SETTINGS:
+                return self.setting(statement, known)
+            case ir.Move():
+                return self.move(statement, known)
+            case ir.Label():
+                known.clear()
+                return [statement]
+            case ir.If(branches=branches, otherwise=otherwise):
+                ends: list[Environment] = []
+                new_branches = []
+                for condition, inner in branches:
+                    inside = dict(known)
+                    new_branches.append((self.expression(condition), self.body(inner, inside)))
+                    ends.append(inside)
+                inside = dict(known)
+                other = self.body(otherwise, inside)
+                _keep_common(known, [*ends, inside])
+                return [replace(statement, branches=tuple(new_branches), otherwise=other)]
+            case ir.Switch():
+                return [self.switch(statement, known)]
+            case ir.For() | ir.While() | ir.Repeat() | ir.Loop():
+                self.forget(known, _set_inside(statement, self.usage))
+                inside = dict(known)
+                loop = rewrite_parts(statement, self.expression, lambda inner: self.body(inner, inside))
+                _keep_common(known, [inside])
+                return [loop]
+        new = rewrite_parts(statement, self.expression, lambda inner: self.body(inner, {}))
+        self.forget(known, _set_inside(statement, self.usage))
+        return [new]
+
+    def switch(self, statement: ir.Switch, known: Environment) -> ir.Statement:
+        ends = []
+        cases = []
+        for case in statement.cases:
+            inside = dict(known)
+            cases.append(replace(case, body=self.body(case.body, inside)))
+            ends.append(inside)
+        inside = dict(known)
+        default = None if statement.default is None else self.body(statement.default, inside)
+        _keep_common(known, [*ends, inside])
+        selector = self.expression(statement.selector)
+        return replace(statement, selector=selector, cases=tuple(cases), default=default)
+
+    def forget(self, known: Environment, names: set[str]) -> None:
+        for name in names:
+            known.pop(name, None)
+
+    # ---- settings
+
+    def setting(self, statement: ir.Assign, known: Environment) -> list[ir.Statement]:
+        target = statement.target
+        assert isinstance(target, ir.System)
+        name, value = target.name, self.expression(statement.value)
+        if name == UNIT:
+            return self.carried(statement, value)
+        if name == ROOT:
+            self.report_once(UNIT_ROOT, statement, name)
+            return [ir.Nothing(origin=statement.origin)]
+        if name in DROPPED_SETTINGS:
+            if name == "circle_orientation" and name in self.context.capabilities.system_variables:
+                return [statement if self.arcs else ir.Nothing(origin=statement.origin)]
+            if says(value, USUAL.get(name, "")):
+                return [ir.Nothing(origin=statement.origin)]
+            if name == "interpolation":  # a tool fixed in the room is another motion: the writer stops there
+                return [statement]
+            self.report_once(DROPPED, statement, name, name=name.replace("_", " "))
+            return [ir.Nothing(origin=statement.origin)]
+        plain = _number(value)
+        if plain is not None and name not in self.usage.interrupting:
+            known[name] = plain
+        else:
+            known.pop(name, None)
+        kind, component = _MODAL[name]
+        place = ir.Field(self.name(kind, written=True), component)
+        made = [ir.Assign(place, _scaled(value, _FACTOR.get(name, 1.0)), origin=statement.origin)]
+        if name == "base" and UNIT in self.made:  # it was perhaps on a mechanism
+            made.append(ir.Assign(replace(place, name="fixed"), ir.BoolLiteral(True), origin=_later(statement)))
+        if component == "path" and kind.endswith("zone"):
+            later = replace(statement.origin, comments=())
+            for other, factor in _ZONE_PROPORTIONS[1:]:
+                scaled = _scaled(value, _FACTOR.get(name, 1.0) * factor)
+                made.append(ir.Assign(ir.Field(self.name(kind, written=True), other), scaled, origin=later))
+        return list(made)
+
+    def carried(self, statement: ir.Assign, value: ir.Expression) -> list[ir.Statement]:
+        """The modal frame goes on a mechanism: its work object names the unit, under the name that the source has."""
+        if not isinstance(value, ir.TextLiteral):
+            return [statement]
+        if says(value, "none"):
+            return [ir.Nothing(origin=statement.origin)]
+        word = value.value
+        self.report_once(UNIT_NAME, statement, word, unit=word)
+        frame = self.name("frame", written=True)
+        return [
+            ir.Assign(ir.Field(frame, "fixed"), ir.BoolLiteral(False), origin=statement.origin),
+            ir.Assign(ir.Field(frame, "unit"), ir.TextLiteral(word), origin=_later(statement)),
+        ]
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        if isinstance(expression, ir.System) and expression.name == "actual_pose":
+            return self.seen(ir.Builtin("current_target", (), origin=expression.origin))
+        if isinstance(expression, ir.Builtin) and expression.function in PLACES:
+            return self.seen(rewrite_parts(expression, self.expression))
+        if isinstance(expression, ir.System) and expression.name in _MODAL:
+            kind, component = _MODAL[expression.name]
+            read = ir.Field(self.name(kind), component, origin=expression.origin)
+            factor = _FACTOR.get(expression.name, 1.0)
+            return read if factor == 1.0 else ir.Binary("/", read, _real(factor), origin=expression.origin)
+        return rewrite_parts(expression, self.expression)
+
+    def modal_data(self, name: str) -> ir.Expression | None:
+        """The generated tool (`tool`) or work object (`base`); None when nothing ever sets one."""
+        return None if name in self.never else self.name(_MODAL[name][0])
+
+    def seen(self, expression: ir.Builtin) -> ir.Builtin:
+        """Where the robot is, with the tool and frame that are set, and not with those of the last move."""
+        capabilities, at = self.context.capabilities, PLACES[expression.function][0]
+        if len(expression.arguments) != at or not capabilities.no_tool:
+            return expression
+        tool = self.modal_data("tool") or ir.Name(capabilities.no_tool)
+        frame = self.modal_data("base") or ir.Name(capabilities.no_frame)
+        return replace(expression, arguments=(*expression.arguments, tool, frame))
+
+    # ---- moves
+
+    def move(self, move: ir.Move, known: Environment) -> list[ir.Statement]:
+        before: list[ir.Statement] = []
+        own: dict[str, ir.Expression] = {}
+        for place, value in move.settings:
+            if isinstance(place, ir.System):
+                own[place.name] = self.expression(value)
+                if place.name not in _MODAL:
+                    self.report_once(DROPPED, move, place.name, name=place.name.replace("_", " "))
+        tool = move.tool or self.modal_data("tool")
+        frame = move.frame or self.modal_data("base")
+        later = replace(move.origin, comments=())
+        if "tool" in own:
+            tool = self.name("with_tool")
+            before.append(ir.Assign(ir.Field(tool, "frame"), own["tool"], origin=later))
+        if "base" in own:
+            frame = self.name("with_frame")
+            before.append(ir.Assign(ir.Field(frame, "user_frame"), own["base"], origin=later))
+        done = rewrite_parts(move, self.expression)
+        done = replace(
+            done,
+            tool=tool,
+            frame=frame,
+            speed=self.own_speed(done, known, own),
+            blend=self.blend(done, known, own),
+            settings=(),
+        )
+        if isinstance(done.blend, ir.BlendZone) and done.blend.distance is not None and done.blend is not move.blend:
+            stops = ir.Binary("<=", done.blend.distance, _real(0.0))  # no corner is a stop, and no corner of 0 mm
+            before.append(ir.Assign(ir.Field(done.blend.zone, "stop"), stops, origin=later))
+        return [*before, done]
+
+    def own_speed(self, move: ir.Move, known: Environment, own: dict[str, ir.Expression]) -> ir.Speed:
+        """A move's speed as a value: one that says only numbers (percent, mm/s, deg/s) is made like the modal ones."""
+        speed = move.speed
+        if speed is not None and speed.profile is not None:
+            return speed
+        if speed is not None and speed.duration is not None:
+            plain = replace(move, speed=replace(speed, duration=None))
+            return replace(self.own_speed(plain, known, own), duration=speed.duration)
+        if speed is not None:
+            given = {"joint_speed": speed.joint, "path_speed": speed.path}
+            own = {**own, **{name: value for name, value in given.items() if value is not None}}
+            turning = _number(speed.rotation) if speed.rotation is not None and speed.path is None else None
+            if turning is not None and move.kind != "joint":
+                return ir.Speed(profile=_speed(_real(_FREE_PATH_MM_S), turning))
+            if speed.rotation is not None:
+                known = {**known, "swivel_speed": speed.rotation}
+        return self.speed(move, known, own)
+
+    def speed(self, move: ir.Move, known: Environment, own: dict[str, ir.Expression]) -> ir.Speed:
+        values = {**known, **own}
+        if move.kind == "joint":
+            percent = values.get("joint_speed")
+            shown = percent.value if isinstance(percent, ir.RealLiteral | ir.IntLiteral) else "the modal"
+            if shown not in (100, 100.0):
+                self.report_once(JOINT_SPEED, move, str(shown), percent=shown, factor=MM_S_PER_PERCENT)
+            if percent is not None:
+                path = _scaled(percent, MM_S_PER_PERCENT)
+                rotation = values.get("swivel_speed") or _real(self.default("swivel_speed", 200.0))
+                return ir.Speed(profile=_speed(path, rotation if _number(rotation) else _real(200.0)))
+            return ir.Speed(profile=self.name("joint_speed"))
+        path_speed = values.get("path_speed")
+        rotation_speed = known.get("swivel_speed")
+        if path_speed is not None and rotation_speed is not None and _number(path_speed) is not None:
+            return ir.Speed(profile=_speed(path_speed, rotation_speed))
+        return ir.Speed(profile=self.name("speed"), path=own.get("path_speed"))
+
+    def blend(self, move: ir.Move, known: Environment, own: dict[str, ir.Expression]) -> ir.Blend:
+        values = {**known, **own}
+        match move.blend:
+            case None | ir.BlendStop():
+                return ir.BlendStop()
+            case ir.BlendDistance(distance=distance) if move.kind != "joint" or distance is not None:
+                modal = distance is None or (isinstance(distance, ir.Field) and distance.name == "path")
+                if modal:
+                    distance = values.get("blend_distance")
+                if not modal and distance is not None and _number(distance) is None:
+                    return ir.BlendZone(self.name("own_zone"), distance=distance)
+                if distance is None or _number(distance) is None:
+                    return ir.BlendZone(self.name("zone"))
+                return ir.BlendZone(_zone(distance))
+            case ir.BlendZone():
+                return move.blend
+        percent = values.get("blend_joint") if move.kind == "joint" else values.get("blend_distance")
+        factor = ZONE_MM_PER_PERCENT if move.kind == "joint" else 1.0
+        if percent is None or _number(percent) is None:
+            name = "joint_zone" if move.kind == "joint" else "zone"
+            self.report_once(JOINT_BLEND, move, name, size="the modal size")
+            return ir.BlendZone(self.name(name))
+        zone = _scaled(percent, factor)
+        size = zone.value if isinstance(zone, ir.RealLiteral | ir.IntLiteral) else "a computed size"
+        self.report_once(JOINT_BLEND, move, str(size), size=f"{size} mm")
+        return ir.BlendZone(_zone(zone))
+
+
+def _later(statement: ir.Assign) -> Origin:
+    """The place of a second statement made of one: its comments stay at the first."""
+    return replace(statement.origin, comments=())
+
+
+def _settings_made(program: ir.Program) -> set[str]:
+    """System variables that something in the program sets."""
+    return {
+        node.target.name
+        for module in program.modules
+        for node in walk(module)
+        if isinstance(node, ir.Assign) and isinstance(node.target, ir.System)
+    }
+
+
+def _set_inside(statement: ir.Statement, usage: Usage) -> set[str]:
+    """System variables the statement may set, in its bodies and through calls."""
+    found: set[str] = set()
+
+    def look(body: ir.Body) -> ir.Body:
+        for one in body:
+            match one:
+                case ir.Assign(target=ir.System(name=name)):
+                    found.add(name)
+                case ir.CallRoutine(name=name):
+                    found.update(usage.sets.get(name.lower(), _MODAL.keys() if one.dynamic else set()))
+            each_expression(one, call)
+            rewrite_parts(one, lambda expression: expression, look)
+        return body
+
+    def call(expression: ir.Expression) -> None:
+        if isinstance(expression, ir.Call):
+            found.update(usage.sets.get(expression.name.lower(), set()))
+
+    look((statement,))
+    return found
+
+
+def says(value: ir.Expression, word: str) -> bool:
+    """Is it this mode word?"""
+    return isinstance(value, ir.EnumLiteral | ir.TextLiteral | ir.Name) and word == _word(value)
+
+
+def _word(value: ir.EnumLiteral | ir.TextLiteral | ir.Name) -> str:
+    match value:
+        case ir.EnumLiteral(member=word) | ir.TextLiteral(value=word) | ir.Name(id=word):
+            return word.lower()
+
+
+def _keep_common(known: Environment, ends: list[Environment]) -> None:
+    for name in list(known):
+        if any(end.get(name) != known[name] for end in ends):
+            del known[name]
+    for name, value in ends[0].items():
+        if all(end.get(name) == value for end in ends):
+            known[name] = value
+
+
+def _number(value: ir.Expression) -> ir.Expression | None:
+    """The expression when it is a plain number in base units, else None."""
+    match value:
+        case ir.RealLiteral() | ir.IntLiteral():
+            return value
+        case ir.Quantity(value=inner, unit=unit):
+            return _scaled(inner, ir.UNITS[unit]) if _number(inner) is not None else None
+    return None
+
+
+def _scaled(value: ir.Expression, factor: float) -> ir.Expression:
+    """value times factor; literals are computed, in decimal-clean form."""
+    match value:
+        case ir.Quantity(value=inner, unit=unit):
+            return _scaled(inner, factor * ir.UNITS[unit])
+        case ir.RealLiteral(value=number) | ir.IntLiteral(value=number):
+            return ir.RealLiteral(float(f"{number * factor:.12g}"), origin=value.origin)
+    return value if factor == 1.0 else ir.Binary("*", value, _real(factor), origin=value.origin)
+
+
+# system variable -> (kind of generated data, component)
+_MODAL: dict[str, tuple[str, str]] = {
+    "tool": ("tool", "frame"),
+    "base": ("frame", "user_frame"),
+    "path_speed": ("speed", "path"),
+    "swivel_speed": ("speed", "rotation"),
+    "twist_speed": ("speed", "rotation"),
+    "joint_speed": ("joint_speed", "path"),
+    "blend_distance": ("zone", "path"),
+    "blend_joint": ("joint_zone", "path"),
+}
+_FACTOR = {"joint_speed": MM_S_PER_PERCENT, "blend_joint": ZONE_MM_PER_PERCENT}
+# The proportions of the predefined zones: z10 is 10, 15, 15 mm, 1.5 deg, 15 mm, 1.5 deg.
+_ZONE_PROPORTIONS: tuple[tuple[str, float], ...] = (
+    ("path", 1.0),
+    ("rotation_path", 1.5),
+    ("external_path", 1.5),
+    ("rotation", 0.15),
+    ("linear_external", 1.5),
+    ("rotary_external", 0.15),
+)
+
+
+def _speed(path: ir.Expression, rotation: ir.Expression) -> ir.Expression:
+    linear, rotary = _STANDARD_EXTERNAL
+    return ir.Aggregate(
+        (("path", path), ("rotation", rotation), ("linear_external", linear), ("rotary_external", rotary)),
+        type_name="speed",
+    )
+
+
+def _zone(size: ir.Expression) -> ir.Expression:
+    entries = [("stop", ir.BoolLiteral(False)), *((n, _scaled(size, factor)) for n, factor in _ZONE_PROPORTIONS)]
+    return ir.Aggregate(tuple(entries), type_name="zone")

@@ -1,0 +1,103 @@
+"""What one move is to be driven with, for targets where speeds are modal: set before the move, set back behind it.
+
+The value to go back to is the constant that the settings are known to have there, or else it is kept in a variable.
+Only what the kind of move is driven by is set. A least duration has no modal counterpart and is named.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.control.jumps import inside
+from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.settings.modal import DROPPED, USUAL
+
+_JOINT = frozenset(("joint_speed", "joint_acceleration"))
+_PATH = frozenset(
+    ("path_speed", "swivel_speed", "twist_speed", "path_acceleration", "swivel_acceleration", "twist_acceleration")
+)
+_TURNING = frozenset(("orientation_mode", "circle_orientation"))
+
+
+def settings_of_one_move(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets whose speeds are all modal; spline moves have settings of their own there."""
+    if not context.capabilities.modal_motion or context.capabilities.move_settings:
+        return program
+    flow = Flow.of(program, dict(rules_of(context.source).system_defaults))
+    reported: set[str] = set()
+
+    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        worker = _Around(editor, flow, reported)
+        return edit_bodies(routine, worker.body)
+
+    return edit_routines(program, context, work)
+
+
+class _Around:
+    def __init__(self, editor: Editor, flow: Flow, reported: set[str]) -> None:
+        self.editor, self.flow, self.reported = editor, flow, reported
+
+    def body(self, body: ir.Body) -> ir.Body:
+        return map_body(body, self.statement)
+
+    def statement(self, statement: ir.Statement) -> ir.Body:
+        if isinstance(statement, ir.Move) and statement.motion_class == "classic":
+            statement = self.turned(statement)
+            if statement.settings:
+                return self.move(statement)
+        return (inside(statement, self.body),)
+
+    def turned(self, move: ir.Move) -> ir.Move:
+        """How the tool turns on the way, as settings."""
+        own = {"orientation_mode": move.orientation, "circle_orientation": move.circle_orientation}
+        can = self.editor.capabilities.system_variables
+        added = tuple(
+            (ir.System(name), ir.EnumLiteral(word))
+            for name, word in own.items()
+            if word is not None and name in can and word != USUAL[name]
+        )
+        if not any(own.values()) or not can.issuperset(own):
+            return move
+        return replace(move, settings=(*move.settings, *added), orientation=None, circle_orientation=None)
+
+    def move(self, move: ir.Move) -> ir.Body:
+        used = _JOINT | _TURNING if move.kind == "joint" else _PATH | _TURNING
+        here, later = move.origin, replace(move.origin, comments=())
+        before: list[ir.Statement] = []
+        behind: list[ir.Statement] = []
+        for place, value in move.settings:
+            name = place.name if isinstance(place, ir.System) else ""
+            if name in _JOINT | _PATH | _TURNING and name in self.editor.capabilities.system_variables:
+                if name in used:
+                    self.around(ir.System(name), value, move, before, behind)
+            elif name not in self.reported:
+                self.reported.add(name)
+                self.editor.context.diagnostics.report(DROPPED, move.origin, name=name.replace("_", " ") or "a setting")
+        done = replace(move, settings=(), origin=later if before else here)
+        first = [replace(one, origin=later if at else here) for at, one in enumerate(before)]
+        return (*first, done, *(replace(one, origin=later) for one in behind))
+
+    def around(
+        self,
+        place: ir.System,
+        value: ir.Expression,
+        move: ir.Move,
+        before: list[ir.Statement],
+        behind: list[ir.Statement],
+    ) -> None:
+        old = self.flow.at(move).get(place.name)
+        if place.name in _TURNING:
+            old = ir.EnumLiteral(USUAL[place.name])
+        if old is None:
+            kept = self.editor.temporary(f"old_{place.name}", ir.RealType())
+            one = replace(place, indices=(ir.IntLiteral(1),)) if place.name.startswith("joint") else place
+            before.append(ir.Assign(kept, one))
+            old = kept
+        before.append(ir.Assign(place, value))
+        behind.append(ir.Assign(place, old))
+
+
+__all__ = ["settings_of_one_move"]

@@ -1,0 +1,137 @@
+"""The tool and the frame of one move beside those that are set, for targets where both are modal.
+
+There the tool of one move would stay for the next ones, and for what asks where the robot is. So in a program that sets
+the tool (or frame) and also has moves that name their own, every move and every question names it: as the constant that
+is known to be set there (`modalflow`), or else by a variable that is set along with it. Where the source's questions
+never mean the tool of the last move, they are named also without a tool that is set.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.ir.walk import walk
+from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.control.jumps import inside
+from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
+from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.settings.tooldata import PLACES
+from rpl.passes.rewrite import rewrite_parts
+
+_NOWHERE = ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ("x", "y", "z", "a", "b", "c")), "pose")
+
+
+def own_places(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets with modal motion; programs that set a tool or frame and have moves with one of their own."""
+    if not context.capabilities.modal_motion:
+        return program
+    nodes = [*walk(*program.modules)]
+    named = {
+        name
+        for node in nodes
+        if isinstance(node, ir.Move)
+        for name, own in (("tool", node.tool), ("base", node.frame))
+        if own is not None
+    }
+    made = {node.target.name for node in nodes if isinstance(node, ir.Assign) and isinstance(node.target, ir.System)}
+    asked = any(_asks(node) for node in nodes)
+    # Without a tool that is set, a question may mean the tool and frame of the last move, as these targets do.
+    questions = asked and ("tool" in made or not rules_of(context.source).last_tool)
+    if not named & made and not (named and questions):
+        return program
+    worker = _Places(program, context, frozenset(named & made), frozenset(made), questions)
+    return worker.done(program)
+
+
+def _asks(node: object) -> bool:
+    """Does it ask for a place without saying with which tool and in which frame?"""
+    match node:
+        case ir.System(name="actual_pose"):
+            return True
+        case ir.Builtin(function=function, arguments=given) if function in PLACES:
+            return len(given) <= PLACES[function][1]
+    return False
+
+
+class _Places:
+    """`moving`: which of tool and base moves are given; `set`: which the program sets; `questions`: name them there."""
+
+    def __init__(
+        self, program: ir.Program, context: Context, moving: frozenset[str], set: frozenset[str], questions: bool
+    ) -> None:
+        self.context, self.moving, self.set, self.questions = context, moving, set, questions
+        self.flow = Flow.of(program, dict(rules_of(context.source).system_defaults))
+        self.names: dict[str, str] = {}
+
+    def done(self, program: ir.Program) -> ir.Program:
+        program = self.rewritten(program, self.statement)
+        if not self.names:
+            return program
+        added = [ir.Variable(name, ir.PoseType(), initial=_NOWHERE, scope="global") for name in self.names.values()]
+        return with_support(self.rewritten(program, self.kept), self.context, added, (), program.modules[0].task)
+
+    def rewritten(self, program: ir.Program, change: object) -> ir.Program:
+        assert callable(change)
+        modules = tuple(
+            replace(
+                module,
+                routines=tuple(edit_bodies(one, lambda body: map_body(body, change)) for one in module.routines),
+            )
+            for module in program.modules
+        )
+        return replace(program, modules=modules)
+
+    def statement(self, statement: ir.Statement) -> ir.Body:
+        state = self.flow.at(statement)
+        if self.questions:
+            done = rewrite_parts(
+                statement,
+                lambda one: self.expression(one, state),
+                lambda body: map_body(body, self.statement),
+            )
+        else:
+            done = inside(statement, lambda body: map_body(body, self.statement))
+        if not isinstance(done, ir.Move):
+            return (done,)
+        tool = self.value("tool", state) if done.tool is None and "tool" in self.moving else done.tool
+        frame = self.value("base", state) if done.frame is None and "base" in self.moving else done.frame
+        return (done if tool is done.tool and frame is done.frame else replace(done, tool=tool, frame=frame),)
+
+    def kept(self, statement: ir.Statement) -> ir.Body:
+        """A setting, with the variable that stands for it."""
+        done = inside(statement, lambda body: map_body(body, self.kept))
+        match done:
+            case ir.Assign(target=ir.System(name=name), value=value) if name in self.names:
+                copy = ir.Assign(ir.Name(self.names[name]), value, origin=done.origin)
+                later = replace(done.origin, comments=())
+                return (copy, replace(done, value=ir.Name(self.names[name]), origin=later))
+        return (done,)
+
+    def value(self, name: str, state: dict[str, ir.Expression | None]) -> ir.Expression:
+        """The tool or frame that is set there."""
+        if name not in self.set:
+            return ir.System("null_frame")
+        known = state.get(name)
+        if known is not None:
+            return known
+        if name not in self.names:
+            self.names[name] = self.context.fresh(f"{name}_set")
+        return ir.Name(self.names[name])
+
+    def expression(self, expression: ir.Expression, state: dict[str, ir.Expression | None]) -> ir.Expression:
+        done = rewrite_parts(expression, lambda one: self.expression(one, state))
+        if not _asks(done):
+            return done
+        if isinstance(done, ir.System):
+            here = ir.Builtin("current_target", (self.value("tool", state), self.value("base", state)))
+            return ir.Builtin("pose_of", (here,), origin=done.origin)
+        assert isinstance(done, ir.Builtin)
+        given = done.arguments
+        at, _ = PLACES[done.function]
+        missing = ("tool", "base")[max(0, len(given) - at) :]
+        return replace(done, arguments=(*given, *(self.value(name, state) for name in missing)))
+
+
+__all__ = ["own_places"]

@@ -1,0 +1,158 @@
+"""Taught points as points of the routines that use them, for controllers that keep their points in the program.
+
+A taught point is a target or joint position with a constant value that nothing assigns, or one that is written out at a
+move. Each routine numbers its own points: as an earlier translation did, as their names say (P7), else in order of use.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.passes.fold import Unchanged, constant
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.effects import is_constant
+from rpl.passes.legalise.storage.banks import own_number
+from rpl.passes.scope import Scope
+from rpl.passes.typewords import type_word
+
+COPIED = code(
+    "taught-point-copied",
+    Severity.WARNING,
+    "{name} is one point in the source; here each of these programs has its own copy: {routines}",
+    "teach the copies anew together, or keep the point where all programs read it",
+)
+_POSE = {"x", "y", "z", "a", "b", "c"}
+_POSITIONS = (ir.TargetType, ir.JointsType)
+
+
+def is_point(value: ir.Expression | None) -> bool:
+    """Is it a position (or an array of such) written out in constants, with all its components?"""
+    return is_written(value) and is_whole(value)
+
+
+def is_written(value: ir.Expression | None) -> bool:
+    return isinstance(value, ir.Aggregate) and all(is_written(one) or is_constant(one) for _, one in value.entries)
+
+
+def is_whole(value: ir.Expression | None) -> bool:
+    """Does a written position leave no component out (but flags and external axes)?"""
+    if not isinstance(value, ir.Aggregate):
+        return False
+    names = {name for name, _ in value.entries}
+    if None in names:
+        return all(is_whole(one) or not isinstance(one, ir.Aggregate) for _, one in value.entries)
+    return "trans" in names or "robax" in names or names >= _POSE or "j1" in names
+
+
+@dataclass(slots=True)
+class Points:
+    """The points of one routine after the other."""
+
+    context: Context
+    unchanged: Unchanged
+    made: list[ir.Variable] = field(default_factory=list)
+    found: dict[object, ir.Name] = field(default_factory=dict)
+    used: set[int] = field(default_factory=set)
+    routine: str = ""
+    homes: dict[int, tuple[ir.Variable, list[str]]] = field(default_factory=dict)  # who has a copy, by declaration
+
+    def begin(self, routine: ir.Routine) -> None:
+        self.made, self.found, self.used, self.routine = [], {}, set(), routine.name.lower()
+
+    def is_taught(self, declaration: ir.Variable, scope: Scope) -> bool:
+        """Does the variable (or each element of an array) hold one position written out in constants all the time?"""
+        if declaration.name.lower() in self.unchanged.assigned or declaration.initial is None:
+            return False
+        if declaration.name.lower() in self.unchanged.initialised:
+            return False
+        return is_point(declaration.initial)
+
+    def named(self, expression: ir.Name, declaration: ir.Variable, scope: Scope) -> ir.Name | None:
+        """The point for a variable."""
+        type = scope.resolve(declaration.type)
+        if not isinstance(type, _POSITIONS) or not self.is_taught(declaration, scope):
+            return None
+        value = declaration.initial
+        self.at_home(declaration)
+        return None if value is None else self.point(id(declaration), type, value, declaration.name, expression)
+
+    def element(self, expression: ir.Index, declaration: ir.Variable, scope: Scope) -> ir.Name | None:
+        """The point for an element of a constant array."""
+        type = scope.resolve(declaration.type)
+        element = scope.resolve(type.element) if isinstance(type, ir.ArrayType) else None
+        if not isinstance(type, ir.ArrayType) or not isinstance(element, _POSITIONS):
+            return None
+        if not self.is_taught(declaration, scope):
+            return None
+        value: ir.Expression | None = declaration.initial
+        numbers = []
+        for index in expression.indices:
+            at = constant(index, scope)
+            if not isinstance(at, int) or not isinstance(value, ir.Aggregate):
+                return None
+            if not 0 <= at - type.base < len(value.entries):
+                return None
+            value = value.entries[at - type.base][1]
+            numbers.append(at)
+        self.at_home(declaration)
+        label = f"{declaration.name}[{','.join(map(str, numbers))}]"
+        return None if value is None else self.point((id(declaration), *numbers), element, value, label, expression)
+
+    def at_home(self, declaration: ir.Variable) -> None:
+        """Note that the routine at hand has a copy of the point."""
+        names = self.homes.setdefault(id(declaration), (declaration, []))[1]
+        if self.routine not in names:
+            names.append(self.routine)
+
+    def report_copies(self) -> None:
+        """Report the points that several routines have a copy of: teaching one anew leaves the others behind."""
+        for declaration, routines in self.homes.values():
+            if len(routines) > 1:
+                shown = ", ".join(sorted(routines))
+                self.context.diagnostics.report(COPIED, declaration.origin, name=declaration.name, routines=shown)
+
+    def written(self, value: ir.Aggregate, type: ir.Type | None) -> ir.Name | None:
+        """The point for a position that is written out where it is used."""
+        if not isinstance(type, _POSITIONS) or not is_point(value):
+            return None
+        return self.point(value, type, value, "", value)
+
+    def point(self, key: object, type: ir.Type, value: ir.Expression, label: str, used: ir.Expression) -> ir.Name:
+        bank = self.context.capabilities.points
+        assert bank is not None  # asked only for targets that have points
+        if key not in self.found:
+            number = self.number(label)
+            name = f"{bank.name}{number}"
+            self.used.add(number)
+            if label:
+                self.context.register_names[self.bank(), number] = label
+                self.context.register_types[self.bank(), number] = type_word(type) or ""
+            variable = ir.Variable(name, type, value, storage="constant", scope="routine", label=label)
+            self.made.append(variable)
+            self.found[key] = ir.Name(name)
+        return replace(self.found[key], origin=used.origin)
+
+    def bank(self) -> str:
+        """The name of this routine's points in the map of numbers."""
+        bank = self.context.capabilities.points
+        return f"{self.routine}.{bank.name if bank is not None else ''}"
+
+    def number(self, label: str) -> int:
+        bank = self.context.capabilities.points
+        assert bank is not None  # asked only for targets that have points
+        earlier = {name.lower(): at for (kept, at), name in self.context.registers.items() if kept == self.bank()}
+        given = earlier.get(label.lower()) if label else None
+        for wanted in (given, own_number(label, bank)):
+            if wanted is not None and wanted not in self.used:
+                return wanted
+        reserved = self.used | set(earlier.values()) | self.own_numbers()
+        return next(number for number in range(bank.first, bank.first + len(reserved) + 1) if number not in reserved)
+
+    def own_numbers(self) -> set[int]:
+        """Numbers that names of the program say for themselves."""
+        bank = self.context.capabilities.points
+        names = () if bank is None else self.context.taken
+        found = {own_number(name, bank) for name in names} if bank is not None else set()
+        return {number for number in found if number is not None}

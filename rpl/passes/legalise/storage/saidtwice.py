@@ -1,0 +1,46 @@
+"""What one statement of the source became twice in a row is written once: a language sets the speed of six axes one by
+one where another has one number for all. What the source itself says twice stays.
+"""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.ir.walk import walk
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.rewrite import rewrite_parts
+
+__all__ = ["said_once"]
+
+_CHANGING = (ir.Call, ir.Builtin, ir.VendorValue, ir.Signal, ir.System)
+
+
+def said_once(program: ir.Program, context: Context) -> ir.Program:
+    """The program without assignments that the one in front of them, of the same statement of the source, has made."""
+    return edit_all(program, _body)
+
+
+def _body(body: ir.Body) -> ir.Body:
+    done: list[ir.Statement] = []
+    for statement in body:
+        inner = rewrite_parts(statement, lambda expression: expression, _body)
+        if not (done and _again(done[-1], inner)):
+            done.append(inner)
+    return body if len(done) == len(body) and all(map(_same, done, body)) else tuple(done)
+
+
+def _same(one: ir.Statement, other: ir.Statement) -> bool:
+    return one is other
+
+
+def _again(first: ir.Statement, second: ir.Statement) -> bool:
+    """Does the second do what the first has just done? Nothing then lies between that could have changed the place."""
+    if not isinstance(first, ir.Assign) or first != second or second.origin.comments:
+        return False
+    if first.origin.source is not second.origin.source or first.origin.start != second.origin.start:
+        return False
+    place = [node for node in walk(first.target) if isinstance(node, ir.Name)]
+    parts = list(walk(first.value, *(first.target.indices if isinstance(first.target, ir.Index) else ())))
+    return not any(isinstance(node, _CHANGING) or node in place for node in parts) and not any(
+        isinstance(node, ir.Signal) for node in walk(first.target)
+    )

@@ -1,0 +1,1 @@
+"""Texts, messages and dialogues within the target's lengths and functions."""

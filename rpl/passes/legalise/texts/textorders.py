@@ -1,0 +1,59 @@
+"""Texts that are compared by their order (`<`), for targets whose operators only tell whether texts are the same: a
+function of the program compares them sign by sign, as the source's operators do.
+"""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.ir.walk import walk
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.rewriting.helpers import Helpers
+from rpl.passes.legalise.rewriting.walk import Rewriter
+
+_ORDERS = frozenset(("<", "<=", ">", ">="))
+_HELPER = "rpl_text_order"
+# Below zero: the first one stands in front. A text stands in front of what it is the beginning of.
+_TEXT = """
+FUNCTION rpl_text_order(one: STRING, other: STRING): INT
+    VAR i: INT
+    VAR size: INT
+    VAR first: INT
+    VAR second: INT
+    size = text_length(one)
+    IF text_length(other) < size THEN size = text_length(other)
+    FOR i = 1 TO size
+        first = character_code(text_part(one, i, 1))
+        second = character_code(text_part(other, i, 1))
+        IF first <> second THEN RETURN first - second
+    END FOR
+    RETURN text_length(one) - text_length(other)
+END FUNCTION
+"""
+
+
+def text_orders(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets whose operators do not order texts."""
+    can = context.capabilities
+    if can.text_ordering or can.carries_rules or not can.texts:
+        return program
+    if not any(isinstance(node, ir.Binary) and node.op in _ORDERS for node in walk(*program.modules)):
+        return program
+    worker = _Orders(program, context)
+    return worker.helpers.added_to(worker.program())
+
+
+class _Orders(Rewriter):
+    def __init__(self, program: ir.Program, context: Context) -> None:
+        super().__init__(program, context)
+        self.helpers = Helpers(context, {_HELPER: _TEXT})
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        done = super().expression(expression)
+        if isinstance(done, ir.Binary) and done.op in _ORDERS:
+            sides = (done.left, done.right)
+            if all(isinstance(self.type_of(side), ir.StringType) for side in sides):
+                return ir.Binary(done.op, self.helpers.call(_HELPER, *sides), ir.IntLiteral(0), origin=done.origin)
+        return done
+
+
+__all__ = ["text_orders"]
