@@ -16,14 +16,15 @@ import sys
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.errors import RplError
 from rpl.passes.legalise import pipeline
-from rpl.passes.legalise.context import Context, Pass
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import Pass
 from rpl.project import read_program
 from rpl.translation import translate_program
 
@@ -41,20 +42,22 @@ class Use:
 
 def name_of(one: Pass) -> str:
     """`module.function` of a pass."""
-    return f"{one.__module__.rpartition('.')[2]}.{getattr(one, '__name__', type(one).__name__)}"
+    return f"{one.run.__module__.rpartition('.')[2]}.{one.name}"
 
 
 def watched(one: Pass, acted: set[str]) -> Pass:
     """The pass, which says by its name when it has acted."""
 
+    named = name_of(one)
+
     def run(program: ir.Program, context: Context) -> ir.Program:
         told = len(context.diagnostics)
-        after = one(program, context)
+        after = one.run(program, context)
         if len(context.diagnostics) != told or (after is not program and after != program):
-            acted.add(name_of(one))
+            acted.add(named)
         return after
 
-    return run
+    return replace(one, run=run)
 
 
 def use_of(job: tuple[tuple[Path, ...], tuple[str, ...], str | None]) -> Use:

@@ -4,7 +4,8 @@ Each pass is a pure function of program and context and preserves what a run of 
 rewrite stays as it is, and the writer reports it and guards it with the target's own stop.
 """
 
-from rpl.passes.legalise.context import Context, Pass
+from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.pipeline import legalise
+from rpl.passes.legalise.stages import Pass
 
 __all__ = ["Context", "Pass", "legalise"]

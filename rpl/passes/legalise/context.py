@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -105,9 +105,6 @@ class Context:
         return name
 
 
-Pass = Callable[[ir.Program, Context], ir.Program]
-
-
 def names_in(program: ir.Program) -> set[str]:
     """All declared names of the program and of its dialects' preludes, folded to lower case."""
     taken: set[str] = set()
@@ -134,4 +131,4 @@ def _add(declaration: ir.Declaration, taken: set[str]) -> None:
             taken.add(declaration.name.lower())
 
 
-__all__ = ["Context", "Pass", "ProgramScope", "names_in", "rules_of"]
+__all__ = ["Context", "ProgramScope", "names_in", "rules_of"]

@@ -23,7 +23,7 @@ from rpl.passes.legalise.advance.pathevents import path_events
 from rpl.passes.legalise.advance.pathpoints import path_points
 from rpl.passes.legalise.advance.standing import stand_first
 from rpl.passes.legalise.advance.triggers import triggers
-from rpl.passes.legalise.context import Context, Pass, names_in
+from rpl.passes.legalise.context import Context, names_in
 from rpl.passes.legalise.control.elseif import nest_branches
 from rpl.passes.legalise.control.labels import structure_to_labels
 from rpl.passes.legalise.control.logic import decide_logic
@@ -182,6 +182,7 @@ from rpl.passes.legalise.source.possiblecases import possible_cases
 from rpl.passes.legalise.source.prelude import link_prelude
 from rpl.passes.legalise.source.sameunits import same_units
 from rpl.passes.legalise.source.sourcelayout import source_layout
+from rpl.passes.legalise.stages import Pass, run_passes
 from rpl.passes.legalise.storage.declaredremarks import declared_remarks
 from rpl.passes.legalise.storage.grownarrays import grown_arrays
 from rpl.passes.legalise.storage.keptvalues import kept_values_known
@@ -478,8 +479,7 @@ def legalise(program: ir.Program, context: Context) -> ir.Program:
     other_arm = context.robot is not None and context.to_robot is not None and context.robot is not context.to_robot
     if not context.foreign or context.capabilities.carries_rules:
         return configurations(places_on_other_arm(program, context), context) if other_arm else program
-    for one in PASSES:
-        program = one(program, context)
+    program = run_passes(PASSES, program, context)
     return normalise(_governed(program, context), context.diagnostics)
 
 

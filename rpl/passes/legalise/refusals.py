@@ -20,6 +20,7 @@ from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.facts.usage import each_expression
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 from rpl.source import Comment
@@ -164,6 +165,7 @@ REFUSALS = (
 )
 
 
+@legalising()
 def refuse(program: ir.Program, context: Context) -> ir.Program:
     """Names what the target lacks; takes out critical sections of programs with one task."""
     asked_of: dict[type, list[Refusal]] = {}

@@ -14,7 +14,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 
 Run = Callable[[ir.Program, Context], ir.Program]
-Unless = Callable[[Context], bool]
+Unless = Callable[[Context], object]  # its truth counts
 
 
 @dataclass(frozen=True, slots=True)

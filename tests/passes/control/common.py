@@ -10,8 +10,9 @@ from rpl.diagnostics import Diagnostics
 from rpl.ir.analog import AnalogPorts, AnalogRange
 from rpl.passes.analog import AnalogRanges
 from rpl.passes.capabilities import Capabilities, NameRules
-from rpl.passes.legalise.context import Context, Pass, names_in
+from rpl.passes.legalise.context import Context, names_in
 from rpl.passes.legalise.facts.effects import blocks, children, everything
+from rpl.passes.legalise.stages import Pass
 from rpl.passes.typing import normalise
 from rpl.project import read_sources
 from rpl.source import source_from_text

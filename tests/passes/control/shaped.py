@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.passes.capabilities import Capabilities, NameRules
-from rpl.passes.legalise.context import Context, Pass, names_in
+from rpl.passes.legalise.context import Context, names_in
+from rpl.passes.legalise.stages import Pass
 from rpl.passes.typing import normalise
 from rpl.simulation import run_program
 

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from rpl import ir
-from rpl.passes.legalise.context import Context, Pass
+from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.elseif import nest_branches
 from rpl.passes.legalise.control.logic import decide_logic
 from rpl.passes.legalise.control.loops import fit_loops
@@ -17,6 +17,7 @@ from rpl.passes.legalise.io.polling import poll_waits
 from rpl.passes.legalise.routines.aliasing import without_shared_references
 from rpl.passes.legalise.routines.functions import functions_to_procedures
 from rpl.passes.legalise.routines.parameters import ARGUMENTS, fit_arguments
+from rpl.passes.legalise.stages import Pass
 from rpl.passes.legalise.storage.locals import variables_of_routines
 from rpl.passes.rewrite import rewrite_parts
 

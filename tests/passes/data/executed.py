@@ -10,7 +10,8 @@ from rpl import ir, registry
 from rpl.cell import parse_cell
 from rpl.diagnostics import Diagnostics
 from rpl.passes.capabilities import Bank, Capabilities
-from rpl.passes.legalise.context import Context, Pass, names_in
+from rpl.passes.legalise.context import Context, names_in
+from rpl.passes.legalise.stages import Pass
 from rpl.passes.typing import normalise
 from rpl.project import read_sources
 from rpl.runtime.trace import RunResult

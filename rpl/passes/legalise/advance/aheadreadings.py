@@ -11,13 +11,13 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.stages import legalising
 from rpl.source import NOWHERE
 
 
+@legalising(unless=lambda context: "LookAhead" not in context.capabilities.statements)
 def ahead_readings(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with such a mark."""
-    if "LookAhead" not in context.capabilities.statements:
-        return program
 
     def body(statements: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []

@@ -26,6 +26,7 @@ from rpl.passes.legalise.places.library import function, minus, number, plus, ti
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.settings.movesettings import plain
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.beside import closure, moves_or_waits, tidy
 from rpl.passes.typing import type_of
 from rpl.passes.values import Target
@@ -47,6 +48,7 @@ _REAL = ir.RealType()
 _WITHIN = 0.999  # of the arc: a place farther than that from one end is at the other
 
 
+@legalising()
 def arc_distances(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that measure places on a path straight."""
     nodes = walk(*program.modules) if context.capabilities.straight_distances else ()

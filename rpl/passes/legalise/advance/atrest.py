@@ -16,6 +16,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.criticals import Facts
 from rpl.passes.rewrite import changed, rewrite_parts
 
@@ -24,10 +25,11 @@ _INTERRUPTS = (ir.DeclareInterrupt, ir.ConnectInterrupt, ir.Trigger, ir.DefineTr
 _MOVING = ir.System("moving")
 
 
+@legalising(unless=lambda context: rules_of(context.source).advance.runs_ahead_of != "fly_by")
 def at_rest(program: ir.Program, context: Context) -> ir.Program:
     """Only for sources whose moves without a corner have ended before the next statement, and where interrupts and
     actions on the way do not move the robot; their routines stay as they are."""
-    if rules_of(context.source).advance.runs_ahead_of != "fly_by" or program.tasks:
+    if program.tasks:
         return program
     nodes = list(walk(*program.modules))
     if not any(isinstance(n, ir.StopMotion) or n == _MOVING for n in nodes):

@@ -17,6 +17,7 @@ from rpl.passes.legalise.advance.lookahead import touches
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_all, edit_bodies, edit_routines
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.beside import Beside, tidy
 from rpl.passes.legalise.tasks.stepsbeside import StepsBeside
 
@@ -32,6 +33,7 @@ _DRIVING = (ir.Move, ir.MoveExternal, ir.Spline)
 _UNKNOWN = (*_DRIVING, ir.CallRoutine, ir.WaitForMotion, ir.Label, ir.Goto, ir.Return, ir.Halt, ir.Raise)
 
 
+@legalising()
 def begun_moves(program: ir.Program, context: Context) -> ir.Program:
     """Moves behind which the source's program looks where the robot is, while it drives."""
     source, target = (rules_of(one).advance.runs_ahead_of for one in (context.source, context.target))
@@ -70,10 +72,11 @@ def looks(node: object) -> bool:
     return False
 
 
+@legalising(unless=lambda context: context.capabilities.concurrent_moves == "moves", sees=("Move",))
 def moves_ahead(program: ir.Program, context: Context) -> ir.Program:
     """Moves that the program does not wait for, as the target can say them; otherwise the loss is named."""
     kind = context.capabilities.concurrent_moves
-    if kind == "moves" or not any(isinstance(node, ir.Move) and node.concurrent for node in walk(*program.modules)):
+    if not any(isinstance(node, ir.Move) and node.concurrent for node in walk(*program.modules)):
         return program
     beside = Beside(program, context)
 
@@ -85,11 +88,13 @@ def moves_ahead(program: ir.Program, context: Context) -> ir.Program:
     return beside.placed(edit_routines(program, context, work))
 
 
+@legalising(
+    unless=lambda context: (
+        rules_of(context.source).advance.runs_ahead_of != "begun" or context.capabilities.concurrent_moves != "advance"
+    )
+)
 def polled_ahead(program: ir.Program, context: Context) -> ir.Program:
     """Waits beside a move that have become loops since: each step in them that would wait for the robot comes early."""
-    beside = rules_of(context.source).advance.runs_ahead_of == "begun"
-    if not beside or context.capabilities.concurrent_moves != "advance":
-        return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         def early(body: ir.Body) -> ir.Body:

@@ -18,6 +18,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import blocks, is_constant
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.stages import legalising
 
 LATE = code(
     "begun-output",
@@ -30,6 +31,7 @@ _CLOCKS = frozenset(("timer", "timer_stopped", "timer_positive", "time"))
 _WAITED = (ir.WaitForMotion, ir.Halt)
 
 
+@legalising()
 def begun_outputs(program: ir.Program, context: Context) -> ir.Program:
     """Outputs, and looks at inputs and timers, of a program that goes on when a move has begun."""
     source, target = (rules_of(one).advance.runs_ahead_of for one in (context.source, context.target))

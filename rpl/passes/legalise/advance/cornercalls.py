@@ -12,6 +12,7 @@ from rpl.ir.walk import bodies
 from rpl.passes.legalise.advance.lookahead import touches
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.effects import blocks, statements_in
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 
 STANDS = code(
@@ -26,6 +27,7 @@ _JUMPS = (ir.Label, ir.Goto, ir.Return, ir.ExitLoop)
 _DEEPEST = 8  # calls in calls that are looked into
 
 
+@legalising()
 def corner_calls(program: ir.Program, context: Context) -> ir.Program:
     """Tells of such corners; the program stays as it is."""
     source, target = (rules_of(one).advance for one in (context.source, context.target))

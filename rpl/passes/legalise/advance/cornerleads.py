@@ -10,6 +10,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import blocks
+from rpl.passes.legalise.stages import legalising
 
 EARLY = code(
     "output-before-corner",
@@ -20,6 +21,7 @@ EARLY = code(
 _QUIET = (ir.Nothing, ir.Label, ir.Trigger, ir.LookAhead)
 
 
+@legalising()
 def corner_leads(program: ir.Program, context: Context) -> ir.Program:
     """Tells of such outputs; the program stays as it is."""
     source, target = (rules_of(one).advance for one in (context.source, context.target))

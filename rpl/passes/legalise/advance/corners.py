@@ -19,6 +19,7 @@ from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.settings.explicit import JOINT_SPEED_BLEND
 from rpl.passes.legalise.settings.modal import JOINT_BLEND, ZONE_MM_PER_PERCENT
 from rpl.passes.legalise.settings.movesettings import plain
+from rpl.passes.legalise.stages import legalising
 
 PROCESS = code(
     "process-move",
@@ -29,9 +30,10 @@ PROCESS = code(
 _BRAKING_MM_S2 = 5000.0
 
 
+@legalising(unless=lambda context: context.capabilities.move_settings)
 def corners(program: ir.Program, context: Context) -> ir.Program:
     """The program with corners that the target can measure."""
-    if context.capabilities.move_settings or not any(_foreign(node) for node in walk(*program.modules)):
+    if not any(_foreign(node) for node in walk(*program.modules)):
         return program
     return edit_all(program, _Corners(program, context).body)
 

@@ -22,6 +22,7 @@ from rpl.passes.legalise.facts.usage import doing, usage_of
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.settings.explicit import Modal
 from rpl.passes.legalise.settings.movesettings import plain
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.beside import Beside, tidy
 from rpl.passes.scope import Scope
 
@@ -40,6 +41,7 @@ _SEEN = frozenset(("current_target", "current_joints", "current_position"))
 _TIMES = frozenset(("timer", "timer_stopped", "timer_positive", "time"))
 
 
+@legalising()
 def corner_steps(program: ir.Program, context: Context) -> ir.Program:
     """Only where the source's program goes on at a corner, and the target's can be told when."""
     source, target = (rules_of(one).advance for one in (context.source, context.target))

@@ -14,6 +14,7 @@ from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.advance.cornerways import Ways
 from rpl.passes.legalise.advance.lookahead import touches
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 
 STOPS_BEHIND = code(
@@ -24,6 +25,7 @@ STOPS_BEHIND = code(
 )
 
 
+@legalising()
 def kept_corners(program: ir.Program, context: Context) -> ir.Program:
     """Only where the target's program stands still at signals and the source's goes on at a corner."""
     source, target = (rules_of(one).advance for one in (context.source, context.target))

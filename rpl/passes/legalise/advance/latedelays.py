@@ -11,12 +11,12 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.settings.movesettings import plain
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 
 AT_THE_END = code(
@@ -27,10 +27,11 @@ AT_THE_END = code(
 )
 
 
+@legalising(sees=("Trigger",))
 def without_late_delays(program: ir.Program, context: Context) -> ir.Program:
     """The program with such actions at the ends of their moves."""
     bound = [rules_of(name).triggers.delays_within_move for name in (context.source, context.target)]
-    if bound[0] == bound[1] or not any(isinstance(node, ir.Trigger) for node in walk(*program.modules)):
+    if bound[0] == bound[1]:
         return program
     scopes, modules = ProgramScope(program), []
     for module in program.modules:

@@ -13,6 +13,7 @@ from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.usage import each_expression
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 
@@ -23,11 +24,10 @@ STOPPED = code(
 )
 
 
+@legalising(unless=lambda context: not rules_of(context.source).advance.signals_stop)
 def stop_blends(program: ir.Program, context: Context) -> ir.Program:
     """Blends that the source controller cancels become stops; CONTINUE marks that have done their work are removed."""
     rules = rules_of(context.source).advance
-    if not rules.signals_stop:
-        return program
     scopes = ProgramScope(program)
     keeps_marks = "LookAhead" in context.capabilities.statements
     modules = []

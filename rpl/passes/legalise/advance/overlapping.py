@@ -14,6 +14,7 @@ from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Record, pose_of
 
@@ -26,6 +27,7 @@ LEFT_OUT = code(
 _SLACK_MM = 1e-3
 
 
+@legalising()
 def left_out_moves(program: ir.Program, context: Context) -> ir.Program:
     """The program without the moves that its own controller leaves out, for controllers that drive them."""
     source, target = (bool(rules_of(one).inputs.overlapping_blends) for one in (context.source, context.target))

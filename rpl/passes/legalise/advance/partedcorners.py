@@ -23,6 +23,7 @@ from rpl.passes.legalise.facts.moveorder import Pair, pairs_of
 from rpl.passes.legalise.facts.ways import Ways, between
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.helpers import Helpers
+from rpl.passes.legalise.stages import legalising
 
 SMALLER = code(
     "corner-made-smaller",
@@ -50,10 +51,9 @@ _CLEAR_MM = 0.02
 _TOLD = 0.999  # what is not made smaller than by this share is a matter of rounding
 
 
+@legalising(unless=lambda context: not rules_of(context.target).inputs.overlapping_blends, sees=("Move",))
 def parted_corners(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that leave out moves. Behind what gives each move its corner."""
-    if not rules_of(context.target).inputs.overlapping_blends:
-        return program
     if not any(isinstance(node, ir.Move) and _rounds(node) for node in walk(program.modules)):
         return program
     pairs = [one for one in pairs_of(program) if _rounds(one.first) or _rounds(one.second)]

@@ -22,6 +22,7 @@ from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.settings.movesettings import plain
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.beside import Beside, local_names, moves_or_waits, tidy
 from rpl.passes.typing import type_of
 from rpl.passes.values import Target
@@ -46,13 +47,13 @@ ESTIMATED = code(
 _EVENT = "rpl_on_path"
 
 
+@legalising(
+    unless=lambda context: not context.capabilities.watching_tasks and context.capabilities.late_triggers,
+    sees=("Trigger",),
+)
 def path_events(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose path events are tasks, all of them or those that come behind the end of a move."""
     watched = context.capabilities.watching_tasks
-    if not watched and context.capabilities.late_triggers:
-        return program
-    if not any(isinstance(node, ir.Trigger) for node in walk(*program.modules)):
-        return program
     beside = Beside(program, context)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:

@@ -23,6 +23,7 @@ from rpl.passes.legalise.facts.usage import base_name, usage_of
 from rpl.passes.legalise.places.rotationvectors import rotation_vectors
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.settings.movesettings import plain
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.beside import closure, moves_or_waits, tidy
 from rpl.passes.typing import type_of
 from rpl.passes.values import Target
@@ -44,6 +45,7 @@ _SAME_TURN = 1.0 - 1e-12  # product of two quaternions
 _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.ResumeLevel)
 
 
+@legalising()
 def path_points(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that are asked for this."""
     nodes = walk(*program.modules) if context.capabilities.path_points else ()

@@ -17,6 +17,7 @@ from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.usage import base_name, each_expression, each_statement
 from rpl.passes.legalise.interrupts.resumes import left_by_resumes
 from rpl.passes.legalise.rewriting.editing import edit_bodies, exits
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 
@@ -26,6 +27,7 @@ _MOVES = (ir.Move, ir.MoveExternal, ir.Spline)
 _LOOPS = (ir.For, ir.While, ir.Repeat, ir.Loop)
 
 
+@legalising()
 def stand_first(program: ir.Program, context: Context) -> ir.Program:
     """Only from controllers whose stop points hold the program, to one that runs ahead over all moves."""
     source, target = (rules_of(one).advance for one in (context.source, context.target))

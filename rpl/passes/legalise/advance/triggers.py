@@ -17,6 +17,7 @@ from rpl.passes.legalise.facts.modalflow import Flow
 from rpl.passes.legalise.facts.usage import usage_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.settings.movesettings import plain
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Target
@@ -33,6 +34,7 @@ _ARM_STANDS = (
 )
 
 
+@legalising()
 def triggers(program: ir.Program, context: Context) -> ir.Program:
     """Rewrites towards whichever form the target has."""
     statements = context.capabilities.statements

@@ -8,12 +8,12 @@ from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.stages import legalising
 
 
+@legalising(unless=lambda context: context.capabilities.else_if or "If" not in context.capabilities.statements)
 def nest_branches(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose If has one condition. Without blocks the pass of labels knows a shorter form."""
-    if context.capabilities.else_if or "If" not in context.capabilities.statements:
-        return program
 
     def change(statement: ir.Statement) -> ir.Body:
         done = inside(statement, lambda inner: map_body(inner, change))

@@ -14,13 +14,13 @@ from rpl.passes.legalise.control.jumps import LabelNames, entered, goes_on, insi
 from rpl.passes.legalise.control.tidyjumps import tidied
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion
+from rpl.passes.legalise.stages import legalising
 from rpl.source import Origin
 
 
+@legalising(unless=lambda context: not {"Goto", "Label"} <= context.capabilities.statements)
 def structure_to_labels(program: ir.Program, context: Context) -> ir.Program:
     """The program with only the block statements that the target has."""
-    if not {"Goto", "Label"} <= context.capabilities.statements:
-        return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         names = LabelNames(context, routine)

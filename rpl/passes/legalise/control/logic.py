@@ -11,11 +11,13 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines
+from rpl.passes.legalise.stages import legalising
 
 _STRICT = {"cand": "and", "cor": "or"}
 _EARLY = {"and": "cand", "or": "cor"}
 
 
+@legalising()
 def decide_logic(program: ir.Program, context: Context) -> ir.Program:
     """The program with the logical operators that the target has, meaning the same."""
     if context.capabilities.short_circuit:

@@ -13,16 +13,16 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import everything
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.stages import legalising
 
 _CHAINS = ("and", "or")
 _PLACES = (ir.Name, ir.Signal, ir.System)
 
 
+@legalising(unless=lambda context: not context.capabilities.logic_names)
 def long_logic(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that say how much a condition names at most."""
     most = context.capabilities.logic_names
-    if not most:
-        return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         def change(statement: ir.Statement) -> ir.Body:

@@ -28,10 +28,12 @@ from rpl.passes.legalise.rewriting.editing import (
     passes_on,
     written_arguments,
 )
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 
 
+@legalising()
 def fit_loops(program: ir.Program, context: Context) -> ir.Program:
     """The program with only the loop statements and rules of the target."""
 

@@ -28,6 +28,7 @@ from rpl.passes.legalise.rewriting.editing import (
 )
 from rpl.passes.legalise.rewriting.operands import changing, is_number, is_operand, opposite, stands_still
 from rpl.passes.legalise.rewriting.walk import POLL_S, POLLED
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 TIMED = code("timed-wait-computed", Severity.LOSS, "a wait for a computed condition loses its time limit")
@@ -38,12 +39,18 @@ _HELD = ir.IntLiteral(0)  # stands for a move's target while the rest of the mov
 _STRUCTURES = (ir.If, ir.While, ir.Repeat, ir.For, ir.Switch, ir.Loop)
 
 
+@legalising(
+    unless=lambda context: (
+        context.capabilities.expressions == "any"
+        and (
+            context.capabilities.calculated_places
+            and context.capabilities.conditions == "any"
+            and (not context.capabilities.functions_alone)
+        )
+    )
+)
 def steps(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that do not take any expression anywhere."""
-    can = context.capabilities
-    any_place = can.calculated_places and can.conditions == "any" and not can.functions_alone
-    if can.expressions == "any" and any_place:
-        return program
     changes = changing(program)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:

@@ -20,6 +20,7 @@ from rpl.passes.legalise.control.jumps import entered, goes_on, inside, labels, 
 from rpl.passes.legalise.control.regions import Regions
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, passes_on
+from rpl.passes.legalise.stages import legalising
 
 INTO_FOR = code(
     "jump-into-counting-loop",
@@ -30,10 +31,9 @@ _DEEP = 50_000
 _Choice = tuple[list[tuple[ir.Expression, ir.Body]], ir.Body]
 
 
+@legalising(unless=lambda context: {"Goto", "Label"} <= context.capabilities.statements)
 def labels_to_structure(program: ir.Program, context: Context) -> ir.Program:
     """The program without jumps, unless the target has them."""
-    if {"Goto", "Label"} <= context.capabilities.statements:
-        return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         plain = routine.returns is None and routine.kind != "function"

@@ -12,8 +12,10 @@ from rpl.passes.legalise.rewriting.editing import (
     edit_routines,
     expansion,
 )
+from rpl.passes.legalise.stages import legalising
 
 
+@legalising()
 def unroll_switches(program: ir.Program, context: Context) -> ir.Program:
     """The program with only such Switch statements as the target has."""
 

@@ -15,6 +15,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.support import default_value
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.typewords import component_names, component_type, type_word
 from rpl.passes.values import Value
@@ -26,6 +27,7 @@ _POINTS = (ir.TargetType, ir.JointsType, ir.PoseType)
 _LITERALS = (ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.EnumLiteral)
 
 
+@legalising()
 def aggregates(program: ir.Program, context: Context) -> ir.Program:
     """The program with aggregates that the target has."""
     return _Aggregates(program, context).program()

@@ -6,13 +6,13 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 
 
+@legalising(unless=lambda context: context.capabilities.aliases)
 def without_aliases(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without aliases."""
-    if context.capabilities.aliases:
-        return program
     if not any(isinstance(d, ir.AliasDeclaration) for module in program.modules for d in module.declarations):
         return program
     scopes = ProgramScope(program)

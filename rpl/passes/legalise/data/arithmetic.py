@@ -13,6 +13,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.places.library import call, function, minus, number, plus, times
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 
 _REAL, _INT, _BOOL = ir.RealType(), ir.IntType(), ir.BoolType()
 _V, _W, _N = ir.Name("v"), ir.Name("w"), ir.Name("n")
@@ -20,11 +21,15 @@ _V, _W, _N = ir.Name("v"), ir.Name("w"), ir.Name("n")
 Parts = tuple[tuple[tuple[str, ir.Type], ...], ir.Type, tuple[tuple[str, ir.Type], ...], ir.Body]
 
 
+@legalising(
+    unless=lambda context: (
+        not context.capabilities.banks
+        and context.capabilities.expressions == "any"
+        and (not context.capabilities.functions_alone)
+    )
+)
 def arithmetic(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with numbered data or simple expressions."""
-    can = context.capabilities
-    if not can.banks and can.expressions == "any" and not can.functions_alone:
-        return program
     worker = _Arithmetic(program, context)
     done = worker.program()
     return with_support(done, context, (), tuple(worker.routines), done.modules[0].task if done.modules else "")

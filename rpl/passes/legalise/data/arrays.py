@@ -12,11 +12,13 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 
 # routine, place of its parameter, dimension from 1
 _Asked = tuple[str, int, int]
 
 
+@legalising()
 def array_bases(program: ir.Program, context: Context) -> ir.Program:
     """Every array starts at one. One that starts at zero, but whose element zero nothing uses, loses that element and
     keeps its numbers."""
@@ -95,10 +97,9 @@ def _plus(value: ir.Expression, shift: int) -> ir.Expression:
     return ir.Binary("+" if shift > 0 else "-", value, ir.IntLiteral(abs(shift)), origin=value.origin)
 
 
+@legalising(unless=lambda context: "dimension" in context.capabilities.functions and context.capabilities.row_sizes)
 def array_sizes(program: ir.Program, context: Context) -> ir.Program:
     """Sizes of arrays that a routine is given come with them."""
-    if "dimension" in context.capabilities.functions and context.capabilities.row_sizes:
-        return program
     asked: dict[_Asked, str] = {}
     size = -1
     while size != len(asked):  # a size that is handed on is asked for by the caller's caller too

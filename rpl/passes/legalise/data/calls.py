@@ -17,6 +17,7 @@ from rpl.passes.legalise.facts.effects import Effects, is_constant
 from rpl.passes.legalise.rewriting.editing import Editor, Lowered, edit_bodies, edit_routines, expansion
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.routines.results import text_results
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.texts import scanning
 from rpl.passes.legalise.texts.textparts import PUT
 from rpl.passes.legalise.texts.texts import TextHoister
@@ -43,6 +44,7 @@ _HELPER_FUNCTIONS = {
 }
 
 
+@legalising()
 def rewrite_calls(program: ir.Program, context: Context) -> ir.Program:
     """The program with only the functions, procedures, operators and conversions of the target."""
     helpers = Helpers(context)

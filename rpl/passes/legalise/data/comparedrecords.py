@@ -13,16 +13,16 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.typewords import component_names, component_type
 
 _PLACES = (ir.Name, ir.Index, ir.Field)
 _AXES = tuple(ir.COMPONENTS[ir.AxesType])
 
 
+@legalising(unless=lambda context: context.capabilities.compares_records)
 def compared_records(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that do not compare records themselves."""
-    if context.capabilities.compares_records:
-        return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         return edit_bodies(routine, _Records(editor).body)

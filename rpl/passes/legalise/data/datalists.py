@@ -12,6 +12,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import each_expression, each_statement
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.texts.heldtexts import named_by_texts
 from rpl.source import NOWHERE
 
@@ -22,10 +23,9 @@ SET_AT_START = code(
 )
 
 
+@legalising(unless=lambda context: context.capabilities.data_lists)
 def set_data_at_start(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose data cannot be set outside of routines."""
-    if context.capabilities.data_lists:
-        return program
     modules: list[ir.Module] = []
     calls: list[ir.Statement] = []
     for module in program.modules:

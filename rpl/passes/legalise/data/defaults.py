@@ -18,6 +18,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.support import default_value
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import component_names, component_type, type_word
@@ -35,6 +36,7 @@ _NUMBERS: dict[type, tuple[str, ...]] = {
 }
 
 
+@legalising()
 def starting_values(program: ir.Program, context: Context) -> ir.Program:
     """From languages whose data starts at zero to those whose data starts undefined, or as it was left; else of places
     that are filled component by component."""

@@ -11,13 +11,13 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 
+@legalising(unless=lambda context: context.capabilities.enums)
 def enums_to_constants(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without enumerations."""
-    if context.capabilities.enums:
-        return program
     numbering = _Numbering()
     for module in program.modules:
         numbering.add(module.declarations)

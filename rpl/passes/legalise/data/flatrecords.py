@@ -16,6 +16,7 @@ from rpl.passes.legalise.data.arraycopies import array_copy
 from rpl.passes.legalise.facts.effects import everything
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope, ValueDeclaration
 
 WHOLE_RECORD = code("record-as-a-whole", Severity.LOSS, "a record as a whole cannot be said here")
@@ -50,9 +51,10 @@ class Made:
     declared: list[ir.Variable] = field(default_factory=list)
 
 
+@legalising(unless=lambda context: context.capabilities.records)
 def flat_records(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without records."""
-    if context.capabilities.records or not _has_records(program):
+    if not _has_records(program):
         return program
     worker = _Flat(program, context)
     done = worker.program()

@@ -14,8 +14,10 @@ from itertools import product
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines
+from rpl.passes.legalise.stages import legalising
 
 
+@legalising()
 def lists_in_variables(program: ir.Program, context: Context) -> ir.Program:
     """The program with lists only where they are stored, or where the target takes them as arguments."""
 

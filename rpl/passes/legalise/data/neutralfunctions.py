@@ -13,6 +13,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 
 _ROUNDED = {"round": "rpl_round", "trunc": "rpl_cut"}
 _HELPERS = {
@@ -151,11 +152,9 @@ END FUNCTION
 }
 
 
+@legalising(unless=lambda context: context.capabilities.carries_rules)
 def neutral_functions(program: ir.Program, context: Context) -> ir.Program:
     """The program without the functions of this kind that the target has no word for."""
-    can = context.capabilities
-    if can.carries_rules:
-        return program
     worker = _Functions(program, context)
     if not any(worker.lacks(node) for node in walk(*program.modules)):
         return program

@@ -17,12 +17,14 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.data.wholes import Wholes, place_key
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 _INT, _REAL = ir.IntType(), ir.RealType()
 _POWER_LIMIT = 4
 
 
+@legalising()
 def numbers(program: ir.Program, context: Context) -> ir.Program:
     """Number types in the target's form."""
     types = context.capabilities.types

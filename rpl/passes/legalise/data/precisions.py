@@ -18,6 +18,7 @@ from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.data.wholes import Key, Wholes, place_key
 from rpl.passes.legalise.facts.effects import children
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 
@@ -50,6 +51,7 @@ _ROUNDING = frozenset(
 _ANY = -1  # a subscript that is computed
 
 
+@legalising()
 def precisions(program: ir.Program, context: Context) -> ir.Program:
     """Reports only."""
     ours, theirs = rules_of(context.source), rules_of(context.target)

@@ -14,6 +14,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.places.library import call, number, times
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 
 CALCULATED = code(
     "random-numbers-calculated",
@@ -24,9 +25,10 @@ CALCULATED = code(
 _FACTOR, _MODULUS, _SEED = 171, 30269, 12345
 
 
+@legalising(unless=lambda context: "random" in context.capabilities.functions)
 def random_numbers(program: ir.Program, context: Context) -> ir.Program:
     """The program with a routine in place of `random`."""
-    if "random" in context.capabilities.functions or not any(map(_random, walk(program))):
+    if not any(map(_random, walk(program))):
         return program
     state, name = context.fresh("rpl_random_state"), context.fresh("rpl_random")
     first = next(node for node in walk(program) if _random(node))

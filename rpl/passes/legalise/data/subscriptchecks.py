@@ -15,17 +15,17 @@ from rpl.passes.legalise.errors.raising import raising_of
 from rpl.passes.legalise.facts.effects import children
 from rpl.passes.legalise.facts.intervals import unproven
 from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion
+from rpl.passes.legalise.stages import legalising
 
 _BESIDE = (ir.DeclareInterrupt, ir.ConnectInterrupt, ir.OrderInterrupt, ir.TaskControl, ir.Trigger, ir.DefineTrigger)
 _WATCHING = (ir.WaitUntil, ir.DeclareInterrupt, ir.OrderInterrupt, ir.Trigger, ir.DefineTrigger, ir.Spline)
 
 
+@legalising(unless=lambda context: context.capabilities.faults_outside, sees=("Index",))
 def checked_subscripts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose controllers do not stop at such an index themselves. A program that catches the error gets
     its checks with its handlers (passes.legalise.errors)."""
     can = context.capabilities
-    if can.faults_outside or not any(isinstance(node, ir.Index) for node in walk(*program.modules)):
-        return program
     if not can.error_handlers and "out_of_range" in raising_of(program).caught:
         return program
     tasks = {module.task for module in program.modules}

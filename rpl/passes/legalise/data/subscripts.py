@@ -9,8 +9,10 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 
 
+@legalising()
 def joined_subscripts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without arrays of their own."""
     return program if context.capabilities.arrays else _Joined(program, context).program()

@@ -11,12 +11,14 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 
 _LOGIC = ("and", "or", "cand", "cor", "xor")
 _COMPARED = ("=", "<>", "<", ">", "<=", ">=")
 _STORED = (ir.Name, ir.Index, ir.Field, ir.Call)
 
 
+@legalising()
 def truths_to_numbers(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that cannot declare truth values."""
     can = context.capabilities

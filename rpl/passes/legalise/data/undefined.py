@@ -15,6 +15,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.definite import Definite
 from rpl.passes.legalise.facts.usage import assigned_in, base_name
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 
 _ASKED = "is_uninitialised"
@@ -22,10 +23,9 @@ _ASKED = "is_uninitialised"
 _STORING = frozenset(("increment", "decrement", "clear", "text_clear", "text_copy", "text_append"))
 
 
+@legalising(unless=lambda context: _ASKED in context.capabilities.functions, sees=("Builtin",))
 def asked_values(program: ir.Program, context: Context) -> ir.Program:
     """The program without the question, as far as it can be followed."""
-    if _ASKED in context.capabilities.functions:
-        return program
     if not any(isinstance(node, ir.Builtin) and node.function == _ASKED for node in walk(*program.modules)):
         return program
     program = _rewritten(program, context, _Flags())

@@ -15,11 +15,13 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.usage import assigned_in
 from rpl.passes.legalise.rewriting.editing import edit_bodies, expansion, map_body
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 
 _MOST = 512  # elements of a list that is written out
 
 
+@legalising()
 def asked_elements(program: ir.Program, context: Context) -> ir.Program:
     """The program without the question about elements, as far as it can be followed."""
     if not any(_element(node) for node in walk(*program.modules)):

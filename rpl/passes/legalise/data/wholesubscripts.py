@@ -13,14 +13,14 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.data.subscriptchecks import Checks
 from rpl.passes.legalise.data.wholes import Wholes
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 
 
+@legalising(unless=lambda context: context.capabilities.faults_fractions)
 def whole_subscripts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose controllers do not stop at such an index themselves."""
-    if context.capabilities.faults_fractions:
-        return program
     scopes = ProgramScope(program)
     asked = [
         (node, subscript, scopes.routine(module, routine))

@@ -12,13 +12,13 @@ from rpl import ir
 from rpl.ir.errornames import spelled_among
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.storage.unused import is_linked
 
 
+@legalising(unless=lambda context: not context.capabilities.error_handlers)
 def name_errors(program: ir.Program, context: Context) -> ir.Program:
     """For targets with error handlers: the names of errors are the target's, which defines them itself."""
-    if not context.capabilities.error_handlers:
-        return program
     ours, theirs = rules_of(context.source).errors, rules_of(context.target).errors
     linked = [one for module in program.modules if is_linked(module, context) for one in module.declarations]
     errors = {one.name: one for one in linked if isinstance(one, ir.Variable) and one.name in ours}

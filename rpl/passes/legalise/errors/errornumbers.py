@@ -18,6 +18,7 @@ from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 
 _NUMBER = ir.System("error_number")
@@ -33,6 +34,7 @@ _COMES_FROM: Mapping[str, tuple[type, ...]] = {
 }
 
 
+@legalising()
 def error_numbers(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with error handlers of their own, whose numbers are not the source's."""
     if not context.capabilities.error_handlers:

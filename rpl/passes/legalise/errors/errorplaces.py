@@ -14,6 +14,7 @@ from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.flow import ModalFlow
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.values import pose_of
 
 RAISED = code(
@@ -25,12 +26,16 @@ RAISED = code(
 _NAME = "unreachable"
 
 
+@legalising(
+    unless=lambda context: (
+        "OnError" in context.capabilities.statements
+        or context.robot is None
+        or (context.to_robot is not None and context.to_robot is not context.robot)
+    ),
+    sees=("OnError",),
+)
 def unreachable_moves(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such a routine, for the arm that the program was written for."""
-    if "OnError" in context.capabilities.statements or context.robot is None:
-        return program
-    if context.to_robot is not None and context.to_robot is not context.robot:
-        return program
     if not any(isinstance(one, ir.OnError) and one.routine is not None for one in walk(*program.modules)):
         return program
     numbers = [number for name, number in rules_of(context.source).errors.items() if neutral_name(name) == _NAME]

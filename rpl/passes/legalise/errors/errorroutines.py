@@ -18,6 +18,7 @@ from rpl.passes.legalise.facts.activations import Activations
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.rewriting.editing import edit_all, expansion, map_body
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope
 
 LOST = code(
@@ -34,6 +35,7 @@ MOTION = code(
 _BEFORE = (ir.Nothing, ir.Assign, ir.Message)
 
 
+@legalising()
 def error_routines(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without OnError, and for programs that raise errors of their own where the target cannot."""
     raised = any(isinstance(one, ir.Raise) for one in walk(*program.modules))

@@ -26,6 +26,7 @@ from rpl.passes.legalise.rewriting.editing import (
     negation,
 )
 from rpl.passes.legalise.rewriting.support import default_value, with_support
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope
 
@@ -53,10 +54,9 @@ class _Names:
     number: ir.Name
 
 
+@legalising(unless=lambda context: context.capabilities.error_handlers)
 def check_errors(program: ir.Program, context: Context) -> ir.Program:
     """The program with errors as values that are passed on and looked at."""
-    if context.capabilities.error_handlers:
-        return program
     facts = raising_of(program)
     if _ARGUMENT not in facts.caught:
         _report_not_caught(program, context)

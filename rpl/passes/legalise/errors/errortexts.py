@@ -10,12 +10,14 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 
 
+@legalising(unless=lambda context: "error_text" in context.capabilities.functions)
 def error_texts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the function."""
     asked = any(isinstance(one, ir.Builtin) and one.function == "error_text" for one in walk(*program.modules))
-    if not asked or "error_text" in context.capabilities.functions:
+    if not asked:
         return program
     name = context.fresh("rpl_error_text")
     done = _Texts(program, context, name).program()

@@ -12,6 +12,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.source import Comment, Origin
@@ -24,6 +25,7 @@ LEFT_OUT = code(
 )
 
 
+@legalising()
 def without_empty_reactions(program: ir.Program, context: Context) -> ir.Program:
     """The program without such interrupts, unless another one has the same number."""
     scopes = ProgramScope(program)

@@ -18,6 +18,7 @@ from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.facts.usage import called_below
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.beside import closure, tidy
 from rpl.source import Comment
 
@@ -55,10 +56,9 @@ _OFFSETS = {"base": "offset", "tool": "tool_offset"}
 _LEAVING = (ir.Return, ir.Goto, ir.Raise, ir.Retry, ir.TryNext, ir.ResumeLevel, ir.ClearMotion, ir.StartMotion)
 
 
+@legalising(unless=lambda context: "StartMotion" in context.capabilities.statements)
 def held_motion(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that cannot start the motion again by a word of their own."""
-    if "StartMotion" in context.capabilities.statements:
-        return program
     connected: set[str] = set()
     declared: set[str] = set()
     for node in walk(*program.modules):

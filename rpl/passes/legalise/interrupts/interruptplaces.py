@@ -11,6 +11,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import called_below
+from rpl.passes.legalise.stages import legalising
 from rpl.source import NOWHERE
 
 NOTED = code(
@@ -26,6 +27,7 @@ _PLACES = {
 }
 
 
+@legalising()
 def interrupt_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such system variables, whose programs can have interrupts."""
     has = context.capabilities.system_variables

@@ -17,11 +17,13 @@ from rpl.passes.legalise.interrupts.orderways import one_way_each
 from rpl.passes.legalise.interrupts.reconnected import one_trap_each
 from rpl.passes.legalise.interrupts.traps import priorities_to_traps
 from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 _FIRST_PRIORITY = 10  # KRL allows 1..39 and 81..128; the lower ones are left to the user
 
 
+@legalising()
 def interrupts(program: ir.Program, context: Context) -> ir.Program:
     """Rewrites towards whichever kind the target has; leaves programs without interrupts alone."""
     statements = context.capabilities.statements

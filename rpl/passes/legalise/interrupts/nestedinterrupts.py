@@ -7,6 +7,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.interrupts.watching import number_of
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.beside import closure
 
 NOT_NESTED = code(
@@ -18,12 +19,14 @@ NOT_NESTED = code(
 _TAKES_TIME = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Move, ir.Spline, ir.Dialog)
 
 
+@legalising(
+    unless=lambda context: (
+        "DeclareInterrupt" in context.capabilities.statements
+        and (not (context.capabilities.watching_tasks or context.capabilities.watched_interrupts))
+    )
+)
 def nested_interrupts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose interrupts do not interrupt each other. The program stays as it is."""
-    can = context.capabilities
-    ranked = "DeclareInterrupt" in can.statements and not (can.watching_tasks or can.watched_interrupts)
-    if ranked:
-        return program
     declared = [one for one in walk(program) if isinstance(one, ir.DeclareInterrupt)]
     slow = closure(program, _TAKES_TIME) if len(declared) > 1 else frozenset()
     for other in declared:

@@ -14,14 +14,17 @@ from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import called_names, exposed
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 from rpl.source import Origin
 
 
+@legalising()
 def reactions_once(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose interrupts come again."""
     return program if context.capabilities.one_shot_reactions else _as_target_has_it(program, context)
 
 
+@legalising()
 def rearmed_reactions(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose interrupts come once, with all that other passes make interrupts of."""
     return _as_target_has_it(program, context) if context.capabilities.one_shot_reactions else program

@@ -19,6 +19,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import LOOPS, inside
 from rpl.passes.legalise.interrupts.countedrates import PART_S, Around, counted, is_outside, leaving, searched
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, negation
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 SEARCHED = code(
@@ -49,6 +50,7 @@ _NOT_FOUND = "ERR_WHLSEARCH"
 _PAUSE_S = 0.1  # s: a loop that waits longer than this between two such motions does something else meanwhile
 
 
+@legalising()
 def rates(program: ir.Program, context: Context) -> ir.Program:
     """For every target of another language; none can say it."""
     if not any(map(_is_rate, walk(*program.modules))):

@@ -18,6 +18,7 @@ from rpl.passes.legalise.facts.usage import called_names, exposed
 from rpl.passes.legalise.interrupts.watching import key_of, number_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 
 DROPS = code(
     "reaction-drops-motion",
@@ -39,11 +40,16 @@ QUEUED = code(
 _FIRST_PRIORITY = 10  # as passes.interrupts numbers them
 
 
+@legalising(
+    unless=lambda context: (
+        context.capabilities.watching_tasks
+        or context.capabilities.watched_interrupts
+        or not {"DeclareInterrupt", "ConnectInterrupt"} & context.capabilities.statements
+    )
+)
 def reactions(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with interrupts, and programs that give theirs an identity."""
     can = context.capabilities
-    if can.watching_tasks or can.watched_interrupts or not {"DeclareInterrupt", "ConnectInterrupt"} & can.statements:
-        return program
     declared = [one for one in walk(*program.modules) if isinstance(one, ir.DeclareInterrupt)]
     drops = not context.capabilities.stopping_reactions
     switched = not can.one_shot_reactions

@@ -16,6 +16,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 
 POLLED = code(
     "search-polled",
@@ -26,11 +27,12 @@ POLLED = code(
 _PRIORITIES = (*range(9, 0, -1), *range(40, 128))
 
 
+@legalising(
+    unless=lambda context: "Search" in context.capabilities.statements or not context.capabilities.stopping_reactions,
+    sees=("Move",),
+)
 def reaction_searches(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without search moves whose interrupts can drop a move."""
-    can = context.capabilities
-    if "Search" in can.statements or not can.stopping_reactions:
-        return program
     if not any(isinstance(one, ir.Move) and one.search is not None for one in walk(*program.modules)):
         return program
     worker = _Searches(context)

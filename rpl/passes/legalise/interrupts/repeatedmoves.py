@@ -19,14 +19,19 @@ from rpl.passes.legalise.interrupts.reach import armed_statements
 from rpl.passes.legalise.interrupts.watching import number_of
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.beside import tidy
 
 
+@legalising(
+    unless=lambda context: (
+        not context.capabilities.stopping_reactions
+        or "StartMotion" in context.capabilities.statements
+        or "ClearMotion" not in context.capabilities.statements
+    )
+)
 def repeated_moves(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose interrupts stop the robot and drop the move, with no word that lets it go on."""
-    can = context.capabilities
-    if not can.stopping_reactions or "StartMotion" in can.statements or "ClearMotion" not in can.statements:
-        return program
     routines = {routine.name.lower(): routine for module in program.modules for routine in module.routines}
     keys: set[int] = set()
     handlers: set[str] = set()

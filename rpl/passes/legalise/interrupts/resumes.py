@@ -16,6 +16,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import each_expression, each_statement
 from rpl.passes.legalise.interrupts.armedcalls import ArmedElsewhere, armed_calls
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import Origin
 
@@ -27,6 +28,7 @@ NOT_BRAKED = code(
 )
 
 
+@legalising()
 def resumes(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that cannot resume at the level of a declaration but can clear the path."""
     statements, drops = context.capabilities.statements, context.capabilities.stopping_reactions

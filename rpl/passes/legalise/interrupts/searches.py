@@ -13,6 +13,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
@@ -20,19 +21,21 @@ from rpl.passes.typing import type_of
 _PRIORITY = 5  # more urgent than the interrupts that passes.interrupts numbers
 
 
+@legalising(
+    unless=lambda context: (
+        "Search" in context.capabilities.statements
+        or not {"DeclareInterrupt", "ResumeLevel", "StopMotion"} <= context.capabilities.statements
+        or not _Searches(context, set(rules_of(context.source).errors)).routines
+    )
+)
 def searches(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without search moves that can brake and resume from an interrupt."""
-    statements = context.capabilities.statements
-    if "Search" in statements or not {"DeclareInterrupt", "ResumeLevel", "StopMotion"} <= statements:
-        return program
     worker = _Searches(context, set(rules_of(context.source).errors))
     scopes = ProgramScope(program)
     modules = tuple(
         replace(module, routines=tuple(worker.routine(r, scopes.routine(module, r)) for r in module.routines))
         for module in program.modules
     )
-    if not worker.routines:
-        return program
     first = modules[0]
     home = ir.Module(
         context.fresh("rpl_search"), first.dialect, tuple(worker.declarations), tuple(worker.routines), task=first.task

@@ -13,6 +13,7 @@ from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.stages import legalising
 
 NO_PLACE = code(
     "search-place-lost", Severity.LOSS, "the target does not say where the condition came true while it moves on"
@@ -22,10 +23,9 @@ _NOT_FOUND = "ERR_WHLSEARCH"
 _ALREADY = "ERR_SIGSUPSEARCH"
 
 
+@legalising(unless=lambda context: "Search" not in context.capabilities.statements)
 def search_parts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with search moves."""
-    if "Search" not in context.capabilities.statements:
-        return program
     raises = _NOT_FOUND in rules_of(context.source).errors
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:

@@ -16,6 +16,7 @@ from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.usage import called_names, exposed
 from rpl.passes.legalise.interrupts.watching import key_of, number_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
+from rpl.passes.legalise.stages import legalising
 
 NOTED = code(
     "disabled-interrupt-noted",
@@ -25,12 +26,16 @@ NOTED = code(
 _HOLDS = ("disable", "enable")
 
 
+@legalising(
+    unless=lambda context: (
+        context.capabilities.single_disables
+        or context.capabilities.watching_tasks
+        or context.capabilities.watched_interrupts
+        or not {"DeclareInterrupt", "ConnectInterrupt"} & context.capabilities.statements
+    )
+)
 def single_disables(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose controller has interrupts, and none of them can be disabled alone."""
-    can = context.capabilities
-    none = not {"DeclareInterrupt", "ConnectInterrupt"} & can.statements
-    if can.single_disables or can.watching_tasks or can.watched_interrupts or none:
-        return program
     controls = [node for node in walk(program) if isinstance(node, ir.ControlInterrupt)]
     held = {number_of(one.handle) for one in controls if one.op in _HOLDS} - {None}
     if not held:

@@ -17,17 +17,21 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.activations import Activations
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.stages import legalising
 
 # What an interrupt that stops the motion does to it: it goes on, or is given up.
 _GOING_ON = (ir.StartMotion, ir.ClearMotion, ir.ResumeLevel)
 
 
+@legalising(
+    unless=lambda context: "StoreMotion" in context.capabilities.statements,
+    sees=(
+        "StoreMotion",
+        "StartMotion",
+    ),
+)
 def stored_paths(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such statements."""
-    if "StoreMotion" in context.capabilities.statements:
-        return program
-    if not any(isinstance(one, ir.StoreMotion | ir.StartMotion) for one in walk(program)):
-        return program
     facts = Activations.of(program)
     beside: set[int] = set().union(*facts.threads[1:])
     plain = {key for key, routine in facts.routines.items() if key not in beside and routine.kind != "trap"}

@@ -22,6 +22,7 @@ from rpl.passes.legalise.interrupts.searchtasks import SearchTasks
 from rpl.passes.legalise.interrupts.served import MOTION, Served, Watch
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.beside import Beside, closure, local_names, tidy
 from rpl.passes.legalise.tasks.concurrentmoves import ConcurrentMoves, has_concurrent
 from rpl.passes.legalise.tasks.movers import Movers
@@ -55,11 +56,12 @@ LOST = code(
 _ALONE = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.Raise, ir.Halt, ir.ResumeLevel)
 
 
+@legalising(
+    unless=lambda context: not context.capabilities.watching_tasks and (not context.capabilities.watched_interrupts)
+)
 def watching(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that are asked for this."""
     can = context.capabilities
-    if not can.watching_tasks and not can.watched_interrupts:
-        return program
     nodes = list(walk(*program.modules))
     searches = can.watching_tasks and any(isinstance(node, ir.Search) for node in nodes)
     interrupts = any(isinstance(node, ir.DeclareInterrupt) for node in nodes)

@@ -16,6 +16,7 @@ from rpl.ir.walk import walk
 from rpl.passes.analog import AnalogRanges
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
@@ -47,6 +48,7 @@ _SWAPPED = {"<": ">", ">": "<", "<=": ">=", ">=": "<=", "=": "=", "<>": "<>"}
 _DIGITS = 12
 
 
+@legalising(sees=("Signal",))
 def analog_units(program: ir.Program, context: Context) -> ir.Program:
     """For all targets; a signal with the same range on both controllers stays as it is."""
     if not any(isinstance(one, ir.Signal) and one.kind in _KINDS for one in walk(*program.modules)):

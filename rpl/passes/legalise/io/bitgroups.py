@@ -16,10 +16,12 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.io.polling import polled
 from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion
+from rpl.passes.legalise.stages import legalising
 
 _WIDEST = 32
 
 
+@legalising()
 def groups_to_bits(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that cannot name a group by its first and last signal, or know some sizes of groups only (the
     numbers of some have been given by now)."""
@@ -32,6 +34,7 @@ def groups_to_bits(program: ir.Program, context: Context) -> ir.Program:
     return edit_routines(program, context, work)
 
 
+@legalising()
 def shared_groups_to_bits(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose signals have names: groups of which another statement uses a part; for those whose groups have
     sizes: groups of another size, or that begin elsewhere."""

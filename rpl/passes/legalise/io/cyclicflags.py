@@ -15,6 +15,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 
@@ -28,9 +29,10 @@ _FLAG = "cyclic_flag"
 _JUMPS = (ir.Label, ir.Goto)
 
 
+@legalising(unless=lambda context: _FLAG in context.capabilities.system_variables)
 def cyclic_flags(program: ir.Program, context: Context) -> ir.Program:
     """The program without flags that are evaluated cyclically."""
-    if _FLAG in context.capabilities.system_variables or not _has_flags(program):
+    if not _has_flags(program):
         return program
     seen = _Seen(program, context)
     seen.program()

@@ -15,6 +15,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 
 COMPUTED = code(
     "computed-flag",
@@ -25,6 +26,7 @@ COMPUTED = code(
 _REACH = 32
 
 
+@legalising()
 def named_flags(program: ir.Program, context: Context) -> ir.Program:
     """For every target."""
     names: dict[str, str] = {}
@@ -52,6 +54,7 @@ def named_flags(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=(*modules, home))
 
 
+@legalising()
 def flags_as_data(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without flags, or with fewer than are named, and for programs that compute the number of one."""
     can = context.capabilities

@@ -14,6 +14,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name, called_below, doing
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.values import real
 
@@ -21,12 +22,16 @@ _LOOPS = (ir.While, ir.For, ir.Loop, ir.Repeat)
 Known = dict[int, bool]  # number of a timer -> whether it runs
 
 
-def held_timers(program: ir.Program, context: Context, only: frozenset[int] | None = None) -> ir.Program:
-    """Only for targets with numbered timers that cannot be stopped. Timers of computed numbers stay for the writer.
-    `only`: the timers to look at, where others have been treated."""
-    can = context.capabilities
-    if not can.timers or "timer_stopped" in can.system_variables:
-        return program
+@legalising(
+    unless=lambda context: not context.capabilities.timers or "timer_stopped" in context.capabilities.system_variables
+)
+def held_timers(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets with numbered timers that cannot be stopped. Timers of computed numbers stay for the writer."""
+    return of_held_timers(program, context)
+
+
+def of_held_timers(program: ir.Program, context: Context, only: frozenset[int] | None = None) -> ir.Program:
+    """As `held_timers`, of these timers only where others have been treated."""
     stopped = {number for node in walk(program) if (number := _stopping(node)) is not None}
     never = _never_started(program)
     stopped |= never | _set_ahead(program)

@@ -12,8 +12,10 @@ from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.errors.raising import Raising, raising_of
 from rpl.passes.legalise.facts.effects import everything, is_constant
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
+from rpl.passes.legalise.stages import legalising
 
 
+@legalising()
 def poll_waits(program: ir.Program, context: Context) -> ir.Program:
     """The program with only the waits that the target has."""
     facts: list[Raising] = []

@@ -10,17 +10,27 @@ from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.data.startdata import assigned_at_start
+from rpl.passes.legalise.stages import legalising
 
 _TIME = ir.System("time")
 _TIMERS = ("timer", "timer_stopped", "timer_positive")
 
 
+@legalising(
+    unless=lambda context: (
+        ("time" in context.capabilities.system_variables or context.capabilities.carries_rules)
+        or (
+            not (
+                context.capabilities.timers
+                or "Clock" in context.capabilities.statements
+                or context.capabilities.counted_clocks
+            )
+        )
+    )
+)
 def program_times(program: ir.Program, context: Context) -> ir.Program:
     """Only for programs that ask for the time; a timer of a computed number could be any, so such programs stay."""
     can = context.capabilities
-    known = "time" in can.system_variables or can.carries_rules
-    if known or not (can.timers or "Clock" in can.statements or can.counted_clocks):
-        return program
     nodes = list(walk(*program.modules))
     if _TIME not in nodes:
         return program

@@ -17,6 +17,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 
 PULSED = code(
@@ -28,10 +29,9 @@ PULSED = code(
 _HIGH, _LOW = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
 
+@legalising(unless=lambda context: context.capabilities.pulse_levels)
 def pulsed_outputs(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose pulses are to high."""
-    if context.capabilities.pulse_levels:
-        return program
     scopes = ProgramScope(program)
     inverted = set[int]()
     for module in program.modules:

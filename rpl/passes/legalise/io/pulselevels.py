@@ -16,20 +16,21 @@ from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import is_constant
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 
 _HIGH, _LOW = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
 
+@legalising(
+    unless=lambda context: (
+        (context.capabilities.pulse_levels and context.capabilities.pulse_times)
+        or "start" not in context.capabilities.task_operations
+        or "TaskControl" not in context.capabilities.statements
+    )
+)
 def pulse_levels(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that pulse to high, or for known times, and can begin a task."""
-    can = context.capabilities
-    if (
-        (can.pulse_levels and can.pulse_times)
-        or "start" not in can.task_operations
-        or "TaskControl" not in can.statements
-    ):
-        return program
     worker = _Pulses(context)
     pulses = [one for one in walk(*program.modules) if isinstance(one, ir.Pulse)]
     if all(one.value == _HIGH and worker.measured(one) for one in pulses):

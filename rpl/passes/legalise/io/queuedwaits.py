@@ -20,6 +20,7 @@ from rpl.passes.legalise.control.jumps import LOOPS, inside
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.facts.usage import assigned_in, doing
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.beside import tidy
 
 PAUSED_FIRST = code(
@@ -44,6 +45,7 @@ _LEAVES = (ir.Label, ir.Goto, ir.Return, ir.ExitLoop, ir.NextPass, ir.Raise, ir.
 _DEEPEST = 8  # calls in calls that are looked into
 
 
+@legalising()
 def queued_waits(program: ir.Program, context: Context) -> ir.Program:
     """Only from controllers whose waits at rest are moves to others."""
     source, target = (rules_of(one).advance.waits_queue for one in (context.source, context.target))

@@ -10,13 +10,13 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 
+@legalising(unless=lambda context: context.capabilities.reset_stops)
 def stopped_resets(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose stop watches count on when they are set to zero."""
-    if context.capabilities.reset_stops:
-        return program
     return edit_all(program, _body)
 
 

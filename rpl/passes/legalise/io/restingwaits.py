@@ -10,12 +10,12 @@ from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.stages import legalising
 
 
+@legalising(unless=lambda context: context.capabilities.waits_at_rest)
 def resting_waits(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose waits do not say it."""
-    if context.capabilities.waits_at_rest:
-        return program
 
     def split(statement: ir.Statement) -> ir.Body:
         done = inside(statement, lambda body: map_body(body, split))

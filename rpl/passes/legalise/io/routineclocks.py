@@ -15,13 +15,13 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.activations import Activations
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Fold, rules_of
 
 
+@legalising(unless=lambda context: context.capabilities.local_clocks and "ClockType" in context.capabilities.types)
 def clocks_of_routines(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose routines have no stop watches: theirs are data of the program, or numbered timers."""
-    if context.capabilities.local_clocks and "ClockType" in context.capabilities.types:
-        return program
     recursive = Activations.of(program).recursive
     fold = Fold(rules_of(context.source).case_sensitive)
     modules = tuple(

@@ -11,6 +11,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.advance.begunmoves import looks
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.stages import legalising
 
 SELDOM = code(
     "wait-looks-seldom",
@@ -23,6 +24,7 @@ _TIMES = frozenset(("timer", "timer_positive", "time"))
 _CLOCKS = frozenset(("clock_seconds",))
 
 
+@legalising()
 def seldom_looks(program: ir.Program, context: Context) -> ir.Program:
     """Tells of such waits, each statement of the source once; the program stays as it is."""
     source, target = (rules_of(one).wait_poll_s for one in (context.source, context.target))

@@ -19,6 +19,7 @@ from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.io.groupwidths import TOO_NARROW, WIDTH, group_widths
 from rpl.passes.legalise.io.signalnumbers import numbers_as_arguments, parameters_as_numbers
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.source import Origin
@@ -38,10 +39,9 @@ _MOST = 1024  # beyond it a number that the program puts somewhere is none of a 
 _VALUES: dict[str, ir.Type] = {"analog": ir.RealType(), "group": ir.IntType()}
 
 
+@legalising(unless=lambda context: not context.capabilities.signal_prefixes)
 def name_signals(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose signals have names."""
-    if not context.capabilities.signal_prefixes:
-        return program
     scopes = ProgramScope(program)
     worker = _Named(program, context)
     modules = []
@@ -280,10 +280,9 @@ def _constant(index: ir.Expression | None) -> bool:
     return isinstance(index, ir.IntLiteral)
 
 
+@legalising(unless=lambda context: context.capabilities.signal_prefixes)
 def number_signals(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose signals have numbers."""
-    if context.capabilities.signal_prefixes:
-        return program
     computed = _computed(program)
     program, places = parameters_as_numbers(program)
     return numbers_as_arguments(_with_numbers(program, context, computed), places)

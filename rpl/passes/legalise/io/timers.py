@@ -12,12 +12,14 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_all
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import Origin
 
 _TIMERS = ("timer", "timer_stopped", "timer_positive")
 
 
+@legalising()
 def timers_to_clocks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without numbered timers that have stop watches, or a task that counts them. Computed timer
     numbers stay for the writer. Where timers have no flag that tells whether they are past zero, they are compared."""

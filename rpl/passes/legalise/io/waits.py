@@ -14,8 +14,9 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks, children, everything, is_constant, root, statements_in
-from rpl.passes.legalise.io.heldtimers import held_timers
+from rpl.passes.legalise.io.heldtimers import held_timers, of_held_timers
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 
@@ -33,13 +34,15 @@ LATER_AS_PULSE = code(
 )
 
 
+@legalising()
 def fit_waits(program: ir.Program, context: Context) -> ir.Program:
     """The program with only the waits, delayed outputs and stop watches of the target."""
     timers = _Timers(program, context)
     if "ClockType" not in context.capabilities.types and "timer" in context.capabilities.system_variables:
         taken = frozenset(timers.used)
         program = _without_clocks(program, context, timers)
-        program = held_timers(program, context, frozenset(timers.used) - taken)
+        if held_timers.needed(context):
+            program = of_held_timers(program, context, frozenset(timers.used) - taken)
     trapped = _reached_from_interrupts(program)
     delayed = "SetAfter" not in context.capabilities.statements
     switched = _switched(program) if delayed else Counter()

@@ -13,6 +13,7 @@ from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.data.startdata import entries_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 
@@ -25,9 +26,10 @@ COUNTED = code(
 _TASK, _RUNS = "rpl_watch", "rpl_watch_runs"
 
 
+@legalising(unless=lambda context: not context.capabilities.counted_clocks)
 def counted_watches(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without stop watches and timers where a task can count."""
-    if not context.capabilities.counted_clocks or not program.modules:
+    if not program.modules:
         return program
     worker = _Watches(context, ProgramScope(program))
     modules = tuple(worker.module(module) for module in program.modules)

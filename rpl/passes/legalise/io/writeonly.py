@@ -14,16 +14,16 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.facts.usage import each_statement
 from rpl.passes.legalise.rewriting.editing import edit_bodies, expansion, map_body
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 _Key = tuple[str, int]
 
 
+@legalising(unless=lambda context: not context.capabilities.write_only)
 def kept_outputs(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that have such outputs."""
     kinds = context.capabilities.write_only
-    if not kinds:
-        return program
     outputs = _Outputs(kinds)
     for module in program.modules:
         for routine in module.routines:

@@ -11,16 +11,16 @@ from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.values import real
 
 _POSITION = ("x", "y", "z")
 _ANGLES = ("a", "b", "c")
 
 
+@legalising(unless=lambda context: context.capabilities.partial_targets)
 def whole_arc_points(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without places of some components."""
-    if context.capabilities.partial_targets:
-        return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         def change(statement: ir.Statement) -> ir.Body:

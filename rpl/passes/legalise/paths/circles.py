@@ -7,16 +7,22 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.data.datalists import moving_entries
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 _SETTING = "circle_orientation"
 _USUAL = "base"
 
 
+@legalising(
+    unless=lambda context: (
+        _at_start(context.source) == _at_start(context.target) or _SETTING not in context.capabilities.system_variables
+    )
+)
 def circle_rules(program: ir.Program, context: Context) -> ir.Program:
     """Where the rules at the start differ, a routine that a program may start with sets the source's."""
-    ours, theirs = _at_start(context.source), _at_start(context.target)
-    if ours == theirs or _SETTING not in context.capabilities.system_variables or not has_arcs(program):
+    ours = _at_start(context.source)
+    if not has_arcs(program):
         return program
     entries = moving_entries(program)
     rule = ir.Assign(ir.System(_SETTING), ir.EnumLiteral(ours))

@@ -20,6 +20,7 @@ from rpl.passes.legalise.facts.taughtvalues import WRITTEN, taught_names, tell_w
 from rpl.passes.legalise.paths.fixedarcs import FixedArcs, is_fixed
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.rigid import NO_TURN, Pose, Rotation
 from rpl.passes.scope import ProgramScope, Scope
@@ -39,9 +40,10 @@ _SAME = 1e-9  # of the quaternions' product: less than a hundredth of a degree
 _ANGLES = frozenset("abc")
 
 
+@legalising(unless=lambda context: _MODE in context.capabilities.system_variables)
 def constant_orientations(program: ir.Program, context: Context) -> ir.Program:
     """The program whose paths end with the orientation that they reach."""
-    if _MODE in context.capabilities.system_variables or not any(_constant(node) for node in walk(program)):
+    if not any(_constant(node) for node in walk(program)):
         return program
     return _Paths(program, context).program()
 

@@ -16,6 +16,7 @@ from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import Effects
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.helpers import Helpers
+from rpl.passes.legalise.stages import legalising
 
 AS_DISTANCE = code(
     "level-as-distance",
@@ -31,11 +32,12 @@ BY_RUN = code(
 _CORNER = "rpl_corner"
 
 
+@legalising(
+    unless=lambda context: not rules_of(context.source).blend_levels or "BlendLevel" in context.capabilities.blends
+)
 def levels_to_distances(program: ir.Program, context: Context) -> ir.Program:
     """Constant levels by their distance; computed ones where they change nothing else."""
     levels = rules_of(context.source).blend_levels
-    if not levels or "BlendLevel" in context.capabilities.blends:
-        return program
     reported: set[int] = set()
 
     def change(node: object) -> object:

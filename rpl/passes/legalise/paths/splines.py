@@ -21,6 +21,7 @@ from rpl.passes.legalise.paths.splinearcs import SplineArcs, modes_set, settings
 from rpl.passes.legalise.places.partialplaces import moving_routines
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.walk import unchanged_in
+from rpl.passes.legalise.stages import legalising
 
 AS_LINES = code(
     "spline-as-lines",
@@ -37,10 +38,9 @@ LEFT_OUT = code(
 _RULES = {"time": "times of parts (TIME_BLOCK)", "constant": "parts of constant speed (CONST_VEL)"}
 
 
+@legalising(unless=lambda context: "PathRule" in context.capabilities.statements)
 def without_path_rules(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose blocks say nothing of times and constant speeds: told once for each part, where it begins."""
-    if "PathRule" in context.capabilities.statements:
-        return program
 
     def change(node: object) -> object:
         if not isinstance(node, ir.PathRule):
@@ -55,6 +55,7 @@ def without_path_rules(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=tuple(rewrite(module, change) for module in program.modules))
 
 
+@legalising()
 def straight_splines(program: ir.Program, context: Context) -> ir.Program:
     """For targets without spline blocks, or with blocks of points without settings."""
     blocks = "Spline" in context.capabilities.statements

@@ -29,6 +29,7 @@ from rpl.passes.legalise.paths.arcends import COMPUTED, computed_arc
 from rpl.passes.legalise.paths.circles import has_arcs
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.walk import unchanged_in
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.typewords import type_word
 from rpl.passes.values import pose_of, real
 
@@ -114,11 +115,13 @@ def circle_through(start: rigid.Vector, via: rigid.Vector, end: rigid.Vector) ->
     return Circle(centre, normal.times(1.0 / normal.length), start.plus(centre, -1.0))
 
 
+@legalising(
+    unless=lambda context: (
+        context.capabilities.arcs_by_angle and "circle_orientation" in context.capabilities.system_variables
+    )
+)
 def three_point_arcs(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose arcs have no angle, or one way for the tool to turn."""
-    own = "circle_orientation" in context.capabilities.system_variables
-    if context.capabilities.arcs_by_angle and own:
-        return program
     if not has_arcs(program):
         return program
     known, ours = unchanged_in(program), _default(context.source)

@@ -19,6 +19,7 @@ from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Record, pose_of
 
@@ -40,10 +41,13 @@ _NO_WAY, _NO_TURN = 1e-3, 1e-3
 _ROUNDING = 1e-6  # what rounding may add to a size, deg or thousandths
 
 
+@legalising(
+    unless=lambda context: (
+        "ZoneType" in context.capabilities.types or "ZoneType" not in rules_of(context.source).components
+    )
+)
 def reduced_zones(program: ir.Program, context: Context) -> ir.Program:
     """For targets without zones: zones have the size to which the source's controller reduces them."""
-    if "ZoneType" in context.capabilities.types or "ZoneType" not in rules_of(context.source).components:
-        return program
     told: set[str] = set()
 
     def change(zone: _Zone, beside: list[_Leg]) -> ir.Blend:
@@ -62,10 +66,13 @@ def reduced_zones(program: ir.Program, context: Context) -> ir.Program:
     return _rewritten(program, change)
 
 
+@legalising(
+    unless=lambda context: (
+        "ZoneType" not in context.capabilities.types or "ZoneType" in rules_of(context.source).components
+    )
+)
 def full_zones(program: ir.Program, context: Context) -> ir.Program:
     """For targets with zones: zones made of corners that have their size whatever the tool does keep it."""
-    if "ZoneType" not in context.capabilities.types or "ZoneType" in rules_of(context.source).components:
-        return program
 
     def change(zone: _Zone, beside: list[_Leg]) -> ir.Blend:
         needed = max((min(zone.path / leg.way, 0.5) * leg.turn for leg in beside if leg.turn > _NO_TURN), default=0.0)

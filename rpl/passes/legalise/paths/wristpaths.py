@@ -11,6 +11,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 
 EVEN_TURN = code(
     "wrist-path-turned",
@@ -21,10 +22,9 @@ EVEN_TURN = code(
 )
 
 
+@legalising(unless=lambda context: context.capabilities.wrist_paths)
 def wrist_paths(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such paths."""
-    if context.capabilities.wrist_paths:
-        return program
     reported = False
 
     def turned(node: object) -> object:

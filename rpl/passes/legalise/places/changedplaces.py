@@ -16,6 +16,7 @@ from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
@@ -33,10 +34,9 @@ _COMPUTED = (
 )
 
 
+@legalising(unless=lambda context: not context.foreign or not context.capabilities.flags_by_sign)
 def changed_places(program: ir.Program, context: Context) -> ir.Program:
     """The program in whose joint moves changed targets are poses."""
-    if not context.foreign or not context.capabilities.flags_by_sign:
-        return program
     changed = _changed(program)
     scopes = ProgramScope(program)
 

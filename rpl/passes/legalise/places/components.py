@@ -9,16 +9,16 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.walk import unchanged_in
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.values import real
 
 _ARM = 6  # joints of the arm; further ones are external axes
 _PLACES = (ir.PoseType, ir.TargetType, ir.JointsType)
 
 
+@legalising(unless=lambda context: context.capabilities.place_components)
 def read_components(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that say so."""
-    if context.capabilities.place_components:
-        return program
     known = unchanged_in(program)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:

@@ -14,6 +14,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.places.library import call, function, minus, number, part, plus, times
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 
 # Below this cosine of b the first and the third angle turn about the same axis; the third one is zero then.
 _SMALL = 1e-7
@@ -22,12 +23,16 @@ _LEFT, _RIGHT, _DONE = "one", "other", "done"
 _POSES = (ir.PoseType, ir.TargetType)
 
 
+@legalising(
+    unless=lambda context: (
+        not (":" not in context.capabilities.operators and "compose" not in context.capabilities.functions)
+        and "inverse" in context.capabilities.functions
+    )
+)
 def compositions(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that lack the product of poses or the inverse."""
     can = context.capabilities
     product = ":" not in can.operators and "compose" not in can.functions
-    if not product and "inverse" in can.functions:
-        return program
     worker = _Composed(program, context, product)
     done = worker.program()
     return with_support(done, context, (), worker.routines, done.modules[0].task if done.modules else "")

@@ -18,6 +18,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import each_expression
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.settings.tooldata import PLACES
+from rpl.passes.legalise.stages import legalising
 
 COORDINATED = code(
     "coordinated-move-lost",
@@ -41,6 +42,7 @@ SETTING, REMOTE = "coordinated", "remote_tool"
 _UNIT = "base_unit"
 
 
+@legalising()
 def coordinated_moves(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the setting."""
     can = context.capabilities

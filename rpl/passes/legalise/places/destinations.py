@@ -15,6 +15,7 @@ from rpl.passes.legalise.facts.activations import Activations, called
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.facts.usage import assigned_in, base_name, each_expression
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 WAITED = code(
@@ -29,10 +30,9 @@ _MAY_WAIT = (ir.Move, ir.Assign, ir.CallRoutine)
 _MOTION = (ir.Move, ir.MoveExternal, ir.Spline)
 
 
+@legalising(unless=lambda context: "end_pose" in context.capabilities.system_variables)
 def destinations(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such a system variable."""
-    if "end_pose" in context.capabilities.system_variables:
-        return program
     return _Destinations(program, context).program()
 
 

@@ -14,6 +14,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.modalflow import Flow
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 _NAME = "displacement"
@@ -23,9 +24,10 @@ _READ = ("current_target", "joints_to_target")
 _GIVEN = ("target_to_joints", "target_to_joints_near", "is_reachable")
 
 
+@legalising(unless=lambda context: _NAME in context.capabilities.system_variables)
 def displacements(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the system variable, where the program sets it."""
-    if _NAME in context.capabilities.system_variables or not any(map(_sets, walk(*program.modules))):
+    if not any(map(_sets, walk(*program.modules))):
         return program
     return _Displacements(program, context).program()
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
@@ -23,13 +24,17 @@ _MOVED = ("displaced", "displaced_in_tool")
 _DONE, _ONE, _OTHER, _PRODUCT = "done", "one", "other", "product"
 
 
+@legalising(
+    unless=lambda context: (
+        not {*_OPERATORS, *_MOVED, "pose_of"}
+        - (context.capabilities.functions - (context.capabilities.move_functions & set(_MOVED)))
+    )
+)
 def elementwise(program: ir.Program, context: Context) -> ir.Program:
     """The program without the functions of this kind that the target lacks."""
     can = context.capabilities
     alone = can.functions - (can.move_functions & set(_MOVED))  # what only a move's target may be is lacking elsewhere
     lacking = {*_OPERATORS, *_MOVED, "pose_of"} - alone
-    if not lacking:
-        return program
     return _Worker(context, frozenset(lacking)).program(program)
 
 

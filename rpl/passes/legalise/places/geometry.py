@@ -6,8 +6,10 @@ from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.places.angles import to_angles
 from rpl.passes.legalise.places.quaternions import to_quaternions
+from rpl.passes.legalise.stages import legalising
 
 
+@legalising()
 def geometry(program: ir.Program, context: Context) -> ir.Program:
     """Poses, targets, joints, vectors and rotations as the target writes them; moves, tools and frames are left to the
     passes of motion, which run before."""

@@ -16,6 +16,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import root
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 from rpl.source import NOWHERE, Origin
@@ -33,11 +34,9 @@ _PLACES = (ir.PoseType, ir.TargetType)
 Key = tuple[str, str]
 
 
+@legalising(unless=lambda context: context.capabilities.keeps_angles and context.capabilities.rotation != "quaternion")
 def named_angles(program: ir.Program, context: Context) -> ir.Program:
     """Looks only; for targets that keep rotations."""
-    can = context.capabilities
-    if can.keeps_angles and can.rotation != "quaternion":
-        return program
     if any(_unusual(node) for node in walk(*program.modules)):
         _Angles(program, context).report()
     return program

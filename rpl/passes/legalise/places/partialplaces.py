@@ -17,6 +17,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.taughtvalues import WRITTEN, taught_names
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.rigid import Pose
 from rpl.passes.scope import ProgramScope, Scope
@@ -59,9 +60,10 @@ class Known:
         return len(kept) in (0, 3) or abs(abs(self.parts.get("b", 90.0)) - 90.0) > _STRAIGHT_DEG
 
 
+@legalising(unless=lambda context: context.capabilities.partial_targets)
 def partial_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without places of some components."""
-    if context.capabilities.partial_targets or not any(_is_partial_move(node) for node in walk(program)):
+    if not any(_is_partial_move(node) for node in walk(program)):
         return program
     return _Places(program, context).program()
 

@@ -8,17 +8,23 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 
 _PLACES = (ir.Name, ir.Field, ir.Index)
 _NONE = ir.System("null_frame")
 
 
+@legalising(
+    unless=lambda context: (
+        context.capabilities.carries_rules
+        or not context.capabilities.modal_motion
+        or not {"current_tool", "current_frame"} - context.capabilities.functions
+    )
+)
 def records_in_use(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without functions for them."""
     can = context.capabilities
     asked = {"current_tool", "current_frame"} - can.functions
-    if can.carries_rules or not can.modal_motion or not asked:
-        return program
     nodes = list(walk(*program.modules))
     if not any(isinstance(node, ir.Builtin) and node.function in asked and not node.arguments for node in nodes):
         return program

@@ -18,6 +18,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.places.library import call, composed, function, minus, number, part, plus, times
 from rpl.passes.legalise.places.zyzangles import ZYZ_PARTS, zyz_part, zyz_pose
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 
 _REAL, _POSE, _INT = ir.RealType(), ir.PoseType(), ir.IntType()
 _COMPONENTS = ("x", "y", "z", "a", "b", "c")
@@ -27,6 +28,7 @@ _SMALL = 1e-9
 _HALF_RADIAN = 0.008726646259971648  # half a degree in rad
 
 
+@legalising()
 def rotation_vectors(program: ir.Program, context: Context) -> ir.Program:
     """The program without them, as far as the target lacks them."""
     worker = _Worker(context)

@@ -7,15 +7,17 @@ from __future__ import annotations
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 
 _SEEN = frozenset(("current_target", "current_position"))
 _IN_USE = (ir.Builtin("current_tool", ()), ir.Builtin("current_frame", ()))
 _MODAL = (ir.System("tool"), ir.System("base"))
 
 
+@legalising(unless=lambda context: not context.capabilities.modal_motion)
 def seen_half(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with modal motion, from programs that leave one of the two out."""
-    if not context.capabilities.modal_motion or not any(map(_is_half, walk(*program.modules))):
+    if not any(map(_is_half, walk(*program.modules))):
         return program
 
     def fitted(node: object) -> object:

@@ -14,24 +14,28 @@ from rpl.passes.legalise.facts.usage import usage_of
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.settings.explicit import Modal
 from rpl.passes.legalise.settings.tooldata import PLACES
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 _INTO_JOINTS = frozenset(("target_to_joints", "target_to_joints_near", "is_reachable"))
 _SEEN = frozenset(("current_target", "current_position", "joints_to_target"))
 
 
+@legalising(unless=lambda context: not context.capabilities.places_in_base)
 def seen_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that say so."""
-    if not context.capabilities.places_in_base:
-        return program
     return _Seen(program, context).program()
 
 
+@legalising(
+    unless=lambda context: (
+        context.capabilities.places_in_base
+        or not context.capabilities.banks
+        or "ToolType" in context.capabilities.types
+    )
+)
 def posed_places(program: ir.Program, context: Context) -> ir.Program:
     """Tool and work object data in such functions as poses, for targets with numbered storage."""
-    can = context.capabilities
-    if can.places_in_base or not can.banks or "ToolType" in can.types:
-        return program
     return _Posed(program, context).program()
 
 

@@ -18,6 +18,7 @@ from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.walk import unchanged_in
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
@@ -42,11 +43,9 @@ _ANGLES = ("a", "b", "c")
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 
 
+@legalising(unless=lambda context: context.capabilities.relative_moves and context.capabilities.partial_targets)
 def whole_targets(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without relative moves or partial targets."""
-    capabilities = context.capabilities
-    if capabilities.relative_moves and capabilities.partial_targets:
-        return program
     scopes, unchanged = ProgramScope(program), unchanged_in(program)
     goes_on = any(isinstance(node, ir.Move) and _goes_on(node) for node in walk(*program.modules))
     modules = []

@@ -18,6 +18,7 @@ from rpl.passes.legalise.facts.flow import ModalFlow
 from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.facts.usage import doing
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.values import Record, Target, Value, component, pose_of, real
 
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
@@ -38,10 +39,9 @@ OPEN = code(
 _STANDING = (ir.Nothing, ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.LookAhead)
 
 
+@legalising(unless=lambda context: set(_POSTURES) & context.capabilities.system_variables, sees=("Move",))
 def asked_postures(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the settings; solved for the arm that the program was written for."""
-    if set(_POSTURES) & context.capabilities.system_variables:
-        return program
     if not any(isinstance(one, ir.Move) and _asked(one) for one in walk(*program.modules)):
         return program
     return _Asked(program, context).program()

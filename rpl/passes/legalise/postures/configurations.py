@@ -20,6 +20,7 @@ from rpl.passes.legalise.postures.families import changed_posture, differing
 from rpl.passes.legalise.postures.flagwrites import FlagFlow, FlagValues, only_turns
 from rpl.passes.legalise.postures.impliedflags import Known, implied_flags
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.typewords import component_names, type_word
 from rpl.passes.values import Record, Target, component, moved
@@ -58,6 +59,7 @@ _AXES, _EXTERNAL = tuple(ir.COMPONENTS[ir.AxesType]), tuple(ir.COMPONENTS[ir.Ext
 _CHECKS = ("joint_configuration_check", "path_configuration_check")
 
 
+@legalising()
 def configurations(program: ir.Program, context: Context) -> ir.Program:
     """Types, flags of constant targets and, for another arm, constant joint targets."""
     worker = _Configurations(program, context)

@@ -15,11 +15,13 @@ from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.postures.externalaxes import has_external_axes, is_unused
 from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.stages import legalising
 
 _ORDER = ("trans", "rot", "conf", "ext")
 _UNUSED = ir.Aggregate(tuple((name, ir.RealLiteral(9e9, "9E9")) for name in ir.COMPONENTS[ir.ExternalType]))
 
 
+@legalising(sees=("Field",))
 def copied_flags(program: ir.Program, context: Context) -> ir.Program:
     """Only for programs that copy the flags or external axes of a target."""
     if not any(isinstance(node, ir.Field) and node.name in ("conf", "ext") for node in walk(*program.modules)):

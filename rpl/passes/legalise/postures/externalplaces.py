@@ -17,6 +17,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.postures.externalaxes import AXES, is_nothing
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Target, real
@@ -35,10 +36,11 @@ _TYPES = ("target", "pose", "joints")
 Known = dict[str, float]
 
 
+@legalising(unless=lambda context: context.capabilities.partial_targets)
 def external_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without partial places, and programs that move external axes."""
     used = _used(program)
-    if context.capabilities.partial_targets or not used:
+    if not used:
         return program
     return _Places(program, context, used).program()
 

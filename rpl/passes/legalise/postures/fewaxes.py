@@ -11,10 +11,12 @@ from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.stages import legalising
 
 _UPRIGHT = 4
 
 
+@legalising()
 def axes_of_arm(program: ir.Program, context: Context) -> ir.Program:
     """Only for such an arm, on both sides."""
     arms = [arm for arm in (context.robot, context.to_robot) if arm is not None]

@@ -16,6 +16,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import each_expression, each_statement
 from rpl.passes.legalise.postures.flagwrites import FlagFlow
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 if TYPE_CHECKING:
@@ -26,11 +27,12 @@ _ELSEWHERE = (ir.Label, ir.Goto, ir.ExitLoop, ir.NextPass, ir.Raise)
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 
 
+@legalising(unless=lambda context: context.capabilities.carries_rules)
 def flag_readings(program: ir.Program, context: Context) -> ir.Program:
     """The program with flags as numbers of their own, as far as they can be known."""
     can = context.capabilities
     sources = {module.dialect for module in program.modules}
-    if can.carries_rules or not any(one != can.notation for one in sources):
+    if not any(one != can.notation for one in sources):
         return program
     look = _Look(program, context)
     look.program()

@@ -21,6 +21,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.facts.whereabouts import Whereabouts
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.values import Target, real
 
 FREE = code(
@@ -43,6 +44,7 @@ _TRIED = 60  # pairs of places, spread evenly by chance over the ranges of the a
 _OFTEN = 0.05  # of them; what differs less often is a matter of the limits of the axes
 
 
+@legalising()
 def free_postures(program: ir.Program, context: Context) -> ir.Program:
     """Only on the arm that the program was written for, and between notations whose rules differ on it."""
     arm, other, can = context.robot, context.to_robot, context.capabilities

@@ -8,10 +8,12 @@ from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes import rigid
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 
 _HOME = "home_joints"
 
 
+@legalising()
 def home_positions(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such a system variable, and where the arm is known."""
     arm = context.robot

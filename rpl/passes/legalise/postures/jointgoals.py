@@ -8,12 +8,12 @@ from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.stages import legalising
 
 
+@legalising(unless=lambda context: context.capabilities.paths_to_joints)
 def joint_goals(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that say so."""
-    if context.capabilities.paths_to_joints:
-        return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         def place(value: ir.Expression, move: ir.Move) -> ir.Expression:

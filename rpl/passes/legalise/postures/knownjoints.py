@@ -15,6 +15,7 @@ from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.taughtvalues import tell_written
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.values import Record, Target, component, pose_of, real
 from rpl.source import NOWHERE
@@ -23,11 +24,16 @@ _SOLVED = {"target_to_joints": 1, "target_to_joints_near": 2}  # function -> arg
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 
 
+@legalising(
+    unless=lambda context: (
+        context.robot is None
+        or context.capabilities.kinematics is not None
+        or (context.to_robot is not None and context.to_robot is not context.robot)
+    ),
+    sees=("Builtin",),
+)
 def known_joints(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the functions, on the arm that the program was written for."""
-    can, other = context.capabilities, context.to_robot
-    if context.robot is None or can.kinematics is not None or (other is not None and other is not context.robot):
-        return program
     if not any(isinstance(one, ir.Builtin) and one.function in _SOLVED for one in walk(*program.modules)):
         return program
     return _Known(program, context).program()

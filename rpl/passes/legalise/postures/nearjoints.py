@@ -20,6 +20,7 @@ from rpl.passes.legalise.facts.flow import ModalFlow
 from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.values import Record, Value, component, pose_of, real
 
 POSTURE = code(
@@ -34,11 +35,13 @@ _GIVEN = {_NEAR: 2, _HERE: 1}  # arguments, with the tool and the frame that are
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 
 
+@legalising(
+    unless=lambda context: _NEAR in context.capabilities.functions or context.capabilities.kinematics is not None,
+    sees=("Builtin",),
+)
 def near_joints(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the function."""
     can = context.capabilities
-    if _NEAR in can.functions or can.kinematics is not None:
-        return program
     lacking = {_NEAR, _HERE} - can.functions
     if not any(isinstance(one, ir.Builtin) and one.function in lacking for one in walk(*program.modules)):
         return program

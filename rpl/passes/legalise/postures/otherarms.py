@@ -18,6 +18,7 @@ from rpl.passes.legalise.facts.whereabouts import Whereabouts
 from rpl.passes.legalise.places.rotationvectors import rotation_vectors
 from rpl.passes.legalise.postures.configurations import UNREACHABLE
 from rpl.passes.legalise.postures.freepostures import FREE
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rigid import Pose
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
@@ -31,6 +32,7 @@ NOT_LOOKED_AT = code(
 )
 
 
+@legalising()
 def places_on_other_arm(program: ir.Program, context: Context) -> ir.Program:
     """Reports only."""
     arm, other = context.robot, context.to_robot

@@ -14,6 +14,7 @@ from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import rewrite, walk
 from rpl.passes import rigid
 from rpl.passes.legalise.context import Arm, Context
+from rpl.passes.legalise.stages import legalising
 from rpl.source import NOWHERE, Origin
 
 PULSES_ASSUMED = code(
@@ -34,6 +35,7 @@ STATION_PULSES = code(
 )
 
 
+@legalising()
 def fold_pulses(program: ir.Program, context: Context) -> ir.Program:
     """The program without pulses, as far as the arm is known."""
     each = context.robot.pulse_scale if context.robot is not None else None

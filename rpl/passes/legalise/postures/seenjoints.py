@@ -13,13 +13,13 @@ from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 
+@legalising(unless=lambda context: context.capabilities.kinematics is not None or context.capabilities.carries_rules)
 def seen_joints(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without kinematic functions, in routines that see the robot standing still between the lines."""
-    if context.capabilities.kinematics is not None or context.capabilities.carries_rules:
-        return program
 
     def work(node: object) -> object:
         return edit_bodies(node, _body) if isinstance(node, ir.Routine) else node

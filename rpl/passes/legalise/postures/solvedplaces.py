@@ -20,6 +20,7 @@ from rpl.passes.legalise.facts.usage import each_expression, each_statement
 from rpl.passes.legalise.postures.solvertexts import FLANGE, NEAR, REACHED, solver_texts
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.values import literal
 from rpl.source import NOWHERE
@@ -42,6 +43,7 @@ NEAREST = code(
 _PARTS = frozenset(("x", "y", "z", "a", "b", "c", "trans", "rot", "external", *ir.COMPONENTS[ir.ExternalType]))
 
 
+@legalising()
 def solved_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that lack the functions, on the arm that the program was written for."""
     can, arm = context.capabilities, context.robot

@@ -18,6 +18,7 @@ from rpl.passes.legalise.places.targets import Whole, here
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.settings.explicit import usual_places
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import type_word
 from rpl.passes.values import Target, real
@@ -27,10 +28,9 @@ _ANGLES = ("a", "b", "c")
 _PLACES = 9
 
 
+@legalising(unless=lambda context: {"base", "tool", "joint"} <= context.capabilities.turned_ways, sees=("Move",))
 def turned_ways(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such relative moves."""
-    if {"base", "tool", "joint"} <= context.capabilities.turned_ways:
-        return program
     if not any(isinstance(node, ir.Move) and node.relative in ("base", "tool") for node in walk(program)):
         return program
     scopes, unchanged, usual = ProgramScope(program), unchanged_in(program), usual_places(program)

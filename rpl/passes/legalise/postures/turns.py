@@ -19,6 +19,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.facts.whereabouts import Joints, Stand, Whereabouts
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 from rpl.passes.values import Target, real
 
@@ -35,11 +36,14 @@ _SAME_DEG = 0.01
 _OTHER_TURN_DEG = 180.0  # what differs by more is another turn, though joints are known to the degree only
 
 
+@legalising(
+    unless=lambda context: (
+        context.capabilities.place_turns or not context.foreign or ((context.to_robot or context.robot) is None)
+    ),
+    sees=("Move",),
+)
 def told_turns(program: ir.Program, context: Context) -> ir.Program:
     """Only for arms that are named, and targets whose places tell no turns."""
-    can = context.capabilities
-    if can.place_turns or not context.foreign or (context.to_robot or context.robot) is None:
-        return program
     if not any(isinstance(one, ir.Move) and _to_a_place(one) for one in walk(*program.modules)):
         return program
     return _Turns(program, context).program()

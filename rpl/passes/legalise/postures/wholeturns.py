@@ -14,6 +14,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import children
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.beside import tidy
 from rpl.passes.typewords import type_word
 
@@ -21,10 +22,9 @@ _ANGLES = ("a", "b", "c")
 _ALL = ("x", "y", "z", *_ANGLES)
 
 
+@legalising(unless=lambda context: context.capabilities.keeps_angles)
 def whole_turns(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that say so."""
-    if context.capabilities.keeps_angles:
-        return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         def body(statements: ir.Body) -> ir.Body:

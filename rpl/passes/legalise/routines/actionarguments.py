@@ -12,19 +12,25 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 
 _NUMBERS = (ir.IntType, ir.RealType, ir.StringType)
 
 
+@legalising(
+    unless=lambda context: (
+        {"reaction", "path", "own"} <= context.capabilities.action_arguments
+        and context.capabilities.path_assignments == "any"
+        and context.capabilities.reference_parameters
+    ),
+    sees=(
+        "DeclareInterrupt",
+        "Trigger",
+    ),
+)
 def action_arguments(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets where one of the two kinds of calls has no arguments."""
-    can = context.capabilities
-    all_kinds = {"reaction", "path", "own"} <= can.action_arguments
-    if all_kinds and can.path_assignments == "any" and can.reference_parameters:
-        return program
-    if not any(isinstance(node, ir.DeclareInterrupt | ir.Trigger) for node in walk(program)):
-        return program
     scopes = ProgramScope(program)
     modules = []
     for module in program.modules:

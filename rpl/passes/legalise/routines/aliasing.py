@@ -21,6 +21,7 @@ from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.activations import Activations
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.texts.heldtexts import HeldTexts, named_by
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.settable import written_places
@@ -41,16 +42,18 @@ Steps = tuple[Step, ...]
 Place = tuple[Key, Steps]
 
 
+@legalising(
+    unless=lambda context: context.capabilities.reference_parameters and context.capabilities.parameters == "names"
+)
 def without_shared_references(program: ir.Program, context: Context) -> ir.Program:
     """Guards calls whose arguments by reference are seen under a second name. Only for targets without references."""
-    can = context.capabilities
     by_reference = any(
         parameter.mode != "value"
         for module in program.modules
         for routine in module.routines
         for parameter in routine.parameters
     )
-    if not by_reference or (can.reference_parameters and can.parameters == "names"):
+    if not by_reference:
         return program
     refused = _Facts(program).refused(context)
     if not refused:

@@ -25,6 +25,7 @@ from rpl.passes.legalise.rewriting.editing import (
     map_body,
     written_arguments,
 )
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 CALL_LEFT = code(
@@ -34,10 +35,9 @@ CALL_LEFT = code(
 )
 
 
+@legalising(unless=lambda context: context.capabilities.function_routines)
 def functions_to_procedures(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without user functions."""
-    if context.capabilities.function_routines:
-        return program
     results: dict[int, str] = {}
     for module in program.modules:
         for routine in module.routines:

@@ -12,16 +12,16 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 
 _MOST = 4  # versions of one routine
 _OWN = (ir.Variable, ir.Parameter)
 
 
+@legalising(unless=lambda context: not context.capabilities.banks)
 def given_arrays(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with banks, and calls that say all their arguments in order."""
-    if not context.capabilities.banks:
-        return program
     for _ in range(8):  # an array that is handed on is known when the routine in between knows it
         done = _versions(program, context)
         if done is program:

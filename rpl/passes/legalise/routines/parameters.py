@@ -29,6 +29,7 @@ from rpl.passes.legalise.rewriting.editing import (
 )
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.routines.references import fixed_place, is_open
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 
@@ -51,10 +52,9 @@ class _Plan:
     again: bool = False
 
 
+@legalising(unless=lambda context: context.capabilities.parameters == "names")
 def fit_arguments(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without named parameters."""
-    if context.capabilities.parameters == "names":
-        return program
     scopes = ProgramScope(program)
     sizes = ArraySizes(program, scopes)
     plans = {

@@ -22,6 +22,7 @@ from rpl.passes.legalise.rewriting.editing import (
     expansion,
     map_body,
 )
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import changed, rewrite_parts
 from rpl.passes.scope import ProgramScope
 from rpl.passes.typing import type_of
@@ -30,10 +31,9 @@ _LVALUES = (ir.Name, ir.Index, ir.Field)
 Key = tuple[str, str]
 
 
+@legalising(unless=lambda context: context.capabilities.reference_parameters)
 def references_as_copies(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without parameters by reference."""
-    if context.capabilities.reference_parameters:
-        return program
     facts = _Facts(program)
     results: dict[Key, str] = {}
     for routine, parameter in facts.references:

@@ -18,9 +18,11 @@ from rpl.passes.legalise.rewriting.editing import (
     expansion,
     map_body,
 )
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 
+@legalising()
 def list_results(program: ir.Program, context: Context) -> ir.Program:
     """The program with no function that gives a list of known size, where the target has none."""
     return program if context.capabilities.list_results else _as_parameters(program, context, ir.ArrayType, "list")

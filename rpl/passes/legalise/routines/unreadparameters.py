@@ -15,16 +15,18 @@ from typing import TypeVar
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 
 _Call = ir.Call | ir.CallRoutine
 _Item = TypeVar("_Item")
 
 
+@legalising(unless=lambda context: not context.capabilities.most_arguments)
 def drop_unread_parameters(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with a limit on the arguments of a call."""
     most = context.capabilities.most_arguments
     routines = [routine for module in program.modules for routine in module.routines]
-    if not most or all(len(routine.parameters) <= most for routine in routines):
+    if all(len(routine.parameters) <= most for routine in routines):
         return program
     count = Counter(routine.name.lower() for routine in routines)
     nodes = list(walk(*program.modules))

@@ -15,6 +15,7 @@ from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import assigned_in
 from rpl.passes.legalise.routines.parameters import ArraySizes
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope
 from rpl.source import Origin
 
@@ -25,10 +26,9 @@ SHARED = code(
 )
 
 
+@legalising(unless=lambda context: context.capabilities.arrays_by_value)
 def copy_value_arrays(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that know no copies of arrays as arguments."""
-    if context.capabilities.arrays_by_value:
-        return program
     sizes = ArraySizes(program, ProgramScope(program))
     modules = tuple(
         replace(module, routines=tuple(_with_copies(routine, sizes, context) for routine in module.routines))

@@ -15,6 +15,7 @@ from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.settings.speeds import scaled
 from rpl.passes.legalise.settings.strengths import has_both, own_deceleration, without_own
+from rpl.passes.legalise.stages import legalising
 
 Settings = tuple[tuple[str, ir.Expression], ...]
 _USUAL_PATH = 5000.0  # mm/s2, where the target's rules say nothing
@@ -24,13 +25,14 @@ _MOST = 1e6
 _SIMPLE = (ir.Assign, ir.Nothing, ir.LookAhead, ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Trigger, ir.Pulse)
 
 
+@legalising(
+    unless=lambda context: (
+        (context.capabilities.move_settings and "acceleration_percent" not in context.capabilities.system_variables)
+        or not context.capabilities.system_variables & {"acceleration_percent", "joint_acceleration"}
+    )
+)
 def accelerations_of_moves(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose moves do not say their acceleration."""
-    can = context.capabilities.system_variables
-    if context.capabilities.move_settings and "acceleration_percent" not in can:
-        return program
-    if not can & {"acceleration_percent", "joint_acceleration"}:
-        return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         return edit_bodies(routine, _Runs(context).body)

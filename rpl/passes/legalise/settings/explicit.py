@@ -22,6 +22,7 @@ from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.settings.modal import DROPPED, JOINT_BLEND, MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
 from rpl.passes.legalise.settings.strengths import is_usual_ramp
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import component_names
@@ -68,10 +69,9 @@ _CHECKS = frozenset(
 _BRAKES = frozenset(("deceleration_percent",))  # beside acceleration_percent, where a target has both
 
 
+@legalising(unless=lambda context: not context.capabilities.modal_motion)
 def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with modal motion; moves without explicit settings stay as they are."""
-    if not context.capabilities.modal_motion:
-        return program
     scopes = ProgramScope(program)
     assigned = usage_of(program).assigned
     reported: set[Code] = set()

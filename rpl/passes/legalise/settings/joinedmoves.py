@@ -21,6 +21,7 @@ from rpl.passes.legalise.facts.modalflow import Flow
 from rpl.passes.legalise.facts.usage import called_names
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 
 STANDS = code(
     "relative-move-stands",
@@ -31,10 +32,11 @@ STANDS = code(
 _JOINED = ir.System("blending")
 
 
+@legalising(unless=lambda context: "blending" in context.capabilities.system_variables)
 def joined_moves(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the switch, and where moves that say nothing find it at one value."""
     start = rules_of(context.source).system_defaults.get("blending")
-    if "blending" in context.capabilities.system_variables or not isinstance(start, bool):
+    if not isinstance(start, bool):
         return program
     start = _first_of_all(program, start)
     settings = [
@@ -99,10 +101,9 @@ def _alone(program: ir.Program, moves: frozenset[int]) -> bool:
     return all(holds(body) for module in program.modules for one in module.routines for body in bodies(one))
 
 
+@legalising(unless=lambda context: not context.capabilities.ways_from_here)
 def stand_before_ways(program: ir.Program, context: Context) -> ir.Program:
     """Ways in joints, in targets whose programs work them out from where the robot is: it has to stand there."""
-    if not context.capabilities.ways_from_here:
-        return program
 
     def stood(body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []

@@ -14,6 +14,7 @@ from rpl import ir, registry
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_bodies, expansion, map_body
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 _SINGLE = frozenset(
@@ -25,11 +26,10 @@ _FRAME = "base"
 _POSE = ("x", "y", "z", "a", "b", "c")
 
 
+@legalising(unless=lambda context: context.capabilities.carries_rules)
 def kept_settings(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that do not carry the source's settings, and for the settings that a program reads."""
     can = context.capabilities
-    if can.carries_rules:
-        return program
     nodes = list(walk(*program.modules))
     asked = Counter(node.name for node in nodes if isinstance(node, ir.System))
     asked.subtract(

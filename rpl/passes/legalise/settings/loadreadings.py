@@ -11,6 +11,7 @@ from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 
 _LOAD = ir.System("load")
 # What can be asked, with the name of its variable.
@@ -20,6 +21,7 @@ _ASKED = {
 }
 
 
+@legalising()
 def load_readings(program: ir.Program, context: Context) -> ir.Program:
     """Only for programs that ask for the mass or its centre and set them by written-out loads."""
     nodes = list(walk(*program.modules))

@@ -16,6 +16,7 @@ from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name, each_statement
 from rpl.passes.legalise.rewriting.walk import unchanged_in
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope, rules_of
 from rpl.passes.values import Record
 
@@ -27,6 +28,7 @@ LEFT = code(
 )
 
 
+@legalising()
 def load_variables(program: ir.Program, context: Context) -> ir.Program:
     """The program as it is; only loads of sources whose load is a variable are reported."""
     names = rules_of(context.source).load_variables

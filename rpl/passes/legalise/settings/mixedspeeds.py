@@ -15,6 +15,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.modalflow import Flow
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
+from rpl.passes.legalise.stages import legalising
 
 UNKNOWN = code(
     "modal-speed-unknown",
@@ -24,10 +25,9 @@ UNKNOWN = code(
 )
 
 
+@legalising(unless=lambda context: not context.capabilities.modal_motion)
 def mixed_speeds(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with modal motion, and programs with both kinds of moves."""
-    if not context.capabilities.modal_motion:
-        return program
     moves = [node for node in walk(*program.modules) if isinstance(node, ir.Move)]
     mixed = {
         kind for kind in ("path", "joint") if {_has(move) for move in moves if _kind(move) == kind} == {True, False}

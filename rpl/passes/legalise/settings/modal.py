@@ -18,6 +18,7 @@ from rpl.passes.legalise.paths.circles import has_arcs
 from rpl.passes.legalise.places.carriedframes import ROOT, UNIT
 from rpl.passes.legalise.rewriting.editing import edit_all
 from rpl.passes.legalise.settings.tooldata import HOME, PLACES, tool_of, work_object_of
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import Origin
 
@@ -94,10 +95,9 @@ _KINDS: dict[str, tuple[ir.Type, str]] = {
 }
 
 
+@legalising(unless=lambda context: context.capabilities.modal_motion)
 def modal_to_explicit(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without modal motion and sources that have it."""
-    if context.capabilities.modal_motion:
-        return program
     usage = usage_of(program)
     worker = _Explicit(program, context, usage)
     program = worker.without_dead_settings(edit_all(program, worker.routine))

@@ -22,6 +22,7 @@ from rpl.passes.legalise.settings.modal import DROPPED, DROPPED_SETTINGS, JOINT_
 from rpl.passes.legalise.settings.saidaccelerations import SAID, Accelerations
 from rpl.passes.legalise.settings.servedsettings import only_served
 from rpl.passes.legalise.settings.tooldata import PLACES
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 _WORLD = ir.System("null_frame")
@@ -46,10 +47,9 @@ def _tools(program: ir.Program) -> Iterator[ir.Expression]:
             yield node.value
 
 
+@legalising(unless=lambda context: not context.capabilities.move_settings)
 def settings_at_moves(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose moves say some settings and keep the rest modal."""
-    if not context.capabilities.move_settings:
-        return program
     return _Settings(program, context).program()
 
 

@@ -24,6 +24,7 @@ from rpl.passes.legalise.facts.whereabouts import Way, Whereabouts
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.settings.explicit import TIMED_MOVE
 from rpl.passes.legalise.settings.speeds import USUAL
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.values import Value
 
 BY_SPEED = code(
@@ -60,6 +61,7 @@ class _Wanted:
     arcs: bool
 
 
+@legalising()
 def move_times(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the setting, or whose moves say no time."""
     can = context.capabilities

@@ -18,6 +18,7 @@ from rpl.passes.legalise.control.jumps import inside, leaves
 from rpl.passes.legalise.facts.activations import Activations, called
 from rpl.passes.legalise.facts.effects import blocks, is_constant, statements_in
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.stages import legalising
 
 UNCERTAIN = code(
     "next-move-uncertain",
@@ -29,11 +30,14 @@ _AT_MOVES = frozenset(("path_speed", "joint_speed", "blend_distance", "blend_joi
 _OTHER_MOTION = (ir.MoveExternal, ir.Spline)
 
 
+@legalising(
+    unless=lambda context: (
+        context.capabilities.next_move_settings and (not context.capabilities.move_settings & {"speed", "blend"})
+    )
+)
 def settings_of_next_move(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without settings for one move; where these say no speeds and corners, for those."""
     can = context.capabilities
-    if can.next_move_settings and not can.move_settings & {"speed", "blend"}:
-        return program
     facts = Activations.of(program)
     moving = {key for key, routine in facts.routines.items() if any(map(moves, _every(routine)))}
     movers = {key for key in facts.routines if facts.reached({key}) & moving}

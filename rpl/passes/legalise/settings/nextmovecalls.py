@@ -17,16 +17,20 @@ from rpl.passes.legalise.facts.activations import Activations, called
 from rpl.passes.legalise.facts.effects import blocks, statements_in
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.settings.nextmove import fixed_setting, moves, set_at_move
+from rpl.passes.legalise.stages import legalising
 
 # Calls in calls that a setting goes through.
 _DEEPEST = 6
 
 
+@legalising(
+    unless=lambda context: (
+        context.capabilities.next_move_settings and (not context.capabilities.move_settings & {"speed", "blend"})
+    )
+)
 def next_moves_behind_calls(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose moves say what is set for one move."""
     can = context.capabilities
-    if can.next_move_settings and not can.move_settings & {"speed", "blend"}:
-        return program
     if not any(set_at_move(one, can) for module in program.modules for one in _every(*module.routines)):
         return program
     before = never_called(program)

@@ -14,6 +14,7 @@ from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.modalflow import Flow
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.settings.modal import DROPPED, USUAL
+from rpl.passes.legalise.stages import legalising
 
 _JOINT = frozenset(("joint_speed", "joint_acceleration"))
 _PATH = frozenset(
@@ -22,10 +23,9 @@ _PATH = frozenset(
 _TURNING = frozenset(("orientation_mode", "circle_orientation"))
 
 
+@legalising(unless=lambda context: not context.capabilities.modal_motion or context.capabilities.move_settings)
 def settings_of_one_move(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose speeds are all modal; spline moves have settings of their own there."""
-    if not context.capabilities.modal_motion or context.capabilities.move_settings:
-        return program
     flow = Flow.of(program, dict(rules_of(context.source).system_defaults))
     reported: set[str] = set()
 

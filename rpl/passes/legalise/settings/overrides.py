@@ -11,6 +11,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 
@@ -23,10 +24,11 @@ FULL = code(
 _FULL_PERCENT = 100.0
 
 
+@legalising(
+    unless=lambda context: "override" in context.capabilities.system_variables or context.capabilities.carries_rules
+)
 def full_override(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the override among their system variables."""
-    if "override" in context.capabilities.system_variables or context.capabilities.carries_rules:
-        return program
     scopes = ProgramScope(program)
     set_to = [
         (node, scopes.routine(module, routine))

@@ -18,15 +18,15 @@ from rpl.passes.legalise.facts.modalflow import Flow
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.settings.tooldata import PLACES
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 _NOWHERE = ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ("x", "y", "z", "a", "b", "c")), "pose")
 
 
+@legalising(unless=lambda context: not context.capabilities.modal_motion)
 def own_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with modal motion; programs that set a tool or frame and have moves with one of their own."""
-    if not context.capabilities.modal_motion:
-        return program
     nodes = [*walk(*program.modules)]
     named = {
         name

@@ -11,6 +11,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_bodies, expansion, map_body
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 KEPT = code(
@@ -22,11 +23,13 @@ _OVERRIDE = ir.System("override")
 _FULL_PERCENT = 100.0
 
 
+@legalising(
+    unless=lambda context: (
+        context.capabilities.reads_override or "override" not in context.capabilities.system_variables
+    )
+)
 def read_overrides(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that set the override and cannot read it, and programs that read it."""
-    can = context.capabilities
-    if can.reads_override or "override" not in can.system_variables:
-        return program
     nodes = list(walk(*program.modules))
     set_places = {id(node.target) for node in nodes if isinstance(node, ir.Assign) and _is_override(node.target)}
     read = [node for node in nodes if isinstance(node, ir.System) and _is_override(node) and id(node) not in set_places]

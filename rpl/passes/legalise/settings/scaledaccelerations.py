@@ -16,6 +16,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.data.datalists import moving_entries
 from rpl.passes.legalise.facts.modalflow import SCALED, Flow, State
 from rpl.passes.legalise.settings.saidaccelerations import number_of
+from rpl.passes.legalise.stages import legalising
 
 UNKNOWN = code(
     "acceleration-follows-speed",
@@ -34,10 +35,9 @@ SETTING, UP, DOWN = "scale_acceleration", "acceleration_percent", "deceleration_
 _USUAL_MM_S, _FULL, _LEAST_SHARE = 250.0, 100.0, 1e-3
 
 
+@legalising(unless=lambda context: not context.foreign or context.capabilities.carries_rules)
 def scaled_accelerations(program: ir.Program, context: Context) -> ir.Program:
     """Only between languages, and where one of them has the setting."""
-    if not context.foreign or context.capabilities.carries_rules:
-        return program
     if starts_on(context.source) or any(_sets(node, SETTING) for node in walk(*program.modules)):
         program = _Shares(program, context).program()
     return _switched_off(program) if starts_on(context.target) else program

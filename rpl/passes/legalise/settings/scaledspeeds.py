@@ -15,6 +15,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.data.datalists import started_first
 from rpl.passes.legalise.facts.usage import doing
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 SCALED = code(
@@ -33,10 +34,11 @@ _OVERRIDE = ir.System("override")
 _BLOCKS = (ir.If, ir.Switch, ir.For, ir.While, ir.Repeat, ir.Loop)
 
 
+@legalising(
+    unless=lambda context: "override" in context.capabilities.system_variables or context.capabilities.carries_rules
+)
 def scaled_override(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the override among their system variables, whose moves say their own speeds."""
-    if "override" in context.capabilities.system_variables or context.capabilities.carries_rules:
-        return program
     if not any(_is_override(node) for node in walk(program)):
         return program
     moves = [node for node in walk(program) if isinstance(node, ir.Move)]

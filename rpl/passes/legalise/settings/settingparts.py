@@ -11,8 +11,10 @@ from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.stages import legalising
 
 
+@legalising()
 def whole_settings(program: ir.Program, context: Context) -> ir.Program:
     """No assignment to a component of a system variable is left."""
 

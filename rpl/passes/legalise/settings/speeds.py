@@ -14,6 +14,7 @@ from rpl.diagnostics import Code, Severity, code
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.settings.modal import DROPPED
+from rpl.passes.legalise.stages import legalising
 
 AXIS_SPEED = code(
     "axis-speed-in-percent",
@@ -32,6 +33,7 @@ USUAL_AXIS_DEG_S = 180.0
 _ACCELERATIONS = {"path_acceleration": "path acceleration", "axis_acceleration": "axis acceleration"}
 
 
+@legalising()
 def fit_speeds(program: ir.Program, context: Context) -> ir.Program:
     """Every target; most programs stay as they are."""
     return _Speeds(program, context, context.capabilities.speeds or USUAL).program()

@@ -18,17 +18,19 @@ from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.modalflow import Flow
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.values import real
 
 _SHARE, _LIMIT = "speed_percent", "speed_limit"
 _STEMS = {_SHARE: "rpl_speed_share", _LIMIT: "rpl_speed_limit"}
 
 
+@legalising(
+    unless=lambda context: _SHARE in context.capabilities.system_variables or context.capabilities.carries_rules
+)
 def speed_shares(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such settings, and programs that set them and never ask for them."""
     can = context.capabilities
-    if _SHARE in can.system_variables or can.carries_rules:
-        return program
     names = frozenset((_LIMIT,) if "override" in can.system_variables else (_LIMIT, _SHARE))
     assigned = [one for one in _assignments(program) if one.target.name in names]
     targets = {id(one.target) for one in assigned}

@@ -15,15 +15,20 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.data.datalists import moving_entries
 from rpl.passes.legalise.facts.usage import doing
 from rpl.passes.legalise.rewriting.editing import edit_each
+from rpl.passes.legalise.stages import legalising
 
 _BASE = ir.System("base")
 
 
+@legalising(
+    unless=lambda context: (
+        not context.foreign
+        or "base" not in context.capabilities.system_variables
+        or not rules_of(context.target).inputs.without_tool
+    )
+)
 def start_bases(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets of another language that have no base of their own at the start, and programs that set none."""
-    named = "base" in context.capabilities.system_variables
-    if not context.foreign or not named or not rules_of(context.target).inputs.without_tool:
-        return program
     if any(isinstance(node, ir.Assign) and node.target == _BASE for node in walk(*program.modules)):
         return program
     entries = moving_entries(program) & doing(program, _to_a_place)

@@ -20,6 +20,7 @@ from rpl.passes.legalise.facts.modalflow import Flow
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.settings.modal import DROPPED
 from rpl.passes.legalise.settings.saidaccelerations import number_of
+from rpl.passes.legalise.stages import legalising
 
 SLOWS_DOWN = code(
     "deceleration-of-acceleration",
@@ -32,10 +33,9 @@ _RAMPS = frozenset(("acceleration_ramp", "stop_ramp"))
 _FULL = 100.0
 
 
+@legalising(unless=lambda context: not context.foreign or context.capabilities.carries_rules)
 def strengths(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with rules of their own, and programs that say such a percentage."""
-    if not context.foreign or context.capabilities.carries_rules:
-        return program
     if not any(_says(node) for node in walk(*program.modules)):
         return program
     return edit_all(program, _Strengths(program, context).body)

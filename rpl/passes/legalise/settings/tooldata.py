@@ -16,6 +16,7 @@ from rpl.passes import rigid
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.values import pose_of
@@ -83,10 +84,9 @@ _TOOL = _Kind(ir.ToolType(), "frame", "rpl_with_tool")
 _FRAME = _Kind(ir.WorkObjectType(), "user_frame", "rpl_with_frame")
 
 
+@legalising(unless=lambda context: not context.capabilities.no_tool)
 def tool_data(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose moves need records as tool and frame."""
-    if not context.capabilities.no_tool:
-        return program
     worker = _ToolData(program, context)
     done = worker.program()
     if not worker.added:

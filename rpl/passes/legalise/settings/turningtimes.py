@@ -19,6 +19,7 @@ from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.walk import unchanged_in
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.values import Value, pose_of
 
 BY_TIME = code(
@@ -30,12 +31,16 @@ _SMALLEST_DEG = 0.1  # less than this is no turn
 _PLACES = (ir.System("tool"), ir.System("base"))
 
 
+@legalising(
+    unless=lambda context: (
+        (not ("speed" in context.capabilities.move_settings and "duration" in context.capabilities.speeds))
+        or "rotation" in context.capabilities.speeds
+        or "swivel_speed" in context.capabilities.system_variables
+    ),
+    sees=("Move",),
+)
 def turning_times(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose moves say a time, but no turning speed, neither in the move nor as a setting."""
-    can = context.capabilities
-    timed = "speed" in can.move_settings and "duration" in can.speeds
-    if not timed or "rotation" in can.speeds or "swivel_speed" in can.system_variables:
-        return program
     if not any(isinstance(one, ir.Move) and _turning_speed(one) is not None for one in walk(*program.modules)):
         return program
     unchanged = unchanged_in(program)

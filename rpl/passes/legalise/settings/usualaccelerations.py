@@ -15,6 +15,7 @@ from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.data.datalists import moving_entries
 from rpl.passes.legalise.settings.movesettings import plain
+from rpl.passes.legalise.stages import legalising
 
 DIFFERS = code(
     "accelerations-differ",
@@ -27,6 +28,7 @@ _SETTING = "path_acceleration"
 _USUAL_MM_S2 = 5000.0  # of a controller that says nothing: the emulator's value
 
 
+@legalising()
 def usual_accelerations(program: ir.Program, context: Context) -> ir.Program:
     """Only where the source's language says an acceleration, and the target's moves do not carry it anyway."""
     given = rules_of(context.source).system_defaults.get(_SETTING)

@@ -14,6 +14,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Fold, rules_of
 
 _TYPES = (ir.RecordDeclaration, ir.EnumDeclaration, ir.AliasDeclaration)
@@ -53,11 +54,10 @@ def own_names(program: ir.Program, context: Context, shared: Callable[[ir.Declar
     return replace(program, modules=tuple(modules[id(one)] for one in program.modules), tasks=renamed)
 
 
+@legalising(unless=lambda context: context.capabilities.local_routines)
 def names_of_local_routines(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose routines are all global: a routine that only its module sees gets a name of its own where
     another module has one of that name, too (`init` of two modules)."""
-    if context.capabilities.local_routines:
-        return program
     fold = Fold(rules_of(context.source).case_sensitive)
     everything = [routine for module in program.modules for routine in module.routines]
     taken = {fold(one.name) for one in everything if one.scope != "module"}

@@ -7,14 +7,14 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 
 _NEUTRAL = frozenset(("tool", "workobject", "load", "speed", "zone"))
 
 
+@legalising(unless=lambda context: context.capabilities.carries_rules)
 def apart_from_neutral_records(program: ir.Program, context: Context) -> ir.Program:
     """For targets that do not carry the source's settings, which thus get records of tools and loads."""
-    if context.capabilities.carries_rules:
-        return program
     new = {
         one.name.lower(): context.fresh(f"{one.name}_data")
         for module in program.modules

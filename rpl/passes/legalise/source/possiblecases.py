@@ -13,6 +13,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_all, expansion
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 _READERS = frozenset(("parse_value",))  # procedures that fill data of any type
@@ -20,6 +21,7 @@ _TELLING = {"scan_from": ".ret1", "format_into": ".ret1"}  # procedures that set
 _NO_MEMBERS = (ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.Quantity, ir.Aggregate)
 
 
+@legalising()
 def possible_cases(program: ir.Program, context: Context) -> ir.Program:
     """The program without cases that no value leads to."""
     held = _Held.of(program)

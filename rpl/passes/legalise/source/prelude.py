@@ -16,6 +16,7 @@ from rpl.passes.fold import constant, literal
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import usage_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import normalise
@@ -25,6 +26,7 @@ _LONGEST_LOOP = 6
 _DEEPEST = 4
 
 
+@legalising()
 def link_prelude(program: ir.Program, context: Context) -> ir.Program:
     """The program with the used part of each source dialect's prelude as a module of its own."""
     modules = list(program.modules)

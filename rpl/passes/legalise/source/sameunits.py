@@ -9,14 +9,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 
 
+@legalising(sees=("Magnitude",))
 def same_units(program: ir.Program, context: Context) -> ir.Program:
     """For all targets."""
-    if not any(isinstance(node, ir.Magnitude) for node in walk(*program.modules)):
-        return program
     return replace(program, modules=tuple(rewrite(module, _changed) for module in program.modules))
 
 

@@ -11,9 +11,11 @@ from typing import cast
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 from rpl.source import Origin
 
 
+@legalising()
 def source_layout(program: ir.Program, context: Context) -> ir.Program:
     """The program without marks of editors."""
     del context

@@ -11,12 +11,12 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 
 
+@legalising(unless=lambda context: not context.capabilities.banks)
 def declared_remarks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with numbered data."""
-    if not context.capabilities.banks:
-        return program
     return replace(program, modules=tuple(map(_of_module, program.modules)))
 
 

@@ -15,6 +15,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.capabilities import Bank
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 
 SIZED = code(
     "array-size-chosen",
@@ -26,11 +27,10 @@ _MOST = 50  # elements along a dimension that grows, where there is room
 _SPARE = 5  # this part of a bank is left for what the passes need themselves
 
 
+@legalising(unless=lambda context: not context.capabilities.banks)
 def grown_arrays(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with banks."""
     banks = context.capabilities.banks
-    if not banks:
-        return program
     fixed, grown = _data(program, banks)
     if not grown:
         return program

@@ -16,6 +16,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.kept import UnsetRead, unset_reads, without_unknown
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.stages import legalising
 from rpl.source import Comment, Origin
 
 UNKNOWN = code(
@@ -37,6 +38,7 @@ UNCERTAIN = code(
 )
 
 
+@legalising()
 def kept_values_known(program: ir.Program, context: Context) -> ir.Program:
     """For all targets; first of all, because a zero is a value like any other to what follows."""
     found = unset_reads(program)

@@ -8,15 +8,15 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 from rpl.source import Comment
 
 __all__ = ["labels_as_remarks"]
 
 
+@legalising(unless=lambda context: context.capabilities.banks)
 def labels_as_remarks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose variables have names; numbered ones have a place for the label itself."""
-    if context.capabilities.banks:
-        return program
     modules = (replace(module, declarations=tuple(map(_remarked, module.declarations))) for module in program.modules)
     return replace(program, modules=tuple(modules))
 

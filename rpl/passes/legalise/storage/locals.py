@@ -18,6 +18,7 @@ from rpl.passes.legalise.facts.activations import Activations, called
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.routines.recursion import kept_on_stacks
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import Origin
 
@@ -33,11 +34,14 @@ SHARED = code(
 )
 
 
+@legalising(
+    unless=lambda context: (
+        context.capabilities.locals and context.capabilities.recursion and (context.capabilities.parameters == "names")
+    )
+)
 def variables_of_routines(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose routines have no variables, or cannot call themselves."""
     can = context.capabilities
-    if can.locals and can.recursion and can.parameters == "names":
-        return program
     facts = Activations.of(program)
     again: set[int] = set()
     for key, routine in facts.routines.items():

@@ -12,16 +12,16 @@ from typing import TypeGuard
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.storage.points import is_point
 
 __all__ = ["points_of_modules"]
 
 
+@legalising(unless=lambda context: not context.capabilities.module_points)
 def points_of_modules(program: ir.Program, context: Context) -> ir.Program:
     """Only where nothing else of that name could be meant."""
     kind = context.capabilities.module_points
-    if not kind:
-        return program
     everywhere = Counter(name for module in program.modules for name in _names(module))
     shared = {name for module in program.modules for name in _shared(module)}
     modules = []

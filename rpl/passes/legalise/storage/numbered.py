@@ -21,6 +21,7 @@ from rpl.passes.legalise.facts.usage import each_expression, each_statement
 from rpl.passes.legalise.rewriting.operands import is_operand
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.routines.parameters import ARGUMENTS
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.storage.banks import (
     MIXED,
     NO_BANK,
@@ -68,10 +69,9 @@ class Facts:
     )  # arrays stored into it as a whole
 
 
+@legalising(unless=lambda context: not context.capabilities.banks)
 def number_data(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with banks."""
-    if not context.capabilities.banks:
-        return program
     worker = _Numbered(program, context)
     done = worker.program()
     # Where the number of an element is computed first, its wait has become a loop.

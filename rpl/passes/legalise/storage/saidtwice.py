@@ -8,6 +8,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 __all__ = ["said_once"]
@@ -15,6 +16,7 @@ __all__ = ["said_once"]
 _CHANGING = (ir.Call, ir.Builtin, ir.VendorValue, ir.Signal, ir.System)
 
 
+@legalising()
 def said_once(program: ir.Program, context: Context) -> ir.Program:
     """The program without assignments that the one in front of them, of the same statement of the source, has made."""
     return edit_all(program, _body)

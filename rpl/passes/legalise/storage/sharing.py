@@ -22,6 +22,7 @@ from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.routines.liveness import wanted_at_start
 from rpl.passes.legalise.routines.parameters import ARGUMENTS
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.storage.banks import sizes_of
 from rpl.passes.legalise.storage.lifetimes import companions
 from rpl.passes.legalise.storage.locals import renamed
@@ -34,11 +35,10 @@ _KINDS = (ir.IntType, ir.RealType, ir.BoolType, ir.StringType, ir.PoseType, ir.T
 _SAME = {"IntType": "RealType"}
 
 
+@legalising(unless=lambda context: not context.capabilities.banks or context.capabilities.locals)
 def share_temporaries(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with banks whose routines have no variables, and only for banks that would run out."""
     can = context.capabilities
-    if not can.banks or can.locals:
-        return program
     short = _short_banks(program, can.banks)
     if not short:
         return program

@@ -10,6 +10,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.stages import legalising
 
 _DECLARED = (
     ir.Variable,
@@ -23,10 +24,11 @@ _DECLARED = (
 _COMPONENTS = frozenset(name for names in ir.COMPONENTS.values() for name in names)
 
 
+@legalising(
+    unless=lambda context: not context.capabilities.names.case_sensitive or rules_of(context.source).case_sensitive
+)
 def one_spelling(program: ir.Program, context: Context) -> ir.Program:
     """The program with every name spelled one way."""
-    if not context.capabilities.names.case_sensitive or rules_of(context.source).case_sensitive:
-        return program
     spelled: dict[str, str] = {}
     fields: dict[str, str] = {}
     for module in program.modules:

@@ -9,13 +9,13 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Fold
 
 
+@legalising(unless=lambda context: context.capabilities.static_locals)
 def static_variables(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such variables. One keeps its name where no other data has it."""
-    if context.capabilities.static_locals:
-        return program
     scopes = ProgramScope(program)
     used = Counter(name for module in program.modules for name in _names(module))
     modules = []

@@ -13,6 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.routines.parameters import ARGUMENTS
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import NOWHERE
 
@@ -27,6 +28,7 @@ IDLE = code("data-used-nowhere", Severity.INFO, "used nowhere in the program, so
 _BUILT_IN = frozenset(("tool", "workobject", "load", "speed", "zone", "pose", "vector", "rotation", "joints", "axes"))
 
 
+@legalising()
 def drop_unused(program: ir.Program, context: Context) -> ir.Program:
     """The program without unused data, types and routines of linked preludes."""
     parts: list[ir.Declaration | ir.Routine] = []
@@ -59,6 +61,7 @@ def drop_unused(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=tuple(modules))
 
 
+@legalising()
 def drop_untyped(program: ir.Program, context: Context) -> ir.Program:
     """The program without routines that nothing calls and whose data has a type of the source controller alone, and
     without handles of interrupts and path events that no statement mentions."""
@@ -80,11 +83,10 @@ def drop_untyped(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=tuple(modules))
 
 
+@legalising(unless=lambda context: not context.capabilities.banks)
 def drop_idle_data(program: ir.Program, context: Context) -> ir.Program:
     """The program without global data that nothing uses, for targets where it would take a number of its own. Whole
     records of tools and loads leave such parts when they are taken apart."""
-    if not context.capabilities.banks:
-        return program
     used = _names(program) | {ARGUMENTS.lower()}
     modules = []
     for module in program.modules:

@@ -9,11 +9,13 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.storage.unused import is_linked
 
 Elements = dict[str, dict[tuple[int, ...], str]]  # array (folded) -> numbers of an element -> its variable
 
 
+@legalising()
 def used_elements(program: ir.Program, context: Context) -> ir.Program:
     """Arrays with a value of their own, or wanted as a whole, stay."""
     arrays = {

@@ -19,6 +19,7 @@ from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.settings.movesettings import plain
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 from rpl.source import NOWHERE, Origin
 
@@ -68,11 +69,11 @@ class _UnfitError(Exception):
     """Why a routine cannot be a background program."""
 
 
+@legalising(
+    unless=lambda context: not context.capabilities.background_tasks or "TaskControl" in context.capabilities.statements
+)
 def background_tasks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with background programs and no statement that starts a task."""
-    capabilities = context.capabilities
-    if not capabilities.background_tasks or "TaskControl" in capabilities.statements:
-        return program
     if any(module.task for module in program.modules) or any(task.kind != "background" for task in program.tasks):
         return program
     controls = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl)]

@@ -20,6 +20,7 @@ from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.usage import called_names, exposed
 from rpl.passes.legalise.rewriting.editing import edit_bodies, expansion, map_body
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.beside import closure, local_names, tidy
 from rpl.passes.legalise.tasks.watchedloops import Event, UnfitError, WatchedTask
 
@@ -45,10 +46,9 @@ _PRIORITY = 1  # more urgent than any other interrupt of the program
 _FIRST_IDENTITY = 9001
 
 
+@legalising(unless=lambda context: context.capabilities.moving_tasks)
 def called_tasks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose other tasks cannot move the robot."""
-    if context.capabilities.moving_tasks:
-        return program
     controls = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl)]
     if not any(one.op == "start" for one in controls):
         return program

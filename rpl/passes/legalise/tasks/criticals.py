@@ -16,17 +16,17 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import changed
 from rpl.source import NOWHERE
 
 _SAID_APART = (ir.Call, ir.Builtin, ir.Signal, ir.System, ir.VendorValue)
 
 
+@legalising(unless=lambda context: "Critical" in context.capabilities.statements, sees=("Critical",))
 def without_criticals(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without critical sections, and programs whose tasks are started by statements."""
-    if "Critical" in context.capabilities.statements or program.tasks:
-        return program
-    if not any(isinstance(node, ir.Critical) for node in walk(*program.modules)):
+    if program.tasks:
         return program
     facts = Facts(program)
     modules = tuple(

@@ -13,10 +13,12 @@ from rpl.passes.legalise.control.jumps import LOOPS
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.facts.usage import assigned_in
 from rpl.passes.legalise.rewriting.editing import edit_all, expansion
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.beside import local_names
 from rpl.passes.rewrite import rewrite_parts
 
 
+@legalising()
 def known_handles(program: ir.Program, context: Context) -> ir.Program:
     """For every target: a choice between threads by a number that is known becomes the one thread."""
     chosen = {name for one in walk(*program.modules) if (name := _choice(one)) is not None}

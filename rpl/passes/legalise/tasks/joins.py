@@ -14,13 +14,18 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside, left_with
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 
 
+@legalising(
+    unless=lambda context: (
+        "TaskControl" not in context.capabilities.statements
+        or "join" in context.capabilities.task_operations
+        or "start" not in context.capabilities.task_operations
+    )
+)
 def joins(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose tasks can be started and not joined."""
-    can = context.capabilities
-    if "TaskControl" not in can.statements or "join" in can.task_operations or "start" not in can.task_operations:
-        return program
     controls = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl)]
     started = {one.task.lower() for one in controls if one.op == "start"}
     joined = {one.task.lower() for one in controls if one.op == "join"} & started

@@ -19,6 +19,7 @@ from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, map_body
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.criticals import Facts
 from rpl.source import Origin
 
@@ -36,11 +37,10 @@ OPEN = code(
 _TRUE, _FALSE = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
 
+@legalising(unless=lambda context: "Critical" in context.capabilities.statements, sees=("Critical",))
 def critical_flags(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without critical sections, and programs whose tasks are started by statements."""
-    if "Critical" in context.capabilities.statements or program.tasks:
-        return program
-    if not any(isinstance(node, ir.Critical) for node in walk(*program.modules)):
+    if program.tasks:
         return program
     facts = Facts(program)
     found = _sections(facts)

@@ -14,6 +14,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import LOOPS
+from rpl.passes.legalise.stages import legalising
 
 MAYBE = code(
     "task-started-again",
@@ -29,10 +30,9 @@ SURELY = code(
 )
 
 
+@legalising(unless=lambda context: context.capabilities.carries_rules or not rules_of(context.source).task_instances)
 def second_starts(program: ir.Program, context: Context) -> ir.Program:
     """For every target that knows a task by its routine; the program stays as it is."""
-    if context.capabilities.carries_rules or not rules_of(context.source).task_instances:
-        return program
     routines = [routine for module in program.modules for routine in module.routines]
     endless = {one.name.lower() for one in routines if _is_endless(one.body)}
     for start in dict.fromkeys(again for one in routines for body in bodies(one) for again in _again(body, False)):

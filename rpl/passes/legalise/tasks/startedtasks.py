@@ -14,9 +14,11 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.data.datalists import never_called
+from rpl.passes.legalise.stages import legalising
 from rpl.source import NOWHERE
 
 
+@legalising()
 def started_tasks(program: ir.Program, context: Context) -> ir.Program:
     """Only where a statement or an expression names such a task; other tasks must not be there."""
     nodes = [*walk(*program.modules)]

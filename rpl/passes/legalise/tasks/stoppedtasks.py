@@ -14,6 +14,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside, left_with
 from rpl.passes.legalise.rewriting.editing import edit_bodies, expansion, map_body
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.background import leaving_at, waits
 from rpl.passes.legalise.tasks.beside import closure
 from rpl.source import NOWHERE
@@ -22,12 +23,15 @@ _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.WaitForMotion, ir.StopMotion,
 _TRUE, _FALSE = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
 
+@legalising(
+    unless=lambda context: (
+        "TaskControl" not in context.capabilities.statements
+        or "stop" in context.capabilities.task_operations
+        or "start" not in context.capabilities.task_operations
+    )
+)
 def stopped_tasks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose tasks can be started and not stopped."""
-    can = context.capabilities
-    operations = can.task_operations
-    if "TaskControl" not in can.statements or "stop" in operations or "start" not in operations:
-        return program
     names = _stopped(program)
     if not names:
         return program

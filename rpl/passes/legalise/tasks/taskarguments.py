@@ -13,12 +13,14 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.usage import assigned_in
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, expansion, map_body
+from rpl.passes.legalise.stages import legalising
 
 
+@legalising(
+    unless=lambda context: not context.capabilities.watching_tasks and context.capabilities.parameters == "names"
+)
 def task_arguments(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose tasks take none."""
-    if not context.capabilities.watching_tasks and context.capabilities.parameters == "names":
-        return program
     starts = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl) and node.arguments]
     if not starts:
         return program

@@ -15,15 +15,16 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.source.ownnames import own_names
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Fold, rules_of
 
 _TYPES = (ir.RecordDeclaration, ir.EnumDeclaration, ir.AliasDeclaration)
 
 
+@legalising(unless=lambda context: context.capabilities.background_tasks == "separate")
 def shared_task_data(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without tasks that have data of their own, and programs of several tasks."""
-    capabilities = context.capabilities
-    if capabilities.background_tasks == "separate" or len({module.task for module in program.modules}) < 2:
+    if len({module.task for module in program.modules}) < 2:
         return program
     fold = Fold(rules_of(context.source).case_sensitive)
     tasks: dict[str, set[str]] = {}

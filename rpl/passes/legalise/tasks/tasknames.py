@@ -9,8 +9,10 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 
 
+@legalising()
 def task_names(program: ir.Program, context: Context) -> ir.Program:
     """Only where a statement names such a task; two tasks of one routine stay as they are."""
     routines = {routine.name.lower() for module in program.modules for routine in module.routines}

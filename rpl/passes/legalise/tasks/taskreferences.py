@@ -17,10 +17,12 @@ from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.facts.usage import assigned_in, base_name
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.beside import local_names
 from rpl.passes.scope import ProgramScope, Scope
 
 
+@legalising(sees=("TaskControl",))
 def task_references(program: ir.Program, context: Context) -> ir.Program:
     """For every target that tells a task's arguments apart from its data."""
     if not any(isinstance(node, ir.TaskControl) and node.arguments for node in walk(*program.modules)):

@@ -13,6 +13,7 @@ from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.advance.cornerways import Ways
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import doing
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 
 STOPS_BEFORE = code(
@@ -22,10 +23,11 @@ STOPS_BEFORE = code(
 )
 
 
+@legalising(unless=lambda context: not context.capabilities.watching_tasks)
 def stand_before_tasks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose tasks drive single moves."""
     starts = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl) and node.op == "start"]
-    if not context.capabilities.watching_tasks or not starts:
+    if not starts:
         return program
     moving = doing(program, lambda node: isinstance(node, ir.Move | ir.MoveExternal | ir.Spline))
     entries = {task.name.lower(): (task.entry or task.name).lower() for task in program.tasks}

@@ -15,14 +15,14 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside, left_with
 from rpl.passes.legalise.rewriting.editing import edit_bodies, expansion, map_body
 from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.stages import legalising
 
 ASKS = "task_runs"
 
 
+@legalising(unless=lambda context: ASKS in context.capabilities.functions)
 def task_states(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that do not know whether a task runs."""
-    if ASKS in context.capabilities.functions:
-        return program
     asked = {name for node in walk(*program.modules) if (name := _asked(node)) is not None}
     started = {
         node.task.lower() for node in walk(*program.modules) if isinstance(node, ir.TaskControl) and node.op == "start"

@@ -13,6 +13,7 @@ from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
+from rpl.passes.legalise.stages import legalising
 
 KEYS = code(
     "keys-as-number",
@@ -27,10 +28,9 @@ BY_TIME = code(
 )
 
 
+@legalising(unless=lambda context: not context.capabilities.asks_numbers_only)
 def number_dialogs(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that ask for numbers only."""
-    if not context.capabilities.asks_numbers_only:
-        return program
 
     def change(statement: ir.Statement) -> ir.Body:
         if isinstance(statement, ir.Dialog) and statement.text != ir.TextLiteral(""):

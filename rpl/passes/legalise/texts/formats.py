@@ -13,6 +13,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 
 _SPECIFICATION = re.compile(r"%(?:%|(?P<flags>[-+ 0]*)(?P<width>\d*)(?:\.(?P<digits>\d+))?l?(?P<kind>[a-zA-Z]))")
 _DEFAULT_DECIMALS = 6
@@ -86,11 +87,16 @@ END FUNCTION
 }
 
 
+@legalising(
+    unless=lambda context: (
+        context.capabilities.carries_rules
+        or not context.capabilities.texts
+        or not context.capabilities.text_results
+        or "format_into" in context.capabilities.procedures
+    )
+)
 def formats(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with texts as values and without C's own formats."""
-    can = context.capabilities
-    if can.carries_rules or not can.texts or not can.text_results or "format_into" in can.procedures:
-        return program
     if not any(_form(node) for node in walk(*program.modules)):
         return program
     worker = _Formats(program, context)

@@ -10,6 +10,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.numeric import written_number
 from rpl.passes.scope import rules_of
 
@@ -99,11 +100,15 @@ END FUNCTION
 """
 
 
+@legalising(
+    unless=lambda context: (
+        context.capabilities.leading_numbers
+        or context.capabilities.carries_rules
+        or not rules_of(context.source).leading_numbers
+    )
+)
 def leading_numbers(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that read texts which hold nothing but a number."""
-    can = context.capabilities
-    if can.leading_numbers or can.carries_rules or not rules_of(context.source).leading_numbers:
-        return program
     if not any(_is_reading(node) for node in walk(*program.modules)):
         return program
     worker = _Leading(program, context)

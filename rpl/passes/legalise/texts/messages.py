@@ -15,6 +15,7 @@ from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_all, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.stages import legalising
 
 SPLIT = code(
     "message-split",
@@ -27,11 +28,10 @@ _ENDS = re.compile(r"\r\n|\r|\n")
 _WORDS = re.compile(r"\s*\S+\s*|\s+")
 
 
+@legalising(unless=lambda context: not context.capabilities.longest_message)
 def split_messages(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose messages have a longest line."""
     most = context.capabilities.longest_message
-    if not most:
-        return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         def change(statement: ir.Statement) -> ir.Body:
@@ -44,10 +44,9 @@ def split_messages(program: ir.Program, context: Context) -> ir.Program:
     return edit_routines(program, context, work)
 
 
+@legalising(unless=lambda context: context.capabilities.line_ends)
 def message_lines(program: ir.Program, context: Context) -> ir.Program:
     """A message for each line of one, where texts of the target have no line ends; empty lines are not shown."""
-    if context.capabilities.line_ends:
-        return program
 
     def change(statement: ir.Statement) -> ir.Body:
         if isinstance(statement, ir.Message) and statement.kind != "clear":
@@ -57,10 +56,9 @@ def message_lines(program: ir.Program, context: Context) -> ir.Program:
     return edit_all(program, lambda body: map_body(body, change))
 
 
+@legalising(unless=lambda context: context.capabilities.numbered_messages)
 def senders_as_texts(program: ir.Program, context: Context) -> ir.Program:
     """The number of an alarm as a text, where what stands in front of a message is one."""
-    if context.capabilities.numbered_messages:
-        return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         def change(node: object) -> object:

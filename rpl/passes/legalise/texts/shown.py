@@ -16,6 +16,7 @@ from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.stages import legalising
 
 NAMED = code(
     "message-values-named",
@@ -29,10 +30,9 @@ _TEMPLATES = {"message_text": _NUMBERED, "format": _FORMATTED}
 _LOOKS = frozenset(("text_upper", "text_lower", "text_trim"))
 
 
+@legalising(unless=lambda context: context.capabilities.computed_messages)
 def values_beside_messages(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without computed messages."""
-    if context.capabilities.computed_messages:
-        return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         kept: dict[tuple[ir.Type, int], ir.Name] = {}

@@ -12,6 +12,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 
 NO_BYTES = code(
     "text-bytes-lost",
@@ -55,10 +56,9 @@ END FUNCTION
 }
 
 
+@legalising(unless=lambda context: {_WRITES, _READS} <= context.capabilities.functions)
 def text_bytes(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without functions for bytes."""
-    if {_WRITES, _READS} <= context.capabilities.functions:
-        return program
     first = next((node for node in walk(*program.modules) if _is_bytes(node)), None)
     if first is None:
         return program

@@ -9,6 +9,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import Editor, edit_routines
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import rules_of
 
 OTHER_DIGITS = code(
@@ -19,12 +20,16 @@ OTHER_DIGITS = code(
 )
 
 
+@legalising(
+    unless=lambda context: (
+        context.capabilities.carries_rules
+        or rules_of(context.source).text_decimals == context.capabilities.text_decimals
+    )
+)
 def text_decimals(program: ir.Program, context: Context) -> ir.Program:
     """The program as it is, after a report at each number with a fraction that a text shows."""
     can = context.capabilities
     theirs = rules_of(context.source).text_decimals
-    if can.carries_rules or theirs == can.text_decimals:
-        return program
 
     def look(editor: Editor, routine: ir.Routine) -> ir.Routine:
         for node in walk(routine):

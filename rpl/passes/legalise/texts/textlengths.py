@@ -19,6 +19,7 @@ from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.control.jumps import LOOPS
 from rpl.passes.legalise.data.wholes import Key, place_key
 from rpl.passes.legalise.facts.effects import blocks
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 from rpl.source import Origin
@@ -35,6 +36,7 @@ _AS_LONG = frozenset(("text_upper", "text_lower", "text_map"))
 _SHAPED = frozenset(("format", "message_text"))
 
 
+@legalising()
 def text_lengths(program: ir.Program, context: Context) -> ir.Program:
     """Reports, and gives texts more room where the target declares how much each has."""
     usual, most = context.capabilities.text_room or (0, rules_of(context.target).text_length)
@@ -47,6 +49,7 @@ def text_lengths(program: ir.Program, context: Context) -> ir.Program:
     return _with_room(program, most) if usual and any(True for _ in lengths.beyond(usual)) else program
 
 
+@legalising()
 def roomy_texts(program: ir.Program, context: Context) -> ir.Program:
     """What keeps parts of texts beside those that got more room gets as much."""
     if context.capabilities.text_room is None:

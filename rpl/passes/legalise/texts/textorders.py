@@ -9,6 +9,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
 
 _ORDERS = frozenset(("<", "<=", ">", ">="))
 _HELPER = "rpl_text_order"
@@ -31,11 +32,14 @@ END FUNCTION
 """
 
 
+@legalising(
+    unless=lambda context: (
+        context.capabilities.text_ordering or context.capabilities.carries_rules or not context.capabilities.texts
+    ),
+    sees=("Binary",),
+)
 def text_orders(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose operators do not order texts."""
-    can = context.capabilities
-    if can.text_ordering or can.carries_rules or not can.texts:
-        return program
     if not any(isinstance(node, ir.Binary) and node.op in _ORDERS for node in walk(*program.modules)):
         return program
     worker = _Orders(program, context)

@@ -13,16 +13,21 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.errors.raising import raising_of
 from rpl.passes.legalise.facts.usage import assigned_in
 from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines
+from rpl.passes.legalise.stages import legalising
 
 _SIMPLE = (ir.Name, ir.IntLiteral, ir.TextLiteral)
 
 
+@legalising(
+    unless=lambda context: (
+        not context.capabilities.text_parts_cut
+        or (context.source in registry.target_names() and registry.target(context.source).capabilities().text_parts_cut)
+    )
+)
 def checked_text_parts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that cut, where the source does not. A program that catches the error keeps its handlers."""
     can = context.capabilities
-    if not can.text_parts_cut or not any(_part(node) for node in walk(*program.modules)):
-        return program
-    if context.source in registry.target_names() and registry.target(context.source).capabilities().text_parts_cut:
+    if not any(_part(node) for node in walk(*program.modules)):
         return program
     if not can.error_handlers and "out_of_range" in raising_of(program).caught:
         return program

@@ -9,16 +9,16 @@ from functools import reduce
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.typewords import component_names, component_type
 
 _PLAIN = (*ir.NUMBER_TYPES, ir.StringType, ir.CharType, ir.BoolType)
 _MOST = 24  # components that are written one by one
 
 
+@legalising(unless=lambda context: context.capabilities.whole_texts)
 def whole_texts(program: ir.Program, context: Context) -> ir.Program:
     """Where the target has no such texts itself."""
-    if context.capabilities.whole_texts:
-        return program
 
     def look(editor: Editor, routine: ir.Routine) -> ir.Routine:
         worker = _Worker(editor)
