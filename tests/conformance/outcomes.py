@@ -1,7 +1,11 @@
 """What came of every sample in every target: the table behind docs/support.md, and the page itself.
 
-`python tests/conformance/outcomes.py` runs all of it, writes `outcomes.json` beside this file and the page. The
-conformance tests compare each pair with the file, so that a refusal that appears or goes is seen.
+    python tests/conformance/outcomes.py            runs all of it, writes `outcomes.json` beside this file and the page
+    python tests/conformance/outcomes.py page       writes the page alone, from the outcomes that are recorded
+    ... [words of sample names] [to:TARGET ...]     shows these pairs, writes nothing
+
+The conformance tests compare each pair with the file, so that a refusal that appears or goes is seen. A row that comes
+to the table of refusals needs the page alone.
 """
 
 from __future__ import annotations
@@ -14,6 +18,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
+from string import Formatter
 
 from loading import objections
 
@@ -23,6 +28,7 @@ from rpl.diagnostics import Diagnostic, Diagnostics, Severity
 from rpl.emulator.model import load_robot
 from rpl.errors import RplError
 from rpl.ir.walk import walk
+from rpl.passes.legalise.refusals import REFUSALS
 from rpl.project import ReadProgram, read_sources
 from rpl.proof.prove import prove_against, recorded_run
 from rpl.proof.record import Record
@@ -264,6 +270,7 @@ def page(outcomes: dict[str, dict[str, dict[str, object]]]) -> str:
     for language in languages:
         cells = [_cell(outcomes, language, target) for target in targets]
         lines.append(f"| {language} ({title[language]}) | " + " | ".join(cells) + " |")
+    lines += ["", "## What translation refuses", "", *_table_of_refusals()]
     lines += ["", "## Refusals and differences", ""]
     lines += _refusals(outcomes)
     for language in languages:
@@ -277,13 +284,34 @@ def _of(outcomes: dict[str, dict[str, dict[str, object]]], language: str) -> dic
 
 
 def _cell(outcomes: dict[str, dict[str, dict[str, object]]], language: str, target: str) -> str:
-    counts = defaultdict(int)
+    counts: defaultdict[str, int] = defaultdict(int)
     for found in _of(outcomes, language).values():
         if target in found:
             counts[str(found[target]["status"])] += 1
     text = f"{counts[EXACT] + counts[NOTED]} / {counts[ALIKE]} / {counts[REFUSED]}"
     text += f", {counts[UNDECIDED]} undecided" if counts[UNDECIDED] else ""
     return text + (f", {counts[DIFFERENT]} differ" if counts[DIFFERENT] else "")
+
+
+def _table_of_refusals() -> list[str]:
+    """The rows of the passes' table: what stops in a target that lacks it, why, and what the user can do."""
+    lines = [
+        "No target is given these where it lacks them. The report names the place, the output holds the target's stop",
+        "there, and the rest of the file is translated. `...` stands for what the report names.",
+        "",
+        "| construct | why | by hand | report |",
+        "|---|---|---|---|",
+    ]
+    for row in REFUSALS:
+        cells = (row.what, _open(row.code.template), _open(row.code.help), f"`{row.code.name}`")
+        lines.append("| " + " | ".join(cells) + " |")
+    return lines
+
+
+def _open(template: str) -> str:
+    """The words of a report, with `...` where it names something."""
+    parts = (text + ("" if name is None else "...") for text, name, _, _ in Formatter().parse(template))
+    return "".join(parts).replace("|", "\\|")
 
 
 def _refusals(outcomes: dict[str, dict[str, dict[str, object]]]) -> list[str]:
@@ -345,8 +373,12 @@ def results(name: str, targets: list[str]) -> dict[str, Outcome]:
 
 
 def main(only: list[str]) -> None:
-    """Run every sample in every target and write file and page. With words nothing is written: only samples whose
-    name holds one of them are shown; `to:NAME`: only these targets; `write`: their rows are written nevertheless."""
+    """Run every sample in every target and write file and page. `page`: the page alone, nothing is run. With other
+    words nothing is written: only samples whose name holds one of them are shown; `to:NAME`: only these targets;
+    `write`: their rows are written nevertheless."""
+    if only == ["page"]:
+        PAGE.write_text(page(recorded()), "utf-8")
+        return
     sys.path.insert(0, str(HERE))
     import test_conformance_samples as samples
 

@@ -24,6 +24,7 @@ from outcomes import ALIKE, DIFFERENT, PAGE, REFUSED, first_run, model_of, outco
 
 from rpl import registry
 from rpl.diagnostics import Diagnostics, Severity
+from rpl.passes.legalise.refusals import REFUSALS
 from rpl.project import ReadProgram, read_program, read_sources
 from rpl.proof.prove import ProofResult, load_cell, prove_against
 from rpl.proof.record import signal_names
@@ -168,6 +169,14 @@ def test_it_means_the_same_when_written_anew(sample: Path, target: str) -> None:
 
 def test_the_page_of_what_is_supported_is_current() -> None:
     assert PAGE.read_text("utf-8") == page(recorded())
+
+
+def test_every_refusal_is_on_the_page_with_what_to_do_by_hand() -> None:
+    text = page(recorded())
+    for row in REFUSALS:
+        assert row.code.help, f"{row.code.name} does not say what the user can do"
+        assert f"| {row.what} | " in text
+        assert f" | `{row.code.name}` |" in text
 
 
 def test_every_pair_of_languages_is_on_the_page() -> None:

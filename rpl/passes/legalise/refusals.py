@@ -26,9 +26,18 @@ from rpl.passes.typing import type_of
 from rpl.source import Comment
 
 CRITICAL = code(
-    "critical-section-lost", Severity.LOSS, "the target cannot keep other tasks from running in a section of a program"
+    "critical-section-lost",
+    Severity.LOSS,
+    "the target cannot keep other tasks from running in a section of a program",
+    "let the tasks take turns by signals, or do in one task what must not be divided",
 )
-TASK = code("task-control-lost", Severity.LOSS, "the target's programs cannot {what} another task ({name})", stops=True)
+TASK = code(
+    "task-control-lost",
+    Severity.LOSS,
+    "the target's programs cannot {what} another task ({name})",
+    "set the tasks up on the controller and let them wait for signals of each other",
+    stops=True,
+)
 INTERRUPT = code(
     "interrupt-lost",
     Severity.LOSS,
@@ -49,7 +58,13 @@ TUNING = code(
     "{text} sets up the source's controller only; it is left out",
     "set the same on the target's controller where it has it (payload, collision guard)",
 )
-SEARCH = code("search-lost", Severity.LOSS, "the target's moves do not watch a condition on their way", stops=True)
+SEARCH = code(
+    "search-lost",
+    Severity.LOSS,
+    "the target's moves do not watch a condition on their way",
+    "use the controller's own search function, or drive in short steps and ask the condition between them",
+    stops=True,
+)
 KINEMATICS = code(
     "kinematics-lost",
     Severity.LOSS,
