@@ -25,7 +25,6 @@ _PRIORITY = 5  # more urgent than the interrupts that passes.interrupts numbers
     unless=lambda context: (
         "Search" in context.capabilities.statements
         or not {"DeclareInterrupt", "ResumeLevel", "StopMotion"} <= context.capabilities.statements
-        or not _Searches(context, set(rules_of(context.source).errors)).routines
     )
 )
 def searches(program: ir.Program, context: Context) -> ir.Program:
@@ -36,6 +35,8 @@ def searches(program: ir.Program, context: Context) -> ir.Program:
         replace(module, routines=tuple(worker.routine(r, scopes.routine(module, r)) for r in module.routines))
         for module in program.modules
     )
+    if not worker.routines:
+        return program
     first = modules[0]
     home = ir.Module(
         context.fresh("rpl_search"), first.dialect, tuple(worker.declarations), tuple(worker.routines), task=first.task
