@@ -204,3 +204,13 @@ def test_waits_for_groups() -> None:
     assert [(round(t, 1), name) for t, name, _ in given] == [(round(t, 1), name) for t, name, _ in wanted]
     assert len(wanted) == 7
     assert sum(isinstance(node, ir.Wait) for node in walk(*after.modules)) == 2
+
+
+def test_a_number_that_is_written_bit_by_bit_is_named_once_a_routine() -> None:
+    """A cell that waits for an in-between number (3 to 4 goes over 2 and 0) meets it in the translation only."""
+    program = read(PROGRAM, "vplus")
+    given = context(program, SINGLE)
+    passed(program, (groups_to_bits,), given)
+    told = [item for item in given.diagnostics if item.code.name == "group-bit-by-bit"]
+    assert [item.message.partition(" are")[0] for item in told] == ["the outputs 3 to 6"]
+    assert told[0].origin.line == 3

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.io.polling import polled
@@ -19,6 +20,12 @@ from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit
 from rpl.passes.legalise.stages import legalising
 
 _WIDEST = 32
+ONE_BY_ONE = code(
+    "group-bit-by-bit",
+    Severity.WARNING,
+    "the outputs {which} are written one after another: who reads them as one number sees others on the way",
+    "declare a group of signals in the target's controller, or let an output of its own say when the number stands",
+)
 
 
 @legalising()
@@ -182,9 +189,18 @@ def _placed(parts: list[ir.Signal]) -> list[tuple[int, ir.Signal]]:
     return places
 
 
+def _numbers(bits: list[ir.Signal]) -> str:
+    """The first and last number of the signals, as far as they are known."""
+    first, last = bits[0].index, bits[-1].last or bits[-1].index
+    if isinstance(first, ir.IntLiteral) and isinstance(last, ir.IntLiteral):
+        return f"{first.value} to {last.value}"
+    return "of a group with computed numbers"
+
+
 class _Bits(Hoister):
     def __init__(self, editor: Editor) -> None:
         super().__init__(editor, self.ruled)
+        self.told: set[str] = set()  # groups of this routine that are written bit by bit
 
     def bits(self, expression: ir.Expression) -> list[ir.Signal]:
         """The signals of a group that is taken apart."""
@@ -266,9 +282,17 @@ class _Bits(Hoister):
             kept = self.editor.temporary("bits", ir.IntType())
             first.append(ir.Assign(kept, given if whole else ir.Convert("round_half_away", given)))
             given = kept
+        self.tell(statement, bits)
         shares = [ir.Assign(bit, self.share(given, place, _width(bit))) for place, bit in _placed(bits)]
         done = expansion(statement.origin, (*first, *shares))
         return tuple(replace(one, origin=statement.origin) if at == 0 else one for at, one in enumerate(done))
+
+    def tell(self, statement: ir.Assign, bits: list[ir.Signal]) -> None:
+        """That the signals do not turn at the same moment; once for each group of a routine."""
+        which = _numbers(bits)
+        if len(bits) > 1 and which not in self.told:
+            self.told.add(which)
+            self.editor.context.diagnostics.report(ONE_BY_ONE, statement.origin, which=which)
 
     def share(self, number: ir.Expression, place: int, width: int) -> ir.Expression:
         """Is the bit set in the number? Of several bits: the number that they show."""
