@@ -31,7 +31,7 @@ from rpl.passes.scope import Scope
 from rpl.runtime import answers, functions, system
 from rpl.runtime.code import Read, Values
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.signals import is_bit_group, key_of, zero_of
+from rpl.runtime.signals import as_port, is_bit_group, key_of, number_from, zero_of
 from rpl.runtime.values import (
     MUTABLE,
     Array,
@@ -390,7 +390,7 @@ class Compiler:
                 return self.port(place.signal)
             if isinstance(place, Place):
                 held = self.name(ir.Name(signal.name))
-                return lambda f: _as_port(held(f), kind)
+                return lambda f: as_port(held(f), kind)
             return SignalRef(kind, name=signal.name)
         first = _constant_number(signal.index)
         last = _constant_number(signal.last)
@@ -399,14 +399,9 @@ class Compiler:
         index = self.value(signal.index) if signal.index is not None else None
         end = self.value(signal.last) if signal.last is not None else None
         least = self.scope.rules.first_signal
-
-        def numbered(f: Values) -> SignalRef:
-            number = whole(index(f)) if index is not None else least
-            if number < least > 0:
-                raise ProgramError("out_of_range", f"there is no signal of the number {number}")
-            return SignalRef(kind, number, whole(end(f)) if end is not None else None)
-
-        return numbered
+        return lambda f: SignalRef(
+            kind, number_from(index(f), least) if index is not None else 0, whole(end(f)) if end is not None else None
+        )
 
     def signal(self, expression: ir.Signal) -> Read:
         port = self.port(expression)
@@ -451,14 +446,6 @@ def _words(expression: ir.Expression) -> str:
         case ir.Index(base=base):
             return f"an element of {_words(base)}"
     return "this"
-
-
-def _as_port(value: Value, kind: str) -> SignalRef:
-    if isinstance(value, SignalRef):
-        return value
-    if isinstance(value, str) and value:
-        return SignalRef(kind, name=value)
-    raise ProgramError("no_value", "the signal parameter stands for no signal")
 
 
 # ---- closures

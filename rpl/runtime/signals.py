@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import re
 
-from rpl.runtime.values import SignalRef, Value
+from rpl.runtime.faults import ProgramError
+from rpl.runtime.values import SignalRef, Value, whole
 
 Key = tuple[str, int] | str
 
@@ -104,3 +105,19 @@ def keys_named(text: str, alias: SignalRef | None) -> frozenset[Key]:
         elif whole := joined_name(text):
             keys.add(whole.lower())
     return frozenset(keys)
+
+
+def as_port(value: Value, kind: str) -> SignalRef:
+    """The signal that a parameter stands for: a signal, or its name. Raises ProgramError for anything else."""
+    if isinstance(value, SignalRef):
+        return value
+    if isinstance(value, str) and value:
+        return SignalRef(kind, name=value)
+    raise ProgramError("no_value", "the signal parameter stands for no signal")
+
+
+def number_from(value: Value, least: int) -> int:
+    """The number of a signal that a program has worked out. Raises ProgramError below `least` (0: there is none)."""
+    if (number := whole(value)) >= least or least == 0:
+        return number
+    raise ProgramError("out_of_range", f"there is no signal of the number {number}")
