@@ -5,7 +5,7 @@ Each routine is laid out as a row of steps once; what comes before and behind a 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from rpl import ir
@@ -62,7 +62,14 @@ class _Rows:
 
     rows: dict[str, list[_Row]] = field(default_factory=dict)
     callers: dict[str, set[str]] = field(default_factory=dict)
-    moves: dict[int, ir.Move] = field(default_factory=dict)
+    moves: dict[int, ir.Move] = field(default_factory=dict)  # in the order of the program
+    order: dict[int, int] = field(default_factory=dict)
+
+    def in_order(self, states: Iterable[int]) -> list[int]:
+        """Moves in the order of the program: identities are other numbers in each run."""
+        if len(self.order) != len(self.moves):
+            self.order = {one: number for number, one in enumerate(self.moves, 1)}
+        return sorted(states, key=lambda one: (self.order.get(abs(one), 0), one < 0, min(abs(one), -UNKNOWN)))
 
 
 def pairs_of(program: ir.Program) -> list[Pair]:
@@ -78,9 +85,9 @@ def pairs_of(program: ir.Program) -> list[Pair]:
             start = frozenset((BEFORE if number == 0 else STANDS,))
             for step, state in _states(row, start, summaries):
                 if step.move is not None:
-                    found += [(name, before, id(step.move)) for before in sorted(state)]
+                    found += [(name, before, id(step.move)) for before in rows.in_order(state)]
                 if step.unknown:
-                    found += [(name, before, UNKNOWN) for before in sorted(state)]
+                    found += [(name, before, UNKNOWN) for before in rows.in_order(state)]
                 for called in step.calls:
                     if called in entered:
                         entered[called] |= state - {BEFORE}
@@ -90,7 +97,7 @@ def pairs_of(program: ir.Program) -> list[Pair]:
     _spread(entered, inner)
     pairs: dict[tuple[int, int], Pair] = {}
     for name, before, move in found:
-        for one in sorted(entered[name]) if before == BEFORE else (before,):
+        for one in rows.in_order(entered[name]) if before == BEFORE else (before,):
             if one != STANDS and (one, move) not in pairs:
                 pairs[one, move] = Pair(rows.moves.get(abs(one)), rows.moves.get(move), one < UNKNOWN)
     return list(pairs.values())
