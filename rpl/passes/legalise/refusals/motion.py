@@ -1,0 +1,48 @@
+"""Interrupts and searches, for targets that have none."""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.passes.legalise.refusals.rows import PLAINLY, Asked, Found, Refusal
+
+__all__ = ["MOTION"]
+
+INTERRUPT = code(
+    "interrupt-lost",
+    Severity.LOSS,
+    "the target has no interrupts; {action} does not run when the condition comes true",
+    "watch the condition in a task of its own or with the controller's monitoring function",
+    stops=True,
+)
+SEARCH = code(
+    "search-lost",
+    Severity.LOSS,
+    "the target's moves do not watch a condition on their way",
+    "use the controller's own search function, or drive in short steps and ask the condition between them",
+    stops=True,
+)
+_INTERRUPTS = frozenset(("DeclareInterrupt", "ConnectInterrupt"))
+
+
+def _declared(statement: ir.DeclareInterrupt, asked: Asked) -> Found:
+    if _INTERRUPTS & asked.can.statements:
+        return ()
+    action = statement.action
+    return ({"action": action.name if isinstance(action, ir.CallRoutine) else "an assignment"},)
+
+
+def _connected(statement: ir.ConnectInterrupt, asked: Asked) -> Found:
+    return () if _INTERRUPTS & asked.can.statements else ({"action": statement.routine},)
+
+
+def _search(statement: ir.Move, asked: Asked) -> Found:
+    can = asked.can.statements
+    return PLAINLY if statement.search is not None and "Search" not in can and not _INTERRUPTS & can else ()
+
+
+MOTION = (
+    Refusal("an interrupt", INTERRUPT, (ir.DeclareInterrupt,), _declared),
+    Refusal("an interrupt of a trap routine", INTERRUPT, (ir.ConnectInterrupt,), _connected),
+    Refusal("a move that a condition ends", SEARCH, (ir.Move,), _search),
+)
