@@ -16,9 +16,8 @@ WAY = "LIN_REL {Z -60}\nLIN_REL {Z 60}\n"
 # The program, and the moves' durations in relation to those at full speed.
 CASES = {
     "known": f"{WAY}$OV_PRO=50\n{WAY}$OV_PRO=100\n{WAY}",
-    "in a loop": f"FOR N=1 TO 3\n$OV_PRO=100/N\n{WAY}ENDFOR\n",
+    "in a loop": f"FOR N=1 TO 3\n$OV_PRO=50\n{WAY}$OV_PRO=100\n{WAY}ENDFOR\n",
     "in a called routine": f"{WAY}SLOW()\n{WAY}$OV_PRO=100\n{WAY}",
-    "asked": f"$OV_PRO=25\nIF $OV_PRO<50 THEN\n$OUT[1]=TRUE\nENDIF\n{WAY}",
     "never set": f"IF $OV_PRO==100 THEN\n$OUT[1]=TRUE\nENDIF\n{WAY}",
 }
 TAIL = "END\nDEF SLOW()\n$OV_PRO=40\n" + WAY + "END\n"
@@ -51,3 +50,23 @@ def test_known_values_need_no_variable() -> None:
     files = translate_program(read, "inform", ARM, None, Diagnostics()).files
     text = b"".join(f.data for f in files).decode()
     assert "V=100.0" in text and "V=200.0" in text and "V=D" not in text
+
+
+# The program, and the lines that are refused
+REFUSED = {
+    "a setting that is worked out": (f"N=50\n$OV_PRO=N*2\n{WAY}", [("override-hangs-on-run", 7)]),
+    "a move behind two settings": (
+        "IF $IN[1] THEN\n$OV_PRO=50\nENDIF\nLIN_REL {Z -60}\n$OV_PRO=100\nLIN_REL {Z 60}\n",
+        [("override-hangs-on-run", 9)],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_the_run_decides_is_refused(name: str) -> None:
+    text, wanted = REFUSED[name]
+    read = read_sources([source_from_text("t.src", HEAD + text + "END\n")], "krl", Diagnostics())
+    diagnostics = Diagnostics()
+    files = translate_program(read, "inform", ARM, None, diagnostics).files
+    assert [(item.code.name, item.origin.line) for item in diagnostics.of(Severity.LOSS)] == wanted
+    assert b"".join(file.data for file in files).count(b"\r\nPAUSE") == len(wanted)

@@ -28,7 +28,7 @@ BRAKING = {
 # How the tool turns on arcs is followed too; setting it again is never left out, for targets start with other rules.
 _TURNS = "circle_orientation"
 # What all speeds are a share of, and the highest (RAPID VelSet), as a controller has them that says nothing.
-_SHARES = {"speed_percent": 100.0, "speed_limit": 5000.0}
+_SHARES = {"speed_percent": 100.0, "speed_limit": 5000.0, "override": 100.0}
 # Percentage for slowing down, of languages that have one of their own: none where that is as strong as speeding up.
 _DOWN = "deceleration_percent"
 # Whether moves are joined at all (V+ CPON): a truth value.
@@ -287,7 +287,7 @@ class _Follower:
                 return dict(_UNKNOWN)
             case ir.Assign(target=ir.System(name=name), value=value) if name in _FOLLOWED:
                 new = self.stable(value) if name not in self.flow.usage.interrupting else None
-                if name not in (_TURNS, _JOINED, _DOWN, *_TIMES):
+                if name not in (_TURNS, _JOINED, _DOWN, "override", *_TIMES):
                     self.note_setting(statement, new is not None and state[name] == new)
                 return {**state, name: new}
         return self.calls(statement, state)

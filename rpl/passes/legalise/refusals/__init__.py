@@ -19,6 +19,7 @@ from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.refusals.arm import ARM
 from rpl.passes.legalise.refusals.motion import MOTION
 from rpl.passes.legalise.refusals.rows import Asked, Refusal
+from rpl.passes.legalise.refusals.settings import SETTINGS
 from rpl.passes.legalise.refusals.tasks import TASKS
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.stages import legalising
@@ -31,7 +32,7 @@ TUNING = code(
     "set the same on the target's controller where it has it (payload, collision guard)",
 )
 
-REFUSALS: tuple[Refusal, ...] = (*TASKS, *MOTION, *ARM)
+REFUSALS: tuple[Refusal, ...] = (*TASKS, *MOTION, *ARM, *SETTINGS)
 
 
 @legalising()

@@ -1,22 +1,25 @@
 """The override as a factor of the moves' speeds, for controllers whose programs cannot set it.
 
-A variable takes the place of the override. Where the program's course tells its value, speeds are multiplied by it
-beforehand; elsewhere the run multiplies. A move that has begun keeps its speed, which is the difference that is told.
+Where the program's course tells its value at a move, the speed is multiplied by it beforehand. A move at which the run
+decides the override is refused, and so is a setting that the run works out. A move that has begun keeps its speed,
+which is the difference that is told.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite, walk
+from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.data.datalists import started_first
-from rpl.passes.legalise.facts.usage import doing
-from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.control.jumps import inside
+from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.values import real
 
 SCALED = code(
     "override-in-speeds",
@@ -29,9 +32,15 @@ READ = code(
     Severity.WARNING,
     "the target's programs cannot read the override, which this one never sets; it is taken as 100 percent",
 )
+COMPUTED = code(
+    "override-hangs-on-run",
+    Severity.LOSS,
+    "the target's programs cannot set the override, and what it is {where} hangs on the run",
+    "say the speed of each move, or set the override by hand",
+    stops=True,
+)
 _FULL = 100.0
 _OVERRIDE = ir.System("override")
-_BLOCKS = (ir.If, ir.Switch, ir.For, ir.While, ir.Repeat, ir.Loop)
 
 
 @legalising(
@@ -41,176 +50,87 @@ def scaled_override(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the override among their system variables, whose moves say their own speeds."""
     if not any(_is_override(node) for node in walk(program)):
         return program
+    if not any(_sets(node) for node in walk(program)):
+        return _as_full(program, context)
     moves = [node for node in walk(program) if isinstance(node, ir.Move)]
     if any(isinstance(node, ir.Spline) for node in walk(program)) or not all(map(_says_speed, moves)):
         return program
     if any(isinstance(node, ir.DeclareInterrupt) and any(map(_sets, walk((node.action,)))) for node in walk(program)):
         return program
-    sets = [node for node in walk(program) if _sets(node)]
-    for node in sets:
-        assert isinstance(node, ir.Assign)
-        context.diagnostics.report(SCALED, node.origin)
-    return _Factor(program, context, bool(sets)).done()
+
+    def settings(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        def refused(statement: ir.Statement) -> ir.Body:
+            match statement:
+                case ir.Assign(value=value) if _sets(statement) and constant_number(value, editor.scope) is None:
+                    return (stopped(statement, COMPUTED, context, where="behind this"),)
+            return (inside(statement, lambda inner: map_body(inner, refused)),)
+
+        return edit_bodies(routine, lambda body: map_body(body, refused))
+
+    program = edit_routines(program, context, settings)
+    flow = Flow.of(program, {})
+
+    def factors(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        worker = _Factor(flow, editor)
+        return edit_bodies(routine, worker.body)
+
+    return edit_routines(program, context, factors)
+
+
+def _as_full(program: ir.Program, context: Context) -> ir.Program:
+    """An override that the program only reads."""
+    first = next(node for node in walk(program) if _is_override(node))
+    assert isinstance(first, ir.System)
+    context.diagnostics.report(READ, first.origin)
+    return rewrite(program, lambda node: ir.RealLiteral(_FULL) if _is_override(node) else node)
 
 
 @dataclass(slots=True)
 class _Factor:
-    """The rewriting of one program. `starts`: the override where a routine begins, None where calls differ."""
+    """The rewriting of one routine, whose settings are all constants."""
 
-    program: ir.Program
-    context: Context
-    is_set: bool
-    name: str = ""
-    setters: frozenset[str] = frozenset()
-    starts: dict[str, float | None] = field(default_factory=dict)
-    used: bool = False
-    final: bool = False
+    flow: Flow
+    editor: Editor
 
-    def done(self) -> ir.Program:
-        self.name = self.context.fresh("rpl_override")
-        self.setters = doing(self.program, _sets)
-        self.starts = {} if self.beside() else dict.fromkeys(started_first(self.program), _FULL)
-        for _ in range(8):
-            before = dict(self.starts)
-            self.routines()
-            if self.starts == before:
-                break
-        else:
-            self.starts = {}
-        self.final, self.used = True, False
-        modules = self.routines()
-        if not self.used:  # every value was known: nobody asks the variable
-            return replace(self.program, modules=tuple(_without(module, self.name) for module in modules))
-        variable = ir.Variable(self.name, ir.RealType(), ir.RealLiteral(_FULL), storage="variable", scope="global")
-        first = modules[0]
-        home = ir.Module(f"{self.name}_data", first.dialect, (variable,), task=first.task, public=True)
-        return replace(self.program, modules=(*modules, home))
+    def body(self, body: ir.Body) -> ir.Body:
+        return map_body(body, self.statement)
 
-    def beside(self) -> bool:
-        """Is it set by what runs beside the program, when an interrupt comes, or is a routine called by a text?"""
-        tasks = {task.entry.lower() for task in self.program.tasks if task.kind != "motion"}
-        for node in walk(self.program):
-            match node:
-                case ir.DeclareInterrupt(action=action):
-                    tasks.update(one.name.lower() for one in walk((action,)) if isinstance(one, ir.CallRoutine))
-                case ir.CallRoutine(dynamic=value) if value is not None:
-                    return True
-                case ir.ConnectInterrupt(routine=name) | ir.TaskControl(op="start", task=name):
-                    tasks.add(name.lower())
-        return bool(tasks & self.setters)
-
-    def routines(self) -> list[ir.Module]:
-        found = []
-        for module in self.program.modules:
-            routines = []
-            for routine in module.routines:
-                if not self.final and routine.name.lower() not in self.starts:
-                    continue  # nobody is known to have come here
-                known = self.starts.get(routine.name.lower())
-                body, _ = self.body(routine.body, known)
-                others = edit_bodies(replace(routine, body=()), lambda other: self.body(other, None)[0])
-                routines.append(replace(others, body=body))
-            found.append(replace(module, routines=tuple(routines)))
-        return found
-
-    def body(self, statements: ir.Body, known: float | None) -> tuple[ir.Body, float | None]:
-        done: list[ir.Statement] = []
-        for statement in statements:
-            new, known = self.statement(statement, known)
-            done.append(new)
-        return tuple(done), known
-
-    def statement(self, statement: ir.Statement, known: float | None) -> tuple[ir.Statement, float | None]:
-        if isinstance(statement, ir.CallRoutine):
-            self.called(statement.name, known)
+    def statement(self, statement: ir.Statement) -> ir.Body:
+        context = self.editor.context
         match statement:
-            case ir.Assign(target=ir.System(name="override"), value=value):
-                place = replace(statement, target=ir.Name(self.name, origin=statement.origin))
-                number = value.value if isinstance(value, ir.IntLiteral | ir.RealLiteral) else None
-                return self.read(place, known), None if number is None else float(number)
-            case ir.Label():
-                return statement, None
-        if not isinstance(statement, _BLOCKS):
-            scaled = self.read(statement, known)
-            if isinstance(scaled, ir.Move) and scaled.speed is not None:
-                scaled = replace(scaled, speed=self.scaled(scaled.speed, known))
-            return scaled, None if self.changes(statement) else known
-        changes = self.changes(statement)
-        looping = changes and not isinstance(statement, ir.If | ir.Switch)
-        inner = None if looping else known
-        done = rewrite_parts(statement, lambda one: self.replaced(one, inner), lambda one: self.body(one, inner)[0])
-        return done, None if changes else known
+            case ir.Assign() if _sets(statement):
+                context.diagnostics.report(SCALED, statement.origin)
+                return (ir.Nothing(origin=statement.origin),)
+            case ir.Move():
+                state = self.flow.at(statement)["override"]
+                known = None if state is None else constant_number(state, self.editor.scope)
+                if known is None or known <= 0:
+                    return (stopped(statement, COMPUTED, context, where="at this move"),)
+                return (statement if known == _FULL else replace(statement, speed=self.scaled(statement.speed, known)),)
+        return (inside(statement, self.body),)
 
-    def called(self, name: str, known: float | None) -> None:
-        if not self.final:
-            key = name.lower()
-            same = key not in self.starts or self.starts[key] == known
-            self.starts[key] = known if same else None
-
-    def changes(self, statement: ir.Statement) -> bool:
-        """May the override be another one behind it?"""
-        for node in walk((statement,)):
-            match node:
-                case ir.CallRoutine(name=name) | ir.Call(name=name) if not name or name.lower() in self.setters:
-                    return True
-                case ir.Label() | ir.Do():
-                    return True
-            if _sets(node):
-                return True
-        return False
-
-    def read(self, statement: ir.Statement, known: float | None) -> ir.Statement:
-        return rewrite_parts(statement, lambda one: self.replaced(one, known))
-
-    def replaced(self, expression: ir.Expression, known: float | None) -> ir.Expression:
-        for node in walk((expression,)):
-            if isinstance(node, ir.Call):
-                self.called(node.name, known)
-        return rewrite(expression, lambda node: self.value(known) if _is_override(node) else node)
-
-    def value(self, known: float | None) -> ir.Expression:
-        if not self.is_set:
-            return ir.RealLiteral(_FULL)
-        if known is not None:
-            return ir.RealLiteral(known)
-        self.used = True
-        return ir.Name(self.name)
-
-    def scaled(self, speed: ir.Speed, known: float | None) -> ir.Speed:
-        if not self.is_set or known == _FULL:
-            return speed
-
-        def times(value: ir.Expression | None, slower: bool = False) -> ir.Expression | None:
-            if value is None:
-                return None
-            if isinstance(value, ir.Quantity):
-                return replace(value, value=times(value.value, slower) or value.value)
-            full = ir.RealLiteral(_FULL)
-            share = ir.Binary("/", self.value(known), full) if known is None else ir.RealLiteral(known / _FULL)
-            if known is not None and isinstance(value, ir.IntLiteral | ir.RealLiteral):
-                number = value.value / (known / _FULL) if slower else value.value * (known / _FULL)
-                return ir.RealLiteral(float(f"{number:.9g}"))
-            return ir.Binary("/" if slower else "*", value, share)
-
+    def scaled(self, speed: ir.Speed | None, percent: float) -> ir.Speed | None:
+        if speed is None:
+            return None
+        share = percent / _FULL
         return replace(
             speed,
-            path=times(speed.path),
-            rotation=times(speed.rotation),
-            joint=times(speed.joint),
-            axis=times(speed.axis),
-            duration=times(speed.duration, slower=True),
+            path=self.times(speed.path, share),
+            rotation=self.times(speed.rotation, share),
+            joint=self.times(speed.joint, share),
+            axis=self.times(speed.axis, share),
+            duration=self.times(speed.duration, 1 / share),
         )
 
-
-def _without(module: ir.Module, name: str) -> ir.Module:
-    """The module without settings of the variable, which nobody reads."""
-
-    def change(node: object) -> object:
-        if isinstance(node, ir.Assign) and node.target == ir.Name(name):
-            return ir.Nothing(origin=node.origin)
-        return node
-
-    return replace(module, routines=tuple(rewrite(routine, change) for routine in module.routines))
+    def times(self, value: ir.Expression | None, factor: float) -> ir.Expression | None:
+        match value:
+            case None:
+                return None
+            case ir.Quantity(value=inner):
+                return replace(value, value=self.times(inner, factor) or inner)
+            case ir.IntLiteral() | ir.RealLiteral():
+                return real(float(f"{value.value * factor:.9g}"))
+        return ir.Binary("*", value, real(factor))
 
 
 def _is_override(node: object) -> bool:
@@ -226,3 +146,6 @@ def _says_speed(move: ir.Move) -> bool:
     if speed is None or speed.profile is not None:
         return False
     return any(one is not None for one in (speed.path, speed.rotation, speed.joint, speed.axis, speed.duration))
+
+
+__all__ = ["COMPUTED", "scaled_override"]

@@ -1,0 +1,10 @@
+"""Settings of motion that the run decides, where the target's moves have to say what comes of them."""
+
+from __future__ import annotations
+
+from rpl.passes.legalise.refusals.rows import Refusal
+from rpl.passes.legalise.settings.scaledspeeds import COMPUTED
+
+__all__ = ["SETTINGS"]
+
+SETTINGS = (Refusal("an override that the run decides, where programs cannot set it", COMPUTED),)

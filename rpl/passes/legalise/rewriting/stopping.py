@@ -1,0 +1,18 @@
+"""A statement that a pass cannot rewrite and no target is given: the report, and what every writer stops at.
+
+The pass's construct is a row of the table of refusals without a question of its own.
+"""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.diagnostics import Code
+from rpl.passes.legalise.context import Context
+
+__all__ = ["stopped"]
+
+
+def stopped(statement: ir.Statement, code: Code, context: Context, **arguments: object) -> ir.Opaque:
+    """The statement as a guarded stop. code: one that says by itself that the program stops there (`Code.stops`)."""
+    context.diagnostics.report(code, statement.origin, **arguments)
+    return ir.Opaque(statement.origin.text or type(statement).__name__, origin=statement.origin)
