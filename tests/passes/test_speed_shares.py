@@ -9,6 +9,7 @@ from rpl.proof.wiring import with_signal_names
 from rpl.simulation import run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
+from tests.refusing import refused
 
 ARM = "abb_irb1200_5_90"
 HEAD = """MODULE Speeds
@@ -70,18 +71,12 @@ def test_the_time_of_a_move(setting: str, speed: str, least: float, language: st
     assert "digital_out:1" in switched(HEAD + body + TIMES, language)
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_a_setting_that_hangs_on_the_run(language: str) -> None:
-    """Both halves of the program use one routine with a move, once at half and once at full speed."""
-    body = """
-    VelSet 50,800;
-    IF Taken(80,v80)>1.95 SetDO do1,1;
-    VelSet 100,5000;
-    IF Taken(0,v80)<1.2 SetDO do2,1;
-    VelSet 100,40;
-    IF Taken(80,v200)>1.95 SetDO do3,1;
-"""
-    assert switched(HEAD + body + TIMES, language) == ["digital_out:1", "digital_out:2", "digital_out:3"]
+@pytest.mark.parametrize("language", ["krl", "tp", "urscript", "vplus", "inform"])
+def test_a_move_at_which_the_run_decides_the_limit_is_refused(language: str) -> None:
+    """Both halves of the program use one routine with a move, under two limits."""
+    text = HEAD + "VelSet 100,800;IF Taken(80,v80)>1 SetDO do1,1;VelSet 100,40;IF Taken(0,v80)>1 SetDO do2,1;" + TIMES
+    told = refused(text, "rapid", language, ARM)
+    assert told == [("speed-share-hangs-on-run", text[: text.index("MoveL")].count("\n") + 1)]
 
 
 @pytest.mark.parametrize("language", ["rapid", "tp", "urscript", "vplus", "rpl"])

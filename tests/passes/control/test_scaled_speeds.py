@@ -9,6 +9,7 @@ from rpl.project import read_sources
 from rpl.simulation import run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
+from tests.refusing import refused
 
 ARM = "kuka_kr6r900sixx"
 HEAD = "DEF T()\nINT N\nBAS(#INITMOV,0)\n$VEL.CP=0.2\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 45,A6 0}\n"
@@ -65,8 +66,4 @@ REFUSED = {
 @pytest.mark.parametrize("name", REFUSED)
 def test_what_the_run_decides_is_refused(name: str) -> None:
     text, wanted = REFUSED[name]
-    read = read_sources([source_from_text("t.src", HEAD + text + "END\n")], "krl", Diagnostics())
-    diagnostics = Diagnostics()
-    files = translate_program(read, "inform", ARM, None, diagnostics).files
-    assert [(item.code.name, item.origin.line) for item in diagnostics.of(Severity.LOSS)] == wanted
-    assert b"".join(file.data for file in files).count(b"\r\nPAUSE") == len(wanted)
+    assert refused(HEAD + text + "END\n", "krl", "inform", ARM, "t.src") == wanted

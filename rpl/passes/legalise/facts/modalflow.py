@@ -104,6 +104,7 @@ class Flow:
     moves: dict[int, State] = field(default_factory=dict)
     repeated: dict[int, bool] = field(default_factory=dict)
     kept: list[object] = field(default_factory=list)  # keeps the identities alive
+    calls_by_text: bool = False
 
     @classmethod
     def of(cls, program: ir.Program, defaults: dict[str, float | bool | str]) -> Flow:
@@ -122,6 +123,10 @@ class Flow:
         """The settings at a move, or where an expression of a statement depends on the frame (all unknown where nothing
         leads)."""
         return self.moves.get(id(statement), _UNKNOWN)
+
+    def never_comes_to(self, statement: ir.Statement) -> bool:
+        """Does nothing of the program lead to this move (and nobody is called by a text)?"""
+        return not self.calls_by_text and id(statement) not in self.moves
 
     def again(self, statement: ir.Assign) -> bool:
         """Is the setting known to have this value already?"""
@@ -284,6 +289,7 @@ class _Follower:
                 after = self.calls(statement.arguments, state)
                 return None if after is None else self.called(name, after)
             case ir.CallRoutine():
+                self.flow.calls_by_text = True
                 return dict(_UNKNOWN)
             case ir.Assign(target=ir.System(name=name), value=value) if name in _FOLLOWED:
                 new = self.stable(value) if name not in self.flow.usage.interrupting else None

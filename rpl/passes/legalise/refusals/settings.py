@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from rpl.passes.legalise.refusals.rows import Refusal
 from rpl.passes.legalise.settings.scaledspeeds import COMPUTED
+from rpl.passes.legalise.settings.speedshares import REFUSED as SHARE
 
 __all__ = ["SETTINGS"]
 
-SETTINGS = (Refusal("an override that the run decides, where programs cannot set it", COMPUTED),)
+SETTINGS = (
+    Refusal("an override that the run decides, where programs cannot set it", COMPUTED),
+    Refusal("a share or a limit of all speeds that the run decides", SHARE),
+)

@@ -101,6 +101,8 @@ class _Factor:
             case ir.Assign() if _sets(statement):
                 context.diagnostics.report(SCALED, statement.origin)
                 return (ir.Nothing(origin=statement.origin),)
+            case ir.Move() if self.flow.never_comes_to(statement):
+                return (statement,)
             case ir.Move():
                 state = self.flow.at(statement)["override"]
                 known = None if state is None else constant_number(state, self.editor.scope)
