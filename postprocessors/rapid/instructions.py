@@ -1,10 +1,11 @@
-"""Write the instructions that are not motion: signals, waiting, interrupts, operator, clocks, modal settings."""
+"""The words of the instructions that are not motion: signals, waiting, interrupts, operator, clocks, modal settings."""
 
 from __future__ import annotations
 
 from rpl import ir
 from rpl.passes.typing import type_of
 from rpl.writing.statements import CannotSayError
+from rpl.writing.templates import Macros
 
 from .expressions import Expressions
 from .motion import output_value
@@ -18,6 +19,13 @@ _MEETINGS = {
     "together": ("SyncMoveOn", "ERR_SYNCMOVEON"),
     "apart": ("SyncMoveOff", "ERR_SYNCMOVEOFF"),
 }
+_WORDS: dict[type, str] = {
+    ir.StartMotion: "StartMove",
+    ir.ClearMotion: "ClearPath",
+    ir.Retry: "RETRY",
+    ir.TryNext: "TRYNEXT",
+}
+_COUNTING = {"increment": "Incr", "decrement": "Decr", "clear": "Clear"}
 _KEYS = 5
 NO_HEADLINE = '"Program"'  # of an error message whose source gives none
 _SETTINGS = {"joint_configuration_check": "ConfJ", "path_configuration_check": "ConfL"}
@@ -25,30 +33,35 @@ _MODES = {
     "singularity_mode": ("SingArea", {"wrist": "Wrist", "off": "Off", "lock_axis_4": "LockAxis4"}),
     "circle_orientation": ("CirPathMode", {"path": "PathFrame", "base": "ObjectFrame"}),
 }
+# Settings with the macro of their instruction and its word for them, and what it says of those that stay.
+_ALONE = {
+    "speed_percent": ("speeds", "percent"),
+    "speed_limit": ("speeds", "limit"),
+    "acceleration_percent": ("accelerations", "percent"),
+    "acceleration_ramp": ("accelerations", "ramp"),
+    "stop_ramp": ("accelerations", "stop_ramp"),
+    "load": ("grip_load", "load"),
+    "override": ("override", "percent"),
+}
+_STAYING = {
+    "speeds": {"percent": "100", "limit": "5000"},
+    "accelerations": {"percent": "100", "ramp": "100", "stop_ramp": ""},
+}
 # Neighbouring settings that one instruction makes together.
 _TOGETHER = (
-    (("speed_percent", "speed_limit"), "VelSet {0},{1};"),
-    (("acceleration_percent", "acceleration_ramp", "stop_ramp"), "AccSet {0},{1}\\FinePointRamp:={2};"),
-    (("acceleration_percent", "acceleration_ramp"), "AccSet {0},{1};"),
+    ("speed_percent", "speed_limit"),
+    ("acceleration_percent", "acceleration_ramp", "stop_ramp"),
+    ("acceleration_percent", "acceleration_ramp"),
 )
-_FULL_STOPS = "AccSet {0},{1};"
 _FULL = (ir.IntLiteral(100), ir.RealLiteral(100.0))
-_ALONE = {
-    "speed_percent": "VelSet {0},5000;",
-    "speed_limit": "VelSet 100,{0};",
-    "acceleration_percent": "AccSet {0},100;",
-    "acceleration_ramp": "AccSet 100,{0};",
-    "stop_ramp": "AccSet 100,100\\FinePointRamp:={0};",
-    "load": "GripLoad {0};",
-    "override": "SpeedRefresh {0};",
-}
 
 
 class Instructions:
     """The instructions of one scope. Every method raises CannotSayError for what RAPID has not."""
 
-    def __init__(self, expressions: Expressions) -> None:
+    def __init__(self, expressions: Expressions, macros: Macros) -> None:
         self.expressions = expressions
+        self.say = macros
         self.print = expressions.text
         self.signal = expressions.signal
 
@@ -64,7 +77,7 @@ class Instructions:
                 symbol = self.expressions.scope.value(name)
                 if symbol is not None and isinstance(symbol.type, ir.SignalType):
                     return self.output(target, symbol.type.kind, value)
-        return f"{self.print(target)}:={self.print(value)};"
+        return self.say("assign", target=self.print(target), value=self.print(value))
 
     def output(self, target: ir.Expression, kind: str, value: ir.Expression) -> str:
         if kind not in _SETTERS:
@@ -72,55 +85,63 @@ class Instructions:
         name = self.signal(target)
         if kind == "digital_out":
             if value == ir.Unary("not", target):
-                return f"InvertDO {name};"
+                return self.say("invert", signal=name)
             try:
-                return f"SetDO {name},{output_value(kind, value, self.expressions)};"
+                number = output_value(kind, value, self.expressions)
             except CannotSayError:
-                condition = self.print(value)
-                return f"IF {condition} THEN\n  SetDO {name},1;\nELSE\n  SetDO {name},0;\nENDIF"
-        return f"{_SETTERS[kind]} {name},{self.print(value)};"
+                return self.say("set_by_condition", condition=self.print(value), signal=name)
+            return self.say("set_output", word="SetDO", signal=name, value=number)
+        return self.say("set_output", word=_SETTERS[kind], signal=name, value=self.print(value))
 
     def setting(self, name: str, value: ir.Expression) -> str:
         if name in _SETTINGS:
             match value:
                 case ir.BoolLiteral(value=truth):
-                    return f"{_SETTINGS[name]}\\{'On' if truth else 'Off'};"
+                    return self.say("setting", word=_SETTINGS[name], state="On" if truth else "Off")
             raise CannotSayError("this setting is on or off, not computed")
         if name in _MODES:
             word, modes = _MODES[name]
             match value:
                 case ir.EnumLiteral(member=mode) | ir.TextLiteral(value=mode) if mode.lower() in modes:
-                    return f"{word}\\{modes[mode.lower()]};"
+                    return self.say("setting", word=word, state=modes[mode.lower()])
         if name == "displacement":
             return self.displacement(value)
         if name in _ALONE:
-            return _ALONE[name].format(self.print(value))
+            return self.together({name: value})
         raise CannotSayError(f"there is no setting for {name.replace('_', ' ')}")
+
+    def together(self, values: dict[str, ir.Expression]) -> str:
+        """Settings that one instruction makes."""
+        macro = _ALONE[next(iter(values))][0]
+        words = dict(_STAYING.get(macro, {})) | {_ALONE[name][1]: self.print(one) for name, one in values.items()}
+        return self.say(macro, **words)
 
     def displacement(self, value: ir.Expression) -> str:
         """PDispOff, PDispOn in the form in which it is read, else PDispSet."""
         there: ir.Expression
         match value:
             case ir.System(name="null_frame"):
-                return "PDispOff;"
+                return self.say("displacement", frame="")
             case ir.Builtin("compose", (ir.System(name="displacement"), ir.Aggregate() as moved)):
                 match moved.entries:
                     case ((_, ir.Binary("-", ir.Field(there, "trans"), ir.Field(point, "trans"))), (_, turn)):
                         if turn == ir.Builtin("rotation_zyx", (ir.IntLiteral(0),) * 3):
-                            return self.displacement_on("", there, point)
+                            return self.displacement_on(False, there, point)
             case ir.Builtin("compose", (ir.System(name="displacement"), ir.Builtin("compose", (one, two)))):
                 match one, two:
                     case ir.Builtin("pose_of", (there,)), ir.Builtin("inverse", (ir.Builtin("pose_of", (point,)),)):
-                        return self.displacement_on("\\Rot", there, point)
-        return f"PDispSet {self.print(value)};"
+                        return self.displacement_on(True, there, point)
+        return self.say("displacement", frame=self.print(value))
 
-    def displacement_on(self, turned: str, there: ir.Expression, point: ir.Expression) -> str:
+    def displacement_on(self, turned: bool, there: ir.Expression, point: ir.Expression) -> str:
+        words = {"there": "", "tool": "tool0", "frame": ""}  # the tool is not asked where both places are given
         match there:
             case ir.Builtin("current_target", (tool, frame)):
-                first = f"PDispOn{turned}," if turned else "PDispOn "
-                last = "" if frame == ir.Name("wobj0") else f"\\WObj:={self.print(frame)}"
-                return f"{first}{self.print(point)},{self.print(tool)}{last};"
-        return f"PDispOn{turned}\\ExeP:={self.print(there)},{self.print(point)},tool0;"  # the tool is not asked then
+                words["frame"] = "" if frame == ir.Name("wobj0") else self.print(frame)
+                words["point"], words["tool"] = self.print(point), self.print(tool)
+            case _:
+                words["there"], words["point"] = self.print(there), self.print(point)
+        return self.say("displacement_on", turned=turned, **words)
 
     def settings(self, body: ir.Body, at: int) -> tuple[int, str]:
         """How many statements from here one instruction says together, and its text; 0 when none."""
@@ -129,17 +150,17 @@ class Instructions:
             return self.box(first, body[at + 1])
         if not isinstance(first, ir.Assign) or not isinstance(first.target, ir.System):
             return 0, ""
-        for names, pattern in _TOGETHER:
-            values = []
+        for names in _TOGETHER:
+            values = {}
             for name, statement in zip(names, body[at : at + len(names)], strict=False):
                 match statement:
                     case ir.Assign(target=ir.System(name=found), value=value) if found == name:
-                        values.append(value)
+                        values[name] = value
             if len(values) == len(names):
-                if names[-1] == "stop_ramp" and values[-1] in _FULL:
-                    pattern = _FULL_STOPS
+                if values.get("stop_ramp") in _FULL:
+                    del values["stop_ramp"]
                 try:
-                    return len(values), pattern.format(*map(self.print, values))
+                    return len(names), self.together(values)
                 except CannotSayError:
                     return 0, ""
         return 0, ""
@@ -153,7 +174,7 @@ class Instructions:
             case ir.WaitUntil():
                 return self.wait_until(statement)
             case ir.WaitForMotion():
-                return "WaitRob\\InPos;"
+                return self.say("word", text="WaitRob\\InPos")
             case ir.Pulse():
                 return self.pulse(statement)
             case ir.SetAfter(signal=signal, value=value, delay=delay):
@@ -165,7 +186,8 @@ class Instructions:
                     raise CannotSayError("no urgency of interrupts can be masked")
                 if (handle is None) != (op in ("enable", "disable")):
                     raise CannotSayError("IEnable and IDisable work on all interrupts, the others on one")
-                return f"{_CONTROL[op]}{'' if handle is None else ' ' + self.print(handle)};"
+                on = "" if handle is None else self.print(handle)
+                return self.say("control_interrupt", word=_CONTROL[op], handle=on)
             case ir.Meet():
                 return self.meet(statement)
             case ir.Message():
@@ -173,46 +195,41 @@ class Instructions:
             case ir.Dialog():
                 return self.dialog(statement)
             case ir.Clock(op=op, clock=clock):
-                return f"Clk{op.capitalize()} {self.print(clock)};"
+                return self.say("clock", word=f"Clk{op.capitalize()}", clock=self.print(clock))
             case ir.Do():
                 return self.do(statement)
             case ir.Halt(kind=kind):
-                return f"{_HALT[kind]};"
+                return self.say("word", text=_HALT[kind])
             case ir.StopMotion(hard=hard):
-                return "StopMove\\Quick;" if hard else "StopMove;"
+                return self.say("word", text="StopMove\\Quick" if hard else "StopMove")
             case ir.StoreMotion(restore=restore):
-                return "RestoPath;" if restore else "StorePath;"
-        words: dict[type, str] = {
-            ir.StartMotion: "StartMove;",
-            ir.ClearMotion: "ClearPath;",
-            ir.Retry: "RETRY;",
-            ir.TryNext: "TRYNEXT;",
-        }
-        if statement.__class__ in words:
-            return words[statement.__class__]
+                return self.say("word", text="RestoPath" if restore else "StorePath")
+        if statement.__class__ in _WORDS:
+            return self.say("word", text=_WORDS[statement.__class__])
         if isinstance(statement, ir.Opaque):
             raise CannotSayError("it could not be read")
         raise CannotSayError(f"there is no {statement.__class__.__name__} statement")
 
     def wait(self, time: ir.Expression, stand: bool) -> str:
-        return f"WaitTime\\InPos,{self.print(time)};" if stand else f"WaitTime {self.print(time)};"
+        return self.say("wait", time=self.print(time), stand=stand)
 
     def wait_until(self, wait: ir.WaitUntil) -> str:
-        options = ""
+        limits = {"limit": "", "flag": ""}
         if wait.timeout is not None:
             if wait.timed_out is None and wait.error is None:
                 raise CannotSayError("a wait that ends by time needs a flag or an error")
-            options = f"\\MaxTime:={self.print(wait.timeout)}"
+            limits["limit"] = self.print(wait.timeout)
             if wait.timed_out is not None:
-                options += f"\\TimeFlag:={self.print(wait.timed_out)}"
+                limits["flag"] = self.print(wait.timed_out)
         if not wait.in_position:
-            match wait.condition:
+            watched, level = wait.condition, "1"
+            if isinstance(watched, ir.Unary) and watched.op == "not":
+                watched, level = watched.operand, "0"
+            match watched:
                 case ir.Signal(kind="digital_in" | "digital_out" as kind):
-                    return f"Wait{_short(kind)} {self.signal(wait.condition)},1{options};"
-                case ir.Unary(op="not", operand=ir.Signal(kind="digital_in" | "digital_out" as kind) as signal):
-                    return f"Wait{_short(kind)} {self.signal(signal)},0{options};"
-        stand = "\\InPos," if wait.in_position else " "
-        return f"WaitUntil{stand}{self.print(wait.condition)}{options};"
+                    word, signal = f"Wait{_short(kind)}", self.signal(watched)
+                    return self.say("wait_signal", word=word, signal=signal, level=level, **limits)
+        return self.say("wait_until", condition=self.print(wait.condition), stand=wait.in_position, **limits)
 
     def meet(self, meet: ir.Meet) -> str:
         """Points are variables; what a time-out raises is the instruction's own error."""
@@ -223,25 +240,29 @@ class Instructions:
             raise CannotSayError(f"a time-out raises {error}")
         if (meet.tasks is None) != (meet.mode == "apart"):
             raise CannotSayError("SyncMoveOff takes no list of tasks, the others need one")
-        given = "\\InPos," if meet.in_position and meet.mode == "wait" else " "
-        given += self.print(meet.identity) + ("" if meet.tasks is None else f",{self.print(meet.tasks)}")
-        limit = "" if meet.timeout is None else f"\\TimeOut:={self.print(meet.timeout)}"
-        return f"{word}{given}{limit};"
+        return self.say(
+            "meet",
+            word=word,
+            stand=meet.in_position and meet.mode == "wait",
+            point=self.print(meet.identity),
+            tasks="" if meet.tasks is None else self.print(meet.tasks),
+            limit="" if meet.timeout is None else self.print(meet.timeout),
+        )
 
     def pulse(self, pulse: ir.Pulse) -> str:
         name, length = self.signal(pulse.signal), self.print(pulse.duration)
-        if pulse.value == ir.BoolLiteral(True):
-            return f"PulseDO\\High\\PLength:={length},{name};"
-        if pulse.value == ir.Unary("not", pulse.signal):
-            return f"PulseDO\\PLength:={length},{name};"
-        raise CannotSayError("a pulse goes high or to the opposite")
+        high = pulse.value == ir.BoolLiteral(True)
+        if not high and pulse.value != ir.Unary("not", pulse.signal):
+            raise CannotSayError("a pulse goes high or to the opposite")
+        return self.say("pulse", high=high, length=length, signal=name)
 
     def delayed(self, signal: ir.Expression, value: ir.Expression, delay: ir.Expression) -> str:
         kind = self.kind_of(signal)
         if kind not in _SETTERS:
             raise CannotSayError("only outputs can be written")
         written = output_value(kind, value, self.expressions)
-        return f"{_SETTERS[kind]}\\SDelay:={self.print(delay)},{self.signal(signal)},{written};"
+        later, name = self.print(delay), self.signal(signal)
+        return self.say("set_after", word=_SETTERS[kind], delay=later, signal=name, value=written)
 
     def kind_of(self, signal: ir.Expression) -> str:
         """The kind of a signal or of a parameter that stands for one; empty when it is neither."""
@@ -253,12 +274,12 @@ class Instructions:
 
     def order(self, order: ir.OrderInterrupt) -> str:
         handle = self.print(order.handle)
-        single = "\\Single," if order.once else " "
+        words = {"once": order.once, "handle": handle, "level": ""}
         match order.event:
             case "timer" if order.time is not None:
-                return f"ITimer{single}{self.print(order.time)},{handle};"
+                return self.say("order_interrupt", word="ITimer", what=self.print(order.time), **words)
             case "error":
-                return f"IError COMMON_ERR,TYPE_ALL,{handle};"
+                return self.say("order_error", handle=handle)
         condition = order.condition
         if condition is None:
             raise CannotSayError("an interrupt needs its event")
@@ -267,37 +288,37 @@ class Instructions:
             condition, level = condition.operand, "0"
         kind = self.kind_of(condition)
         if order.event == "edge" and kind.startswith("digital"):
-            return f"ISignal{_short(kind)}{single}{self.signal(condition)},{level},{handle};"
+            words["level"] = level
+            return self.say("order_interrupt", word=f"ISignal{_short(kind)}", what=self.signal(condition), **words)
         if order.event == "change":
             if kind.startswith("digital"):
-                return f"ISignal{_short(kind)}{single}{self.signal(condition)},edge,{handle};"
-            if kind.startswith("group"):
-                return f"ISignal{_short(kind)}{single}{self.signal(condition)},{handle};"
+                words["level"] = "edge"
+            if kind.startswith(("digital", "group")):
+                return self.say("order_interrupt", word=f"ISignal{_short(kind)}", what=self.signal(condition), **words)
             if not kind:
-                return f"IPers{single}{self.print(condition)},{handle};"
+                return self.say("order_interrupt", word="IPers", what=self.print(condition), **words)
         raise CannotSayError("an interrupt watches one signal")
 
     # ---- operator and numbers
 
     def message(self, message: ir.Message) -> str:
-        sender = None if message.sender is None else self.print(message.sender)
+        sender = "" if message.sender is None else self.print(message.sender)
         match message.kind:
             case "clear":
-                return "TPErase;"
+                return self.say("word", text="TPErase")
             case "quit":
-                head = " " if sender is None else f"\\Header:={sender},"
-                return f"UIMsgBox{head}{self.print(message.text)};"
+                return self.say("message_box", header=sender, text=self.print(message.text))
             case "error":
-                return f"ErrWrite {sender or NO_HEADLINE},{self.print(message.text)};"
-            case "notify" if sender is not None:
-                return f"ErrWrite\\I,{sender},{self.print(message.text)};"
+                return self.say("log", information=False, header=sender or NO_HEADLINE, text=self.print(message.text))
+            case "notify" if sender:
+                return self.say("log", information=True, header=sender, text=self.print(message.text))
         return self.written(message)
 
     def written(self, message: ir.Message) -> str:
         if message.sender is None:
-            return f"TPWrite {self.print(message.text)};"
+            return self.say("write", text=self.print(message.text))
         whole = ir.Binary("&", ir.Binary("&", message.sender, ir.TextLiteral(": ")), message.text)
-        return f"TPWrite {self.print(whole)};"
+        return self.say("write", text=self.print(whole))
 
     def dialog(self, dialog: ir.Dialog) -> str:
         if dialog.timed_out is not None:
@@ -308,14 +329,14 @@ class Instructions:
         if dialog.sender is not None:
             whole = ir.Binary("&", ir.Binary("&", dialog.sender, ir.TextLiteral(": ")), whole)
         answer, text = self.print(dialog.answer), self.print(whole)
-        time = "" if dialog.timeout is None else f"\\MaxTime:={self.print(dialog.timeout)}"
+        limit = "" if dialog.timeout is None else self.print(dialog.timeout)
         if dialog.kind == "number":
-            return f"TPReadNum {answer},{text}{time};"
+            return self.say("ask_number", answer=answer, text=text, limit=limit)
         if len(dialog.keys) > _KEYS:
             raise CannotSayError("a dialog has five keys")
         keys = ["stEmpty" if key is None else self.print(key) for key in dialog.keys]
         keys += ["stEmpty"] * (_KEYS - len(keys))
-        return f"TPReadFK {answer},{text},{','.join(keys)}{time};"
+        return self.say("ask_key", answer=answer, text=text, keys=keys, limit=limit)
 
     def box(self, dialog: ir.Dialog, behind: ir.Statement) -> tuple[int, str]:
         """A choice of predefined buttons and the statement that makes the controller's numbers of the keys."""
@@ -327,40 +348,41 @@ class Instructions:
             is_key = [ir.Binary("=", dialog.answer, ir.IntLiteral(1 + place)) for place in range(len(buttons) - 1)]
             if behind == ir.If(tuple(zip(is_key, becomes, strict=False)), becomes[-1]):
                 try:
-                    return 2, self.asked("UIMessageBox", dialog, f"\\Buttons:={name}")
+                    return 2, self.asked("UIMessageBox", dialog, name)
                 except CannotSayError:
                     return 0, ""
         return 0, ""
 
-    def asked(self, function: str, dialog: ir.Dialog, options: str) -> str:
+    def asked(self, function: str, dialog: ir.Dialog, buttons: str) -> str:
         """One of the functions that show a message and give the operator's answer."""
-        header = "" if dialog.sender is None else f"\\Header:={self.print(dialog.sender)}"
-        time = "" if dialog.timeout is None else f"\\MaxTime:={self.print(dialog.timeout)}"
-        shown = f"{function}({header}\\Message:={self.print(dialog.text)}{options}{time})"
-        return f"{self.print(dialog.answer)}:={shown};"
+        return self.say(
+            "ask",
+            function=function,
+            header="" if dialog.sender is None else self.print(dialog.sender),
+            limit="" if dialog.timeout is None else self.print(dialog.timeout),
+            text=self.print(dialog.text),
+            buttons=buttons,
+            answer=self.print(dialog.answer),
+        )
 
     def do(self, do: ir.Do) -> str:
         arguments = [argument for argument in do.arguments if argument is not None]
         printed = [self.print(argument) for argument in arguments]
-        match do.procedure, len(printed):
-            case "increment", 1:
-                return f"Incr {printed[0]};"
-            case "increment", 2:
-                return f"Add {printed[0]},{printed[1]};"
-            case "decrement", 1:
-                return f"Decr {printed[0]};"
-            case "decrement", 2:
-                return f"Add {printed[0]},{self.print(ir.Unary('-', arguments[1]))};"
-            case "clear", 1:
-                return f"Clear {printed[0]};"
-            case "text_append", 2:
-                return f"{printed[0]}:={printed[0]}+{printed[1]};"
-            case "text_copy", 2:
-                return f"{printed[0]}:={printed[1]};"
-            case "text_clear", 1:
-                return f'{printed[0]}:="";'
-            case "parse_value" | "parse_number", 2:
-                return f"IF StrToVal({printed[0]},{printed[1]}) THEN\nENDIF"
+        match do.procedure, printed:
+            case "increment" | "decrement" | "clear", [one]:
+                return self.say("count", word=_COUNTING[do.procedure], target=one)
+            case "increment", [one, by]:
+                return self.say("add", target=one, value=by)
+            case "decrement", [one, _]:
+                return self.say("add", target=one, value=self.print(ir.Unary("-", arguments[1])))
+            case "text_append", [one, text]:
+                return self.say("assign", target=one, value=f"{one}+{text}")
+            case "text_copy", [one, text]:
+                return self.say("assign", target=one, value=text)
+            case "text_clear", [one]:
+                return self.say("assign", target=one, value='""')
+            case "parse_value" | "parse_number", [text, one]:
+                return self.say("parse", text=text, target=one)
         raise CannotSayError(f"there is no instruction for {do.procedure.replace('_', ' ')}")
 
 

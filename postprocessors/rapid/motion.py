@@ -1,8 +1,8 @@
-"""Write motion: moves with all that is attached to them, searches, stored path events."""
+"""The words of motion: moves with all that is attached to them, searches, stored path events."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.typing import type_of
@@ -18,50 +18,55 @@ _OUTPUTS = {"digital_out": "DO", "analog_out": "AO", "group_out": "GO"}
 _OPTIONS = {"digital_out": "DOp", "analog_out": "AOp", "group_out": "GOp"}
 
 
-@dataclass(frozen=True, slots=True)
-class MoveText:
-    """The parts of a motion instruction: name, options before the points, points and data, options behind them."""
-
-    name: str
-    before: str
-    points: tuple[str, ...]
-    settings: str = ""
+Words = dict[str, object]  # of a macro
 
 
-def move(statement: ir.Move, expressions: Expressions) -> MoveText:
-    """The parts of a move. Raises CannotSayError for a setting that RAPID has not."""
+def move(statement: ir.Move, expressions: Expressions) -> tuple[str, Words]:
+    """The macro of a move and its words. Raises CannotSayError for a setting that RAPID has not."""
     _refuse(statement)
     letter = _LETTERS.get(statement.kind)
     if letter is None:
         raise CannotSayError(f"there is no {statement.kind} move")
     if statement.search is not None:
-        return _search(statement, statement.search, letter, expressions)
+        return "search", _search(statement, statement.search, letter, expressions)
+    return "move", _words(statement, letter, expressions)
+
+
+def _words(statement: ir.Move, letter: str, expressions: Expressions) -> Words:
     name = f"Move{letter}"
     if isinstance(type_of(statement.target, expressions.scope), ir.JointsType):
         if statement.kind != "joint":
             raise CannotSayError("only a joint move goes to joint values")
         name = "MoveAbsJ"
-    points = _points(statement, expressions)
-    speed, zone = _speed(statement.speed, expressions), _zone(statement.blend, expressions)
-    tool = _tool(statement, expressions)
-    before = "\\Conc" if statement.concurrent else ""
+    words: Words = {
+        "word": name,
+        "options": "\\Conc" if statement.concurrent else "",
+        **_points(statement, expressions),
+        "speed": _speed(statement.speed, expressions),
+        "zone": _zone(statement.blend, expressions),
+        **_tool(statement, expressions),
+        "events": "",
+        "actions": (),
+    }
     triggers = statement.triggers
     if not triggers:
-        return MoveText(name, before, (*points, speed, zone, tool))
+        return words
     if len(triggers) == 1 and isinstance(triggers[0], ir.Trigger):
-        suffix, more = _middle_action(triggers[0], expressions)
+        suffix, words["actions"] = _middle_action(triggers[0], expressions)
         if name == "MoveAbsJ":
             raise CannotSayError("a move to joint values has no action on its path")
-        return MoveText(f"{name}{suffix}", before, (*points, speed, zone, tool, *more))
+        words["word"] = f"{name}{suffix}"
+        return words
     events = []
     for trigger in triggers:
         if isinstance(trigger, ir.Trigger):
             raise CannotSayError("an event on the path has to be stored before")
         events.append(expressions.text(trigger))
-    listed = events[0] + "".join(f"\\T{number}:={event}" for number, event in enumerate(events[1:], 2))
+    words["events"] = events[0] + "".join(f"\\T{number}:={event}" for number, event in enumerate(events[1:], 2))
     if len(events) > 8 or name == "MoveAbsJ":
         raise CannotSayError("these events cannot be attached to the move")
-    return MoveText(f"Trigg{letter}", before, (*points, speed, listed, zone, tool))
+    words["word"] = f"Trigg{letter}"
+    return words
 
 
 def _refuse(statement: ir.Move) -> None:
@@ -79,15 +84,15 @@ def _refuse(statement: ir.Move) -> None:
             raise CannotSayError(f"{what} is not known")
 
 
-def _points(statement: ir.Move, expressions: Expressions) -> tuple[str, ...]:
+def _points(statement: ir.Move, expressions: Expressions) -> Words:
     target = expressions.text(statement.target) + ("\\NoEOffs" if statement.without_offsets else "")
     if statement.identity is not None:
         target += f"\\ID:={expressions.text(statement.identity)}"
     if statement.kind != "circular":
-        return (target,)
+        return {"via": "", "target": target}
     if statement.via is None:
         raise CannotSayError("a circle needs its point on the way")
-    return (expressions.text(statement.via), target)
+    return {"via": expressions.text(statement.via), "target": target}
 
 
 def _speed(speed: ir.Speed | None, expressions: Expressions) -> str:
@@ -116,13 +121,13 @@ def _zone(blend: ir.Blend | None, expressions: Expressions) -> str:
     raise CannotSayError("corners are given by zone data only")
 
 
-def _tool(statement: ir.Move, expressions: Expressions) -> str:
-    text = "tool0" if statement.tool is None else _persistent(statement.tool, expressions, "tool")
-    if statement.frame is not None and statement.frame != _WORLD:
-        text += f"\\WObj:={_persistent(statement.frame, expressions, 'work object')}"
-    if statement.load is not None:
-        text += f"\\TLoad:={_persistent(statement.load, expressions, 'load')}"
-    return text
+def _tool(statement: ir.Move, expressions: Expressions) -> Words:
+    tool, frame, load = statement.tool, statement.frame, statement.load
+    return {
+        "tool": "tool0" if tool is None else _persistent(tool, expressions, "tool"),
+        "frame": "" if frame is None or frame == _WORLD else _persistent(frame, expressions, "work object"),
+        "load": "" if load is None else _persistent(load, expressions, "load"),
+    }
 
 
 def _persistent(value: ir.Expression, expressions: Expressions, what: str) -> str:
@@ -161,7 +166,7 @@ def output_value(kind: str, value: ir.Expression, expressions: Expressions) -> s
     raise CannotSayError("a digital output takes a number")
 
 
-def _search(statement: ir.Move, search: ir.Search, letter: str, expressions: Expressions) -> MoveText:
+def _search(statement: ir.Move, search: ir.Search, letter: str, expressions: Expressions) -> Words:
     if statement.kind == "joint" or statement.triggers:
         raise CannotSayError("a search goes on a line or circle and carries no events")
     watched, edge = _watched(search)
@@ -169,12 +174,16 @@ def _search(statement: ir.Move, search: ir.Search, letter: str, expressions: Exp
         raise CannotSayError("a search watches one signal")
     if search.found is None:
         raise CannotSayError("a search gives the place where it found something")
-    signal = expressions.signal(watched)
-    points = _points(statement, expressions)
-    speed, tool = _speed(statement.speed, expressions), _tool(statement, expressions)
-    found = expressions.text(search.found)
-    before = _STOPS[search.stop]
-    return MoveText(f"Search{letter}", before, (f"{signal}{_EDGES[edge]}", found, *points, speed, tool))
+    return {
+        "word": f"Search{letter}",
+        "stop": _STOPS[search.stop],
+        "signal": expressions.signal(watched),
+        "edge": _EDGES[edge],
+        **_points(statement, expressions),
+        "speed": _speed(statement.speed, expressions),
+        **_tool(statement, expressions),
+        "found": expressions.text(search.found),
+    }
 
 
 def _watched(search: ir.Search) -> tuple[ir.Expression, str]:
@@ -193,38 +202,38 @@ def _watched(search: ir.Search) -> tuple[ir.Expression, str]:
             edge = "falling" if edge == "rising" else "rising"
 
 
-def move_external(statement: ir.MoveExternal, expressions: Expressions) -> MoveText:
-    points = (
-        expressions.text(statement.target),
-        _speed(statement.speed, expressions),
-        _zone(statement.blend, expressions),
-    )
-    return MoveText("MoveExtJ", "", points)
+def move_external(statement: ir.MoveExternal, expressions: Expressions) -> Words:
+    return {
+        "target": expressions.text(statement.target),
+        "speed": _speed(statement.speed, expressions),
+        "zone": _zone(statement.blend, expressions),
+    }
 
 
-def define_trigger(statement: ir.DefineTrigger, expressions: Expressions) -> str:
-    """TriggIO, TriggEquip or TriggInt, without the semicolon."""
+def define_trigger(statement: ir.DefineTrigger, expressions: Expressions) -> tuple[str, Words]:
+    """The macro of TriggIO, TriggEquip or TriggInt and its words."""
     trigger = statement.trigger
     target = expressions.text(statement.target)
     place, switch = _place(trigger, expressions)
+    words: Words = {"target": target, "place": place, "switch": switch}
     if statement.interrupt is not None:
         if trigger.delay is not None and switch != "\\Time":
             raise CannotSayError("an interrupt at a time before a place on the path")
-        return f"TriggInt {target},{place}{switch},{expressions.text(statement.interrupt)}"
+        return "trigger_interrupt", words | {"interrupt": expressions.text(statement.interrupt)}
     match trigger.action:
         case ir.Assign(target=ir.Signal(kind=kind) as signal, value=value) if kind in _OPTIONS:
-            option = f"\\{_OPTIONS[kind]}:={expressions.signal(signal)}"
-            written = output_value(kind, value, expressions)
+            words |= {"option": _OPTIONS[kind], "signal": expressions.signal(signal)}
+            words["value"] = output_value(kind, value, expressions)
         case _:
             raise CannotSayError("a path event writes an output")
     if switch == "\\Time" or trigger.delay is None:
-        return f"TriggIO {target},{place}{switch}{option},{written}"
+        return "trigger_output", words | {"delay": ""}
     lag = negative_of(trigger.delay)
     if lag is None and isinstance(trigger.delay, ir.IntLiteral | ir.RealLiteral):
-        return f"TriggIO {target},{place}{switch}{option},{written}\\DODelay:={expressions.text(trigger.delay)}"
+        return "trigger_output", words | {"delay": expressions.text(trigger.delay)}
     # A computed delay may have either sign, which only the lag of an equipment may have.
     lag = lag if lag is not None else ir.Unary("-", trigger.delay)
-    return f"TriggEquip {target},{place}{switch},{expressions.text(lag)}{option},{written}"
+    return "trigger_equipment", words | {"lag": expressions.text(lag)}
 
 
 def _place(trigger: ir.Trigger, expressions: Expressions) -> tuple[str, str]:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache
-from typing import Protocol, cast
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
@@ -12,10 +10,10 @@ from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.refusals import refusal
 from rpl.writing.statements import CannotSayError
+from rpl.writing.templates import Macros, TemplateError
 
 from . import motion
-from .expressions import Expressions, text_literal
-from .frames import macros
+from .expressions import Expressions
 from .instructions import Instructions
 
 NOT_SAID = code(
@@ -24,45 +22,38 @@ NOT_SAID = code(
     "RAPID cannot say this: {reason}",
     "the original stands there as a comment, with a Stop behind it",
 )
-INDENT = "  "
 _SHOWN_LINES = 12
 
 
-class Macros(Protocol):
-    """The macros of templates/statements.j2 give text."""
+class Layout:
+    """Blocks and remarks as lines."""
 
-    def __getattr__(self, name: str) -> Macro: ...
+    def __init__(self, macros: Macros) -> None:
+        self.macros = macros
+        self.step = macros("step")
 
+    def indented(self, lines: Sequence[str]) -> str:
+        """Lines of a block, indented by one step, as one text."""
+        step = self.step
+        return "\n".join(f"{step}{line}" if line else line for line in lines)
 
-class Macro(Protocol):
-    def __call__(self, *arguments: object) -> str: ...
+    def remarks(self, origin: Origin) -> list[str]:
+        """The comments before a statement."""
+        lines: list[str] = []
+        for comment in origin.comments:
+            if not comment.behind:
+                for line in comment.text.splitlines() or [""]:
+                    lines.extend(self.macros.lines("remark", text=line.rstrip()))
+        return lines
 
-
-@cache
-def _macros() -> Macros:
-    return cast(Macros, macros("statements.j2"))
-
-
-def indented(lines: Sequence[str]) -> str:
-    """Lines of a block, indented by one step, as one text."""
-    return "\n".join(f"{INDENT}{line}" if line else line for line in lines)
-
-
-def remark_lines(origin: Origin) -> list[str]:
-    """The comments before a statement."""
-    lines: list[str] = []
-    for comment in origin.comments:
-        if not comment.behind:
-            lines.extend(f"!{line}".rstrip() for line in comment.text.splitlines() or [""])
-    return lines
-
-
-def behind(origin: Origin) -> str:
-    """The comment behind a statement on its line."""
-    words = " ".join(
-        line.rstrip() for comment in origin.comments if comment.behind for line in comment.text.splitlines()
-    )
-    return f" !{words}" if words else ""
+    def behind(self, origin: Origin) -> str:
+        """The comment behind a statement on its line."""
+        if not origin.comments:
+            return ""
+        words = " ".join(
+            line.rstrip() for comment in origin.comments if comment.behind for line in comment.text.splitlines()
+        )
+        return self.macros("behind", text=words) if words else ""
 
 
 def _inside(choice: ir.If) -> list[ir.Statement]:
@@ -72,12 +63,16 @@ def _inside(choice: ir.If) -> list[ir.Statement]:
 class Statements:
     """Writes the statements of one routine."""
 
-    def __init__(self, expressions: Expressions, diagnostics: Diagnostics, ledger: EmissionLedger) -> None:
+    def __init__(
+        self, expressions: Expressions, diagnostics: Diagnostics, ledger: EmissionLedger, layout: Layout
+    ) -> None:
         self.expressions = expressions
         self.text = expressions.text
         self.diagnostics = diagnostics
         self.ledger = ledger
-        self.instructions = Instructions(expressions)
+        self.layout = layout
+        self.say = layout.macros
+        self.instructions = Instructions(expressions, layout.macros)
 
     def body(self, body: ir.Body) -> list[str]:
         """All lines of a body, not indented."""
@@ -100,18 +95,20 @@ class Statements:
             lines = self.lines(statement)
         except CannotSayError as reason:
             return self.guarded(statement, str(reason))
+        except TemplateError as error:
+            raise error.at(statement.origin) from None
         return self.framed(statement, lines, (statement,))
 
     def framed(self, first: ir.Statement, lines: list[str], nodes: Sequence[ir.Statement]) -> list[str]:
         """The lines with the comments of the statement before and behind them."""
         for node in nodes:
             self.ledger.written(node)
-        remark = behind(first.origin)
+        remark = self.layout.behind(first.origin)
         if remark and lines:
             lines = [lines[0] + remark, *lines[1:]]
         elif remark:
             lines = [remark.strip()]
-        return [*remark_lines(first.origin), *lines]
+        return [*self.layout.remarks(first.origin), *lines]
 
     def guarded(self, statement: ir.Statement, reason: str) -> list[str]:
         """The original as comment lines and the controller's own stop."""
@@ -120,8 +117,7 @@ class Statements:
         self.diagnostics.report(code, statement.origin, reason=why)
         original = statement.text if isinstance(statement, ir.Opaque | ir.Vendor) else statement.origin.text
         shown = [line.strip() for line in (original or repr(statement)).splitlines()][:_SHOWN_LINES]
-        text = _macros().guarded([f"not carried over: {reason}", *shown])
-        return [*remark_lines(statement.origin), *text.splitlines()]
+        return [*self.layout.remarks(statement.origin), *self.say.lines("guarded", reason=reason, original=shown)]
 
     def lines(self, statement: ir.Statement) -> list[str]:
         """The statement's own lines. Raises CannotSayError."""
@@ -135,21 +131,23 @@ class Statements:
     # ---- blocks
 
     def inner(self, body: ir.Body) -> str:
-        return indented(self.body(body))
+        return self.layout.indented(self.body(body))
 
     def block(self, statement: ir.Statement) -> str | None:
         match statement:
             case ir.If(branches=branches, otherwise=otherwise):
                 conditions = [self.text(condition) for condition, _ in branches]
                 done = [(text, self.inner(body)) for text, (_, body) in zip(conditions, branches, strict=True)]
-                return _macros().if_block(done, self.inner(otherwise))
+                return self.say("if_block", branches=done, otherwise=self.inner(otherwise))
             case ir.Switch(selector=selector, cases=cases, default=default):
                 values = [self.expressions.list(case.values) for case in cases]
                 chosen = self.text(selector)
                 listed = [(value, self.inner(case.body)) for value, case in zip(values, cases, strict=True)]
-                return _macros().test_block(chosen, listed, self.inner(default or ()), default is not None)
+                rest = self.inner(default or ())
+                has = default is not None
+                return self.say("test_block", selector=chosen, cases=listed, default=rest, has_default=has)
             case ir.While(condition=condition, body=body):
-                return _macros().while_block(self.text(condition), self.inner(body))
+                return self.say("while_block", condition=self.text(condition), body=self.inner(body))
             case ir.For():
                 return self.counting(statement)
         return None
@@ -157,53 +155,51 @@ class Statements:
     def counting(self, loop: ir.For) -> str:
         if not (loop.at_least_once and loop.scoped) or loop.automatic != (loop.step is None):
             raise CannotSayError("FOR counts by its own rule")
-        head = [self.text(loop.start), self.text(loop.stop), "" if loop.step is None else self.text(loop.step)]
+        start, stop = self.text(loop.start), self.text(loop.stop)
+        step = "" if loop.step is None else self.text(loop.step)
         scope = self.expressions.scope.with_value(ir.Variable(loop.counter, ir.RealType()))
         inner = Expressions(scope, self.expressions.long_texts, self.expressions.beside)
-        inside = Statements(
-            inner,
-            self.diagnostics,
-            self.ledger,
-        )
-        return _macros().for_block(loop.counter, *head, indented(inside.body(loop.body)))
+        inside = Statements(inner, self.diagnostics, self.ledger, self.layout)
+        body = inside.inner(loop.body)
+        return self.say("for_block", counter=loop.counter, start=start, stop=stop, step=step, body=body)
 
     # ---- one-line statements
 
     def simple(self, statement: ir.Statement) -> str:
-        made = _macros()
+        say = self.say
         match statement:
             case ir.Assign(target=target, value=value):
                 return self.instructions.assign(target, value)
             case ir.CallRoutine(name=name, arguments=arguments, dynamic=None):
-                return made.call(name, self.expressions.arguments(name, arguments))
+                return say("call", name=name, arguments=self.expressions.arguments(name, arguments))
             case ir.CallRoutine(arguments=arguments, dynamic=dynamic) if dynamic is not None:
-                return made.late_call(self.text(dynamic), self.expressions.arguments("", arguments))
+                text = self.text(dynamic)
+                return say("late_call", text=text, arguments=self.expressions.arguments("", arguments))
             case ir.Label(name=name):
-                return made.label(name)
+                return say("label", name=name)
             case ir.Goto(label=name):
-                return made.goto(name)
+                return say("goto", name=name)
             case ir.Return(value=value):
-                return made.leave("" if value is None else self.text(value))
+                return say("leave", value="" if value is None else self.text(value))
             case ir.Raise(code=value):
-                return made.raise_error("" if value is None else self.text(value))
+                return say("raise_error", value="" if value is None else self.text(value))
             case ir.Vendor(dialect="rapid", text=text):
                 return text
             case ir.ConnectInterrupt(handle=handle, routine=routine):
-                return made.connect(self.text(handle), routine)
+                return say("connect", handle=self.text(handle), routine=routine)
             case ir.Move():
-                text = self.motion(motion.move(statement, self.expressions))
+                macro, words = motion.move(statement, self.expressions)
+                text = say(macro, **words)
                 for trigger in statement.triggers:
                     if isinstance(trigger, ir.Trigger):
                         self.ledger.merged(trigger)
                 return text
             case ir.MoveExternal():
-                return self.motion(motion.move_external(statement, self.expressions))
+                return say("move_external", **motion.move_external(statement, self.expressions))
             case ir.DefineTrigger():
-                return made.word(motion.define_trigger(statement, self.expressions))
+                macro, words = motion.define_trigger(statement, self.expressions)
+                return say(macro, **words)
         return self.instructions.text(statement)
 
-    def motion(self, parts: motion.MoveText) -> str:
-        return _macros().move(parts.name, parts.before, list(parts.points), parts.settings)
 
-
-__all__ = ["Statements", "behind", "indented", "remark_lines", "text_literal"]
+__all__ = ["Layout", "Statements"]

@@ -1,4 +1,4 @@
-"""Write types, parameters and declarations."""
+"""The words of types, parameters and declarations."""
 
 from __future__ import annotations
 
@@ -42,24 +42,27 @@ def sizes(type: ir.Type, expressions: Expressions) -> str:
     return f"{{{','.join(parts)}}}"
 
 
-def variable(declaration: ir.Variable, expressions: Expressions) -> str:
+def variable(declaration: ir.Variable, expressions: Expressions) -> dict[str, object]:
     """One data declaration."""
-    storage = _STORAGE[declaration.storage]
-    prefix = ""
+    where = ""
     if declaration.scope == "module":
-        prefix = "LOCAL "
+        where = "LOCAL"
     elif declaration.scope == "task" and declaration.storage == "persistent":
-        prefix = "TASK "
-    name = f"{declaration.name}{sizes(declaration.type, expressions)}"
-    initial = "" if declaration.initial is None else f":={expressions.text(declaration.initial)}"
-    return f"{prefix}{storage} {type_name(declaration.type)} {name}{initial};"
+        where = "TASK"
+    return {
+        "where": where,
+        "storage": _STORAGE[declaration.storage],
+        "name": declaration.name,
+        "sizes": sizes(declaration.type, expressions),
+        "initial": "" if declaration.initial is None else expressions.text(declaration.initial),
+        "type": type_name(declaration.type),
+    }
 
 
-def record(declaration: ir.RecordDeclaration, expressions: Expressions) -> list[str]:
+def record(declaration: ir.RecordDeclaration, expressions: Expressions) -> dict[str, object]:
     """A record with its components."""
-    fields = [f"  {type_name(type)} {name}{sizes(type, expressions)};" for name, type in declaration.fields]
-    local = "LOCAL " if declaration.scope == "module" else ""
-    return [f"{local}RECORD {declaration.name}", *fields, "ENDRECORD"]
+    fields = [(type_name(type), name, sizes(type, expressions)) for name, type in declaration.fields]
+    return {"local": declaration.scope == "module", "name": declaration.name, "fields": fields}
 
 
 def parameters(routine: ir.Routine, expressions: Expressions) -> str:
@@ -91,15 +94,14 @@ def one_parameter(parameter: ir.Parameter, expressions: Expressions) -> str:
     return f"{mode}{type_name(parameter.type)} {parameter.name}{sizes(parameter.type, expressions)}"
 
 
-def heading(routine: ir.Routine, expressions: Expressions) -> tuple[str, str]:
-    """First and last line of a routine."""
-    local = "LOCAL " if routine.scope == "module" else ""
+def heading(routine: ir.Routine, expressions: Expressions) -> dict[str, object]:
+    """The words of a routine's first line; the last one is END and its kind."""
+    words: dict[str, object] = {"local": routine.scope == "module", "kind": "PROC", "returns": "", "name": routine.name}
     match routine.kind:
         case "function":
             if routine.returns is None:
                 raise CannotSayError("a function without a type of result")
-            returns = type_name(routine.returns)
-            return f"{local}FUNC {returns} {routine.name}({parameters(routine, expressions)})", "ENDFUNC"
+            words |= {"kind": "FUNC", "returns": type_name(routine.returns)}
         case "trap":
-            return f"{local}TRAP {routine.name}", "ENDTRAP"
-    return f"{local}PROC {routine.name}({parameters(routine, expressions)})", "ENDPROC"
+            return words | {"kind": "TRAP", "parameters": ""}
+    return words | {"parameters": parameters(routine, expressions)}

@@ -9,10 +9,10 @@ from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
+from rpl.writing.templates import TemplateError, macros_of
 
 from .expressions import LONGEST_TEXT, Expressions
-from .frames import environment
-from .statements import INDENT, NOT_SAID, Statements, behind, indented, remark_lines
+from .statements import NOT_SAID, Layout, Statements
 from .types import heading, record, type_name, variable
 
 CUT_TEXT = code("text-cut", Severity.WARNING, "a text of {length} characters is cut to {limit}")
@@ -26,10 +26,11 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     scopes = ProgramScope(program)
     header = context.options.get("header", "").lower() in ("yes", "true", "1")
     files = []
+    layout = Layout(macros_of(__package__, context.templates))
     background = {task.name for task in program.tasks if task.kind == "background"}
     for module in program.modules:
         beside = module.task != "" and module.task in background
-        writer = _ModuleWriter(module, scopes, context.diagnostics, ledger, beside)
+        writer = _ModuleWriter(module, scopes, context.diagnostics, ledger, layout, beside)
         text = writer.text(header)
         suffix = ".sys" if any(name == "SYSMODULE" for name, _ in module.attributes) else ".mod"
         folder = f"{module.task}/" if module.task else ""
@@ -53,8 +54,10 @@ class _ModuleWriter:
         scopes: ProgramScope,
         diagnostics: Diagnostics,
         ledger: EmissionLedger,
+        layout: Layout,
         beside: bool,
     ) -> None:
+        self.layout, self.say = layout, layout.macros
         self.module, self.scopes, self.beside = module, scopes, beside
         self.diagnostics, self.ledger = diagnostics, ledger
 
@@ -67,19 +70,17 @@ class _ModuleWriter:
             declarations.extend(self.declaration(declaration, expressions))
         self.long_texts(expressions, module.origin)
         attributes = [name for name, _ in module.attributes if name in _ATTRIBUTES]
-        return (
-            environment()
-            .get_template("module.j2")
-            .render(
-                header=header or any(name in _HEADER for name, _ in module.attributes),
-                comments=remark_lines(module.origin),
-                behind=behind(module.origin),
-                name=module.name,
-                attributes=attributes,
-                declarations=[f"{INDENT}{line}" for line in declarations],
-                routines=[indented(self.routine(routine)) for routine in module.routines],
-            )
+        text = self.say(
+            "module",
+            header=header or any(name in _HEADER for name, _ in module.attributes),
+            remarks=self.layout.remarks(module.origin),
+            behind=self.layout.behind(module.origin),
+            name=module.name,
+            attributes=attributes,
+            declarations=[f"{self.layout.step}{line}" for line in declarations],
+            routines=[self.layout.indented(self.routine(routine)) for routine in module.routines],
         )
+        return f"{text}\n"
 
     def declaration(self, declaration: ir.Declaration, expressions: Expressions) -> list[str]:
         """The lines of a declaration with its comments; as comment lines when RAPID cannot say it."""
@@ -89,41 +90,47 @@ class _ModuleWriter:
             self.ledger.reported(declaration)
             self.diagnostics.report(NOT_SAID, declaration.origin, reason=str(reason))
             original = declaration.origin.text or getattr(declaration, "text", "") or repr(declaration)
-            shown = [f"! {line.strip()}" for line in original.splitlines()]
-            return [*remark_lines(declaration.origin), f"! not carried over: {reason}", *shown]
+            return self.lost(declaration.origin, reason, original)
+        except TemplateError as error:
+            raise error.at(declaration.origin) from None
         self.ledger.written(declaration)
+        behind = self.layout.behind(declaration.origin)
         if lines:
-            lines[0] += behind(declaration.origin)
-        elif behind(declaration.origin):
-            lines = [behind(declaration.origin).strip()]
-        return [*remark_lines(declaration.origin), *lines]
+            lines[0] += behind
+        elif behind:
+            lines = [behind.strip()]
+        return [*self.layout.remarks(declaration.origin), *lines]
+
+    def lost(self, origin: Origin, reason: CannotSayError, original: str) -> list[str]:
+        shown = [line.strip() for line in original.splitlines()]
+        return [*self.layout.remarks(origin), *self.say.lines("lost", reason=reason, original=shown)]
 
     def declared(self, declaration: ir.Declaration, expressions: Expressions) -> list[str]:
         match declaration:
             case ir.Variable():
-                return [variable(declaration, expressions)]
+                return self.say.lines("variable", **variable(declaration, expressions))
             case ir.RecordDeclaration():
-                return record(declaration, expressions)
+                return self.say.lines("record", **record(declaration, expressions))
             case ir.AliasDeclaration(name=name, type=type, scope=scope):
-                return [f"{'LOCAL ' if scope == 'module' else ''}ALIAS {type_name(type)} {name};"]
+                return self.say.lines("alias", local=scope == "module", type=type_name(type), name=name)
             case ir.Unread(text=""):
                 return []
             case ir.Unread():
                 raise CannotSayError("it could not be read")
             case ir.ExternalDeclaration(text=text):
-                return [f"! {line.strip()}" for line in text.splitlines()]
+                return self.say.lines("external", lines=[line.strip() for line in text.splitlines()])
         raise CannotSayError(f"there is no {declaration.__class__.__name__}")
 
     def routine(self, routine: ir.Routine) -> list[str]:
         expressions = Expressions(self.scopes.routine(self.module, routine), beside=self.beside)
-        statements = Statements(expressions, self.diagnostics, self.ledger)
+        layout, origin = self.layout, routine.origin
+        statements = Statements(expressions, self.diagnostics, self.ledger, layout)
         try:
-            head, ending = heading(routine, expressions)
+            head = heading(routine, expressions)
         except CannotSayError as reason:
             self.ledger.reported(routine)
-            self.diagnostics.report(NOT_SAID, routine.origin, reason=str(reason))
-            shown = [f"! {line.strip()}" for line in (routine.origin.text or routine.name).splitlines()]
-            return [*remark_lines(routine.origin), f"! not carried over: {reason}", *shown]
+            self.diagnostics.report(NOT_SAID, origin, reason=str(reason))
+            return self.lost(origin, reason, origin.text or routine.name)
         self.ledger.written(routine)
         lines: list[str] = []
         for declaration in _ordered(routine.declarations):
@@ -132,26 +139,22 @@ class _ModuleWriter:
         handlers = []
         for handler in routine.handlers:
             codes = f" ({expressions.list(handler.codes)})" if handler.codes else ""
-            remarks = [f"{INDENT}{line}" for line in remark_lines(handler.origin)]
-            lines_of = indented(statements.body(handler.body))
+            remarks = [f"{layout.step}{line}" for line in layout.remarks(handler.origin)]
+            lines_of = statements.inner(handler.body)
             handlers.append((f"ERROR{codes}", "\n".join((*remarks, lines_of)) if remarks else lines_of))
         for word, body in (("UNDO", routine.undo), ("BACKWARD", routine.backward)):
             if body:
-                handlers.append((word, indented(statements.body(body))))
-        self.long_texts(expressions, routine.origin)
-        text = (
-            environment()
-            .get_template("routine.j2")
-            .render(
-                comments=remark_lines(routine.origin),
-                heading=head,
-                behind=behind(routine.origin),
-                body=indented(lines),
-                handlers=handlers,
-                ending=ending,
-            )
+                handlers.append((word, statements.inner(body)))
+        self.long_texts(expressions, origin)
+        return self.say.lines(
+            "routine",
+            remarks=layout.remarks(origin),
+            heading=self.say("heading", **head),
+            behind=layout.behind(origin),
+            body=layout.indented(lines),
+            handlers=handlers,
+            ending=f"END{head['kind']}",
         )
-        return text.splitlines()
 
     def long_texts(self, expressions: Expressions, origin: Origin) -> None:
         for text in expressions.long_texts:

@@ -24,14 +24,15 @@ class OutputFile:
 @dataclass(frozen=True, slots=True)
 class WriteContext:
     """What a writer is given: the collector, the arm that will run the program (None when none is named), the target's
-    own options (such as `version`), the source names of data in numbered banks by (bank, number), and whether the
-    program comes from another language."""
+    own options (such as `version`), the source names of data in numbered banks by (bank, number), whether the program
+    comes from another language, and a plant's own template files for this target, path -> text."""
 
     diagnostics: Diagnostics
     robot: RobotModel | None = None
     options: Mapping[str, str] = field(default_factory=dict)
     register_names: Mapping[tuple[str, int], str] = field(default_factory=dict)
     foreign: bool = True
+    templates: Mapping[str, str] = field(default_factory=dict)
 
 
 __all__ = ["Capabilities", "NameRules", "OutputFile", "WriteContext"]
