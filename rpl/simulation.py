@@ -17,7 +17,9 @@ from rpl.ir.walk import bodies
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.limits import DEFAULTS, Limits
 from rpl.runtime.machine import Machine
-from rpl.runtime.task import ENDED, Task
+from rpl.runtime.ports import Task
+from rpl.runtime.task import ENDED
+from rpl.runtime.task import Task as NewTask
 from rpl.runtime.trace import Event, RunInterrupted, RunResult
 from rpl.runtime.values import Member, Value
 
@@ -123,7 +125,7 @@ class Simulation(Machine):
         code = self.program.code_of(routine)
         self.provide(code)
         try:
-            task = Task(self, declared.name, len(self.tasks), declared.kind, code, declared.cyclic)
+            task = NewTask(self, declared.name, len(self.tasks), declared.kind, code, declared.cyclic)
         except ProgramError as error:  # a first value of the routine's own data cannot be made
             raise RunError(f"{routine.origin.place}{routine.name}: {error.message}") from None
         for name, value in code.rules.system_defaults.items():

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rpl import ir
-from rpl.ir.walk import children
 from rpl.linking import interrupts
+from rpl.linking.conditions import depends_on_time
 from rpl.linking.meetings import meet
 from rpl.linking.places import writer
-from rpl.runtime import answers, functions, resting, system, tasks
+from rpl.runtime import answers, resting, system, tasks
 from rpl.runtime.code import SWITCHED, Branch, Instruction, Read, Values, Write
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.texts import value_text
@@ -17,11 +17,10 @@ from rpl.runtime.values import StopWatch, Value
 
 if TYPE_CHECKING:
     from rpl.linking.assembler import Make
-    from rpl.linking.calls import Fill
-    from rpl.linking.routine import RoutineLinker
+    from rpl.linking.linker import Fill, Linker
 
 
-def action(statement: ir.Statement, linker: RoutineLinker) -> Make | None:
+def action(statement: ir.Statement, linker: Linker) -> Make | None:
     """The instruction of a statement without inner structure; None when it is of another kind."""
     match statement:
         case ir.Wait():
@@ -57,7 +56,7 @@ def action(statement: ir.Statement, linker: RoutineLinker) -> Make | None:
     return interrupts.action(statement, linker) or _control(statement, linker)
 
 
-def _control(statement: ir.Statement, linker: RoutineLinker) -> Make | None:
+def _control(statement: ir.Statement, linker: Linker) -> Make | None:
     match statement:
         case ir.Halt(kind=kind):
             return _halt(kind)
@@ -113,7 +112,7 @@ def _standing(in_position: bool, f: Values, here: int) -> int | None:
     return None
 
 
-def _wait(statement: ir.Wait, linker: RoutineLinker) -> Make:
+def _wait(statement: ir.Wait, linker: Linker) -> Make:
     seconds, in_position = linker.compiler.value(statement.time), statement.in_position
     queues = in_position and linker.compiler.scope.rules.advance.waits_queue
 
@@ -133,33 +132,15 @@ def _wait(statement: ir.Wait, linker: RoutineLinker) -> Make:
     return make
 
 
-def depends_on_time(condition: ir.Expression, linker: RoutineLinker) -> bool:
-    """Can the condition become true without anybody doing anything? A cyclic flag is what the program gives it."""
-    stack: list[object] = [condition]
-    bound = False
-    while stack:
-        node = stack.pop()
-        match node:
-            case ir.System(name=name) if name in system.TIME_DEPENDENT:
-                return True
-            case ir.Builtin(function=function) if function in functions.TIME_DEPENDENT:
-                return True
-            case ir.System(name="cyclic_flag") if not bound:
-                bound = True
-                stack.extend(linker.linked.cyclic)
-        stack.extend(children(node))
-    return False
-
-
-def timed_out(statement: ir.WaitUntil, linker: RoutineLinker) -> Write | None:
+def timed_out(statement: ir.WaitUntil, linker: Linker) -> Write | None:
     """What writes whether the wait has timed out."""
     if statement.timed_out is None:
         return None
     return writer(linker.compiler, statement.timed_out, statement.origin)
 
 
-def _wait_until(statement: ir.WaitUntil, linker: RoutineLinker) -> Make:
-    condition, polls = linker.compiler.value(statement.condition), depends_on_time(statement.condition, linker)
+def _wait_until(statement: ir.WaitUntil, linker: Linker) -> Make:
+    condition, polls = linker.compiler.value(statement.condition), depends_on_time(statement.condition, linker.linked)
     timeout = linker.compiler.value(statement.timeout) if statement.timeout is not None else None
     late, error, in_position = timed_out(statement, linker), statement.error, statement.in_position
     subject, code = statement.origin.text.strip()[:80], linker.code
@@ -196,7 +177,7 @@ def _look_ahead(here: int, next: int) -> Instruction:
 # ---- outputs over time
 
 
-def _timed_output(statement: ir.Pulse | ir.SetAfter, linker: RoutineLinker) -> Make:
+def _timed_output(statement: ir.Pulse | ir.SetAfter, linker: Linker) -> Make:
     compiler = linker.compiler
     signal = statement.signal
     if isinstance(signal, ir.Convert):
@@ -245,7 +226,7 @@ def _shown(value: Value) -> str:
     return value if isinstance(value, str) else value_text(value)
 
 
-def _message(statement: ir.Message, linker: RoutineLinker) -> Make:
+def _message(statement: ir.Message, linker: Linker) -> Make:
     text, kind = linker.compiler.value(statement.text), statement.kind
     sender = linker.compiler.value(statement.sender) if statement.sender is not None else None
 
@@ -261,7 +242,7 @@ def _message(statement: ir.Message, linker: RoutineLinker) -> Make:
     return make
 
 
-def _dialog(statement: ir.Dialog, linker: RoutineLinker) -> Make:
+def _dialog(statement: ir.Dialog, linker: Linker) -> Make:
     compiler, origin = linker.compiler, statement.origin
     text, answer = compiler.value(statement.text), writer(compiler, statement.answer, origin)
     keys = [compiler.value(key) if key is not None else None for key in statement.keys]
@@ -282,7 +263,7 @@ def _dialog(statement: ir.Dialog, linker: RoutineLinker) -> Make:
     return make
 
 
-def _clock(statement: ir.Clock, linker: RoutineLinker) -> Make:
+def _clock(statement: ir.Clock, linker: Linker) -> Make:
     read, op = linker.compiler.raw(statement.clock), statement.op
 
     def make(here: int, next: int) -> Instruction:
@@ -382,7 +363,7 @@ def _raise(code: Read | None) -> Make:
     return make
 
 
-def _task_control(statement: ir.TaskControl, linker: RoutineLinker) -> Make:
+def _task_control(statement: ir.TaskControl, linker: Linker) -> Make:
     op, name, linked = statement.op, statement.task, linker.linked
     routine = linked.routine(linker.compiler.scope, name)
     fills = linker.calls.plan(routine, statement.arguments, statement.origin).fills if routine is not None else ()
@@ -420,7 +401,7 @@ def _critical(enter: bool) -> Make:
     return make
 
 
-def _on_error(name: str | None, linker: RoutineLinker) -> Make:
+def _on_error(name: str | None, linker: Linker) -> Make:
     linked = linker.linked
     routine = linked.routine(linker.compiler.scope, name) if name is not None else None
 
@@ -436,7 +417,7 @@ def _on_error(name: str | None, linker: RoutineLinker) -> Make:
     return make
 
 
-def _for_next_move(statement: ir.SetForNextMove, linker: RoutineLinker) -> Make:
+def _for_next_move(statement: ir.SetForNextMove, linker: Linker) -> Make:
     setting, value = statement.setting, statement.value
     if isinstance(setting, ir.Magnitude):
         value = ir.Quantity(value, setting.unit)

@@ -5,13 +5,12 @@ References are made when the call is, so indices are evaluated then.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.linking.expressions import Compiler, Place
 from rpl.linking.flatten import has_call
+from rpl.linking.linker import Fill, Linker, Plan
 from rpl.linking.places import reference
 from rpl.runtime.code import SWITCHED, Code, Frame, Instruction, Read, Values
 from rpl.runtime.faults import ProgramError
@@ -20,26 +19,16 @@ from rpl.source import Origin
 
 if TYPE_CHECKING:
     from rpl.linking.assembler import Make
-    from rpl.linking.program import LinkedProgram
-    from rpl.linking.routine import RoutineLinker
+    from rpl.linking.symbols import Symbols
     from rpl.runtime.task import Task
 
-Fill = Callable[[Values, Values], None]
 FIRST = 1  # place of the first parameter in a routine's frame
-
-
-@dataclass(frozen=True, slots=True)
-class Plan:
-    """How the places of a routine's parameters are filled from the caller's values."""
-
-    code: Callable[[], Code]
-    fills: tuple[Fill, ...]
 
 
 class Calls:
     """Compiles the calls of one routine."""
 
-    def __init__(self, linker: RoutineLinker) -> None:
+    def __init__(self, linker: Linker) -> None:
         self.linker = linker
 
     @property
@@ -191,7 +180,7 @@ def _enter(f: Values, plan: Plan, here: int, next: int, result: int | None) -> i
     return task.call(frame, here, next, result)
 
 
-def _call(plan: Plan, result: int | None, linked: LinkedProgram, routine: ir.Routine) -> Make:
+def _call(plan: Plan, result: int | None, linked: Symbols, routine: ir.Routine) -> Make:
     fills = plan.fills
 
     def make(here: int, next: int) -> Instruction:
@@ -254,3 +243,15 @@ def _refusing(message: str) -> Fill:
 
 
 __all__ = ["FIRST", "Calls", "Read"]
+
+
+def leaving(read: Read | None) -> Make:
+    """Return from the frame."""
+
+    def make(here: int, next: int) -> Instruction:
+        if read is None:
+            return lambda f: f[0].leave(here)
+        value = read
+        return lambda f: f[0].leave(here, value(f))
+
+    return make

@@ -44,7 +44,7 @@ from rpl.runtime.values import (
 )
 
 if TYPE_CHECKING:
-    from rpl.linking.program import LinkedProgram
+    from rpl.linking.symbols import Symbols
 
 _COMPARING = frozenset(("<", ">", "<=", ">=", "=", "<>"))
 # Operators of whole numbers, texts and places: nothing of theirs is rounded.
@@ -70,11 +70,16 @@ def hidden(place: int) -> ir.Name:
     return ir.Name(f"{HIDDEN}{place}")
 
 
-class Compiler:
-    """Compiles expressions of one routine (or of a module's declarations)."""
+CompileProcedure = Callable[["Compiler", str, tuple[ir.Expression | None, ...]], Read]
 
-    def __init__(self, linked: LinkedProgram, scope: Scope) -> None:
+
+class Compiler:
+    """Compiles expressions of one routine (or of a module's declarations). `procedure`: how the call of a neutral
+    procedure is compiled, which writes to places."""
+
+    def __init__(self, linked: Symbols, scope: Scope, procedure: CompileProcedure) -> None:
         self.linked = linked
+        self.procedure = procedure
         self.scope = scope
         self.types: Types = linked.types(scope)
         self.unset = scope.rules.undefined
@@ -315,9 +320,7 @@ class Compiler:
         if name in functions.BY_PLACE:
             return self.by_place(name, expression.arguments)
         if name in ir.PROCEDURES:
-            from rpl.linking.places import procedure
-
-            return procedure(self, name, expression.arguments)
+            return self.procedure(self, name, expression.arguments)
         arguments = [self.value(argument) for argument in expression.arguments]
         pure = functions.PURE.get(name)
         if pure is not None:

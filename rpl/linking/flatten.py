@@ -19,7 +19,7 @@ from rpl.runtime.code import Instruction, Values
 
 if TYPE_CHECKING:
     from rpl.linking.assembler import Make
-    from rpl.linking.routine import RoutineLinker
+    from rpl.linking.linker import Linker
 
 _LITERALS = (ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.EnumLiteral)
 
@@ -38,7 +38,7 @@ def has_call(node: object) -> bool:
 class Flattener:
     """Moves calls out of the expressions of one statement at a time."""
 
-    def __init__(self, linker: RoutineLinker) -> None:
+    def __init__(self, linker: Linker) -> None:
         self.linker = linker
 
     def statement(self, statement: ir.Statement) -> ir.Statement:

@@ -22,7 +22,7 @@ from rpl.runtime.values import (
 )
 
 if TYPE_CHECKING:
-    from rpl.linking.program import LinkedProgram
+    from rpl.linking.symbols import Symbols
     from rpl.runtime.machine import Machine
 
 # Records that stand for a pose in some languages -> the component that has the pose.
@@ -42,7 +42,7 @@ class _Loader:
         self.robot = None
 
 
-def initialise(linked: LinkedProgram, values: Values, machine: Machine) -> None:
+def initialise(linked: Symbols, values: Values, machine: Machine) -> None:
     """Append first values for all global data that has none yet."""
     first = len(values)
     values.extend([None] * (len(linked.slots) - first))
@@ -56,7 +56,7 @@ def initialise(linked: LinkedProgram, values: Values, machine: Machine) -> None:
     _override(linked, values, machine, first)
 
 
-def _make(linked: LinkedProgram, number: int, values: Values, frame: Values, done: set[int]) -> None:
+def _make(linked: Symbols, number: int, values: Values, frame: Values, done: set[int]) -> None:
     if number in done:
         return
     done.add(number)
@@ -73,7 +73,7 @@ def _make(linked: LinkedProgram, number: int, values: Values, frame: Values, don
         raise RunError(f"{slot.origin.place}the initial value of {slot.name}: {error.message}") from None
 
 
-def _override(linked: LinkedProgram, values: Values, machine: Machine, first: int) -> None:
+def _override(linked: Symbols, values: Values, machine: Machine, first: int) -> None:
     """Put in the values that the cell file gives."""
     for path, given in machine.cell.variables.items():
         for number in range(first, len(values)):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rpl import ir
+from rpl.linking.conditions import depends_on_time
 from rpl.linking.places import writer
 from rpl.runtime.code import Instruction, Values
 from rpl.runtime.faults import ProgramError
@@ -13,10 +14,10 @@ from rpl.runtime.values import whole
 
 if TYPE_CHECKING:
     from rpl.linking.assembler import Make
-    from rpl.linking.routine import RoutineLinker
+    from rpl.linking.linker import Linker
 
 
-def action(statement: ir.Statement, linker: RoutineLinker) -> Make | None:
+def action(statement: ir.Statement, linker: Linker) -> Make | None:
     """The instruction of an interrupt statement; None for any other."""
     match statement:
         case ir.DeclareInterrupt():
@@ -30,14 +31,12 @@ def action(statement: ir.Statement, linker: RoutineLinker) -> Make | None:
     return None
 
 
-def _declare(statement: ir.DeclareInterrupt, linker: RoutineLinker) -> Make:
+def _declare(statement: ir.DeclareInterrupt, linker: Linker) -> Make:
     """Condition and action live in the declaring routine; the priority identifies it where nothing else does."""
-    from rpl.linking.actions import depends_on_time
-
     priority = linker.compiler.value(statement.priority)
     identity = linker.compiler.value(statement.identity if statement.identity is not None else statement.priority)
     once, stops = statement.once, statement.stops
-    condition, polls = linker.compiler.value(statement.condition), depends_on_time(statement.condition, linker)
+    condition, polls = linker.compiler.value(statement.condition), depends_on_time(statement.condition, linker.linked)
     code = linker.action(statement.action, "interrupt")
     everywhere = statement.everywhere
 
@@ -57,7 +56,7 @@ def _declare(statement: ir.DeclareInterrupt, linker: RoutineLinker) -> Make:
     return make
 
 
-def _connect(statement: ir.ConnectInterrupt, linker: RoutineLinker) -> Make:
+def _connect(statement: ir.ConnectInterrupt, linker: Linker) -> Make:
     """RAPID's way: a variable gets an identity, a trap routine acts."""
     read, write = linker.compiler.raw(statement.handle), writer(linker.compiler, statement.handle, statement.origin)
     routine = linker.linked.routine(linker.compiler.scope, statement.routine)
@@ -80,13 +79,11 @@ def _connect(statement: ir.ConnectInterrupt, linker: RoutineLinker) -> Make:
     return make
 
 
-def _order(statement: ir.OrderInterrupt, linker: RoutineLinker) -> Make:
-    from rpl.linking.actions import depends_on_time
-
+def _order(statement: ir.OrderInterrupt, linker: Linker) -> Make:
     compiler = linker.compiler
     handle = compiler.value(statement.handle)
     condition = compiler.value(statement.condition) if statement.condition is not None else None
-    polls = statement.condition is not None and depends_on_time(statement.condition, linker)
+    polls = statement.condition is not None and depends_on_time(statement.condition, linker.linked)
     time = compiler.value(statement.time) if statement.time is not None else None
     event, once = statement.event, statement.once
 
@@ -108,14 +105,14 @@ def _order(statement: ir.OrderInterrupt, linker: RoutineLinker) -> Make:
     return make
 
 
-def _control(statement: ir.ControlInterrupt, linker: RoutineLinker) -> Make:
+def _control(statement: ir.ControlInterrupt, linker: Linker) -> Make:
     op = statement.op
     handle = linker.compiler.value(statement.handle) if statement.handle is not None else None
 
     def make(here: int, next: int) -> Instruction:
         def control(f: Values) -> int:
             task = f[0]
-            task.interrupts.control(op, whole(handle(f)) if handle is not None else None, task)
+            task.interrupts.control(op, whole(handle(f)) if handle is not None else None, task.watch_time)
             done: int = task.attention(next) if task.interrupts.pending else next
             return done
 

@@ -14,10 +14,10 @@ from rpl.runtime.values import whole
 
 if TYPE_CHECKING:
     from rpl.linking.assembler import Make
-    from rpl.linking.routine import RoutineLinker
+    from rpl.linking.linker import Linker
 
 
-def meet(statement: ir.Meet, linker: RoutineLinker) -> Make:
+def meet(statement: ir.Meet, linker: Linker) -> Make:
     """The instruction that arrives at the point."""
     identity = identity_of(statement.identity, linker)
     tasks = linker.compiler.value(statement.tasks) if statement.tasks is not None else None
@@ -42,7 +42,7 @@ def meet(statement: ir.Meet, linker: RoutineLinker) -> Make:
     return make
 
 
-def identity_of(expression: ir.Expression, linker: RoutineLinker) -> Callable[[Values], str]:
+def identity_of(expression: ir.Expression, linker: Linker) -> Callable[[Values], str]:
     """What a point or a move is called: a number or text, or the name of a variable that has no value of its own."""
     compiler = linker.compiler
     raw = compiler.raw(expression)

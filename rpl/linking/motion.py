@@ -21,7 +21,7 @@ from rpl.runtime.values import JointsValue, PoseValue, Record, TargetValue, Valu
 
 if TYPE_CHECKING:
     from rpl.linking.assembler import Make
-    from rpl.linking.routine import RoutineLinker
+    from rpl.linking.linker import Linker
 
 MakeTrigger = Callable[[Values], TriggerOrder]
 Overlay = Callable[[Values], dict[str, Value]]
@@ -33,7 +33,7 @@ SplineItem = ir.Move | ir.Trigger | ir.PathRule | ir.Assign | ir.CallRoutine | i
 class MotionStatements:
     """Compiles moves, spline blocks and path triggers of one routine."""
 
-    def __init__(self, linker: RoutineLinker) -> None:
+    def __init__(self, linker: Linker) -> None:
         self.linker = linker
 
     def value(self, expression: ir.Expression) -> Read:

@@ -5,7 +5,7 @@ What is made here never changes while a program runs and is shared by all snapsh
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -14,14 +14,16 @@ from rpl.diagnostics import Diagnostics
 from rpl.errors import UsageError
 from rpl.ir.analog import AnalogRange, AnalogSetting
 from rpl.ir.walk import bodies
+from rpl.linking.initial import initialise
+from rpl.linking.routine import link_initial, link_routine
+from rpl.linking.symbols import GlobalSlot
 from rpl.linking.types import Types
 from rpl.passes.analog import AnalogRanges, analog_ranges
 from rpl.passes.scope import Fold, ProgramScope, Scope, rules_of
 from rpl.passes.typing import normalise
-from rpl.runtime.code import Code, Read, Values
+from rpl.runtime.code import Code, Values
 from rpl.runtime.signals import Key, bit_kind, bits_named, group_bits, is_bit_group, key_of
-from rpl.runtime.values import SignalRef, Value
-from rpl.source import NOWHERE
+from rpl.runtime.values import SignalRef
 
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
@@ -30,25 +32,6 @@ if TYPE_CHECKING:
 
 # How far a language's own number of a signal may lie below the neutral one.
 _SPELLED_LATER = 20
-
-
-class GlobalSlot:
-    """One global variable: its declaration, how its first value is made, and how one from outside fits into it. `kept`:
-    the controller keeps its value from one run to the next; `label`: the comment of a numbered one."""
-
-    __slots__ = ("assigns", "fitted", "initial", "kept", "label", "name", "needs", "origin", "qualified", "watched")
-
-    def __init__(self, name: str, qualified: str) -> None:
-        self.name = name
-        self.qualified = qualified
-        self.initial: Read | None = None
-        self.assigns: list[Read] = []
-        self.fitted: Callable[[Value], Value] | None = None
-        self.needs: set[int] = set()
-        self.watched = False
-        self.kept = False
-        self.label = ""
-        self.origin = NOWHERE
 
 
 class LinkedProgram:
@@ -96,8 +79,6 @@ class LinkedProgram:
         """The code of a routine, made when it is first needed."""
         found = self._codes.get(id(routine))
         if found is None:
-            from rpl.linking.routine import link_routine
-
             module = self._homes[id(routine)][0]
             found = link_routine(self, module, routine)
             self._codes[id(routine)] = found
@@ -171,8 +152,6 @@ class LinkedProgram:
         entry.label = declaration.label
         entry.origin = declaration.origin
         self.slots.append(entry)
-        from rpl.linking.routine import link_initial
-
         link_initial(self, module, declaration, entry)
         return number
 
@@ -193,8 +172,6 @@ class LinkedProgram:
 
     def initialise(self, values: Values, machine: Machine) -> None:
         """Give first values to the global data that has none yet."""
-        from rpl.linking.initial import initialise
-
         initialise(self, values, machine)
 
     def variable_slot(self, name: str) -> int | None:

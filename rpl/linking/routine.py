@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from rpl import ir
 from rpl.errors import InternalError
 from rpl.linking.assembler import Assembler, Label
-from rpl.linking.calls import FIRST, Calls
+from rpl.linking.calls import FIRST, Calls, leaving
 from rpl.linking.expressions import Compiler, Place
 from rpl.linking.flatten import Flattener
-from rpl.linking.places import writer
+from rpl.linking.places import procedure, writer
 from rpl.linking.statements import Statements
 from rpl.passes.kept import zero_of
 from rpl.runtime import answers
@@ -21,13 +21,13 @@ from rpl.runtime.values import Value
 
 if TYPE_CHECKING:
     from rpl.linking.assembler import Make
-    from rpl.linking.program import GlobalSlot, LinkedProgram
+    from rpl.linking.symbols import GlobalSlot, Symbols
 
 
 class RoutineLinker:
     """Holds what the parts of linking one routine share."""
 
-    def __init__(self, linked: LinkedProgram, compiler: Compiler, module: ir.Module) -> None:
+    def __init__(self, linked: Symbols, compiler: Compiler, module: ir.Module) -> None:
         self.linked = linked
         self.module = module
         self.compiler = compiler
@@ -65,22 +65,10 @@ class RoutineLinker:
         return code
 
 
-def leaving(read: Read | None) -> Make:
-    """Return from the frame."""
-
-    def make(here: int, next: int) -> Instruction:
-        if read is None:
-            return lambda f: f[0].leave(here)
-        value = read
-        return lambda f: f[0].leave(here, value(f))
-
-    return make
-
-
-def link_routine(linked: LinkedProgram, module: ir.Module, routine: ir.Routine) -> Code:
+def link_routine(linked: Symbols, module: ir.Module, routine: ir.Routine) -> Code:
     """The code of a routine."""
     scope = linked.scopes.routine(module, routine)
-    compiler = Compiler(linked, scope)
+    compiler = Compiler(linked, scope, procedure)
     linker = RoutineLinker(linked, compiler, module)
     code = linker.code = Code(routine.name, scope.rules, routine.kind)
     code.predefined = not any(module is own for own in linked.program.modules)
@@ -197,7 +185,7 @@ def _falling_off(routine: ir.Routine) -> Make:
     return make
 
 
-def link_initial(linked: LinkedProgram, module: ir.Module, declaration: ir.Variable, slot: GlobalSlot) -> None:
+def link_initial(linked: Symbols, module: ir.Module, declaration: ir.Variable, slot: GlobalSlot) -> None:
     """How a global variable gets its first value, and what a data list then assigns to its parts."""
     own = len(linked.slots) - 1  # linking may give places to the data that the value reads
     scope = linked.scopes.module(module)
@@ -224,12 +212,12 @@ def _initial_assign(compiler: Compiler, assign: ir.Assign) -> Read:
 class _Tracking(Compiler):
     """Remembers which global data an initial value reads."""
 
-    def __init__(self, linked: LinkedProgram, scope: object) -> None:
+    def __init__(self, linked: Symbols, scope: object) -> None:
         from rpl.passes.scope import Scope
 
         if not isinstance(scope, Scope):
             raise InternalError("a scope is needed")
-        super().__init__(linked, scope)
+        super().__init__(linked, scope, procedure)
         self.used: set[int] = set()
 
     def value(self, expression: ir.Expression) -> Read:
@@ -248,4 +236,4 @@ class _Tracking(Compiler):
         return place
 
 
-__all__ = ["RoutineLinker", "leaving", "link_initial", "link_routine"]
+__all__ = ["RoutineLinker", "link_initial", "link_routine"]

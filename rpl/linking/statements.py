@@ -11,6 +11,7 @@ from rpl import ir
 from rpl.errors import InternalError
 from rpl.linking import actions
 from rpl.linking.assembler import Label
+from rpl.linking.calls import leaving
 from rpl.linking.expressions import Place, Precision
 from rpl.linking.flatten import has_call
 from rpl.linking.motion import MotionStatements
@@ -22,13 +23,13 @@ from rpl.runtime.values import Value, equal
 
 if TYPE_CHECKING:
     from rpl.linking.assembler import Assembler, Make
-    from rpl.linking.routine import RoutineLinker
+    from rpl.linking.linker import Linker
 
 
 class Statements:
     """Compiles the statements of one routine."""
 
-    def __init__(self, linker: RoutineLinker) -> None:
+    def __init__(self, linker: Linker) -> None:
         self.linker = linker
         self.labels: dict[str, Label] = {}
         self.exits: list[tuple[Label, Label]] = []
@@ -124,8 +125,6 @@ class Statements:
             case ir.Assign():
                 self.emit(assignment(self.linker.compiler, flat_statement))
             case ir.Return(value=value):
-                from rpl.linking.routine import leaving
-
                 self.emit(leaving(self.linker.compiler.copy_of(value) if value is not None else None))
             case ir.Do(procedure=name, arguments=arguments):
                 self.emit(
@@ -399,7 +398,7 @@ def _run(run: Read, wakes: bool) -> Make:
     return make
 
 
-def _may_wake(statement: ir.Do, linker: RoutineLinker) -> bool:
+def _may_wake(statement: ir.Do, linker: Linker) -> bool:
     return any(
         argument is not None
         and isinstance(argument, ir.Name | ir.Index | ir.Field)

@@ -10,12 +10,12 @@ from rpl import ir
 from rpl.ir.walk import children
 
 if TYPE_CHECKING:
-    from rpl.linking.routine import RoutineLinker
+    from rpl.linking.linker import Linker
 
 _POSITION = frozenset(("current_target", "current_joints", "current_position"))
 
 
-def stops_before(statement: ir.Statement, linker: RoutineLinker) -> bool:
+def stops_before(statement: ir.Statement, linker: Linker) -> bool:
     """Does the advance run stop before this statement?"""
     rules = linker.compiler.scope.rules.advance
     if statement.__class__.__name__ in rules.stop_statements:
@@ -45,7 +45,7 @@ def _own_expressions(statement: ir.Statement) -> list[object]:
     return [statement]
 
 
-def looks_outside(root: object, linker: RoutineLinker) -> bool:
+def looks_outside(root: object, linker: Linker) -> bool:
     """Does the node read or write a signal, or read where the robot is?"""
     stack: list[object] = [root]
     while stack:

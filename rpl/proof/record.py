@@ -16,8 +16,7 @@ from rpl.source import NOWHERE, Origin
 if TYPE_CHECKING:
     from rpl.emulator.rotations import FloatArray
     from rpl.proof.postures import Family, LeftOut
-    from rpl.runtime.payloads import Payload
-    from rpl.runtime.programmed import Programmed
+    from rpl.runtime.orders import Payload, Programmed
     from rpl.runtime.reached import Reached
     from rpl.runtime.waits import Waited
 

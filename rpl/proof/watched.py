@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
     from rpl.linking.program import LinkedProgram
     from rpl.runtime.interrupts import Interrupt
-    from rpl.runtime.task import Task
+    from rpl.runtime.ports import Task
     from rpl.runtime.trace import RunResult
     from rpl.runtime.waits import Wait
 

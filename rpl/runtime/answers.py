@@ -14,7 +14,7 @@ from rpl.source import Origin
 
 if TYPE_CHECKING:
     from rpl.cell import Answer
-    from rpl.runtime.machine import Machine
+    from rpl.runtime.ports import Machine
 
 
 def ask(

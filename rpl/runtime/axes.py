@@ -24,7 +24,7 @@ from rpl.runtime.values import (
 )
 
 if TYPE_CHECKING:
-    from rpl.runtime.task import Task
+    from rpl.runtime.ports import Task
 
 _NO_EXTERNAL = ExternalValue((None,) * 6)
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from rpl.emulator.rotations import FloatArray
     from rpl.emulator.splinerules import BlockRule
     from rpl.emulator.splines import Kind, Run
-    from rpl.runtime.motion import MotionQueue
+    from rpl.runtime.ports import Robot
 
 _STOP = BlendOrder("stop")
 _KINDS: dict[str, Kind] = {"joint": "joint", "linear": "linear", "circular": "circular"}
@@ -54,7 +54,7 @@ class _Asked:
     external: tuple[float | None, ...]
 
 
-def planned(queue: MotionQueue, order: Order, old: Drive | None = None) -> list[Drive] | Refused:
+def planned(queue: Robot, order: Order, old: Drive | None = None) -> list[Drive] | Refused:
     """What is driven for a move, or for the block that ends with it, from where everything commanded before ends.
     `old`: a drive that is planned anew and keeps its number. Nothing for a move that the controller leaves out."""
     for one in (*order.block, order):
@@ -82,12 +82,12 @@ def order_of(drive: Drive) -> Order:
     return replace(drive.orders[-1], block=drive.orders[:-1], blend=drive.order.blend)
 
 
-def _number(queue: MotionQueue) -> int:
+def _number(queue: Robot) -> int:
     queue.numbers += 1
     return queue.numbers
 
 
-def _asked(queue: MotionQueue, orders: Sequence[Order]) -> list[_Asked]:
+def _asked(queue: Robot, orders: Sequence[Order]) -> list[_Asked]:
     """The requests of a block, each from about where the one before ends."""
     assert queue.model is not None and queue.planned_joints is not None  # with a model there are joints
     done = []
@@ -145,7 +145,7 @@ def _no_curve(asked: Sequence[_Asked]) -> Refused | None:
     return None
 
 
-def _runs(queue: MotionQueue, asked: Sequence[_Asked]) -> list[Drive] | Refused:
+def _runs(queue: Robot, asked: Sequence[_Asked]) -> list[Drive] | Refused:
     from rpl.emulator.splines import BlockFault, plan_block
 
     kinds = [_KINDS.get(one.order.kind, "spline") for one in asked]
@@ -177,9 +177,7 @@ def _within(rules: Sequence[PathRuleOrder], first: int, last: int) -> tuple[Path
     return tuple(replace(one, at=one.at - first) for one in rules if first <= one.at <= last)
 
 
-def _drive(
-    queue: MotionQueue, run: Run, asked: Sequence[_Asked], last: bool, rules: tuple[PathRuleOrder, ...]
-) -> Drive:
+def _drive(queue: Robot, run: Run, asked: Sequence[_Asked], last: bool, rules: tuple[PathRuleOrder, ...]) -> Drive:
     """One run of a block: a single move with the triggers of all its segments, and the rules about its speeds."""
     orders, end = tuple(replace(one.order, block=(), path_rules=()) for one in asked), asked[-1]
     orders = (*orders[:-1], replace(orders[-1], path_rules=rules))
@@ -215,7 +213,7 @@ def _triggers(move: PlannedMove, marks: Sequence[float], orders: Sequence[Order]
 # ---- on the way
 
 
-def look_ahead(queue: MotionQueue, piece: Piece) -> None:
+def look_ahead(queue: Robot, piece: Piece) -> None:
     """Schedule the next point of the block on the piece that is driven."""
     drive = piece.drive
     if drive.passed >= len(drive.marks) or piece.corner is not None:
@@ -229,17 +227,17 @@ def look_ahead(queue: MotionQueue, piece: Piece) -> None:
     queue.schedule(max(due, queue.machine.now), "point")
 
 
-def passed(queue: MotionQueue) -> None:
+def passed(queue: Robot) -> None:
     """The robot is at a point of the block and goes on."""
     piece = queue.piece
     if piece is None or piece.drive.passed >= len(piece.drive.marks):
         return
-    queue._close_leg(piece, queue.machine.now)
+    queue.close_leg(piece, queue.machine.now)
     _pass(queue, piece.drive)
     look_ahead(queue, piece)
 
 
-def pass_rest(queue: MotionQueue, drive: Drive) -> None:
+def pass_rest(queue: Robot, drive: Drive) -> None:
     """Points at the end of a run that are no way from each other are passed with it."""
     legs = drive.legs
     drive.legs = []
@@ -248,12 +246,12 @@ def pass_rest(queue: MotionQueue, drive: Drive) -> None:
     drive.legs = legs
 
 
-def _pass(queue: MotionQueue, drive: Drive) -> None:
+def _pass(queue: Robot, drive: Drive) -> None:
     import numpy as np
 
     assert drive.plan is not None
     joints = drive.plan.geometry.joints(np.array([drive.marks[drive.passed]]))[0]
-    queue._show(drive, False, joints=joints)
+    queue.show(drive, False, joints=joints)
     drive.legs = []
     drive.started_s = queue.machine.now
     drive.passed += 1

@@ -9,14 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from rpl.runtime.values import Value
 from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.ir.rules import Rules
-    from rpl.runtime.task import Task
 
 Values = list[Value]
 Instruction = Callable[[Values], int]
@@ -125,12 +124,25 @@ class Ref:
         self.store[self.key] = value
 
 
+class Watching(Protocol):
+    """Who is told that something has another value: the machine."""
+
+    def changed(self) -> None: ...
+
+
+class HasMachine(Protocol):
+    """A task, as far as a reference asks for it."""
+
+    @property
+    def machine(self) -> Watching: ...
+
+
 class WatchedRef(Ref):
     """A reference to a variable that some condition reads: writing it wakes who waits."""
 
     __slots__ = ("task",)
 
-    def __init__(self, store: Values, key: int, task: Task) -> None:
+    def __init__(self, store: Values, key: int, task: HasMachine) -> None:
         super().__init__(store, key)
         self.task = task
 

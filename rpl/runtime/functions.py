@@ -35,7 +35,7 @@ from rpl.runtime.values import (
 )
 
 if TYPE_CHECKING:
-    from rpl.runtime.task import Task
+    from rpl.runtime.ports import Task
 
 
 # The widest whole numbers of any language have 64 bits.

@@ -17,7 +17,7 @@ from rpl.runtime.values import ConfigValue, TargetValue, Value, pose_of
 
 if TYPE_CHECKING:
     from rpl.ir.rules import Rules
-    from rpl.runtime.motion import MotionQueue
+    from rpl.runtime.ports import Robot
 
 
 @dataclass(slots=True, eq=False)
@@ -27,7 +27,7 @@ class Imagined:
     pose: rigid.Pose | None = None
     joints: list[float] | None = None
 
-    def make(self, queue: MotionQueue, order: Order, next: int) -> int:
+    def make(self, queue: Robot, order: Order, next: int) -> int:
         """Make the move at once, of a block each one; its triggers fire in their order."""
         for one in order.block:
             self.make(queue, one, next)

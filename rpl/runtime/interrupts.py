@@ -6,13 +6,10 @@ the same or lower urgency are remembered, once each. `off` forgets, `disable` re
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from rpl.runtime.code import Code, Frame, Read, Values
-
-if TYPE_CHECKING:
-    from rpl.runtime.task import Task
 
 # Priority of interrupts that a language does not rank: all alike.
 UNRANKED = 1000
@@ -119,7 +116,7 @@ class Interrupts:
             del self.known[key]
             self.forget(key)
 
-    def control(self, op: str, key: int | None, task: Task) -> None:
+    def control(self, op: str, key: int | None, watch_time: Callable[[Interrupt], None]) -> None:
         """on, off, enable, disable, delete; without a key: all of them. mask: `key` is the priority, None lifts it."""
         if op == "mask":
             self.mask = key
@@ -132,7 +129,7 @@ class Interrupts:
             match op:
                 case "on":
                     self.arm(interrupt)
-                    task.watch_time(interrupt)
+                    watch_time(interrupt)
                 case "off":
                     interrupt.on = False
                     self.forget(interrupt.key)

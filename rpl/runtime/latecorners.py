@@ -7,13 +7,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from rpl.runtime.motion import MotionQueue
     from rpl.runtime.orders import Drive
+    from rpl.runtime.ports import Robot
 
 CODE = "corner-path-failure"
 
 
-def tell(queue: MotionQueue, drive: Drive) -> None:
+def tell(queue: Robot, drive: Drive) -> None:
     """Put the controller's warning into the trace, at the line of the move whose corner it is."""
     text = drive.order.rules.advance.late_corner
     if text:

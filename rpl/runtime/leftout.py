@@ -11,15 +11,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from rpl.runtime.motion import MotionQueue
     from rpl.runtime.orders import Drive
+    from rpl.runtime.ports import Robot
     from rpl.runtime.values import Value
 
 CODE = "overlapping-blends"
 _SLACK_MM = 1e-3
 
 
-def is_left_out(queue: MotionQueue, now: Drive) -> bool:
+def is_left_out(queue: Robot, now: Drive) -> bool:
     """Is this move, planned already, left out? If so, it is told."""
     order = now.order
     text = order.rules.inputs.overlapping_blends

@@ -23,10 +23,10 @@ from rpl.runtime.reached import Reached
 from rpl.runtime.reactions import Reactions
 from rpl.runtime.scene import Scene
 from rpl.runtime.signals import Key, bit_kind, group_bits, is_bit_group, key_of, keys_named, usual_key, zero_of
-from rpl.runtime.task import ENDED, READY, WAITING, Task
+from rpl.runtime.task import ENDED, READY, WAITING
 from rpl.runtime.trace import Event, Fault, RunResult
 from rpl.runtime.values import SignalRef, StopWatch, Value, whole
-from rpl.runtime.waits import CYCLE_S, TIMED_OUT, Wait, Waited, poll_step
+from rpl.runtime.waits import CYCLE_S, TIMED_OUT, Arrival, Wait, Waited, poll_step
 from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from rpl.controllers import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.runtime.linked import Linked
+    from rpl.runtime.ports import Task
 
 # Phases of one moment, in order.
 INPUTS, ARRIVALS, TIMERS, TASKS, MOTION = range(5)
@@ -88,7 +89,7 @@ class Machine:
         self.tokens = 0
         self.answered = 0
         self.critical: int | None = None
-        self.arrivals: list[meetings.Arrival] = []  # tasks that wait for others
+        self.arrivals: list[Arrival] = []  # tasks that wait for others
         self.waited: list[Waited] = []  # conditions that tasks waited for
         self.held: list[int] = []
         self.timers: dict[int, StopWatch] = {}
@@ -239,7 +240,7 @@ class Machine:
     def _is_over(self, task: Task, wait: Wait) -> bool:
         """Is the wait over? A condition that cannot be evaluated lets its statement fail in its own place."""
         try:
-            return wait.is_over(task)
+            return task.is_over(wait)
         except ProgramError as error:
             task.fail(error, wait.at)
             self.ready(task)

@@ -9,22 +9,10 @@ from typing import TYPE_CHECKING
 
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.values import Array, Record, Value
-from rpl.runtime.waits import Wait
+from rpl.runtime.waits import Arrival, Wait
 
 if TYPE_CHECKING:
-    from rpl.runtime.machine import Machine
-    from rpl.runtime.task import Task
-
-
-@dataclass(slots=True, eq=False)
-class Arrival:
-    """A task (its number) that waits at a point for the tasks of its list; `token`: of its wait."""
-
-    task: int
-    identity: str
-    mode: str
-    group: frozenset[int]
-    token: int
+    from rpl.runtime.ports import Machine, Task
 
 
 @dataclass(frozen=True, slots=True)

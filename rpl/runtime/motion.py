@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
     from rpl.emulator.planner import MotionFault
     from rpl.emulator.rotations import FloatArray
-    from rpl.runtime.machine import Machine
+    from rpl.runtime.ports import Machine
 
 ARRIVALS, MOTION = 1, 4  # phases of a moment, see machine
 MOST_CONCURRENT = 5
@@ -97,12 +97,12 @@ class MotionQueue(RobotState):
             self.set_aside = True
         drives = blocks.planned(self, order)
         if isinstance(drives, blocks.Refused):
-            return self._refuse(drives.fault, drives.order, next)
+            return self.refuse(drives.fault, drives.order, next)
         if not drives:
             return next
         self.queue += drives
         task.busy = True
-        self._ask()
+        self.ask()
         return self._go_on(drives[-1], next)
 
     def plan_order(self, order: Order, number: int) -> Drive | MotionFault:
@@ -130,17 +130,17 @@ class MotionQueue(RobotState):
         drive.sliding = self.machine.scene.sliding()
         return drive
 
-    def _refuse(self, fault: MotionFault, order: Order, next: int) -> int:
+    def refuse(self, fault: MotionFault, order: Order, next: int) -> int:
         """The controller drives what it has and then stops with the error, unless a routine of the task takes it."""
         if self.task.error_routine is not None:
             raise ProgramError(fault.kind, fault.message)
         if not self.task.busy:
-            self._fault(fault, order)
+            self.fault(fault, order)
             return self.task.wait_for("released", order.at, next, -1)
         self.failed = (fault, order)
         return self.task.wait_for("idle", order.at, next)
 
-    def _fault(self, fault: MotionFault, order: Order) -> None:
+    def fault(self, fault: MotionFault, order: Order) -> None:
         self.machine.fault(fault.kind.replace("_", "-"), fault.message, self.task, order.code.origin(order.at))
 
     def _go_on(self, drive: Drive, next: int) -> int:
@@ -194,7 +194,7 @@ class MotionQueue(RobotState):
 
     # ---- driving
 
-    def _ask(self) -> None:
+    def ask(self) -> None:
         """Look at the queue when all tasks have done what they do at this moment."""
         if not self.asked:
             self.ask_at(self.machine.now)
@@ -255,7 +255,7 @@ class MotionQueue(RobotState):
         assert drive.plan is not None
         drive.started_s = self.machine.now
         searching.watch(self, drive)
-        self._drive(Piece(drive, drive.plan, self.machine.now))
+        self.drive(Piece(drive, drive.plan, self.machine.now))
         searching.end_if_found(self, drive)
         piece = self.piece
         if piece is None or not drive.blending:
@@ -264,7 +264,7 @@ class MotionQueue(RobotState):
         if following is not None:
             self._join(piece, following)
         elif drive.order.rules.advance.runs_ahead_of == "fly_by":
-            self._drive(pieces.open_ended(piece, self.machine.now))
+            self.drive(pieces.open_ended(piece, self.machine.now))
 
     def _join(self, piece: Piece, following: Drive) -> None:
         """Make a corner out of the rest of this move and the next one, if they allow it."""
@@ -274,19 +274,19 @@ class MotionQueue(RobotState):
         if joined is None:
             self._settle(piece)
         else:
-            self._drive(joined)
+            self.drive(joined)
 
     def _settle(self, piece: Piece) -> None:
         """Come to rest at the end of the move after all."""
         piece.drive.blending = False
         if piece.open_end:
-            self._drive(pieces.to_the_end(piece, self.machine.now))
+            self.drive(pieces.to_the_end(piece, self.machine.now))
 
-    def _drive(self, piece: Piece) -> None:
+    def drive(self, piece: Piece) -> None:
         """From now on this piece is driven; schedule all that happens on it."""
         now = self.machine.now
         if self.piece is not None and self.piece.drive is piece.drive:
-            self._close_leg(self.piece, now)
+            self.close_leg(self.piece, now)
         self.piece = piece
         self.generation += 1
         self.schedule(piece.end_s, "arrive")
@@ -329,12 +329,12 @@ class MotionQueue(RobotState):
         """A move is driven, or the corner into it: its program may go on where the language waits for that."""
         if drive.order.rules.advance.runs_ahead_of == "begun" and not drive.released:
             drive.released = True
-            self._look()
+            self.look()
 
     def schedule(self, time: float, what: str, *data: int) -> None:
         self.machine.schedule(time, ARRIVALS, "motion", self.task_index, what, self.generation, *data)
 
-    def _close_leg(self, piece: Piece, now: float) -> None:
+    def close_leg(self, piece: Piece, now: float) -> None:
         """What has been driven of the piece until now is a leg of its move in the trace."""
         begin, done = piece.start_s + piece.shown_s, piece.shown_s
         if now > begin or piece.plan.duration_s == 0.0:
@@ -352,7 +352,7 @@ class MotionQueue(RobotState):
         if velocities.is_endless(self):
             velocities.go_on(self, piece)
             return
-        self._close_leg(piece, now)
+        self.close_leg(piece, now)
         if piece.halting is not None:
             stopping.arrived(self, piece)
             return
@@ -363,25 +363,25 @@ class MotionQueue(RobotState):
             return
         if piece.ahead is not None:
             self.piece = None
-            self._drive(pieces.corner_piece(piece, now))
+            self.drive(pieces.corner_piece(piece, now))
             return
         if piece.corner is not None:
             following, rest = piece.corner.following, piece.corner.rest
             self.left_corner(piece)
-            self._drive(Piece(following, rest, now))
-            self._after_corner(following)
+            self.drive(Piece(following, rest, now))
+            self.after_corner(following)
             return
         if piece.open_end:
             latecorners.tell(self, piece.drive)
             piece.drive.blending = False
             self.piece = None
-            self._drive(pieces.to_the_end(piece, now))
+            self.drive(pieces.to_the_end(piece, now))
             return
         self.joints, self.external = piece.plan.end_joints, piece.drive.external
         self.piece, self.stood_s = None, now
-        self._done(piece.drive, True)
+        self.done(piece.drive, True)
         if self.queue and not self.stopped:
-            self._ask()
+            self.ask()
 
     def left_corner(self, piece: Piece) -> None:
         """The end of a corner: the move before it has been made, the next one is driven."""
@@ -393,11 +393,11 @@ class MotionQueue(RobotState):
             if behind is not None:
                 trigger.fired = True
                 following.order.triggers.append(behind)
-        self._done(piece.drive, False)
+        self.done(piece.drive, False)
         following.started_s = self.machine.now
         self.piece = None
 
-    def _after_corner(self, drive: Drive) -> None:
+    def after_corner(self, drive: Drive) -> None:
         """The rest of a move after a corner: it may blend again."""
         piece = self.piece
         if piece is None or not drive.blending:
@@ -406,13 +406,13 @@ class MotionQueue(RobotState):
         if following is not None:
             self._join(piece, following)
         elif drive.order.rules.advance.runs_ahead_of == "fly_by":
-            self._drive(pieces.open_ended(piece, self.machine.now))
+            self.drive(pieces.open_ended(piece, self.machine.now))
 
     def _release(self) -> None:
         if self.piece is not None:
             self.piece.drive.released = True
-            self._look()
-            self._ask()
+            self.look()
+            self.ask()
 
     def _passed(self) -> None:
         """The middle of a corner: the move before it counts as made."""
@@ -423,15 +423,15 @@ class MotionQueue(RobotState):
             if piece.corner is not None and piece.halting is None:
                 searching.watch(self, piece.corner.following)
                 searching.end_if_found(self, piece.corner.following)
-            self._look()
+            self.look()
 
-    def _done(self, drive: Drive, stops: bool) -> None:
+    def done(self, drive: Drive, stops: bool) -> None:
         """A move is over: show it, fire what is left of its triggers, tell who waits."""
         drive.released = True
         if drive in self.queue:
             self.queue.remove(drive)
         blocks.pass_rest(self, drive)
-        self._show(drive, stops)
+        self.show(drive, stops)
         for trigger in drive.order.triggers:
             if not trigger.fired:
                 due = trigger.due if trigger.due is not None else self.machine.now
@@ -445,14 +445,14 @@ class MotionQueue(RobotState):
             searching.missed(self, drive)
             return
         if not task.busy and self.failed is not None:
-            self._fault(*self.failed)
+            self.fault(*self.failed)
             return
-        self._look()
+        self.look()
 
-    def _look(self) -> None:
+    def look(self) -> None:
         self.machine.look_at(self.task)
 
-    def _show(self, drive: Drive, stops: bool, interrupted: bool = False, joints: FloatArray | None = None) -> None:
+    def show(self, drive: Drive, stops: bool, interrupted: bool = False, joints: FloatArray | None = None) -> None:
         """A move in the trace, or that segment of a spline block which ends in `joints`."""
         assert drive.plan is not None
         legs, order = tuple(leg for leg in drive.legs if isinstance(leg, Leg)), drive.present
@@ -503,12 +503,12 @@ class MotionQueue(RobotState):
                 self.machine.fault(error.name.replace("_", "-"), f"trigger: {error.message}", task, task.where())
         elif trigger.routine is not None:
             task.trigger(trigger.routine, trigger.values)
-            self._look()
+            self.look()
         elif trigger.interrupt is not None:
             known = task.interrupts.known.get(trigger.interrupt)
             if known is not None and known.on:
                 task.interrupts.came(known)
-                self._look()
+                self.look()
 
     # ---- stopping and going on
 
@@ -534,14 +534,14 @@ class MotionQueue(RobotState):
     def clear(self) -> None:
         """Forget everything commanded; the robot stays where it is."""
         if self.piece is not None:
-            self._close_leg(self.piece, self.machine.now)
+            self.close_leg(self.piece, self.machine.now)
             self.joints, self.external = self.joints_array(), self.external_now()
         resting.ended(self)
         begun = self.piece or self.halted
         self.piece = self.halted = None
         self.generation += 1
         if begun is not None:
-            self._show(begun.drive, True, True)
+            self.show(begun.drive, True, True)
         self.queue.clear()
         self.behind.clear()
         self.regained = None
@@ -552,7 +552,7 @@ class MotionQueue(RobotState):
         self.stopped = False
         self.failed = None
         self.task.busy = False
-        self._look()
+        self.look()
 
     def store(self) -> None:
         """Put the stopped path aside."""
@@ -587,12 +587,12 @@ class MotionQueue(RobotState):
         """The run ends: show the moves that were cut off, first those that were put aside or stand on their way."""
         for piece in (*(one.piece for one in self.stored), self.halted):
             if piece is not None and piece.drive.legs and self.model is not None:
-                self._show(piece.drive, True, True)
+                self.show(piece.drive, True, True)
         self.halted = None
         if self.piece is not None and self.model is not None:
             piece = self.piece
-            self._close_leg(piece, self.machine.now)
+            self.close_leg(piece, self.machine.now)
             self.joints, self.external = self.joints_array(), self.external_now()
             self.piece = None
             if piece.drive.legs:
-                self._show(piece.drive, False, True)
+                self.show(piece.drive, False, True)

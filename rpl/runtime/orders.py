@@ -10,11 +10,9 @@ from rpl.runtime.values import Record, Value
 
 if TYPE_CHECKING:
     from rpl.emulator.planner import PlannedMove
+    from rpl.emulator.rotations import FloatArray
     from rpl.ir.rules import Rules
     from rpl.passes import rigid
-    from rpl.runtime.payloads import Payload
-    from rpl.runtime.programmed import Programmed
-    from rpl.runtime.velocities import Rate
 
 Modal = dict[str, Value]
 
@@ -96,6 +94,63 @@ class SearchOrder:
     last: bool = False
     found: bool = False
     early: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Payload:
+    """A body in the flange: mass kg; `frame` stands at its centre (mm), turned like its axes; inertias about the centre
+    and these axes, kg m2."""
+
+    mass: float
+    frame: rigid.Pose
+    inertias: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def __deepcopy__(self, memo: object) -> Payload:
+        return self
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Programmed:
+    """A move as it is asked for. None: the program does not say it, or it has no meaning for this move.
+
+    path_mm_s: of the tool on a path. turning_deg_s: of its orientation. joint_share: of the leading axis' greatest
+    speed. seconds: a time of its own, and planned_s what that gives. acceleration: with its unit, absolute or a share
+    of what the controller has; driven_acceleration: what this arm makes of it (mm/s2 on a path, else the share of the
+    axes' own), for two that do not compare. usual_acceleration: the program says none, and its language has a
+    value of its own at the start. corner_mm: the size of the corner at its end, 0 for a stop, None where it is not a
+    length. tool: the tool centre point in the flange. frame: the work object. joints (n,): where the arm is to stand,
+    with turns. rate: the part of a path per second at which the slowest of path, turning and external axes lets it go.
+    """
+
+    kind: str
+    path_mm_s: float | None = None
+    turning_deg_s: float | None = None
+    joint_share: float | None = None
+    seconds: float | None = None
+    planned_s: float = 0.0
+    acceleration: tuple[float, str] | None = None
+    driven_acceleration: float | None = None
+    usual_acceleration: bool = False
+    corner_mm: float | None = None
+    tool: rigid.Pose | None = None
+    frame: rigid.Pose | None = None
+    joints: FloatArray | None = None
+    rate: float | None = None
+
+    def __deepcopy__(self, memo: object) -> Programmed:
+        return self
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rate:
+    """How a move without an end goes: mm/s and rad/s of the tool (6,), or deg/s of the axes (n,). `size`: its leading
+    speed (mm/s, deg/s); `acceleration` of that. `stretch_s`: how long the planned way lasts at full speed."""
+
+    joint: bool
+    vector: FloatArray
+    size: float
+    acceleration: float
+    stretch_s: float = 0.0
 
 
 @dataclass(slots=True, eq=False)

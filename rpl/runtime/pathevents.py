@@ -12,11 +12,9 @@ from typing import TYPE_CHECKING
 from rpl.runtime.orders import Drive, TriggerOrder
 
 if TYPE_CHECKING:
-    from rpl.emulator.rotations import FloatArray
     from rpl.ir.rules import TriggerRules
     from rpl.runtime.pieces import Corner, Piece
 
-SAMPLES = 129
 # Moments (s), ways (mm) and fractions of moves that differ by less are one.
 SMALL = 1e-9
 
@@ -115,13 +113,6 @@ def carried(drive: Drive, trigger: TriggerOrder, corner: Corner) -> TriggerOrder
     there = trigger.copy()
     there.reference, there.distance = "start", place.at - corner.half_mm
     return there
-
-
-def corner_ways(geometry_points: FloatArray) -> FloatArray:
-    """Millimetres (k,) along a corner, of points (k, 3) on it."""
-    import numpy as np
-
-    return np.insert(np.cumsum(np.linalg.norm(np.diff(geometry_points, axis=0), axis=1)), 0, 0.0)
 
 
 # ---- when

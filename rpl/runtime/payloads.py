@@ -7,29 +7,15 @@ set for all moves is given in the flange too, or in the tool where the language 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rpl.passes import rigid
+from rpl.runtime.orders import Modal, Order, Payload
 from rpl.runtime.values import Array, PoseValue, Record, RotationValue, Value, VectorValue
 
 if TYPE_CHECKING:
     from rpl.ir.rules import LoadVariables
-    from rpl.runtime.machine import Machine
-    from rpl.runtime.orders import Modal, Order
-
-
-@dataclass(frozen=True, slots=True)
-class Payload:
-    """A body in the flange: mass kg; `frame` stands at its centre (mm), turned like its axes; inertias about the centre
-    and these axes, kg m2."""
-
-    mass: float
-    frame: rigid.Pose
-    inertias: tuple[float, float, float] = (0.0, 0.0, 0.0)
-
-    def __deepcopy__(self, memo: object) -> Payload:
-        return self
+    from rpl.runtime.ports import Machine
 
 
 def payloads_of(order: Order, modal: Modal, machine: Machine) -> tuple[Payload, ...]:

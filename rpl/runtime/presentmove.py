@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rpl.emulator.planner import PlannedMove
     from rpl.emulator.rotations import FloatArray
-    from rpl.runtime.motion import MotionQueue
     from rpl.runtime.orders import Drive
+    from rpl.runtime.ports import Robot
     from rpl.runtime.scene import External
 
 Place = tuple["FloatArray", "External"]
 
 
-def ends(queue: MotionQueue) -> tuple[Place, Place] | None:
+def ends(queue: Robot) -> tuple[Place, Place] | None:
     """Joints (n,) and external axes at the programmed start and end of the present move, also while it is stopped.
     None where no move is begun."""
     piece = queue.piece or queue.halted
@@ -36,7 +36,7 @@ def ends(queue: MotionQueue) -> tuple[Place, Place] | None:
     return first, last
 
 
-def _place(queue: MotionQueue, drive: Drive, plan: PlannedMove, share: float) -> Place:
+def _place(queue: Robot, drive: Drive, plan: PlannedMove, share: float) -> Place:
     import numpy as np
 
     joints = plan.start_joints if share <= 0.0 else plan.end_joints
@@ -50,7 +50,7 @@ def _place(queue: MotionQueue, drive: Drive, plan: PlannedMove, share: float) ->
     return joints, tuple(None if old is None and new is None else float(value) for value, old, new in named)
 
 
-def left_at(queue: MotionQueue) -> Place | None:
+def left_at(queue: Robot) -> Place | None:
     """Where the robot stopped on a path that it is to go on with; None while it is on one, or has none left.
 
     KUKA names it the place to which an interrupt's routine has to bring the robot back (message KSS01437). M: while

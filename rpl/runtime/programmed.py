@@ -4,51 +4,17 @@ end, tool, frame, and the joints that it means. Runs of two programs are compare
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rpl.runtime.chain import Planning, frames_of
+from rpl.runtime.orders import BlendOrder, Order, Programmed
 
 if TYPE_CHECKING:
     from rpl.emulator.planner import MoveRequest, PlannedMove
-    from rpl.emulator.rotations import FloatArray
     from rpl.passes import rigid
-    from rpl.runtime.orders import BlendOrder, Order
 
 # Shorter ways (mm) are none: the move turns on the spot.
 _NO_WAY_MM = 0.01
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Programmed:
-    """A move as it is asked for. None: the program does not say it, or it has no meaning for this move.
-
-    path_mm_s: of the tool on a path. turning_deg_s: of its orientation. joint_share: of the leading axis' greatest
-    speed. seconds: a time of its own, and planned_s what that gives. acceleration: with its unit, absolute or a share
-    of what the controller has; driven_acceleration: what this arm makes of it (mm/s2 on a path, else the share of the
-    axes' own), for two that do not compare. usual_acceleration: the program says none, and its language has a
-    value of its own at the start. corner_mm: the size of the corner at its end, 0 for a stop, None where it is not a
-    length. tool: the tool centre point in the flange. frame: the work object. joints (n,): where the arm is to stand,
-    with turns. rate: the part of a path per second at which the slowest of path, turning and external axes lets it go.
-    """
-
-    kind: str
-    path_mm_s: float | None = None
-    turning_deg_s: float | None = None
-    joint_share: float | None = None
-    seconds: float | None = None
-    planned_s: float = 0.0
-    acceleration: tuple[float, str] | None = None
-    driven_acceleration: float | None = None
-    usual_acceleration: bool = False
-    corner_mm: float | None = None
-    tool: rigid.Pose | None = None
-    frame: rigid.Pose | None = None
-    joints: FloatArray | None = None
-    rate: float | None = None
-
-    def __deepcopy__(self, memo: object) -> Programmed:
-        return self
 
 
 def programmed_of(order: Order, request: MoveRequest, plan: Planning, planned: PlannedMove | None) -> Programmed:

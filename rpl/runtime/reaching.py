@@ -18,7 +18,7 @@ from rpl.runtime.values import PoseValue, TargetValue, Value, rotation_of
 
 if TYPE_CHECKING:
     from rpl.emulator.rotations import FloatArray
-    from rpl.runtime.task import Task
+    from rpl.runtime.ports import Task
 
 
 def _sum(one: Value, other: Value) -> PoseValue:

@@ -19,10 +19,11 @@ from rpl.emulator.cornerlaws import ratios
 from rpl.emulator.model import RobotModel
 from rpl.emulator.planner import MotionFault, MoveRequest, PlannedMove
 from rpl.emulator.rotations import FloatArray
-from rpl.runtime import pathevents
 
 # Plans and corners kept, the latest ones; a cycle with more moves than that is planned anew each time.
 KEPT = 512
+# Points on a corner between which its length is counted.
+SAMPLES = 129
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,5 +76,10 @@ def joining(
     made = blending.blend(model, first, second, size, alone)
     if not isinstance(made, blending.Corner):
         return None
-    points = made.corner.geometry.tcp(np.linspace(0.0, 1.0, pathevents.SAMPLES))[:, :3, 3]
-    return Joining(made, ratios(made.first, made.corner, made.second), pathevents.corner_ways(points))
+    points = made.corner.geometry.tcp(np.linspace(0.0, 1.0, SAMPLES))[:, :3, 3]
+    return Joining(made, ratios(made.first, made.corner, made.second), corner_ways(points))
+
+
+def corner_ways(points: FloatArray) -> FloatArray:
+    """Millimetres (k,) along a corner, of points (k, 3) on it."""
+    return np.insert(np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1)), 0, 0.0)

@@ -9,10 +9,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from rpl.runtime.motion import MotionQueue
+    from rpl.runtime.ports import Robot
 
 
-def rest(queue: MotionQueue, seconds: float) -> None:
+def rest(queue: Robot, seconds: float) -> None:
     """Keep the robot, which stands, where it is for so long."""
     if seconds <= 0.0:
         return
@@ -21,7 +21,7 @@ def rest(queue: MotionQueue, seconds: float) -> None:
     queue.schedule(queue.machine.now + seconds, "rested")
 
 
-def ended(queue: MotionQueue) -> None:
+def ended(queue: Robot) -> None:
     """The time is over, or the motion was stopped."""
     if queue.resting:
         queue.resting = False

@@ -17,8 +17,7 @@ if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
     from rpl.emulator.rotations import FloatArray
     from rpl.ir.rules import Rules
-    from rpl.runtime.machine import Machine
-    from rpl.runtime.task import Task
+    from rpl.runtime.ports import Machine, Task
 
 
 class RobotState:

@@ -8,10 +8,10 @@ from rpl.runtime.faults import ProgramError
 from rpl.runtime.orders import Drive, SearchOrder
 
 if TYPE_CHECKING:
-    from rpl.runtime.motion import MotionQueue
+    from rpl.runtime.ports import Robot
 
 
-def watch(robot: MotionQueue, drive: Drive) -> None:
+def watch(robot: Robot, drive: Drive) -> None:
     """A move begins: look at what it searches."""
     search = drive.order.search
     if search is None:
@@ -34,19 +34,19 @@ def watch(robot: MotionQueue, drive: Drive) -> None:
         refuse(robot, drive)
 
 
-def refuse(robot: MotionQueue, drive: Drive) -> None:
+def refuse(robot: Robot, drive: Drive) -> None:
     """What is searched was there before the search; the robot stands."""
     robot.task.fail(ProgramError("search_already", "the searched signal is there before the search"), drive.order.at)
     robot.machine.ready(robot.task)
 
 
-def end_if_found(robot: MotionQueue, drive: Drive) -> None:
+def end_if_found(robot: Robot, drive: Drive) -> None:
     """What is searched was there when the move began: it ends at once."""
     if drive.order.search is not None and drive.order.search.found:
         _reached(robot, drive, drive.order.search)
 
 
-def look(robot: MotionQueue) -> None:
+def look(robot: Robot) -> None:
     """Something changed: is it what the present move searches?"""
     piece = robot.piece
     if piece is None or piece.halting is not None:
@@ -67,13 +67,13 @@ def look(robot: MotionQueue) -> None:
     _reached(robot, drive, search)
 
 
-def missed(robot: MotionQueue, drive: Drive) -> None:
+def missed(robot: Robot, drive: Drive) -> None:
     """The move has ended without it."""
     robot.task.fail(ProgramError("search_missed", "the search has found nothing"), drive.order.at)
     robot.machine.ready(robot.task)
 
 
-def _reached(robot: MotionQueue, drive: Drive, search: SearchOrder) -> None:
+def _reached(robot: Robot, drive: Drive, search: SearchOrder) -> None:
     """What was searched has come: keep the place and stop as the program asks."""
     order = drive.order
     if search.write is not None:

@@ -16,14 +16,14 @@ from rpl.runtime.robotstate import external_of
 
 if TYPE_CHECKING:
     from rpl.emulator.cornerlaws import Stretch
-    from rpl.runtime.motion import MotionQueue
+    from rpl.runtime.ports import Robot
 
 # Braking with the emergency ramp is this much stronger than the programmed acceleration.
 HARD = 2.0
 STANDS = 1e-12
 
 
-def halt(queue: MotionQueue, hard: bool, ends_move: bool) -> None:
+def halt(queue: Robot, hard: bool, ends_move: bool) -> None:
     """Brake on the path; `ends_move`: what is left of the move is dropped when the robot stands."""
     queue.stopped = not ends_move
     resting.ended(queue)
@@ -35,14 +35,14 @@ def halt(queue: MotionQueue, hard: bool, ends_move: bool) -> None:
     place, speed = pieces.place_of(piece, now)
     how = Halting(hard, ends_move)
     if piece.corner is not None:
-        queue._drive(_braking_in_corner(piece.drive, piece.corner, place, speed, how, now))
+        queue.drive(_braking_in_corner(piece.drive, piece.corner, place, speed, how, now))
         return
     if piece.ahead is not None:  # not yet in its corner: when the robot goes on, that is made anew
         piece.drive.blending = True
-    queue._drive(_braking(piece, place, speed, how, now))
+    queue.drive(_braking(piece, place, speed, how, now))
 
 
-def arrived(queue: MotionQueue, piece: Piece) -> None:
+def arrived(queue: Robot, piece: Piece) -> None:
     """The end of a piece on which the robot brakes: it stands, or brakes on in what follows."""
     assert piece.halting is not None
     how, now = piece.halting, queue.machine.now
@@ -52,13 +52,13 @@ def arrived(queue: MotionQueue, piece: Piece) -> None:
         speed = how.onward / piece.ahead.rates[0]
         piece.drive.blending = False
         queue.piece = None
-        queue._drive(_braking_in_corner(piece.drive, piece.ahead, 0.0, speed, how, now))
+        queue.drive(_braking_in_corner(piece.drive, piece.ahead, 0.0, speed, how, now))
     elif piece.corner is not None:
         corner = piece.corner
         queue.left_corner(piece)
         rest = Piece(corner.following, corner.rest, now)
         speed = how.onward * corner.rates[1]
-        queue._drive(_braking(rest, corner.rest.span[0], speed, how, now))
+        queue.drive(_braking(rest, corner.rest.span[0], speed, how, now))
 
 
 def _braking(piece: Piece, place: float, speed: float, how: Halting, now: float) -> Piece:
@@ -93,7 +93,7 @@ def _in_corner(drive: Drive, corner: Corner, stretch: Stretch, how: Halting | No
 # ---- what happens when it stands
 
 
-def _stands(queue: MotionQueue, piece: Piece, how: Halting) -> None:
+def _stands(queue: Robot, piece: Piece, how: Halting) -> None:
     queue.joints, queue.external = piece.plan.end_joints, external_of(piece, queue.machine.now, queue.external)
     queue.piece = None
     queue.left = (queue.joints, queue.external)
@@ -101,13 +101,13 @@ def _stands(queue: MotionQueue, piece: Piece, how: Halting) -> None:
         _drop(queue, piece)
     else:
         queue.halted, queue.regained = queue.regained or piece, None
-    queue._look()
+    queue.look()
 
 
-def _drop(queue: MotionQueue, piece: Piece) -> None:
+def _drop(queue: Robot, piece: Piece) -> None:
     """What is left of a move is forgotten, in a corner that of both moves. Moves commanded behind it begin anew
     from here, when the interrupt that stopped the robot has ended."""
-    queue._show(piece.drive, True, True)
+    queue.show(piece.drive, True, True)
     gone = [piece.drive] if piece.corner is None else [piece.drive, piece.corner.following]
     queue.behind += [drive for drive in queue.queue if drive not in gone]
     queue.queue.clear()
@@ -121,23 +121,23 @@ def _drop(queue: MotionQueue, piece: Piece) -> None:
         again(queue)
 
 
-def again(queue: MotionQueue) -> None:
+def again(queue: Robot) -> None:
     """Plan the moves anew that were commanded behind a dropped one."""
     behind, queue.behind = queue.behind, []
     for old in behind:
         drives = blocks.planned(queue, blocks.order_of(old), old)
         if isinstance(drives, blocks.Refused):
-            queue._fault(drives.fault, drives.order)
+            queue.fault(drives.fault, drives.order)
             return
         queue.queue += drives
         queue.task.busy = True
-        queue._ask()
+        queue.ask()
 
 
 # ---- going on
 
 
-def start(queue: MotionQueue) -> None:
+def start(queue: Robot) -> None:
     """Go on with a stopped motion; who was moved away meanwhile drives back first."""
     queue.stopped = False
     piece, queue.halted = queue.halted, None
@@ -146,21 +146,21 @@ def start(queue: MotionQueue) -> None:
         back = pieces.way_back(queue.model, queue.joints, piece, queue.machine.now)
         if back is not None:
             queue.regained = piece
-            queue._drive(back)
+            queue.drive(back)
             return
         take_up(queue, piece)
-    queue._ask()
+    queue.ask()
 
 
-def take_up(queue: MotionQueue, piece: Piece) -> None:
+def take_up(queue: Robot, piece: Piece) -> None:
     """Drive what is left of the piece on which the robot was stopped."""
     now, place = queue.machine.now, piece.plan.span[1]
     if piece.corner is not None:
-        queue._drive(_rest_of_corner(piece, piece.corner, place, now))
+        queue.drive(_rest_of_corner(piece, piece.corner, place, now))
         return
     law = piece.plan.profile.law(place, 1.0, 0.0, 0.0)
-    queue._drive(Piece(piece.drive, piece.plan.part((place, 1.0), law), now))
-    queue._after_corner(piece.drive)
+    queue.drive(Piece(piece.drive, piece.plan.part((place, 1.0), law), now))
+    queue.after_corner(piece.drive)
 
 
 def _rest_of_corner(piece: Piece, corner: Corner, place: float, now: float) -> Piece:

@@ -17,14 +17,13 @@ from rpl.runtime.values import Member, Record, StopWatch, Value, copied, whole
 from rpl.runtime.waits import CYCLE_S
 
 if TYPE_CHECKING:
-    from rpl.runtime.motion import MotionQueue
-    from rpl.runtime.task import Task
+    from rpl.runtime.ports import Robot, Task
 
 Read = Callable[["Task", int], Value]
 Write = Callable[["Task", int, Value], None]
 
 
-def _robot(task: Task) -> MotionQueue:
+def _robot(task: Task) -> Robot:
     task.looked = task.looked_at_time = True
     robot = robot_of(task)
     if robot is None:

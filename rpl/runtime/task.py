@@ -18,9 +18,8 @@ from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.ir.rules import Rules
-    from rpl.runtime.machine import Machine
-    from rpl.runtime.motion import MotionQueue
     from rpl.runtime.orders import Order, TriggerOrder
+    from rpl.runtime.ports import Machine, Robot
     from rpl.runtime.signals import Key
 
 READY, WAITING, ENDED = "ready", "waiting", "ended"
@@ -49,7 +48,7 @@ class Task:
         self.wait: Wait | None = None
         self.suspended: Wait | None = None
         self.interrupts = Interrupts()
-        self.robot: MotionQueue | None = None
+        self.robot: Robot | None = None
         self.busy = False
         self.held = False
         self.together: frozenset[int] = frozenset()  # the tasks whose robots are driven together with this one's
@@ -265,9 +264,29 @@ class Task:
     def wait_for(self, kind: str, at: int, next: int, move: int = 0) -> int:
         """Block for the robot: idle, room, released, standing."""
         wait = Wait(kind, at, next, self.machine.token(), self.machine.now, move=move)
-        if wait.is_over(self):
+        if self.is_over(wait):
             return next
         return self.block(wait)
+
+    def is_over(self, wait: Wait) -> bool:
+        """Has what is waited for come? A deadline that passed is the caller's business."""
+        match wait.kind:
+            case "condition":
+                assert wait.condition is not None and wait.values is not None  # set by wait_until
+                return bool(wait.condition(wait.values))
+            case "idle":
+                return not self.busy or (self.robot is not None and self.robot.is_stopped())
+            case "room":
+                return self.robot is None or self.robot.has_room()
+            case "released":
+                return self.robot is None or self.robot.has_released(wait.move)
+            case "standing":
+                return self.robot is None or self.robot.is_standing()
+            case "meeting":
+                return all(one.token != wait.token for one in self.machine.arrivals)
+            case "task":
+                return self.machine.tasks[wait.move].has_ended
+        return False
 
     def awake(self, timed_out: bool) -> None:
         """The wait is over: go on behind it, or at its time-out."""
@@ -359,7 +378,7 @@ class Task:
         level = next((frame.level for frame in reversed(self.frames) if frame.kind == "interrupt"), None)
         if level is None or level not in self.frames:
             raise ProgramError("bad_call", "RESUME outside an interrupt routine")
-        if self.robot is not None and not Wait("idle", at, at, 0, 0.0).is_over(self):
+        if self.robot is not None and not self.is_over(Wait("idle", at, at, 0, 0.0)):
             return self.wait_for("idle", at, at)
         while self.frames[-1] is not level:
             frame = self.frames.pop()

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 from rpl.runtime.code import Code, Values
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.task import ENDED, READY, Task
+from rpl.runtime.task import ENDED, READY
+from rpl.runtime.task import Task as NewTask
 from rpl.runtime.waits import Wait
 
 if TYPE_CHECKING:
-    from rpl.runtime.machine import Machine
-    from rpl.runtime.motion import MotionQueue
+    from rpl.runtime.ports import Machine, Robot, Task
 
 # A task that a program starts has this kind: the run does not wait for its end.
 STARTED = "background"
@@ -50,10 +50,10 @@ def _another(machine: Machine, asking: Task, name: str, code: Code) -> Task:
     ended = next((task for task in mine if task.state == ENDED and task.kind == STARTED), None)
     if ended is not None:
         ended.restart()
-        found = ended
+        found: Task = ended
     else:
         own = f"{name}:{len(mine) + 1}" if mine else name
-        found = Task(machine, own, len(machine.tasks), STARTED, code)
+        found = NewTask(machine, own, len(machine.tasks), STARTED, code)
         found.modal = asking.modal
         machine.tasks.append(found)
     machine.latest[name.lower()] = found.name.lower()
@@ -119,7 +119,7 @@ def release(machine: Machine) -> None:
             machine.ready(task)
 
 
-def robot_of(task: Task) -> MotionQueue | None:
+def robot_of(task: Task) -> Robot | None:
     """The robot that the task sees: its own, else the one that another task has now."""
     if task.robot is not None:
         return task.robot

@@ -15,8 +15,7 @@ from rpl.runtime.orders import BlendOrder, Drive, Order
 
 if TYPE_CHECKING:
     from rpl.emulator.planner import PlannedMove
-    from rpl.runtime.motion import MotionQueue
-    from rpl.runtime.task import Task
+    from rpl.runtime.ports import Robot, Task
 
 _ALONE = "has an identity, but the robots do not go together here"
 
@@ -61,19 +60,19 @@ def check_apart(task: Task) -> None:
             raise _unequal(other, head.order.identity or "", task)
 
 
-def _head(robot: MotionQueue | None) -> Drive | None:
+def _head(robot: Robot | None) -> Drive | None:
     """The move that the robot would begin now."""
     if robot is None or robot.piece is not None or robot.stopped or not robot.queue:
         return None
     return robot.queue[0] if robot.queue[0].order.together else None
 
 
-def may_begin_s(queue: MotionQueue, drive: Drive) -> float:
+def may_begin_s(queue: Robot, drive: Drive) -> float:
     """The controller lets some time pass after a move that stopped exactly: from when on this one may begin."""
     return queue.stood_s + (drive.plan.controller.restart_s if drive.plan is not None else 0.0)
 
 
-def begins(queue: MotionQueue, drive: Drive) -> bool:
+def begins(queue: Robot, drive: Drive) -> bool:
     """May the move begin? One of robots that go together waits until all are ready; they begin at the same moment."""
     order = drive.order
     earliest = may_begin_s(queue, drive)
@@ -83,7 +82,7 @@ def begins(queue: MotionQueue, drive: Drive) -> bool:
     return not order.together or order.agreed or _agree(queue, drive)
 
 
-def _agree(queue: MotionQueue, drive: Drive) -> bool:
+def _agree(queue: Robot, drive: Drive) -> bool:
     """Settle when the moves of all robots begin and how long they last, once all are there."""
     order = drive.order
     machine = queue.machine
@@ -116,7 +115,7 @@ def _agree(queue: MotionQueue, drive: Drive) -> bool:
     return True
 
 
-def _slower(queue: MotionQueue, head: Drive, seconds: float) -> PlannedMove:
+def _slower(queue: Robot, head: Drive, seconds: float) -> PlannedMove:
     """The move planned anew with the speed that takes so long; what is then missing is made up evenly."""
     assert head.plan is not None
     order, ahead = head.order, (queue.planned_joints, queue.planned_external)

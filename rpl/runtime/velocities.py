@@ -7,20 +7,20 @@ brake first. The program goes on after the time it gives, or when the speed is r
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rpl.passes import rigid
 from rpl.runtime import pieces
 from rpl.runtime.chain import Planning, request_of
-from rpl.runtime.orders import Drive, Order
+from rpl.runtime.orders import Drive, Order, Rate
 from rpl.runtime.pieces import Piece
 from rpl.runtime.waits import Wait
 
 if TYPE_CHECKING:
     from rpl.emulator.planner import MotionFault, MoveRequest, PlannedMove
     from rpl.emulator.rotations import FloatArray
-    from rpl.runtime.motion import MotionQueue
+    from rpl.runtime.ports import Robot
 
 STRETCHES_S = (0.5, 0.1, 0.02)  # planned at once; a shorter stretch where the arm reaches no further
 STANDS = 1e-9
@@ -28,30 +28,18 @@ STANDS = 1e-9
 FREE = 1e6
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Rate:
-    """How a move without an end goes: mm/s and rad/s of the tool (6,), or deg/s of the axes (n,). `size`: its leading
-    speed (mm/s, deg/s); `acceleration` of that. `stretch_s`: how long the planned way lasts at full speed."""
-
-    joint: bool
-    vector: FloatArray
-    size: float
-    acceleration: float
-    stretch_s: float = 0.0
-
-
-def is_endless(queue: MotionQueue) -> bool:
+def is_endless(queue: Robot) -> bool:
     """Is the robot driven by such a move, and not braking?"""
     return queue.piece is not None and queue.piece.drive.rate is not None and not queue.piece.halting
 
 
-def let_rest(queue: MotionQueue) -> None:
+def let_rest(queue: Robot) -> None:
     """Brake a move that has no end."""
     if is_endless(queue):
         queue.halt(False, ends_move=True)
 
 
-def go(queue: MotionQueue, order: Order, next: int) -> int:
+def go(queue: Robot, order: Order, next: int) -> int:
     """Drive at the order's speed from now on; how the program goes on."""
     task, now = queue.task, queue.machine.now
     if queue.model is None:
@@ -67,7 +55,7 @@ def go(queue: MotionQueue, order: Order, next: int) -> int:
     if before is None or not _same(before.drive.rate, rate):
         made = _stretch(queue, joints, rate, request, speed)
         if not isinstance(made, tuple):
-            return queue._refuse(made, order, next)
+            return queue.refuse(made, order, next)
         _leave(queue, joints)
         plan, rate = made
         queue.numbers += 1
@@ -75,12 +63,12 @@ def go(queue: MotionQueue, order: Order, next: int) -> int:
         drive.rate, drive.started_s, drive.released = rate, now, True
         queue.queue.append(drive)
         task.busy = True
-        queue._drive(Piece(drive, plan, now))
+        queue.drive(Piece(drive, plan, now))
     ramp = abs(rate.size - speed) / rate.acceleration
     return _after(queue, order, order.speed.duration or ramp, next)
 
 
-def go_on(queue: MotionQueue, piece: Piece) -> None:
+def go_on(queue: Robot, piece: Piece) -> None:
     """The next stretch of a move that has no end."""
     drive = piece.drive
     joints = piece.plan.end_joints
@@ -88,16 +76,16 @@ def go_on(queue: MotionQueue, piece: Piece) -> None:
     made = _stretch(queue, joints, rate, request, _speed_along(queue, rate))
     if isinstance(made, tuple):
         plan, drive.rate = made
-        queue._drive(Piece(drive, plan, queue.machine.now))
+        queue.drive(Piece(drive, plan, queue.machine.now))
         return
     queue.joints = queue.planned_joints = joints
-    queue._close_leg(piece, queue.machine.now)
+    queue.close_leg(piece, queue.machine.now)
     queue.piece = None
-    queue._done(drive, False)
-    queue._fault(made, drive.order)
+    queue.done(drive, False)
+    queue.fault(made, drive.order)
 
 
-def _after(queue: MotionQueue, order: Order, seconds: float, next: int) -> int:
+def _after(queue: Robot, order: Order, seconds: float, next: int) -> int:
     """The program goes on after a time, in which nothing else is waited for."""
     if seconds <= 0.0:
         return next
@@ -105,18 +93,18 @@ def _after(queue: MotionQueue, order: Order, seconds: float, next: int) -> int:
     return queue.task.block(Wait("time", order.at, next, queue.machine.token(), now, now + seconds))
 
 
-def _leave(queue: MotionQueue, joints: FloatArray) -> None:
+def _leave(queue: Robot, joints: FloatArray) -> None:
     """Another speed takes over: the move before is over where the robot is."""
     before = queue.piece
     queue.joints = queue.planned_joints = joints
     if before is not None:
-        queue._close_leg(before, queue.machine.now)
+        queue.close_leg(before, queue.machine.now)
         queue.queue.remove(before.drive)
         queue.piece = None
-        queue._show(before.drive, False, True)
+        queue.show(before.drive, False, True)
 
 
-def _wanted(queue: MotionQueue, order: Order, joints: FloatArray) -> tuple[Rate, MoveRequest, rigid.Pose]:
+def _wanted(queue: Robot, order: Order, joints: FloatArray) -> tuple[Rate, MoveRequest, rigid.Pose]:
     """The order's speeds from where the arm is, its way in a second as a request, and the point that moves."""
     import numpy as np
 
@@ -143,7 +131,7 @@ def _wanted(queue: MotionQueue, order: Order, joints: FloatArray) -> tuple[Rate,
 
 
 def _stretch(
-    queue: MotionQueue, joints: FloatArray, rate: Rate, request: MoveRequest, speed: float
+    queue: Robot, joints: FloatArray, rate: Rate, request: MoveRequest, speed: float
 ) -> tuple[PlannedMove, Rate] | MotionFault:
     """A stretch of the way, begun with a speed, with enough way behind its end to brake there."""
     assert queue.model is not None  # asked by the caller
@@ -165,7 +153,7 @@ def _stretch(
     return fault
 
 
-def _request(queue: MotionQueue, joints: FloatArray, rate: Rate, second: MoveRequest, seconds: float) -> MoveRequest:
+def _request(queue: Robot, joints: FloatArray, rate: Rate, second: MoveRequest, seconds: float) -> MoveRequest:
     import numpy as np
 
     from rpl.emulator.rotations import pose_matrix, rotation_vector_to_matrix
@@ -205,7 +193,7 @@ def _same(one: Rate | None, other: Rate) -> bool:
     return bool(abs(one.vector - other.vector).max() < 1e-6 * max(one.size, 1.0))
 
 
-def _speed_along(queue: MotionQueue, rate: Rate) -> float:
+def _speed_along(queue: Robot, rate: Rate) -> float:
     """The leading speed that the robot has already in the direction of the new one."""
     piece = queue.piece
     if piece is None or piece.drive.rate is None or piece.drive.rate.joint != rate.joint:
@@ -219,4 +207,4 @@ def _speed_along(queue: MotionQueue, rate: Rate) -> float:
     return max(along, 0.0) * rate.size
 
 
-__all__ = ["Rate", "go", "go_on", "is_endless", "let_rest"]
+__all__ = ["go", "go_on", "is_endless", "let_rest"]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from rpl.runtime.code import Read, Values, Write
 
 if TYPE_CHECKING:
-    from rpl.runtime.task import Task
+    pass
 
 # Waits whose deadline is a time-out: the error is raised then.
 TIMED_OUT = frozenset(("condition", "answer", "meeting"))
@@ -59,26 +59,6 @@ class Wait:
     move: int = 0
     subject: str = ""
 
-    def is_over(self, task: Task) -> bool:
-        """Has what is waited for come? A deadline that passed is the caller's business."""
-        match self.kind:
-            case "condition":
-                assert self.condition is not None and self.values is not None  # set by Task.wait_until
-                return bool(self.condition(self.values))
-            case "idle":
-                return not task.busy or (task.robot is not None and task.robot.is_stopped())
-            case "room":
-                return task.robot is None or task.robot.has_room()
-            case "released":
-                return task.robot is None or task.robot.has_released(self.move)
-            case "standing":
-                return task.robot is None or task.robot.is_standing()
-            case "meeting":
-                return all(one.token != self.token for one in task.machine.arrivals)
-            case "task":
-                return task.machine.tasks[self.move].has_ended
-        return False
-
     def describe(self) -> str:
         """What it waits for, in words."""
         words = {
@@ -94,3 +74,14 @@ class Wait:
             "task": "another task to end",
         }
         return f"{words[self.kind]} ({self.subject})" if self.subject else words[self.kind]
+
+
+@dataclass(slots=True, eq=False)
+class Arrival:
+    """A task (its number) that waits at a point for the tasks of its list; `token`: of its wait."""
+
+    task: int
+    identity: str
+    mode: str
+    group: frozenset[int]
+    token: int
