@@ -72,7 +72,7 @@ def _toml(source: Source) -> SideFile | None:
     except TomlError:
         return SETTINGS
     from rpl.cell import parse_cell
-    from rpl.controllers import UNCERTAIN
+    from rpl.motionmodel import UNCERTAIN
 
     if {"kind", "geometry", "axes"} <= keys:
         return ROBOT

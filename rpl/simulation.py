@@ -25,9 +25,9 @@ from rpl.runtime.values import Member, Value
 
 if TYPE_CHECKING:
     from rpl.cell import Cell
-    from rpl.controllers import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.linking.program import LinkedProgram
+    from rpl.motionmodel import MotionModel
 
 MAIN = "main"
 

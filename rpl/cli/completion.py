@@ -30,7 +30,7 @@ def _languages() -> list[str]:
 
 
 def _controllers() -> list[str]:
-    from rpl.controllers import PLAIN_NAME
+    from rpl.motionmodel import PLAIN_NAME
 
     return [PLAIN_NAME, *registry.dialect_names()]
 

@@ -28,9 +28,9 @@ from rpl.diagnostics import Severity
 from rpl.errors import UsageError
 
 if TYPE_CHECKING:
-    from rpl.controllers import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.fitting.adjust import Drive, Fitted
+    from rpl.motionmodel import MotionModel
     from rpl.project import ReadProgram
 
 
@@ -68,10 +68,11 @@ def command(
     robot's base frame). With the PROGRAM that was run it is driven with ever better parameters; without it the straight
     moves of the log tell ramps, accelerations and smoothing. The result is a controller file for --controller of run.
     """
-    from rpl.controllers import as_toml, controller_named, on_robot
+    from rpl.controllers import as_toml, controller_named
     from rpl.fitting.adjust import fit_alone, fit_with_program
     from rpl.fitting.log import read_log
     from rpl.fitting.parameters import chosen, prepared
+    from rpl.motionmodel import on_robot
 
     refuse_others([output] if output is not None else [])
     model = robot_named(robot)

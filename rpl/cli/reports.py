@@ -14,10 +14,10 @@ from rpl.controllers import controller_named
 from rpl.errors import UsageError
 
 if TYPE_CHECKING:
-    from rpl.controllers import MotionModel
     from rpl.emulator.inertias import Body
     from rpl.emulator.mechanismfile import Mechanism
     from rpl.emulator.model import RobotModel
+    from rpl.motionmodel import MotionModel
     from rpl.project import ReadProgram
     from rpl.report.dynamics import Moment, RunDynamics
     from rpl.report.times import RunTimes

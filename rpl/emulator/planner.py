@@ -13,7 +13,6 @@ from typing import Literal, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rpl.controllers import PLAIN, MotionModel
 from rpl.emulator.configuration import Selection
 from rpl.emulator.mechanisms import Carried, Carrier, ExternalWay, along
 from rpl.emulator.model import RobotModel
@@ -23,6 +22,7 @@ from rpl.emulator.rounding import NO_WAY, NOISE, first_least, steps_of
 from rpl.emulator.timelaw import Profile, TimeLaw, mean_acceleration, of_constant_time, slowed_to
 from rpl.emulator.tracking import MotionFault, Track, solve_arm_joints, track_flanges, track_wrist_joints
 from rpl.ir.rules import SLOWEST
+from rpl.motionmodel import PLAIN, MotionModel
 
 __all__ = ["MotionFault", "MoveRequest", "MoveSamples", "PlannedMove", "plan"]
 

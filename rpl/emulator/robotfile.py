@@ -13,9 +13,9 @@ from importlib import resources
 from pathlib import Path
 from typing import Literal
 
-from rpl.controllers import NUMBERS, wrong_number
 from rpl.emulator.mechanismfile import Mechanism, read_mechanisms
 from rpl.errors import UsageError
+from rpl.motionmodel import NUMBERS, wrong_number
 from rpl.source import read_bytes
 from rpl.tomlfile import FARTHEST, LARGEST, SMALLEST, Lines, TomlError, key_lines, read_toml
 
@@ -83,7 +83,7 @@ class WeightFile:
 class RobotFile:
     """One description, checked: lengths in mm, angles in degrees (mm for a sliding joint), speeds per second.
 
-    `motion`: parameters of rpl.controllers.MotionModel measured on this arm under the controller `motion_of`.
+    `motion`: parameters of rpl.motionmodel.MotionModel measured on this arm under the controller `motion_of`.
     """
 
     name: str

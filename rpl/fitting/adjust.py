@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rpl.controllers import MotionModel
 from rpl.errors import UsageError
 from rpl.fitting.log import Log
 from rpl.fitting.parameters import BY_NAME, Parameter, prepared, values_of, with_values
 from rpl.fitting.shapes import Motion, is_straight, motions
 from rpl.fitting.squares import Found, least_squares
+from rpl.motionmodel import MotionModel
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
-from rpl.controllers import MotionModel
 from rpl.errors import UsageError
+from rpl.motionmodel import MotionModel
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel

@@ -8,13 +8,13 @@ them a side says nothing, so that no verdict hangs on rounding.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rpl.proof.difference import Difference, Side
-from rpl.proof.record import Place, place_of
+from rpl.proof.record import Family, LeftOut, place_of
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
@@ -26,35 +26,6 @@ LEFT_OUT, CUT_SHORT = "overlapping-blends", "corner-path-failure"
 # A side that changes when one axis moves by this much (degrees, mm) says nothing.
 BOUNDARY = 0.01
 _WORDS = (("front", "back"), ("elbow up", "elbow down"), ("wrist not turned over", "wrist turned over"))
-
-
-@dataclass(frozen=True, slots=True)
-class Family:
-    """The posture of an arm in words, "" where it stands on the boundary. `build`: arms of one build have the same
-    families."""
-
-    build: str
-    shoulder: str
-    elbow: str
-    wrist: str
-
-    def differs(self, other: Family) -> list[tuple[str, str]]:
-        """The words of both sides that are known and not the same."""
-        if self.build != other.build:
-            return []
-        pairs = [(getattr(self, one.name), getattr(other, one.name)) for one in fields(self)[1:]]
-        return [pair for pair in pairs if all(pair) and pair[0] != pair[1]]
-
-
-@dataclass(frozen=True, slots=True)
-class LeftOut:
-    """A move that a controller does not make as it is written because its corner overlaps with the one before it.
-    `driven`: with smaller corners; else it is left out altogether. `text`: what the controller logs."""
-
-    place: Place
-    t: float
-    driven: bool
-    text: str
 
 
 def family_of(robot: RobotModel, joints: FloatArray) -> Family | None:

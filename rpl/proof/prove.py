@@ -15,7 +15,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rpl import ir
-from rpl.controllers import PLAIN_NAME
+from rpl.motionmodel import PLAIN_NAME
 from rpl.proof.bits import with_wired_groups
 from rpl.proof.compare import Comparison, compare
 from rpl.proof.explore import Budget, Exploration, explore
@@ -33,8 +33,8 @@ from rpl.runtime.limits import DEFAULTS, Limits
 
 if TYPE_CHECKING:
     from rpl.cell import Cell
-    from rpl.controllers import MotionModel
     from rpl.emulator.model import RobotModel
+    from rpl.motionmodel import MotionModel
 
 
 NOTHING_ACCEPTED = Accepted()

@@ -7,7 +7,7 @@ program may know them; see `signal_names`.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING
 
 from rpl.runtime.signals import usual_key
@@ -15,7 +15,6 @@ from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.emulator.rotations import FloatArray
-    from rpl.proof.postures import Family, LeftOut
     from rpl.runtime.orders import Payload, Programmed
     from rpl.runtime.reached import Reached
     from rpl.runtime.waits import Waited
@@ -76,6 +75,35 @@ def place_of(origin: Origin) -> Place:
         return Place()
     lines = origin.text.strip().splitlines()
     return Place(origin.file, origin.line, lines[0].strip() if lines else "")
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """The posture of an arm in words, "" where it stands on the boundary. `build`: arms of one build have the same
+    families."""
+
+    build: str
+    shoulder: str
+    elbow: str
+    wrist: str
+
+    def differs(self, other: Family) -> list[tuple[str, str]]:
+        """The words of both sides that are known and not the same."""
+        if self.build != other.build:
+            return []
+        pairs = [(getattr(self, one.name), getattr(other, one.name)) for one in fields(self)[1:]]
+        return [pair for pair in pairs if all(pair) and pair[0] != pair[1]]
+
+
+@dataclass(frozen=True, slots=True)
+class LeftOut:
+    """A move that a controller does not make as it is written because its corner overlaps with the one before it.
+    `driven`: with smaller corners; else it is left out altogether. `text`: what the controller logs."""
+
+    place: Place
+    t: float
+    driven: bool
+    text: str
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
     from rpl.cell import Cell
-    from rpl.controllers import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.linking.program import LinkedProgram
+    from rpl.motionmodel import MotionModel
     from rpl.runtime.interrupts import Interrupt
     from rpl.runtime.ports import Task
     from rpl.runtime.trace import RunResult

@@ -18,9 +18,9 @@ import numpy as np
 from rpl.source import Origin
 
 if TYPE_CHECKING:
-    from rpl.controllers import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.emulator.planner import PlannedMove
+    from rpl.motionmodel import MotionModel
     from rpl.runtime.trace import Event, Leg, RunResult
 
 # What an axis speed that nobody has verified may be wrong by, where the controller file does not say.

@@ -31,7 +31,6 @@ from rpl.runtime.values import (
 )
 
 if TYPE_CHECKING:
-    from rpl.controllers import MotionModel
     from rpl.emulator.configuration import Notation, Selection
     from rpl.emulator.mechanismfile import Mechanism
     from rpl.emulator.mechanisms import Carrier
@@ -39,6 +38,7 @@ if TYPE_CHECKING:
     from rpl.emulator.planner import MoveRequest
     from rpl.emulator.rotations import FloatArray
     from rpl.ir.rules import Rules
+    from rpl.motionmodel import MotionModel
 
 # What a controller that does not say otherwise does; base units.
 DEFAULTS: Modal = {

@@ -31,8 +31,8 @@ from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.cell import Cell, Reaction
-    from rpl.controllers import MotionModel
     from rpl.emulator.model import RobotModel
+    from rpl.motionmodel import MotionModel
     from rpl.runtime.linked import Linked
     from rpl.runtime.ports import Task
 

@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     import random
 
     from rpl.cell import Cell
-    from rpl.controllers import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.emulator.planner import MotionFault
     from rpl.emulator.rotations import FloatArray
     from rpl.ir.rules import Rules
+    from rpl.motionmodel import MotionModel
     from rpl.runtime.code import Code, Frame, Read, Values
     from rpl.runtime.faults import ProgramError
     from rpl.runtime.interrupts import Interrupt, Interrupts

@@ -13,10 +13,10 @@ from rpl.runtime.scene import External
 from rpl.runtime.values import JointsValue, TargetValue, Value
 
 if TYPE_CHECKING:
-    from rpl.controllers import MotionModel
     from rpl.emulator.model import RobotModel
     from rpl.emulator.rotations import FloatArray
     from rpl.ir.rules import Rules
+    from rpl.motionmodel import MotionModel
     from rpl.runtime.ports import Machine, Task
 
 
@@ -40,7 +40,8 @@ class RobotState:
 
     def controller_of(self, rules: Rules) -> MotionModel:
         """Who drives moves of that language: the controller chosen for the run, else the language's own."""
-        from rpl.controllers import controller_named, on_robot
+        from rpl.controllers import controller_named
+        from rpl.motionmodel import on_robot
 
         chosen = self.machine.controller or controller_named(rules.name)
         if self.model is None or self.model.motion_of != chosen.name:

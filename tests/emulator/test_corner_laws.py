@@ -13,11 +13,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rpl import registry
-from rpl.controllers import PLAIN, MotionModel, controller_named
+from rpl.controllers import controller_named
 from rpl.emulator.blending import Corner, Size, blend
 from rpl.emulator.model import load_robot
 from rpl.emulator.planner import MoveRequest, PlannedMove, plan
 from rpl.emulator.rotations import FloatArray
+from rpl.motionmodel import PLAIN, MotionModel
 
 ROBOT = load_robot("abb_irb6700_140_285")
 RIGHT = math.sqrt(2.0)

@@ -8,12 +8,13 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from rpl import registry
-from rpl.controllers import MotionModel, controller_named
+from rpl.controllers import controller_named
 from rpl.emulator.blending import Corner, Size, blend
 from rpl.emulator.model import load_robot
 from rpl.emulator.planner import MoveRequest, PlannedMove, plan
 from rpl.emulator.rotations import pose_matrix
 from rpl.emulator.timelaw import Profile, mean_acceleration, of_constant_time, travel
+from rpl.motionmodel import MotionModel
 
 SPEEDS = st.floats(0.05, 20.0)
 ACCELERATIONS = st.floats(0.05, 200.0)

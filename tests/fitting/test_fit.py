@@ -11,13 +11,14 @@ import numpy as np
 import pytest
 
 from rpl.cli.main import run as rpl
-from rpl.controllers import MotionModel, controller_named, parse_controller
+from rpl.controllers import controller_named, parse_controller
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import RobotModel, load_robot
 from rpl.errors import UsageError
 from rpl.fitting.adjust import Fitted, Told, fit_alone, fit_with_program, run_at
 from rpl.fitting.log import Log, read_log
 from rpl.fitting.parameters import chosen, prepared
+from rpl.motionmodel import MotionModel
 from rpl.project import read_program
 from rpl.simulation import RunResult, run_program
 

@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 
 from rpl.cli.main import run as rpl_command
-from rpl.controllers import MotionModel, controller_named
+from rpl.controllers import controller_named
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import load_robot
+from rpl.motionmodel import MotionModel
 from rpl.project import read_sources
 from rpl.report.times import RunTimes, run_times
 from rpl.runtime.trace import RunResult

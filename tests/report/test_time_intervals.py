@@ -12,8 +12,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rpl.controllers import MotionModel, controller_named
+from rpl.controllers import controller_named
 from rpl.emulator.model import load_robot
+from rpl.motionmodel import MotionModel
 from rpl.report.times import run_times
 from rpl.runtime.trace import RunResult
 from tests.runtime.helpers import run
