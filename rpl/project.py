@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -17,6 +17,7 @@ from rpl.depth import at_any_depth
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.errors import UsageError
 from rpl.passes.collector import paused_cycle_collector
+from rpl.passes.expanded import expanded
 from rpl.passes.hiddentypes import hidden_types
 from rpl.passes.motionvalues import motion_values
 from rpl.passes.typing import normalise
@@ -61,13 +62,30 @@ _TEXT_CONTROLS = frozenset(b"\t\n\r\x0c\x1a")
 
 @dataclass(frozen=True, slots=True)
 class ReadProgram:
-    """Everything read from the paths. `raw` as lowered, `program` in normal form; `dialects` in order of first use."""
+    """Everything read from the paths. `reduced` in normal form, `lowered` before that, both with runs of moves as one
+    node; `program` and `raw` are the same without runs. `dialects` in order of first use."""
 
-    program: ir.Program
-    raw: ir.Program
+    reduced: ir.Program
+    lowered: ir.Program
     sources: tuple[Source, ...]
     files: tuple[FileReport, ...]
     dialects: tuple[str, ...]
+    _whole: dict[str, ir.Program] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    @property
+    def program(self) -> ir.Program:
+        """The normal form, each move for itself (made when it is first asked for)."""
+        return self._expanded("program", self.reduced)
+
+    @property
+    def raw(self) -> ir.Program:
+        """What the readers gave, each move for itself (made when it is first asked for)."""
+        return self._expanded("raw", self.lowered)
+
+    def _expanded(self, name: str, program: ir.Program) -> ir.Program:
+        if name not in self._whole:
+            self._whole[name] = expanded(program)
+        return self._whole[name]
 
     def _parts(self) -> list[str]:
         statements = sum(report.statements for report in self.files)

@@ -28,12 +28,13 @@ def tell_what_is_not_given(sources: Sequence[Source], diagnostics: Diagnostics) 
     """Elements of TOOL_DATA and BASE_DATA that statements or inline forms (TOOL_NO, BASE_NO) name by number, of lists
     that no file declares, and that no statement sets, by its number or a computed one."""
     known: set[str] = set()
-    for source in sources:
+    named = [source for source in sources if any(word in source.text.upper() for word in ("TOOL_", "BASE_"))]
+    for source in named:
         known.update(found[1].upper() for found in _DECLARED.finditer(source.text))
         for found in _SET.finditer(source.text):
             number = found[2].strip()
             known.add(f"{found[1].upper()} {int(number)}" if number.isdecimal() else found[1].upper())
-    for source in sources:
+    for source in named:
         for found in _USED.finditer(source.text):
             if found[1] is None:
                 continue

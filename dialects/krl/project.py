@@ -13,6 +13,7 @@ from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.reading.assemble import assemble
 from rpl.reading.ledger import FileReport
 from rpl.reading.pieces import Attribute, Item, ModulePart
+from rpl.reading.runs import Cursor, Runs
 from rpl.reading.shapes import ShapeParser
 from rpl.registry import ReadResult
 from rpl.source import Origin, Source
@@ -44,12 +45,12 @@ PARAMETERS = code(
 _PARAMETER = re.compile(r"^[^;\n]*\bPAR_TYPE[ \t]*=?[ \t]*#[ \t]*(?:VALUE|KEY)\b", re.IGNORECASE | re.MULTILINE)
 
 _ROUTINE = re.compile(
-    r"^[ \t]*(?:GLOBAL[ \t]+)?DEF(?:FCT[ \t]+[\w$]+[ \t]*(?:\[[^\]\n]*\])?)?[ \t]+([\w$]+)",
+    r"^[ \t]*(?=[GD])(?:GLOBAL[ \t]+)?DEF(?:FCT[ \t]+[\w$]+[ \t]*(?:\[[^\]\n]*\])?)?[ \t]+([\w$]+)",
     re.IGNORECASE | re.MULTILINE,
 )
 _TYPED = re.compile(
-    r"^[ \t]*(?:(?:DECL|GLOBAL|CONST)[ \t]+)*(INT|REAL|BOOL|CHAR|AXIS|E[36]AXIS|FRAME|POS|E[36]POS)[ \t]+"
-    r"([A-Za-z_$][^=;{\r\n]*)",
+    r"^[ \t]*(?=[DGCIRBAEFP])(?:(?:DECL|GLOBAL|CONST)[ \t]+)*"
+    r"(INT|REAL|BOOL|CHAR|AXIS|E[36]AXIS|FRAME|POS|E[36]POS)[ \t]+([A-Za-z_$][^=;{\r\n]*)",
     re.IGNORECASE | re.MULTILINE,
 )
 _DECLARED_NAME = re.compile(r"([A-Za-z_$][\w$]*)[ \t]*(?:\[[^\]]*\])?[ \t]*(?:,|$)")
@@ -99,10 +100,14 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     reports: list[FileReport] = []
     for source in sorted(sources, key=lambda source: _suffix(source) == ".dat"):
         facts.reported.clear()
-        done = assemble(source, "krl", split(source), _parser(), lowering.lower, build, diagnostics)
+        cursor = Cursor()
+        runs = Runs(source, _parser(), lowering.lower, cursor, signs_placed=True, not_in=frozenset(("spline",)))
+        pieces = split(source, cursor)
+        done = assemble(source, "krl", pieces, _parser(), lowering.lower, build, diagnostics, runs)
         reports.append(done.report)
         _sort_items(source, done.items, modules, diagnostics)
-        if "set_krlmsg" not in facts.routines and (found := _PARAMETER.search(source.text)):
+        parameters = "set_krlmsg" not in facts.routines and "PAR_TYPE" in source.text.upper()
+        if parameters and (found := _PARAMETER.search(source.text)):
             diagnostics.report(PARAMETERS, Origin(source, found.start(), found.end()))
     tell_what_is_not_given(sources, diagnostics)
     order = {source.path: position for position, source in enumerate(sources)}

@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator
 
 from rpl.reading.pieces import COMMENT, LAYOUT, STATEMENT, Piece
+from rpl.reading.runs import Cursor
 from rpl.source import Source
 
 # What is taken out of a statement's shape. Names that contain digits (XP12, PPDAT3) and texts vary from line to line
@@ -38,10 +39,12 @@ def code_of(text: str) -> str:
     return (found.group() if found else text).strip(_BLANKS)
 
 
-def split(source: Source) -> Iterator[Piece]:
-    """The pieces of a KRL file."""
-    for match in _LINE.finditer(source.text):
+def split(source: Source, cursor: Cursor | None = None) -> Iterator[Piece]:
+    """The pieces of a KRL file; behind each piece it goes on at the cursor where that has been set further on."""
+    cursor = cursor or Cursor()
+    while (match := _LINE.search(source.text, cursor.at)) is not None:
         line, start = match.group(), match.start()
+        cursor.at = match.end()
         body = line.strip(_BLANKS)
         if not body:
             if line.strip():

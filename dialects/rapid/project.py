@@ -17,6 +17,8 @@ from .types import SIGNALS, TYPES
 
 # The letters a pattern can begin with stand first: most places of a long text are then passed over at once.
 _NOISE = re.compile(r'"(?:[^"\r\n]|"")*"|![^\r\n]*')
+# Moves to places that are written out name nothing; long programs hold little else.
+_POINT = re.compile(r"Move(?:L|J|AbsJ)[ \t]*\[[-+0-9.,\[\]eE ]*\],\w+,\w+,\w+(?:\\WObj:=\w+)?;")
 _ROUTINE = re.compile(r"(?=[LPFT])\b(LOCAL\s+)?(?:PROC|FUNC\s+\w+|TRAP)\s+(\w+)(?:\s*\(([^()]*)\))?", re.IGNORECASE)
 _DATA = re.compile(r"(?=[CVP])\b(?:CONST|VAR|PERS)\s+\w+\s+(\w+)", re.IGNORECASE)
 _PARAMETER = re.compile(r"(\w+)\s+(\w+)\s*(?:\{[^}]*\}\s*)?(?=[,|\\]|$)")
@@ -82,7 +84,7 @@ def survey(sources: Iterable[Source], predefined: Iterable[str]) -> Project:
     """Scan all sources. `predefined`: names the controller declares (lower case)."""
     project = Project(declared=set(predefined))
     for source in sources:
-        text = _NOISE.sub(" ", source.text)
+        text = _NOISE.sub(" ", _POINT.sub(" ", source.text))
         local = project.local_routines.setdefault(source.path, set())
         for scope, name, parameters in _ROUTINE.findall(text):
             (local if scope else project.routines).add(name.lower())

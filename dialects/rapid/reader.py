@@ -13,6 +13,7 @@ from rpl.ir.walk import bodies
 from rpl.reading.assemble import assemble
 from rpl.reading.ledger import FileReport
 from rpl.reading.pieces import Attribute, Item, ModulePart
+from rpl.reading.runs import Cursor, Runs
 from rpl.registry import ReadResult
 from rpl.source import Origin, Source
 
@@ -76,8 +77,10 @@ def _read_file(
 ) -> tuple[list[ir.Module], FileReport]:
     statements = Statements(project, source.path, diagnostics)
     blocks = Blocks(project, diagnostics)
-    pieces = split(source, parser, statement_names(project, source.path))
-    assembly = assemble(source, "rapid", pieces, parser, statements.lower, blocks.build, diagnostics)
+    cursor = Cursor()
+    runs = Runs(source, parser, statements.lower, cursor, signs_placed=False)
+    pieces = split(source, parser, statement_names(project, source.path), cursor)
+    assembly = assemble(source, "rapid", pieces, parser, statements.lower, blocks.build, diagnostics, runs)
     task = _TASK_FOLDER.search(source.path)
     parts = _parts(assembly.items, source, diagnostics)
     modules = [
@@ -175,7 +178,7 @@ def _tasks(modules: list[ir.Module]) -> tuple[ir.Task, ...]:
 def _has_motion(body: ir.Body) -> bool:
     for statement in body:
         match statement:
-            case ir.Move() | ir.MoveExternal():
+            case ir.Move() | ir.MoveExternal() | ir.Run():
                 return True
             case ir.If(branches=branches, otherwise=otherwise):
                 if any(_has_motion(inner) for _, inner in branches) or _has_motion(otherwise):

@@ -11,6 +11,7 @@ from collections.abc import Container, Iterator
 from dataclasses import replace
 
 from rpl.reading.pieces import COMMENT, LAYOUT, STATEMENT, Piece
+from rpl.reading.runs import Cursor
 from rpl.source import Source
 
 from .parser import RapidParser
@@ -52,11 +53,14 @@ _HEADS = {"IF": "THEN", "ELSEIF": "THEN", "FOR": "DO", "WHILE": "DO"}
 _PLACEHOLDER_WORDS = frozenset(f"<{word}>" for word in PLACEHOLDERS)
 
 
-def split(source: Source, parser: RapidParser, instructions: Container[str] = ()) -> Iterator[Piece]:
+def split(
+    source: Source, parser: RapidParser, instructions: Container[str] = (), cursor: Cursor | None = None
+) -> Iterator[Piece]:
     """All pieces of a source in order. Comments inside a statement go behind it.
 
-    instructions: names (lower case) that begin a statement when they begin a line."""
-    return _Splitter(source.text, parser, instructions).pieces()
+    instructions: names (lower case) that begin a statement when they begin a line. Where the cursor is set further on,
+    it goes on there."""
+    return _Splitter(source.text, parser, instructions).pieces(cursor or Cursor())
 
 
 class _Splitter:
@@ -66,9 +70,10 @@ class _Splitter:
         self.instructions = instructions
         self.remarks: list[tuple[int, int, str]] = []
 
-    def pieces(self) -> Iterator[Piece]:
+    def pieces(self, cursor: Cursor) -> Iterator[Piece]:
         text, at, length = self.text, 0, len(self.text)
         while True:
+            at = max(at, cursor.at)
             blank = _BLANKS.match(text, at)
             if blank:
                 lead = at if _JUNK.search(text, at, blank.end()) else blank.end()

@@ -188,7 +188,7 @@ def _begun_at(read: ReadProgram, entry: str | None) -> ReadProgram:
     from rpl.simulation import find_entry
 
     found = find_entry(read.program, link(read.program), entry)
-    return replace(read, program=replace(read.program, entry=found.name))
+    return replace(read, reduced=replace(read.reduced, entry=found.name))
 
 
 def _options(written: Sequence[str]) -> dict[str, str]:

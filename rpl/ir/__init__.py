@@ -81,6 +81,7 @@ from rpl.ir.motion import (
     Spline,
     Trigger,
 )
+from rpl.ir.runs import Columns, Run
 from rpl.ir.statements import (
     Body,
     Case,
@@ -187,6 +188,7 @@ __all__ = [
     "ClearMotion",
     "Clock",
     "ClockType",
+    "Columns",
     "ConfigType",
     "ConnectInterrupt",
     "ControlInterrupt",
@@ -254,6 +256,7 @@ __all__ = [
     "Return",
     "RotationType",
     "Routine",
+    "Run",
     "SCOPES",
     "SIGNAL_KINDS",
     "SYSTEM_VARIABLES",

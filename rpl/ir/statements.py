@@ -14,6 +14,7 @@ from rpl.ir.motion import (
     Spline,
     Trigger,
 )
+from rpl.ir.runs import Run
 from rpl.source import NOWHERE, Origin
 
 
@@ -444,5 +445,6 @@ Statement = (
     | Trigger
     | PathRule
     | DefineTrigger
+    | Run
 )
 Body = tuple[Statement, ...]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
@@ -19,6 +20,10 @@ from rpl.passes.fold import constant, constant_number
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Record, pose_of
 from rpl.source import Origin
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 SPEED = code(
     "speed-not-positive",
@@ -164,6 +169,8 @@ class _Module:
             match statement:
                 case ir.Move():
                     last = self.move(statement, scope, last)
+                case ir.Run():
+                    last = self.run(statement, scope, last)
                 case ir.Assign(target=ir.System(name=name), value=value) if name in _SPEEDS:
                     self.speed(_SPEEDS[name], value, statement.origin, scope)
                     self.quantity(name, value, statement.origin, scope)
@@ -278,6 +285,47 @@ class _Module:
         before = known.place if move.kind == "linear" else None
         return _Last(place, before, frames, corner, move.origin, move.kind)
 
+    def run(self, run: ir.Run, scope: Scope, last: _Last) -> _Last:
+        """A run: what its moves say alike by its first one, orientations and corners by columns."""
+        reported = len(self.diagnostics)
+        last = self.move(run.sample, scope, last)
+        columns = _RunColumns(run, scope)
+        rotations = columns.rotations() if self.rules.rotation_limits is not None else []
+        good, usable = self.rules.rotation_limits or (0.0, 0.0)
+        if (
+            len(self.diagnostics) > reported
+            or not columns.only_targets()
+            or rotations is None
+            or any((abs(squares - 1.0) > usable).any() for squares in rotations)
+        ):
+            for move in run.moves(1):
+                last = self.move(move, scope, last)
+            return last
+        for squares in rotations:
+            off = (abs(squares[1:] - 1.0) > good).nonzero()[0] + 1
+            self.off += [(float(squares[at]), run.columns.origin(at)) for at in off.tolist()]
+        return self.corners(run, columns.places() if last.place is not None else None, last)
+
+    def corners(self, run: ir.Run, places: NDArray[np.float64] | None, last: _Last) -> _Last:
+        """Corners within a run that are larger than the moves beside them. `last`: its first move."""
+        end = run.columns.origin(len(run) - 1)
+        if places is None:
+            return _Last(None, None, last.frames, last.corner, end, last.kind)
+        vectors = [rigid.Vector(*place) for place in places[-2:].tolist()]
+        before, place = vectors if last.kind == "linear" else (None, vectors[-1])
+        if last.corner > 0.0 and self.rules.large_corner:
+            import numpy as np
+
+            ways = np.linalg.norm(np.diff(places, axis=0), axis=1)
+            narrow = (ways > _LEAST_WAY) & (ways < 2.0 * last.corner + 1e-9)
+            suspects = np.flatnonzero(narrow | np.insert(narrow[:-1], 0, True))
+            for at in suspects.tolist():  # the corner at the end of move `at`, known with the one behind it
+                back = rigid.Vector(*places[at - 1].tolist()) if at else last.before
+                here, ahead = (rigid.Vector(*one) for one in places[at : at + 2].tolist())
+                origin = run.columns.origin(at)
+                self.corner(_Last(here, back, last.frames, last.corner, origin, last.kind), ahead)
+        return _Last(place, before, last.frames, last.corner, end, last.kind)
+
     def circle(
         self, start: rigid.Vector | None, via: rigid.Vector | None, end: rigid.Vector | None, origin: Origin
     ) -> None:
@@ -318,6 +366,55 @@ class _Module:
                 path = value.part("path") if isinstance(value, Record) and not value.part("stop") else None
                 return float(path) if isinstance(path, int | float) else 0.0
         return 0.0
+
+
+class _RunColumns:
+    """Which columns of a run are what in its moves."""
+
+    def __init__(self, run: ir.Run, scope: Scope) -> None:
+        self.run, self.scope = run, scope
+        self.cells = {id(cell): at for at, cell in enumerate(run.columns.cells)}
+
+    def only_targets(self) -> bool:
+        """Do the numbers stand in the target alone, of a move to a place?"""
+        return self.run.sample.via is None and self.cells.keys() <= {id(node) for node in walk(self.run.sample.target)}
+
+    def rotations(self) -> list[NDArray[np.float64]] | None:
+        """The sum of squares of each quaternion, in all moves; None where a part is not a plain number."""
+        found = []
+        for node in walk(self.run.sample.target):
+            if isinstance(node, ir.Aggregate) and node.type_name == "rotation" and len(node.entries) == 4:
+                parts = [self.values(value) for _, value in node.entries]
+                if any(part is None for part in parts):
+                    return None
+                w, x, y, z = (part for part in parts if part is not None)
+                found.append(w * w + x * x + y * y + z * z)
+        return found
+
+    def values(self, value: ir.Expression) -> NDArray[np.float64] | None:
+        import numpy as np
+
+        column = self.cells.get(id(value))
+        if column is not None:
+            return self.run.columns.values[:, column]
+        number = constant_number(value, self.scope)
+        return None if number is None else np.full(len(self.run), number)
+
+    def places(self) -> NDArray[np.float64] | None:
+        """The positions of the targets (n, 3), found by asking for that of numbers which occur nowhere else."""
+        import numpy as np
+
+        columns = self.run.columns
+        marks = [10_001.125 + at for at in range(len(columns.cells))]
+        marked = self.run.with_cells(tuple(ir.RealLiteral(mark) for mark in marks))
+        position = _place(marked.target, self.scope)
+        if position is None:
+            return None
+        parts = (position.x, position.y, position.z)
+        found = [
+            columns.values[:, marks.index(part)] if part in marks else np.full(len(columns), part) for part in parts
+        ]
+        return np.stack(found, axis=1)
 
 
 def _place(expression: ir.Expression, scope: Scope) -> rigid.Vector | None:

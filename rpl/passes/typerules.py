@@ -117,3 +117,8 @@ _CLASHING: dict[type, str] = {
     ir.CharType: "text",
     ir.BoolType: "bool",
 }
+
+
+def sign(expression: ir.Expression, type: ir.Type | None) -> ir.Type | None:
+    """A text that is written out and of one sign is a character, where characters are numbers too."""
+    return CHAR if isinstance(expression, ir.TextLiteral) and len(expression.value) == 1 else type

@@ -31,6 +31,7 @@ from rpl.passes.typerules import (
     has_components,
     pose_result,
     quotient,
+    sign,
     system_type,
 )
 from rpl.passes.typewords import component_names, component_type, language_word, type_word, word_type
@@ -55,12 +56,7 @@ ARGUMENT = code("argument-type", Severity.ERROR, "argument {number} of {name} is
 TOO_MANY = code("too-many-arguments", Severity.ERROR, "{name} takes {takes}; {given} are given")
 
 # What most expressions of a point list are: their own normal form, of a type that their class tells.
-_LITERALS: dict[type, ir.Type] = {
-    ir.IntLiteral: INT,
-    ir.RealLiteral: REAL,
-    ir.BoolLiteral: BOOL,
-    ir.Present: BOOL,
-}
+_LITERALS: dict[type, ir.Type] = {ir.IntLiteral: INT, ir.RealLiteral: REAL, ir.BoolLiteral: BOOL, ir.Present: BOOL}
 _NUMBERS = frozenset((ir.IntLiteral, ir.RealLiteral))
 Typed = tuple[ir.Expression, ir.Type | None]
 
@@ -85,11 +81,6 @@ def normalise(program: ir.Program, diagnostics: Diagnostics, as_read: bool = Fal
     with paused_cycle_collector():
         modules = each(program.modules, lambda module: _module(module, scopes, diagnostics, as_read))
         return changed(program, modules=modules)
-
-
-def _sign(expression: ir.Expression, type: ir.Type | None) -> ir.Type | None:
-    """A text that is written out and of one sign is a character, where characters are numbers too."""
-    return ir.CharType() if isinstance(expression, ir.TextLiteral) and len(expression.value) == 1 else type
 
 
 def _module(module: ir.Module, scopes: ProgramScope, diagnostics: Diagnostics, as_read: bool) -> ir.Module:
@@ -155,7 +146,19 @@ class Typer:
         return changed(handler, codes=each(handler.codes, self.value), body=self.body(handler.body))
 
     def body(self, body: ir.Body) -> ir.Body:
-        return each(body, self.statement)
+        if not any(statement.__class__ is ir.Run for statement in body):
+            return each(body, self.statement)
+        done = [self.run(one) if isinstance(one, ir.Run) else (self.statement(one),) for one in body]
+        return tuple(statement for part in done for statement in part)
+
+    def run(self, run: ir.Run) -> ir.Body:
+        """A run by its sample, where nothing is reported or converted that the other moves would meet differently."""
+        first = self.move(run.sample)
+        quiet = Typer(self.scope, Diagnostics(), self.reported, self.as_read)
+        typed = run.rewritten(first, quiet.move)
+        if typed is not None and not len(quiet.diagnostics):
+            return (typed,)
+        return (first, *map(self.statement, run.moves(1)))
 
     def statement(self, statement: ir.Statement) -> ir.Statement:
         self.here = statement.origin
@@ -425,7 +428,7 @@ class Typer:
         self, left: ir.Expression, left_type: ir.Type | None, right: ir.Expression, right_type: ir.Type | None
     ) -> tuple[ir.Expression, ir.Expression]:
         if self.rules.char_numbers:
-            left_type, right_type = _sign(left, left_type), _sign(right, right_type)
+            left_type, right_type = sign(left, left_type), sign(right, right_type)
             if isinstance(left_type, ir.CharType) and isinstance(right_type, ir.NUMBER_TYPES):
                 return self.convert("code", left), right
             if isinstance(right_type, ir.CharType) and isinstance(left_type, ir.NUMBER_TYPES):

@@ -29,6 +29,7 @@ from rpl.reading.pieces import (
     Piece,
     Section,
 )
+from rpl.reading.runs import Runs
 from rpl.reading.shapes import ShapeParser, StatementError, SyntaxTree, TooDeepError
 from rpl.source import Comment, Origin, Source
 
@@ -93,10 +94,12 @@ def assemble(
     lower: Lower,
     build: Build,
     diagnostics: Diagnostics,
+    runs: Runs | None = None,
 ) -> Assembly:
-    """Read one source. Every block kind is opened, divided and closed by the elements that `lower` gives."""
+    """Read one source. Every block kind is opened, divided and closed by the elements that `lower` gives. `runs`: takes
+    long runs of moves at once, and then sets the cursor of whoever gives the pieces."""
     with paused_cycle_collector():
-        assembler = _Assembler(source, parser, lower, build, diagnostics)
+        assembler = _Assembler(source, parser, lower, build, diagnostics, runs)
         for piece in pieces:
             assembler.take(piece)
         return assembler.finish(dialect)
@@ -104,9 +107,15 @@ def assemble(
 
 class _Assembler:
     def __init__(
-        self, source: Source, parser: ShapeParser, lower: Lower, build: Build, diagnostics: Diagnostics
+        self,
+        source: Source,
+        parser: ShapeParser,
+        lower: Lower,
+        build: Build,
+        diagnostics: Diagnostics,
+        runs: Runs | None,
     ) -> None:
-        self.source, self.parser, self.lower, self.build = source, parser, lower, build
+        self.source, self.parser, self.lower, self.build, self.runs = source, parser, lower, build, runs
         self.diagnostics = diagnostics
         self.ledger = Ledger(source)
         self.comments: list[Comment] = []
@@ -146,6 +155,18 @@ class _Assembler:
         elements = lowered if isinstance(lowered, tuple) else (lowered,)
         for position, element in enumerate(elements):
             self.place(element, piece.comment if position == len(elements) - 1 else None)
+        if self.runs is not None and piece.comment is None:
+            self.go_on(self.runs, piece, lowered)
+
+    def go_on(self, runs: Runs, piece: Piece, lowered: object) -> None:
+        """Take the lines behind a move that have its shape."""
+        if self.frames[-1].open.kind in runs.not_in:
+            return
+        run = runs.behind(piece.start, piece.end, lowered)
+        if run is not None:
+            self.statements += len(run)
+            self.ledger.claim(int(run.columns.starts[0]), int(run.columns.ends[-1]), LOWERED)
+            self.frames[-1].items.append(run)
 
     def read(self, piece: Piece, origin: Origin) -> Element | tuple[Element, ...]:
         try:

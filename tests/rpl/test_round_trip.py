@@ -209,7 +209,8 @@ def test_everything() -> None:
 def test_everything_is_everything() -> None:
     """A node or a field that is added to the IR has to be added above, where losing it is seen."""
     nodes = list(walk((EVERYTHING,)))
-    wanted = {*get_args(ir.Statement), *get_args(ir.Expression), *get_args(ir.Declaration), *get_args(ir.Type)}
+    parts = (ir.Statement, ir.Expression, ir.Declaration, ir.Type)
+    wanted = {node for part in parts for node in get_args(part)} - {ir.Run}  # printed as its moves
     assert sorted(node.__name__ for node in wanted - {type(node) for node in nodes}) == []
     used = {
         (type(node), field.name)
