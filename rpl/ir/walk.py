@@ -137,8 +137,16 @@ def expressions(*roots: object) -> Iterator[Expression]:
 
 
 def statements(*roots: object) -> Iterator[Statement]:
-    """Every statement of the trees, outer ones first; the actions of triggers and interrupts are statements too."""
-    return (cast(Statement, node) for node in walk(*roots) if node.__class__ in _STATEMENTS)
+    """Every statement of the trees, outer ones first; the actions of triggers and interrupts are statements too.
+
+    An expression holds none and is not entered."""
+    stack = [node for root in reversed(roots) for node in reversed(_nodes(root))]
+    while stack:
+        node = stack.pop()
+        if node.__class__ in _STATEMENTS:
+            yield cast(Statement, node)
+        if node.__class__ not in _EXPRESSIONS:
+            stack.extend(reversed(children(node)))
 
 
 def is_expression(node: object) -> TypeGuard[Expression]:

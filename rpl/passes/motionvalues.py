@@ -100,12 +100,26 @@ def motion_values(program: ir.Program, diagnostics: Diagnostics) -> None:
     _tool_set(program, scopes, diagnostics)
 
 
+class _Where:
+    """A place that is worked out when somebody asks: most moves are beside no corner and no circle."""
+
+    __slots__ = ("expression", "found", "scope")
+
+    def __init__(self, expression: ir.Expression | None, scope: Scope, found: rigid.Vector | None = None) -> None:
+        self.expression, self.scope, self.found = expression, scope, found
+
+    def place(self) -> rigid.Vector | None:
+        if self.expression is not None:
+            self.found, self.expression = _place(self.expression, self.scope), None
+        return self.found
+
+
 @dataclass(slots=True)
 class _Last:
     """The move before, as far as it is constant."""
 
-    place: rigid.Vector | None = None
-    before: rigid.Vector | None = None
+    where: _Where | None = None
+    before: _Where | None = None
     frames: tuple[object, object] = (None, None)
     corner: float = 0.0
     origin: Origin | None = None
@@ -274,16 +288,16 @@ class _Module:
         for expression in (move.target, move.via, move.tool, move.frame):
             if expression is not None:
                 self.rotations(expression, move.origin, scope)
-        place = _place(move.target, scope) if move.relative is None and not move.settings else None
+        where = _Where(move.target, scope) if move.relative is None and not move.settings else None
         frames = (move.tool, move.frame)
         known = last if last.frames == frames else _Last()
         if move.kind == "circular" and move.swept is None and move.via is not None:
-            self.circle(known.place, _place(move.via, scope), place, move.origin)
+            self.circle(known.where, _Where(move.via, scope), where, move.origin)
         if move.kind != "joint" and known.origin is not None:
-            self.corner(known, place)
+            self.corner(known, where)
         corner = self.size(move.blend, scope) if move.kind == "linear" else 0.0
-        before = known.place if move.kind == "linear" else None
-        return _Last(place, before, frames, corner, move.origin, move.kind)
+        before = known.where if move.kind == "linear" else None
+        return _Last(where, before, frames, corner, move.origin, move.kind)
 
     def run(self, run: ir.Run, scope: Scope, last: _Last) -> _Last:
         """A run: what its moves say alike by its first one, orientations and corners by columns."""
@@ -304,15 +318,15 @@ class _Module:
         for squares in rotations:
             off = (abs(squares[1:] - 1.0) > good).nonzero()[0] + 1
             self.off += [(float(squares[at]), run.columns.origin(at)) for at in off.tolist()]
-        return self.corners(run, columns.places() if last.place is not None else None, last)
+        return self.corners(run, columns.places() if last.where is not None else None, scope, last)
 
-    def corners(self, run: ir.Run, places: NDArray[np.float64] | None, last: _Last) -> _Last:
+    def corners(self, run: ir.Run, places: NDArray[np.float64] | None, scope: Scope, last: _Last) -> _Last:
         """Corners within a run that are larger than the moves beside them. `last`: its first move."""
         end = run.columns.origin(len(run) - 1)
         if places is None:
-            return _Last(None, None, last.frames, last.corner, end, last.kind)
-        vectors = [rigid.Vector(*place) for place in places[-2:].tolist()]
-        before, place = vectors if last.kind == "linear" else (None, vectors[-1])
+            nowhere = _Where(None, scope) if last.where is not None else None
+            return _Last(nowhere, nowhere, last.frames, last.corner, end, last.kind)
+        known = _Points(places, scope)
         if last.corner > 0.0 and self.rules.large_corner:
             import numpy as np
 
@@ -320,18 +334,17 @@ class _Module:
             narrow = (ways > _LEAST_WAY) & (ways < 2.0 * last.corner + 1e-9)
             suspects = np.flatnonzero(narrow | np.insert(narrow[:-1], 0, True))
             for at in suspects.tolist():  # the corner at the end of move `at`, known with the one behind it
-                back = rigid.Vector(*places[at - 1].tolist()) if at else last.before
-                here, ahead = (rigid.Vector(*one) for one in places[at : at + 2].tolist())
-                origin = run.columns.origin(at)
-                self.corner(_Last(here, back, last.frames, last.corner, origin, last.kind), ahead)
-        return _Last(place, before, last.frames, last.corner, end, last.kind)
+                back = known.where(at - 1) if at else last.before
+                here = _Last(known.where(at), back, last.frames, last.corner, run.columns.origin(at), last.kind)
+                self.corner(here, known.where(at + 1))
+        before = known.where(len(run) - 2) if last.kind == "linear" else None
+        return _Last(known.where(len(run) - 1), before, last.frames, last.corner, end, last.kind)
 
-    def circle(
-        self, start: rigid.Vector | None, via: rigid.Vector | None, end: rigid.Vector | None, origin: Origin
-    ) -> None:
-        if via is None or end is None or start is None:
+    def circle(self, start: _Where | None, middle: _Where, target: _Where | None, origin: Origin) -> None:
+        first, via, end = (None if one is None else one.place() for one in (start, middle, target))
+        if via is None or end is None or first is None:
             return
-        one, other = via.plus(start, -1.0), end.plus(start, -1.0)
+        one, other = via.plus(first, -1.0), end.plus(first, -1.0)
         turn = (
             one.y * other.z - one.z * other.y,
             one.z * other.x - one.x * other.z,
@@ -341,15 +354,15 @@ class _Module:
         if area <= FLAT * one.length * other.length or area < 1e-9:
             self.diagnostics.report(CIRCLE, origin)
 
-    def corner(self, last: _Last, place: rigid.Vector | None) -> None:
+    def corner(self, last: _Last, ahead: _Where | None) -> None:
         """The corner at the end of the move before, now that the next one is known."""
-        ways = [
-            other.plus(last.place, -1.0).length
-            for other in (last.before, place)
-            if other is not None and last.place is not None
-        ]
+        if last.corner <= 0.0 or not self.rules.large_corner or last.where is None:
+            return
+        here = last.where.place()
+        others = [one.place() for one in (last.before, ahead) if one is not None]
+        ways = [other.plus(here, -1.0).length for other in others if other is not None and here is not None]
         ways = [way for way in ways if way > _LEAST_WAY]
-        if not ways or last.corner <= 0.5 * min(ways) or not self.rules.large_corner or last.origin is None:
+        if not ways or last.corner <= 0.5 * min(ways) or last.origin is None:
             return
         does = self.rules.large_corner.format(half=0.5 * min(ways))
         self.diagnostics.report(CORNER, last.origin, size=last.corner, way=round(min(ways), 3), does=does)
@@ -366,6 +379,16 @@ class _Module:
                 path = value.part("path") if isinstance(value, Record) and not value.part("stop") else None
                 return float(path) if isinstance(path, int | float) else 0.0
         return 0.0
+
+
+class _Points:
+    """Rows of positions, as places."""
+
+    def __init__(self, places: NDArray[np.float64], scope: Scope) -> None:
+        self.places, self.scope = places, scope
+
+    def where(self, at: int) -> _Where:
+        return _Where(None, self.scope, rigid.Vector(*self.places[at].tolist()))
 
 
 class _RunColumns:
