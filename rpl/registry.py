@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from rpl.ir import Module, Program, Signal
     from rpl.ir.analog import AnalogPorts
     from rpl.ir.rules import Rules
+    from rpl.passes.legalise.stages import Placed
     from rpl.reading.ledger import FileReport
     from rpl.writing.target import Capabilities, OutputFile, WriteContext
 
@@ -105,7 +106,8 @@ class Target:
 
     What its controller loads: lines of at most `longest_line` characters (0: any), text in one of the `encodings`.
     `options`: names of the target's own options and what they say; `fitted` gives the capabilities under some of them.
-    `aliases`: other words for it, beside those of the dialect of its name.
+    `aliases`: other words for it, beside those of the dialect of its name. `passes`: rewritings that only it
+    needs, each with its place among those of the core.
     """
 
     name: str
@@ -117,6 +119,7 @@ class Target:
     encodings: tuple[str, ...] = ("utf-8",)
     fitted: Callable[[Mapping[str, str]], Capabilities] | None = None
     aliases: tuple[str, ...] = ()
+    passes: Callable[[], tuple[Placed, ...]] = tuple
 
     def capabilities_under(self, options: Mapping[str, str]) -> Capabilities:
         """What the controller can say when these options are given. Raises UsageError for an option it has not."""

@@ -112,7 +112,7 @@ def _translated(
     if source != target_name:
         whole = _joined(whole)
         whole, hiding = rename_hiding(whole, capabilities.names)
-        program, legal = rename(legalise(whole, context), capabilities.names)
+        program, legal = rename(legalise(whole, context, target.passes()), capabilities.names)
         renamed = renamed_twice(hiding, legal)
     else:
         program = legalise(whole, context)

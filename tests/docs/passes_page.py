@@ -13,7 +13,7 @@ from rpl import registry
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import load_robot
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.pipeline import PASSES
+from rpl.passes.legalise.pipeline import PASSES, STAGES
 from rpl.passes.legalise.stages import Pass
 
 PAGE = Path(__file__).parents[2] / "docs" / "passes.md"
@@ -22,14 +22,10 @@ _HEAD = """# What translation rewrites
 
 This page is generated from the passes: `python tests/docs/passes_page.py` makes it.
 
-A program is rewritten for what its target lacks, pass by pass. The passes stand in folders by what they are about
-(`rpl/passes/legalise/`). A pass is called where its target needs it and the program holds something that it sees; the
-number says when it runs. What no pass rewrites is refused by name ([what is supported](support.md)).
+A program is rewritten for what its target lacks, stage by stage in the order of this page; each stage stands once, and
+`rpl/passes/legalise/<stage>/stage.py` lists its passes. A pass is called where its target needs it and the program
+holds something that it sees. What no pass rewrites is refused by name ([what is supported](support.md)).
 """
-
-
-def folder_of(one: Pass) -> str:
-    return one.run.__module__.split(".")[3]
 
 
 def purpose_of(one: Pass) -> str:
@@ -59,19 +55,23 @@ def targets_of(one: Pass) -> list[str]:
 
 def page() -> str:
     every = [name for name in registry.target_names() if not registry.target(name).capabilities().carries_rules]
-    folders: dict[str, list[tuple[int, Pass]]] = {}
-    for number, one in enumerate(PASSES, 1):
-        folders.setdefault(folder_of(one), []).append((number, one))
     lines = [_HEAD]
-    for folder in sorted(folders):
-        about = " ".join((import_module(f"rpl.passes.legalise.{folder}").__doc__ or "").split())
-        lines += [f"## {folder}", "", about, "", "| | pass | what it does | for | sees |", "|---|---|---|---|---|"]
-        for number, one in folders[folder]:
+    for number, stage in enumerate(STAGES, 1):
+        about = " ".join((import_module(f"rpl.passes.legalise.{stage.name}.stage").__doc__ or "").split())
+        lines += [
+            f"## {number}. {stage.name}",
+            "",
+            about,
+            "",
+            "| pass | what it does | for | sees |",
+            "|---|---|---|---|",
+        ]
+        for one in stage.passes:
             targets = targets_of(one)
             shown = "all" if targets == every else ", ".join(targets)
             sees = ", ".join(f"`{kind}`" for kind in sorted(one.sees))
             home = one.run.__module__.rpartition(".")[2]
-            lines.append(f"| {number} | `{home}.{one.name}` | {purpose_of(one)} | {shown} | {sees} |")
+            lines.append(f"| `{home}.{one.name}` | {purpose_of(one)} | {shown} | {sees} |")
         lines.append("")
     return "\n".join(lines)
 

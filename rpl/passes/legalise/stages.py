@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from rpl import ir
+from rpl.errors import InternalError
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 
@@ -49,6 +50,37 @@ class Pass:
 def legalising(unless: Unless | None = None, sees: Iterable[str] = ()) -> Callable[[Run], Pass]:
     """Make a pass of a function. unless and sees as in Pass."""
     return lambda run: Pass(run, unless, frozenset(sees))
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """Passes about one matter, in the order in which they run. name: of its folder."""
+
+    name: str
+    passes: tuple[Pass, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """A pass that a target brings along, and its place: directly behind or before a pass of the core, by its name."""
+
+    one: Pass
+    behind: str = ""
+    before: str = ""
+
+
+def with_placed(passes: tuple[Pass, ...], own: tuple[Placed, ...]) -> tuple[Pass, ...]:
+    """The passes with a target's own among them; of several at one place the first comes first. Raises InternalError
+    where a place is beside no pass."""
+    lost = [each for each in own if (each.behind or each.before) not in {one.name for one in passes}]
+    if lost:
+        raise InternalError(f"{lost[0].one.name} stands beside {lost[0].behind or lost[0].before}, which is no pass")
+    whole: list[Pass] = []
+    for one in passes:
+        before = (each.one for each in own if each.before == one.name)
+        behind = (each.one for each in own if each.behind == one.name)
+        whole += [*before, one, *behind]
+    return tuple(whole)
 
 
 def run_passes(passes: Iterable[Pass], program: ir.Program, context: Context) -> ir.Program:

@@ -1,0 +1,64 @@
+"""Tool, frame, speed, acceleration, corner and load: at each move or before it, as the target says them. They stand
+behind statements because calls of built-in routines make settings too.
+"""
+
+from __future__ import annotations
+
+from rpl.passes.legalise.advance.begunmoves import moves_ahead
+from rpl.passes.legalise.advance.cornercalls import corner_calls
+from rpl.passes.legalise.advance.cornerleads import corner_leads
+from rpl.passes.legalise.advance.corners import corners
+from rpl.passes.legalise.advance.cornersteps import corner_steps
+from rpl.passes.legalise.advance.keptcorners import kept_corners
+from rpl.passes.legalise.advance.overlapping import left_out_moves
+from rpl.passes.legalise.advance.partedcorners import parted_corners
+from rpl.passes.legalise.advance.standing import stand_first
+from rpl.passes.legalise.paths.turningzones import full_zones, reduced_zones
+from rpl.passes.legalise.places.coordinatedmoves import coordinated_moves
+from rpl.passes.legalise.settings.accelerations import accelerations_of_moves
+from rpl.passes.legalise.settings.explicit import explicit_to_modal
+from rpl.passes.legalise.settings.joinedmoves import stand_before_ways
+from rpl.passes.legalise.settings.mixedspeeds import mixed_speeds
+from rpl.passes.legalise.settings.modal import modal_to_explicit
+from rpl.passes.legalise.settings.movesettings import settings_at_moves
+from rpl.passes.legalise.settings.onemove import settings_of_one_move
+from rpl.passes.legalise.settings.ownplaces import own_places
+from rpl.passes.legalise.settings.scaledspeeds import scaled_override
+from rpl.passes.legalise.settings.speeds import fit_speeds
+from rpl.passes.legalise.settings.startbases import start_bases
+from rpl.passes.legalise.settings.strengths import strengths
+from rpl.passes.legalise.settings.tooldata import tool_data
+from rpl.passes.legalise.settings.usualaccelerations import usual_accelerations
+from rpl.passes.legalise.stages import Stage
+
+STAGE = Stage(
+    "settings",
+    (
+        coordinated_moves,
+        strengths,
+        usual_accelerations,
+        fit_speeds,
+        left_out_moves,
+        corners,
+        reduced_zones,
+        stand_before_ways,
+        accelerations_of_moves,
+        settings_of_one_move,
+        corner_leads,
+        corner_calls,
+        modal_to_explicit,
+        full_zones,
+        tool_data,
+        own_places,
+        mixed_speeds,
+        corner_steps,
+        moves_ahead,
+        explicit_to_modal,
+        start_bases,
+        kept_corners,
+        settings_at_moves,
+        parted_corners,
+        scaled_override,
+        stand_first,
+    ),
+)

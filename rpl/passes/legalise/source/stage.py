@@ -1,0 +1,100 @@
+"""What only the source has: names of its own for neutral things, its units, how its values are kept and calculated."""
+
+from __future__ import annotations
+
+from rpl.passes.legalise.data.neutralfunctions import neutral_functions
+from rpl.passes.legalise.data.precisions import precisions
+from rpl.passes.legalise.data.randomnumbers import random_numbers
+from rpl.passes.legalise.interrupts.rates import rates
+from rpl.passes.legalise.io.cyclicflags import cyclic_flags
+from rpl.passes.legalise.io.flagdata import named_flags
+from rpl.passes.legalise.io.readports import read_ports
+from rpl.passes.legalise.io.steptimes import step_times
+from rpl.passes.legalise.io.wholetimes import whole_times
+from rpl.passes.legalise.paths.constantorientations import constant_orientations
+from rpl.passes.legalise.paths.levels import levels_to_distances
+from rpl.passes.legalise.paths.splines import straight_splines, without_path_rules
+from rpl.passes.legalise.places.changedplaces import changed_places
+from rpl.passes.legalise.places.displacements import displacements
+from rpl.passes.legalise.places.elementwise import elementwise
+from rpl.passes.legalise.places.keptangles import named_angles
+from rpl.passes.legalise.places.recordsinuse import records_in_use
+from rpl.passes.legalise.places.rotationvectors import rotation_vectors
+from rpl.passes.legalise.places.seenhalf import seen_half
+from rpl.passes.legalise.postures.copiedflags import copied_flags
+from rpl.passes.legalise.postures.fewaxes import axes_of_arm
+from rpl.passes.legalise.postures.homes import home_positions
+from rpl.passes.legalise.postures.pulses import fold_pulses
+from rpl.passes.legalise.postures.turnedways import turned_ways
+from rpl.passes.legalise.settings.loadreadings import load_readings
+from rpl.passes.legalise.settings.loadvariables import load_variables
+from rpl.passes.legalise.settings.settingparts import whole_settings
+from rpl.passes.legalise.source.ownnames import names_of_local_routines
+from rpl.passes.legalise.source.sameunits import same_units
+from rpl.passes.legalise.source.sourcelayout import source_layout
+from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.storage.grownarrays import grown_arrays
+from rpl.passes.legalise.storage.keptvalues import kept_values_known
+from rpl.passes.legalise.storage.unused import drop_untyped
+from rpl.passes.legalise.tasks.startedtasks import started_tasks
+from rpl.passes.legalise.tasks.taskdata import shared_task_data
+from rpl.passes.legalise.tasks.tasknames import task_names
+from rpl.passes.legalise.tasks.taskstates import task_states
+from rpl.passes.legalise.texts.formats import formats
+from rpl.passes.legalise.texts.leadingnumbers import leading_numbers
+from rpl.passes.legalise.texts.textbytes import text_bytes
+from rpl.passes.legalise.texts.textdecimals import text_decimals
+from rpl.passes.legalise.texts.textlengths import text_lengths
+from rpl.passes.legalise.texts.textorders import text_orders
+from rpl.passes.legalise.texts.wholetexts import whole_texts
+
+STAGE = Stage(
+    "source",
+    (
+        kept_values_known,
+        names_of_local_routines,
+        source_layout,
+        drop_untyped,
+        precisions,
+        text_lengths,
+        grown_arrays,
+        rates,
+        axes_of_arm,
+        copied_flags,
+        read_ports,
+        records_in_use,
+        seen_half,
+        step_times,
+        load_readings,
+        load_variables,
+        whole_times,
+        same_units,
+        shared_task_data,
+        cyclic_flags,
+        named_flags,
+        task_names,
+        started_tasks,
+        task_states,
+        without_path_rules,
+        straight_splines,
+        home_positions,
+        fold_pulses,
+        neutral_functions,
+        named_angles,
+        rotation_vectors,
+        levels_to_distances,
+        displacements,
+        whole_settings,
+        changed_places,
+        random_numbers,
+        formats,
+        whole_texts,
+        text_orders,
+        text_bytes,
+        leading_numbers,
+        text_decimals,
+        constant_orientations,
+        turned_ways,
+        elementwise,
+    ),
+)

@@ -1,0 +1,36 @@
+"""Names, numbers and homes of data; what nothing uses is left out. Nothing has a name to add behind it."""
+
+from __future__ import annotations
+
+from rpl.passes.legalise.advance.aheadreadings import ahead_readings
+from rpl.passes.legalise.advance.begunmoves import polled_ahead
+from rpl.passes.legalise.data.truths import truths_to_numbers
+from rpl.passes.legalise.errors.errorcodes import name_errors
+from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.storage.labelled import labels_as_remarks
+from rpl.passes.legalise.storage.modulepoints import points_of_modules
+from rpl.passes.legalise.storage.numbered import number_data
+from rpl.passes.legalise.storage.saidtwice import said_once
+from rpl.passes.legalise.storage.sharing import share_temporaries
+from rpl.passes.legalise.storage.spelling import one_spelling
+from rpl.passes.legalise.storage.unused import drop_idle_data, drop_unused
+from rpl.passes.legalise.texts.textlengths import roomy_texts
+
+STAGE = Stage(
+    "storage",
+    (
+        name_errors,
+        ahead_readings,
+        polled_ahead,
+        said_once,
+        drop_unused,
+        points_of_modules,
+        labels_as_remarks,
+        one_spelling,
+        truths_to_numbers,
+        roomy_texts,
+        share_temporaries,
+        drop_idle_data,
+        number_data,
+    ),
+)

@@ -1,0 +1,60 @@
+"""Stages in their order, and passes that a target places among those of the core."""
+
+from importlib import import_module
+
+import pytest
+
+from rpl import ir
+from rpl.errors import InternalError
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.pipeline import STAGES
+from rpl.passes.legalise.stages import Pass, Placed, legalising, with_placed
+
+
+def test_stages_have_names_of_their_own_and_say_what_they_are_for() -> None:
+    names = [stage.name for stage in STAGES]
+    assert len(set(names)) == len(names)
+    for name in names:
+        home = import_module(f"rpl.passes.legalise.{name}.stage")
+        assert home.STAGE.name == name
+        assert home.__doc__
+
+
+@legalising()
+def first(program: ir.Program, context: Context) -> ir.Program:
+    return program
+
+
+@legalising()
+def second(program: ir.Program, context: Context) -> ir.Program:
+    return program
+
+
+@legalising()
+def own(program: ir.Program, context: Context) -> ir.Program:
+    return program
+
+
+@legalising()
+def further(program: ir.Program, context: Context) -> ir.Program:
+    return program
+
+
+@pytest.mark.parametrize(
+    ("placed", "order"),
+    [
+        ((), "first second"),
+        ((Placed(own, behind="first"),), "first own second"),
+        ((Placed(own, before="first"),), "own first second"),
+        ((Placed(own, behind="second"), Placed(further, behind="second")), "first second own further"),
+        ((Placed(own, behind="first"), Placed(further, before="second")), "first own further second"),
+    ],
+)
+def test_a_pass_of_a_target_stands_beside_the_one_that_it_names(placed: tuple[Placed, ...], order: str) -> None:
+    core: tuple[Pass, ...] = (first, second)
+    assert " ".join(one.name for one in with_placed(core, placed)) == order
+
+
+def test_a_place_beside_no_pass_is_a_mistake_of_the_target() -> None:
+    with pytest.raises(InternalError, match="own stands beside third, which is no pass"):
+        with_placed((first, second), (Placed(own, before="third"),))
