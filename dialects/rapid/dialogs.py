@@ -11,7 +11,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.ir.walk import walk
-from rpl.passes.capabilities import Capabilities, NameRules
+from rpl.passes.capabilities import Capabilities, NameRules, Places, Settings
 from rpl.passes.legalise.context import Context, names_in
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.rewrite import rewrite_parts
@@ -46,9 +46,8 @@ _NO_TARGET = Capabilities(
     operators=_NOTHING,
     types=_NOTHING,
     names=NameRules(32, False, _NOTHING),
-    modal_motion=False,
-    notation="rapid",
-    rotation="quaternion",
+    places=Places("rapid"),
+    settings=Settings(modal=False),
 )
 Options = dict[str, "ir.Expression | None"]
 

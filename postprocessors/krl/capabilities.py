@@ -3,7 +3,36 @@
 from __future__ import annotations
 
 from rpl.ir.types import NamedType
-from rpl.passes.capabilities import Capabilities, NameRules
+from rpl.passes.capabilities import (
+    ActionArguments,
+    Aggregate,
+    Background,
+    Capabilities,
+    Composite,
+    Concurrent,
+    Control,
+    Data,
+    DataRule,
+    Errors,
+    Fault,
+    GroupRule,
+    InterruptRule,
+    Interrupts,
+    Io,
+    ModulePoints,
+    Motion,
+    NameRules,
+    Passing,
+    PathRule,
+    PlaceRule,
+    Places,
+    Rotation,
+    Routines,
+    Settings,
+    Storage,
+    Tasks,
+    Texts,
+)
 
 from . import tables
 
@@ -18,7 +47,6 @@ CAPABILITIES = Capabilities(
     ),
     functions=frozenset((*tables.FUNCTIONS, "text_equal", "text_find", "is_uninitialised", "message_text", "compose")),
     procedures=frozenset(tables.PROCEDURES),
-    # $ROB_TIMER runs since the controller started: as seconds in a REAL it is too coarse for programs of others.
     system_variables=frozenset((*tables.SYSTEM, "actual_joint", "base_unit", "base_root")) - {"time"},
     operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary)),
     types=frozenset(
@@ -27,7 +55,7 @@ CAPABILITIES = Capabilities(
             *("NamedType", "ArrayType"),
         )
     ),
-    said_otherwise=frozenset(("function parse_number", "function parse_value")),  # StrToReal and kin beside a BOOL
+    said_otherwise=frozenset(("function parse_number", "function parse_value")),
     names=NameRules(
         longest=24,
         case_sensitive=False,
@@ -35,35 +63,33 @@ CAPABILITIES = Capabilities(
         first="abcdefghijklmnopqrstuvwxyz_",
         further="abcdefghijklmnopqrstuvwxyz0123456789_",
     ),
-    modal_motion=True,
-    concurrent_moves="advance",
-    faults_fractions=False,
-    paths_to_joints=False,
-    module_points="list",
-    widest_group=32,
-    notation="krl",
-    rotation="zyx",
-    enums=True,
-    text_room=(tables.DEFAULT_TEXT_CAPACITY, tables.LONGEST_TEXT),
     conversions=tables.SILENT_CONVERSIONS,
-    timers=64,
-    switch_types=frozenset(("IntType", "CharType", "NamedType")),
-    switch_constant_cases=True,
-    text_results=False,
-    format_state=NamedType("STATE_T"),
-    named_aggregates=True,
-    list_arguments=False,
-    partial_aggregates=True,
-    constant_aggregates=True,
-    relative_moves=True,
-    single_disables=True,
-    action_arguments=frozenset(("reaction", "path", "own")),
-    arcs_by_angle=True,
-    partial_targets=True,
-    flags_by_sign=True,
-    data_lists=True,
-    declared_groups=True,
-    background_tasks="shared",
-    moving_tasks=False,
-    kinematics=("INVERSE", "FORWARD"),
+    places=Places(
+        notation="krl",
+        rotation=Rotation.ZYX,
+        kinematics=("INVERSE", "FORWARD"),
+        rules=frozenset(
+            (PlaceRule.COMPONENTS, PlaceRule.FLAGS_BY_SIGN, PlaceRule.KEEP_ANGLES, PlaceRule.PARTIAL, PlaceRule.TURNS)
+        ),
+    ),
+    motion=Motion(
+        concurrent=Concurrent.ADVANCE, relative=True, paths=frozenset((PathRule.ARCS_BY_ANGLE, PathRule.EVEN_WRIST))
+    ),
+    settings=Settings(modal=True),
+    interrupts=Interrupts(
+        action_arguments=frozenset((ActionArguments.OWN, ActionArguments.PATH, ActionArguments.REACTION)),
+        rules=frozenset((InterruptRule.SINGLE_DISABLES,)),
+    ),
+    tasks=Tasks(background=Background.SHARED, moving=False),
+    io=Io(widest_group=32, timers=64, groups=frozenset((GroupRule.COMPUTED, GroupRule.DECLARED, GroupRule.FREE))),
+    texts=Texts(room=(tables.DEFAULT_TEXT_CAPACITY, tables.LONGEST_TEXT), format_state=NamedType("STATE_T")),
+    data=Data(
+        composites=frozenset((Composite.ARRAYS, Composite.ENUMS, Composite.RECORDS)),
+        aggregates=frozenset((Aggregate.CONSTANT, Aggregate.NAMED, Aggregate.PARTIAL)),
+        rules=frozenset((DataRule.LISTS, DataRule.ROW_SIZES)),
+    ),
+    errors=Errors(faults=frozenset((Fault.INDEX_OUTSIDE, Fault.TEXT_PART))),
+    routines=Routines(text_results=False, passing=frozenset((Passing.ARRAYS_BY_VALUE, Passing.REFERENCES))),
+    control=Control(switch_types=frozenset(("IntType", "CharType", "NamedType")), constant_cases=True),
+    storage=Storage(module_points=ModulePoints.LIST),
 )

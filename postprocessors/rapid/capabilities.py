@@ -2,7 +2,30 @@
 
 from __future__ import annotations
 
-from rpl.passes.capabilities import Capabilities, NameRules
+from rpl.passes.capabilities import (
+    Background,
+    Capabilities,
+    Concurrent,
+    Control,
+    Counting,
+    Data,
+    DataRule,
+    Errors,
+    Interrupts,
+    Io,
+    ModulePoints,
+    Motion,
+    NameRules,
+    Passing,
+    Places,
+    Rotation,
+    Routines,
+    Settings,
+    Storage,
+    Tasks,
+    TextRule,
+    Texts,
+)
 
 from .functions import FUNCTIONS
 from .predefined import PREDEFINED
@@ -26,8 +49,6 @@ CAPABILITIES = Capabilities(
             *("error_number", "interrupt_number", "circle_orientation", "actual_pose", "actual_joints"),
         )
     ),
-    aliases=True,
-    compares_records=True,
     operators=OPERATORS,
     types=frozenset(type.__name__ for type in TYPE_NAMES),
     said_otherwise=frozenset(
@@ -38,40 +59,38 @@ CAPABILITIES = Capabilities(
         )
     ),
     names=NameRules(32, False, RESERVED, predefined=PREDEFINED),
-    modal_motion=False,
-    concurrent_moves="moves",
-    shortest_interrupt_period_s=0.1,  # of ITimer, where it is not a single one
-    line_ends=True,
-    paths_to_joints=False,
-    wrist_paths=False,
-    turned_ways=frozenset(),
-    reads_override=False,
-    module_points="module",
-    notation="rapid",
-    whole_texts=True,
-    rotation="quaternion",
-    for_at_least_once=True,
-    for_scoped=True,
-    for_automatic=True,
-    error_handlers=True,
-    optional_parameters=True,
-    short_circuit=True,
     conversions=frozenset(("real", "round_half_away", "trunc", "truth", "code", "char")),
-    signal_prefixes={
-        "digital_in": "di",
-        "digital_out": "do",
-        "analog_in": "ai",
-        "analog_out": "ao",
-        "group_in": "gi",
-        "group_out": "go",
-    },
-    for_real=True,
-    wait_timeout=True,
-    dynamic_calls=True,
-    background_tasks="separate",
-    moving_tasks=False,
-    places_beside=True,
-    no_tool="tool0",
-    no_frame="wobj0",
-    switch_types=frozenset(("IntType", "RealType", "StringType", "BoolType")),
+    places=Places(notation="rapid", rotation=Rotation.QUATERNION),
+    motion=Motion(concurrent=Concurrent.MOVES, turned_ways=frozenset(), paths=frozenset()),
+    settings=Settings(modal=False, reads_override=False, no_tool="tool0", no_frame="wobj0"),
+    interrupts=Interrupts(shortest_period_s=0.1),  # of ITimer, where it is not a single one
+    tasks=Tasks(background=Background.SEPARATE, moving=False, places_beside=True),
+    io=Io(
+        signal_prefixes={
+            "digital_in": "di",
+            "digital_out": "do",
+            "analog_in": "ai",
+            "analog_out": "ao",
+            "group_in": "gi",
+            "group_out": "go",
+        },
+        wait_timeout=True,
+    ),
+    texts=Texts(
+        rules=frozenset(
+            (TextRule.CASE, TextRule.COMPUTED_DECIMALS, TextRule.FIND_FROM, TextRule.LINE_ENDS, TextRule.WHOLE)
+        )
+    ),
+    data=Data(rules=frozenset((DataRule.ALIASES, DataRule.COMPARED_RECORDS, DataRule.ROW_SIZES))),
+    errors=Errors(handlers=True),
+    routines=Routines(
+        dynamic_calls=True,
+        passing=frozenset((Passing.ARRAYS_BY_VALUE, Passing.OPTIONAL, Passing.REFERENCES, Passing.WRITTEN_LISTS)),
+    ),
+    control=Control(
+        short_circuit=True,
+        switch_types=frozenset(("IntType", "RealType", "StringType", "BoolType")),
+        counting=frozenset((Counting.AT_LEAST_ONCE, Counting.AUTOMATIC, Counting.REAL, Counting.SCOPED)),
+    ),
+    storage=Storage(module_points=ModulePoints.MODULE),
 )

@@ -9,6 +9,22 @@ from typing import get_args
 from rpl import ir
 from rpl.errors import UsageError
 from rpl.ir import words
+from rpl.passes.capabilities import (
+    Aggregate,
+    Composite,
+    Control,
+    Counting,
+    Data,
+    Errors,
+    GroupRule,
+    Io,
+    Local,
+    Passing,
+    Places,
+    Rotation,
+    Routines,
+    Settings,
+)
 from rpl.writing.target import Capabilities, NameRules, OutputFile, WriteContext
 
 from .modules import entry_lines, module_lines, program_lines
@@ -20,7 +36,6 @@ CAPABILITIES = Capabilities(
     system_variables=frozenset(ir.SYSTEM_VARIABLES),
     operators=frozenset((*ir.BINARY_OPERATORS, *ir.UNARY_OPERATORS)),
     types=frozenset(node.__name__ for node in get_args(ir.Type)),
-    # In backticks a name may be spelled as its own language does, so that it still means what that language predefines.
     names=NameRules(
         longest=1000,
         case_sensitive=True,
@@ -28,26 +43,27 @@ CAPABILITIES = Capabilities(
         first="abcdefghijklmnopqrstuvwxyz_$",
         further="abcdefghijklmnopqrstuvwxyz0123456789_$.",
     ),
-    modal_motion=True,
-    notation=words.NATIVE,
-    rotation="zyx",
-    for_at_least_once=True,
-    for_scoped=True,
-    for_automatic=True,
-    error_handlers=True,
-    optional_parameters=True,
-    short_circuit=True,
-    enums=True,
     conversions=frozenset(ir.CONVERSIONS),
-    for_real=True,
-    wait_timeout=True,
-    timers=1_000_000,
-    dynamic_calls=True,
-    named_aggregates=True,
-    partial_aggregates=True,
     carries_rules=True,
-    numbered_groups=True,
-    static_locals=True,
+    places=Places(notation=words.NATIVE, rotation=Rotation.ZYX),
+    settings=Settings(modal=True),
+    io=Io(
+        wait_timeout=True, timers=1_000_000, groups=frozenset((GroupRule.COMPUTED, GroupRule.FREE, GroupRule.NUMBERED))
+    ),
+    data=Data(
+        composites=frozenset((Composite.ARRAYS, Composite.ENUMS, Composite.RECORDS)),
+        aggregates=frozenset((Aggregate.NAMED, Aggregate.PARTIAL)),
+    ),
+    errors=Errors(handlers=True),
+    routines=Routines(
+        dynamic_calls=True,
+        passing=frozenset((Passing.ARRAYS_BY_VALUE, Passing.OPTIONAL, Passing.REFERENCES, Passing.WRITTEN_LISTS)),
+        locals=frozenset((Local.CLOCKS, Local.STATICS, Local.VARIABLES)),
+    ),
+    control=Control(
+        short_circuit=True,
+        counting=frozenset((Counting.AT_LEAST_ONCE, Counting.AUTOMATIC, Counting.REAL, Counting.SCOPED)),
+    ),
 )
 
 

@@ -62,11 +62,11 @@ def kind_of(node: object, can: Capabilities) -> str:
         case ir.Do(procedure=name):
             return "" if name in can.procedures else f"procedure {name}"
         case ir.Builtin(function=name):
-            return "" if name in can.functions or name in can.move_functions else f"function {name}"
+            return "" if name in can.functions or name in can.places.move_functions else f"function {name}"
         case ir.System(name=name):
             return "" if name in can.system_variables else f"system variable {name}"
         case ir.Binary(op=op) | ir.Unary(op=op):
-            return "" if op in can.operators or op in can.move_functions else f"operator {op}"
+            return "" if op in can.operators or op in can.places.move_functions else f"operator {op}"
     name = node.__class__.__name__
     if is_statement(node):
         return "" if name in can.statements else f"statement {name}"

@@ -63,7 +63,7 @@ def legalise(program: ir.Program, context: Context, own: tuple[Placed, ...] = ()
 
 def _governed(program: ir.Program, context: Context) -> ir.Program:
     """The program under the target's rules; targets that passes have added take its notation."""
-    old, new = ir.TargetType(context.source), ir.TargetType(context.capabilities.notation)
+    old, new = ir.TargetType(context.source), ir.TargetType(context.capabilities.places.notation)
 
     def retyped(type: ir.Type) -> ir.Type:
         match type:

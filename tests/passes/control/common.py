@@ -9,7 +9,19 @@ from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.ir.analog import AnalogPorts, AnalogRange
 from rpl.passes.analog import AnalogRanges
-from rpl.passes.capabilities import Capabilities, NameRules
+from rpl.passes.capabilities import (
+    Capabilities,
+    Control,
+    Counting,
+    Errors,
+    Io,
+    NameRules,
+    Passing,
+    Places,
+    Rotation,
+    Routines,
+    Settings,
+)
 from rpl.passes.legalise.context import Context, names_in
 from rpl.passes.legalise.facts.effects import blocks, children, everything
 from rpl.passes.legalise.stages import Pass
@@ -43,14 +55,12 @@ PLAIN = Capabilities(
     operators=OPERATORS | {"div", "band", "bor", "bxor", "xor", "bnot"},
     types=frozenset(("IntType", "RealType", "BoolType", "CharType", "StringType")),
     names=NAMES,
-    modal_motion=True,
-    notation="krl",
-    rotation="zyx",
     conversions=frozenset(("real", "round_half_away", "code", "char")),
-    timers=16,
-    switch_types=frozenset(("IntType", "CharType", "NamedType")),
-    switch_constant_cases=True,
-    text_results=False,
+    places=Places(notation="krl", rotation=Rotation.ZYX),
+    settings=Settings(modal=True),
+    io=Io(timers=16),
+    routines=Routines(text_results=False),
+    control=Control(switch_types=frozenset(("IntType", "CharType", "NamedType")), constant_cases=True),
 )
 # A controller with handlers, early `and`, its own loop counters, but neither Repeat nor ExitLoop nor bit operators.
 RICH = Capabilities(
@@ -61,18 +71,18 @@ RICH = Capabilities(
     operators=OPERATORS | {"div", "mod", "cand", "cor", "&", "xor"},
     types=frozenset(("RealType", "BoolType", "StringType", "ClockType")),
     names=NAMES,
-    modal_motion=False,
-    notation="rapid",
-    rotation="quaternion",
-    for_at_least_once=True,
-    for_scoped=True,
-    for_automatic=True,
-    error_handlers=True,
-    optional_parameters=True,
-    short_circuit=True,
-    wait_timeout=True,
-    dynamic_calls=True,
-    for_real=True,
+    places=Places(notation="rapid", rotation=Rotation.QUATERNION),
+    settings=Settings(modal=False),
+    io=Io(wait_timeout=True),
+    errors=Errors(handlers=True),
+    routines=Routines(
+        dynamic_calls=True,
+        passing=frozenset((Passing.ARRAYS_BY_VALUE, Passing.OPTIONAL, Passing.REFERENCES, Passing.WRITTEN_LISTS)),
+    ),
+    control=Control(
+        short_circuit=True,
+        counting=frozenset((Counting.AT_LEAST_ONCE, Counting.AUTOMATIC, Counting.REAL, Counting.SCOPED)),
+    ),
 )
 
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
-from rpl.passes.capabilities import Capabilities, NameRules
+from rpl.passes.capabilities import Capabilities, Errors, Io, NameRules, Places, Settings
 from rpl.passes.legalise.context import Context, names_in
 from rpl.passes.legalise.stages import Pass
 from rpl.passes.typing import normalise
@@ -38,12 +38,11 @@ def target(statements: frozenset[str] = ALL, **further: Any) -> Capabilities:
         "operators": frozenset((*ir.BINARY_OPERATORS, *ir.UNARY_OPERATORS)),
         "types": frozenset(("IntType", "RealType", "BoolType", "StringType", "TargetType", "NamedType", "ArrayType")),
         "names": NameRules(24, False, frozenset()),
-        "modal_motion": True,
-        "notation": "krl",
-        "rotation": "zyx",
+        "places": Places("krl"),
+        "settings": Settings(modal=True),
         "conversions": frozenset(ir.CONVERSIONS),
-        "error_handlers": True,
-        "wait_timeout": True,
+        "errors": Errors(handlers=True),
+        "io": Io(wait_timeout=True),
     }
     return Capabilities(**{**given, **further})
 

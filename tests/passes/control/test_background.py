@@ -9,6 +9,7 @@ import pytest
 from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import Background, Local
 from rpl.passes.legalise.context import Context, names_in
 from rpl.passes.legalise.storage.statics import static_variables
 from rpl.passes.legalise.tasks.background import background_tasks
@@ -21,7 +22,11 @@ from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
 EVERYTHING = target("rpl").capabilities()
-WITHOUT = replace(EVERYTHING, statements=EVERYTHING.statements - {"TaskControl"}, static_locals=False)
+WITHOUT = replace(
+    EVERYTHING,
+    statements=EVERYTHING.statements - {"TaskControl"},
+    routines=replace(EVERYTHING.routines, locals=EVERYTHING.routines.locals - {Local.STATICS}),
+)
 KINDS = ["shared", "separate"]
 
 COUNTING = """
@@ -88,7 +93,12 @@ def read(text: str) -> ReadProgram:
 
 def made(text: str, kind: str, **more: object) -> tuple[ir.Program, Diagnostics]:
     program = read(text).program
-    given = Context("rpl", "other", replace(WITHOUT, background_tasks=kind, **more), Diagnostics())  # type: ignore[arg-type]
+    given = Context(
+        "rpl",
+        "other",
+        replace(WITHOUT, **more, tasks=replace(WITHOUT.tasks, background=Background(kind))),
+        Diagnostics(),
+    )  # type: ignore[arg-type]
     given.taken |= names_in(program)
     after = background_tasks(static_variables(program, given), given)
     return normalise(after, Diagnostics()), given.diagnostics

@@ -250,6 +250,6 @@ def test_what_does_not_fit_is_named(case: str) -> None:
 def test_targets_whose_tasks_move_keep_them() -> None:
     read = project(*REGIONS["joined"])
     for target in ("urscript", "vplus", "rpl"):
-        assert registry.target(target).capabilities().moving_tasks
+        assert registry.target(target).capabilities().tasks.moving
         translation = translate_program(read, target, ROBOT, None, Diagnostics())
         assert "approach" in translation.files[0].data.decode("utf-8").lower()

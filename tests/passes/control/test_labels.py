@@ -6,6 +6,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 from rpl import ir
+from rpl.passes.capabilities import Control, Counting
 from rpl.passes.legalise.control.labels import structure_to_labels
 from rpl.passes.legalise.control.loops import fit_loops
 from rpl.passes.legalise.control.switches import unroll_switches
@@ -16,9 +17,10 @@ from .shaped import ALL, JUMPING, assign, bodies, jumping, less, number, program
 PASSES = (unroll_switches, fit_loops, structure_to_labels)
 TARGETS = {
     "jumps only": target(JUMPING),
-    "and FOR by one": target(JUMPING | {"For"}, for_keeps_last=True, for_steps="one"),
-    "and IF blocks": target(JUMPING | {"If", "For"}, for_keeps_last=True),
-    "and SELECT": target(JUMPING | {"Switch"}, switch_jumps=True),
+    "and FOR by one": target(
+        JUMPING | {"For"}, control=Control(counting=frozenset((Counting.KEEPS_LAST, Counting.ONE_STEP)))
+    ),
+    "and IF blocks": target(JUMPING | {"If", "For"}, control=Control(counting=frozenset((Counting.KEEPS_LAST,)))),
     "and WHILE": target(JUMPING | {"If", "While", "ExitLoop"}),
     "all blocks": target(ALL),
 }
@@ -89,24 +91,6 @@ CASES: list[tuple[str, ir.Body, ir.Body]] = [
 def test_blocks_as_jumps(body: ir.Body, wanted: ir.Body) -> None:
     after = same(program(*body), TARGETS["jumps only"], *PASSES)
     assert after.modules[0].routines[0].body == wanted
-
-
-def test_a_case_of_jumps() -> None:
-    switch = ir.Switch(
-        ir.Name("a"),
-        (ir.Case((number(0),), (step(1), step(2))), ir.Case((number(1), number(2)), (step(3),))),
-        (step(4), step(5)),
-    )
-    after = same(program(switch, step(6)), TARGETS["and SELECT"], *PASSES)
-    assert after.modules[0].routines[0].body == (
-        ir.Switch(
-            ir.Name("a"),
-            (ir.Case((number(0),), (ir.Goto("case"),)), ir.Case((number(1), number(2)), (step(3),))),
-            (ir.Goto("case_else"),),
-        ),
-        *(ir.Goto("case_end"), ir.Label("case"), step(1), step(2), ir.Goto("case_end")),
-        *(ir.Label("case_else"), step(4), step(5), ir.Label("case_end"), step(6)),
-    )
 
 
 def test_a_block_that_a_jump_goes_into_is_taken_apart() -> None:

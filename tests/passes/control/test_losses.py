@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from rpl import ir
+from rpl.passes.capabilities import Motion, SearchResult, Settings, Tasks
 from rpl.passes.legalise.control.structure import labels_to_structure
 from rpl.passes.legalise.errors.errorroutines import error_routines
 from rpl.passes.legalise.errors.errors import check_errors
@@ -93,7 +94,14 @@ def test_a_setting_before_a_label_that_structure_takes_away() -> None:
 
 def test_a_target_that_has_such_settings_keeps_them() -> None:
     given = program(once(), move())
-    assert rewritten(given, target(next_move_settings=True), settings_of_next_move)[0] is given
+    assert (
+        rewritten(
+            given,
+            target(settings=Settings(modal=True, next_move=True)),
+            settings_of_next_move,
+        )[0]
+        is given
+    )
 
 
 # ---- error routines
@@ -109,7 +117,7 @@ def _raising(end: ir.Statement) -> ir.Program:
 def test_an_error_routine_as_handlers(end: ir.Statement) -> None:
     after = same(_raising(end), PLAIN, error_routines)
     assert not count(after, ir.OnError)
-    same(_raising(end), replace(PLAIN, error_handlers=False), error_routines, check_errors)
+    same(_raising(end), replace(PLAIN, errors=replace(PLAIN.errors, handlers=False)), error_routines, check_errors)
 
 
 def test_an_error_routine_that_changes_is_named() -> None:
@@ -151,7 +159,7 @@ def test_a_target_that_gives_the_place_only() -> None:
 
 
 def test_a_target_that_says_only_whether() -> None:
-    says = target(WITH_SEARCH, search_results=frozenset(("hit",)))
+    says = target(WITH_SEARCH, motion=Motion(search_results=frozenset((SearchResult.HIT,))))
     after, context = rewritten(_search(stop="quick", found=ir.Name("found")), says, search_parts)
     (one,) = [node for node in nodes(after) if isinstance(node, ir.Move)]
     assert one.search == ir.Search(ir.Signal("digital_in", number(1)), None, "quick", hit=ir.Name("hit2"))
@@ -198,7 +206,7 @@ def test_what_is_lost_is_named_and_stays(statement: ir.Statement, name: str) -> 
 
 
 def test_only_the_operations_that_are_lacking_are_named() -> None:
-    capabilities = target(task_operations=frozenset(("start",)))
+    capabilities = target(tasks=Tasks(operations=frozenset(("start",))))
     given = program(ir.TaskControl("start", "other"), ir.TaskControl("join", "other"), routines=(ir.Routine("other"),))
     context = context_for(given, capabilities)
     refuse(given, context)

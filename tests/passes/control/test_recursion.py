@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from rpl import ir
+from rpl.passes.capabilities import Local, Parameters
 from rpl.passes.legalise.control.logic import decide_logic
 from rpl.passes.legalise.io.polling import poll_waits
 from rpl.passes.legalise.routines.functions import functions_to_procedures
@@ -16,9 +17,15 @@ from rpl.passes.legalise.storage.locals import variables_of_routines
 from .common import PLAIN, legalised, nodes, read, same_run
 from .test_routines import ROUTINES, named_again
 
-STACKED = replace(PLAIN, types=PLAIN.types | {"ArrayType"}, function_routines=False, locals=False, recursion=False)
-NUMBERED = replace(STACKED, parameters="numbered")
-VARIABLES = replace(STACKED, parameters="none")
+STACKED = replace(
+    PLAIN,
+    types=PLAIN.types | {"ArrayType"},
+    routines=replace(
+        PLAIN.routines, functions=False, recursion=False, locals=PLAIN.routines.locals - {Local.VARIABLES}
+    ),
+)
+NUMBERED = replace(STACKED, routines=replace(STACKED.routines, parameters=Parameters.NUMBERED))
+VARIABLES = replace(STACKED, routines=replace(STACKED.routines, parameters=Parameters.NONE))
 TARGETS = pytest.mark.parametrize("capabilities", [NUMBERED, VARIABLES], ids=["numbered", "variables"])
 PASSES = (
     *(poll_waits, decide_logic, functions_to_procedures, fit_arguments, variables_of_routines),
@@ -157,7 +164,7 @@ def test_a_program_that_goes_too_deep_stops_with_a_message() -> None:
   PROC main() TPWrite NumToStr(sum(4),0); TPWrite NumToStr(sum(5),0); TPWrite "lost"; ENDPROC
 ENDMODULE
 """
-    shallow = replace(NUMBERED, call_depth=4)
+    shallow = replace(NUMBERED, routines=replace(NUMBERED.routines, call_depth=4))
     after, context = legalised(read("rapid", text), shallow, *ROUTINES)
     assert "nest 4 deep" in context.diagnostics.items[0].message
     from .machine import run

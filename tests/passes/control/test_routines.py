@@ -9,6 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from rpl import ir
+from rpl.passes.capabilities import Control, Io, Local, Parameters, Routines
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.elseif import nest_branches
 from rpl.passes.legalise.control.logic import decide_logic
@@ -26,15 +27,28 @@ from .shaped import program, rewritten, same, shown, step, target, when
 from .test_generated import _KRL, _RAPID, bodies, handlers, krl_bodies
 
 ROUTINES: tuple[Pass, ...] = (poll_waits, decide_logic, functions_to_procedures, fit_arguments, variables_of_routines)
-WEAK = replace(PLAIN, function_routines=False, parameters="numbered", locals=False)
-WEAKEST = replace(PLAIN, function_routines=False, parameters="none", locals=False)
-NO_FUNCTIONS = replace(PLAIN, function_routines=False)
-NUMBERED = replace(PLAIN, parameters="numbered")
+WEAK = replace(
+    PLAIN,
+    routines=replace(
+        PLAIN.routines,
+        functions=False,
+        parameters=Parameters.NUMBERED,
+        locals=PLAIN.routines.locals - {Local.VARIABLES},
+    ),
+)
+WEAKEST = replace(
+    PLAIN,
+    routines=replace(
+        PLAIN.routines, functions=False, parameters=Parameters.NONE, locals=PLAIN.routines.locals - {Local.VARIABLES}
+    ),
+)
+NO_FUNCTIONS = replace(PLAIN, routines=replace(PLAIN.routines, functions=False))
+NUMBERED = replace(PLAIN, routines=replace(PLAIN.routines, parameters=Parameters.NUMBERED))
 
 
 def named_again(program: ir.Program, context: Context) -> ir.Program:
     """The numbered arguments as parameters, so that the program can run on a machine without registers."""
-    if context.capabilities.parameters != "numbered":
+    if context.capabilities.routines.parameters is not Parameters.NUMBERED:
         return program
 
     def routine(one: ir.Routine) -> ir.Routine:
@@ -127,7 +141,9 @@ _BODIES = [
 
 
 @pytest.mark.parametrize("body", _BODIES)
-@pytest.mark.parametrize("capabilities", [NO_FUNCTIONS, NUMBERED, WEAK, WEAKEST], ids=lambda one: one.parameters)
+@pytest.mark.parametrize(
+    "capabilities", [NO_FUNCTIONS, NUMBERED, WEAK, WEAKEST], ids=lambda one: one.routines.parameters
+)
 def test_calls_keep_their_order_and_what_they_change(body: str, capabilities: object) -> None:
     given = read("krl", _CALLS % body)
     after = same_run(given, capabilities, *ROUTINES, named_again)  # type: ignore[arg-type]
@@ -136,13 +152,13 @@ def test_calls_keep_their_order_and_what_they_change(body: str, capabilities: ob
 
 def _checked(after: ir.Program, capabilities: object) -> None:
     routines = [routine for module in after.modules for routine in module.routines]
-    if not capabilities.function_routines:  # type: ignore[attr-defined]
+    if not capabilities.routines.functions:  # type: ignore[attr-defined]
         assert not count(after, ir.Call) and not any(one.kind == "function" for one in routines)
-    if capabilities.parameters == "none":  # type: ignore[attr-defined]
+    if capabilities.routines.parameters is Parameters.NONE:  # type: ignore[attr-defined]
         assert not any(one.parameters for one in routines)
-    if capabilities.parameters == "numbered":  # type: ignore[attr-defined]
+    if capabilities.routines.parameters is Parameters.NUMBERED:  # type: ignore[attr-defined]
         assert all(p.mode == "value" for one in routines for p in one.parameters)
-    if not capabilities.locals:  # type: ignore[attr-defined]
+    if Local.VARIABLES not in capabilities.routines.locals:  # type: ignore[attr-defined]
         assert not any(isinstance(d, ir.Variable) for one in routines for d in one.declarations)
 
 
@@ -183,7 +199,9 @@ def test_many_generated_calls(body: str) -> None:
 
 def _generated_calls_with_handlers(inner: str, caught: str, main: str) -> None:
     del caught
-    with_loops = replace(RICH, function_routines=False, statements=RICH.statements | {"Loop", "ExitLoop"})
+    with_loops = replace(
+        RICH, statements=RICH.statements | {"Loop", "ExitLoop"}, routines=replace(RICH.routines, functions=False)
+    )
     same_run(read("rapid", _RAPID % (inner, "", main, "")), with_loops, functions_to_procedures)
 
 
@@ -220,7 +238,9 @@ def test_recursion_stays_where_the_target_has_variables() -> None:
 
 
 def test_recursion_that_cannot_be_is_reported_and_stopped() -> None:
-    once = replace(PLAIN, recursion=False)  # parameters with names, but only one activation
+    once = replace(
+        PLAIN, routines=replace(PLAIN.routines, recursion=False)
+    )  # parameters with names, but only one activation
     after, context = legalised(read("rapid", _RECURSIVE), once, *ROUTINES)
     assert [item.code.name for item in context.diagnostics] == ["recursion-lost"]
     guarded = [one for one in nodes(after) if isinstance(one, ir.Vendor)]
@@ -265,7 +285,11 @@ def test_arrays_go_through_variables() -> None:
 def test_branches_inside_of_each_other() -> None:
     a, b = (ir.Binary("=", ir.Name(name), ir.IntLiteral(1)) for name in "ab")
     choice = ir.If(((a, (step(1),)), (b, (step(2),))), (step(3),))
-    after = same(program(choice), target(else_if=False), nest_branches)
+    after = same(
+        program(choice),
+        target(control=Control(else_if=False)),
+        nest_branches,
+    )
     assert after.modules[0].routines[0].body == (when(a, step(1), otherwise=(when(b, step(2), otherwise=(step(3),)),)),)
 
 
@@ -296,12 +320,17 @@ def test_a_time_limit_is_counted(timeout: ir.Expression, holds: bool) -> None:
     (module,) = given.modules
     main = replace(module.routines[0], declarations=(late,))
     given = replace(given, modules=(replace(module, routines=(main, *module.routines[1:])),))
-    weak = target(frozenset(("Assign", "While", "If", "Wait", "CallRoutine", "ExitLoop")), wait_timeout=False)
+    weak = target(frozenset(("Assign", "While", "If", "Wait", "CallRoutine", "ExitLoop")), io=Io(wait_timeout=False))
     same(given, weak, poll_waits)
 
 
 def test_a_wait_that_calls_a_function_is_a_loop_without_functions() -> None:
     given = program(ir.WaitUntil(ir.Call("ask", (ir.Argument(ir.IntLiteral(2)),))), step(1))
-    after, _ = rewritten(given, target(function_routines=False), poll_waits, functions_to_procedures)
+    after, _ = rewritten(
+        given,
+        target(routines=Routines(functions=False)),
+        poll_waits,
+        functions_to_procedures,
+    )
     assert not count(after, ir.Call) and not count(after, ir.WaitUntil)
     assert shown(after)[-1] == ("finished", None)

@@ -79,7 +79,7 @@ def test_timers_of_the_program_are_left_alone() -> None:
 
 def test_running_out_of_timers_is_told() -> None:
     program = read("rapid", _RAPID % "WaitDI diGo,1\\MaxTime:=2\\TimeFlag:=late; ClkReset c1; ClkReset c2;")
-    after, context = legalised(program, replace(PLAIN, timers=3), fit_waits)
+    after, context = legalised(program, replace(PLAIN, io=replace(PLAIN.io, timers=3)), fit_waits)
     assert [item.code.name for item in context.diagnostics] == ["no-timer-left"] * 2
     assert (
         count(after, ir.Clock) + count(after, lambda node: isinstance(node, ir.WaitUntil) and bool(node.timeout)) == 2

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from rpl import ir
-from rpl.passes.capabilities import Capabilities
+from rpl.passes.capabilities import Capabilities, Control, Counting, Local, Parameters, Passing
 from rpl.passes.legalise import legalise
 from rpl.passes.legalise.control.loops import fit_loops
 
@@ -23,18 +23,22 @@ JUMPS = frozenset(("Goto", "Label"))
 LABELS_ONLY = replace(
     PLAIN,
     statements=COMMON - BLOCKS | {"For"},
-    for_keeps_last=True,
-    for_steps="one",
-    function_routines=False,
-    parameters="none",
-    locals=False,
-    else_if=False,
+    routines=replace(
+        PLAIN.routines, functions=False, parameters=Parameters.NONE, locals=PLAIN.routines.locals - {Local.VARIABLES}
+    ),
+    control=replace(
+        PLAIN.control, else_if=False, counting=PLAIN.control.counting | {Counting.KEEPS_LAST, Counting.ONE_STEP}
+    ),
 )
 # Blocks without any jump, values only.
 NO_JUMPS = replace(
-    PLAIN, statements=COMMON - JUMPS - {"Switch", "For"} | {"ExitLoop", "NextPass"}, reference_parameters=False
+    PLAIN,
+    statements=COMMON - JUMPS - {"Switch", "For"} | {"ExitLoop", "NextPass"},
+    routines=replace(PLAIN.routines, passing=PLAIN.routines.passing - {Passing.REFERENCES}),
 )
-SINGLE_BRANCHES = replace(PLAIN, statements=PLAIN.statements - {"Switch", "WaitUntil"}, else_if=False)
+SINGLE_BRANCHES = replace(
+    PLAIN, statements=PLAIN.statements - {"Switch", "WaitUntil"}, control=replace(PLAIN.control, else_if=False)
+)
 TARGETS = {"labels only": LABELS_ONLY, "no jumps": NO_JUMPS, "single branches": SINGLE_BRANCHES}
 
 
@@ -45,7 +49,7 @@ def _said(after: ir.Program, capabilities: Capabilities) -> None:
         if isinstance(one, ir.If):
             if "If" not in capabilities.statements:
                 assert len(one.branches) == 1 and not one.otherwise and isinstance(one.branches[0][1][0], ir.Goto)
-            elif not capabilities.else_if:
+            elif not capabilities.control.else_if:
                 assert len(one.branches) == 1
         elif name in BLOCKS | JUMPS:
             assert name in capabilities.statements, name
@@ -64,7 +68,12 @@ def test_programs_with_loops_and_calls(body: str) -> None:
 @given(bodies(), handlers(), st.lists(bodies(), min_size=1, max_size=3).map(" ".join), handlers())
 def test_programs_with_handlers(inner: str, caught: str, main: str, last: str) -> None:
     # the generated programs call themselves, so their routines need variables of their own
-    recursive = replace(LABELS_ONLY, locals=True, parameters="names")
+    recursive = replace(
+        LABELS_ONLY,
+        routines=replace(
+            LABELS_ONLY.routines, parameters=Parameters.NAMES, locals=LABELS_ONLY.routines.locals | {Local.VARIABLES}
+        ),
+    )
     for capabilities in (recursive, NO_JUMPS, SINGLE_BRANCHES):
         after = same_run(read("rapid", _RAPID % (inner, caught, main, last)), capabilities, legalise)
         _said(after, capabilities)
@@ -72,9 +81,9 @@ def test_programs_with_handlers(inner: str, caught: str, main: str, last: str) -
 
 # ---- counters of FOR
 
-KEEPS = target(ALL, for_keeps_last=True)
+KEEPS = target(ALL, control=Control(counting=frozenset((Counting.KEEPS_LAST,))))
 LEAVES = target(ALL)
-BY_ONE = target(ALL, for_steps="one")
+BY_ONE = target(ALL, control=Control(counting=frozenset((Counting.ONE_STEP,))))
 
 
 def _for(body: ir.Body = (), last: bool = False, by: int | None = None, stop: ir.Expression | None = None) -> ir.For:

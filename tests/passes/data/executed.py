@@ -9,7 +9,7 @@ from typing import Any
 from rpl import ir, registry
 from rpl.cell import parse_cell
 from rpl.diagnostics import Diagnostics
-from rpl.passes.capabilities import Bank, Capabilities
+from rpl.passes.capabilities import Bank, Capabilities, Composite, DataRule, Limit
 from rpl.passes.legalise.context import Context, names_in
 from rpl.passes.legalise.stages import Pass
 from rpl.passes.typing import normalise
@@ -24,28 +24,31 @@ REGISTERS = Bank("R", 1, 200)
 POSITIONS = Bank("PR", 1, 100)
 WEAK = replace(
     EVERYTHING,
-    short_circuit=False,
-    expressions="steps",
-    conditions="comparisons",
-    calculated_places=False,
-    records=False,
-    arrays=False,
     operators=EVERYTHING.operators - {"cand", "cor", "xor"},
+    data=replace(EVERYTHING.data, composites=EVERYTHING.data.composites - {Composite.RECORDS, Composite.ARRAYS}),
+    control=replace(
+        EVERYTHING.control,
+        short_circuit=False,
+        limits=EVERYTHING.control.limits | {Limit.STEPS, Limit.COMPARISONS, Limit.PLAIN_PLACES},
+    ),
 )
 NUMBERED = replace(
     WEAK,
     types=EVERYTHING.types - {"IntType", "NamedType"},
-    data_lists=False,
-    points=Bank("P", 1, 1000),
-    banks={
-        "RealType": REGISTERS,
-        "IntType": REGISTERS,
-        "BoolType": Bank("F", 1, 100),
-        "StringType": Bank("SR", 1, 25),
-        "PoseType": POSITIONS,
-        "TargetType": POSITIONS,
-        "JointsType": POSITIONS,
-    },
+    data=replace(WEAK.data, rules=WEAK.data.rules - {DataRule.LISTS}),
+    storage=replace(
+        WEAK.storage,
+        points=Bank("P", 1, 1000),
+        banks={
+            "RealType": REGISTERS,
+            "IntType": REGISTERS,
+            "BoolType": Bank("F", 1, 100),
+            "StringType": Bank("SR", 1, 25),
+            "PoseType": POSITIONS,
+            "TargetType": POSITIONS,
+            "JointsType": POSITIONS,
+        },
+    ),
 )
 
 

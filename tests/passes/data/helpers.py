@@ -4,7 +4,17 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity
-from rpl.passes.capabilities import Capabilities, NameRules
+from rpl.passes.capabilities import (
+    Aggregate,
+    Capabilities,
+    Composite,
+    Control,
+    Data,
+    NameRules,
+    Places,
+    Rotation,
+    Settings,
+)
 from rpl.passes.legalise.context import Context, names_in
 from rpl.project import read_sources
 from rpl.proof.prove import prove_programs
@@ -22,14 +32,13 @@ KRL = Capabilities(
     operators=frozenset(("+", "-", "*", "/", "div", ":", "and", "or", "xor", "=", "<>", "<", ">", "<=", ">=")),
     types=frozenset((*SIMPLE, "PoseType", "TargetType", "JointsType")),
     names=NAMES,
-    modal_motion=True,
-    notation="krl",
-    rotation="zyx",
-    enums=True,
-    switch_types=frozenset(("IntType", "CharType")),
-    named_aggregates=True,
-    partial_aggregates=True,
-    constant_aggregates=True,
+    places=Places(notation="krl", rotation=Rotation.ZYX),
+    settings=Settings(modal=True),
+    data=Data(
+        composites=frozenset((Composite.ARRAYS, Composite.ENUMS, Composite.RECORDS)),
+        aggregates=frozenset((Aggregate.CONSTANT, Aggregate.NAMED, Aggregate.PARTIAL)),
+    ),
+    control=Control(switch_types=frozenset(("IntType", "CharType"))),
 )
 RAPID = Capabilities(
     statements=frozenset(),
@@ -46,10 +55,9 @@ RAPID = Capabilities(
         )
     ),
     names=NAMES,
-    modal_motion=False,
-    notation="rapid",
-    rotation="quaternion",
-    short_circuit=True,
+    places=Places(notation="rapid", rotation=Rotation.QUATERNION),
+    settings=Settings(modal=False),
+    control=Control(short_circuit=True),
 )
 
 

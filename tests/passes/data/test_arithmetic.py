@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import Limit
 from rpl.passes.legalise.data.arithmetic import arithmetic
 
 from .executed import EVERYTHING, context, passed, read, run
@@ -16,10 +17,10 @@ from .executed import EVERYTHING, context, passed, read, run
 HAVE = frozenset(("sin", "cos", "atan", "sqrt", "number_text"))
 LEAST = replace(
     EVERYTHING,
-    functions_alone=True,
     functions=HAVE,
     conversions=frozenset(("real", "trunc")),
     operators=EVERYTHING.operators - {"xor"},
+    control=replace(EVERYTHING.control, limits=EVERYTHING.control.limits | {Limit.FUNCTIONS_ALONE}),
 )
 REALS = ("abs({v})", "min({v}, {w})", "max({v}, {w})", "sign({v})", "floor({v})", "ceil({v})", "round({v})",
          "atan2({v}, {w})", "tan({v})", "asin({u})", "acos({u})", "to_nearest({v})", "atan({v})")  # fmt: skip

@@ -9,6 +9,7 @@ import pytest
 from rpl import ir
 from rpl.cell import parse_cell
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import GroupRule
 from rpl.passes.legalise.io.bitgroups import groups_to_bits, shared_groups_to_bits
 from rpl.passes.legalise.io.signals import number_signals
 from rpl.proof.prove import prove_programs
@@ -16,7 +17,7 @@ from rpl.proof.wiring import wired_bits
 
 from .executed import EVERYTHING, context, passed, read, run
 
-SINGLE = replace(EVERYTHING, signal_groups=False)
+SINGLE = replace(EVERYTHING, io=replace(EVERYTHING.io, groups=EVERYTHING.io.groups - {GroupRule.FREE}))
 PROGRAM = """.PROGRAM main()
         AUTO REAL n
         BITS 3,4 = 10
@@ -42,7 +43,9 @@ def test_the_same_numbers() -> None:
     assert not any("to" in name for _, name, _ in run(after).outputs)
 
 
-NAMED = replace(EVERYTHING, signal_prefixes={"digital_out": "do", "digital_in": "di", "group_out": "go"})
+NAMED = replace(
+    EVERYTHING, io=replace(EVERYTHING.io, signal_prefixes={"digital_out": "do", "digital_in": "di", "group_out": "go"})
+)
 OVERLAP = """PROCEDURE main()
 VAR n: INT
 SET do[33 TO 36] TO 10
@@ -101,7 +104,8 @@ END PROCEDURE
 @pytest.mark.parametrize("numbered", [True, False])
 def test_groups_with_numbers_of_their_own_get_free_bits(numbered: bool) -> None:
     program = read(NUMBERED_GROUPS)
-    given = context(program, replace(EVERYTHING, numbered_groups=numbered))
+    groups = EVERYTHING.io.groups - ({GroupRule.NUMBERED} if not numbered else frozenset())
+    given = context(program, replace(EVERYTHING, io=replace(EVERYTHING.io, groups=groups)))
     after = passed(program, (number_signals,), given)
     found = {
         one.name: f"{one.signal.kind} {one.signal.index.value}-{one.signal.last.value}"  # type: ignore[union-attr]
@@ -135,7 +139,8 @@ def test_named_groups_get_bits_or_a_number_of_their_own(
     numbered: bool, expected: dict[str, tuple[int, int | None]]
 ) -> None:
     program = read(NAMED_GROUPS, "rapid")
-    given = context(program, replace(EVERYTHING, numbered_groups=numbered))
+    groups = EVERYTHING.io.groups - ({GroupRule.NUMBERED} if not numbered else frozenset())
+    given = context(program, replace(EVERYTHING, io=replace(EVERYTHING.io, groups=groups)))
     found = {}
     for module in number_signals(program, given).modules:
         for one in module.declarations:
@@ -147,13 +152,21 @@ def test_named_groups_get_bits_or_a_number_of_their_own(
 
 def test_the_proof_knows_the_bits_of_a_group_that_has_a_name_only() -> None:
     program = read(NAMED_GROUPS, "rapid")
-    given = context(program, replace(EVERYTHING, numbered_groups=False))
+    given = context(
+        program, replace(EVERYTHING, io=replace(EVERYTHING.io, groups=EVERYTHING.io.groups - {GroupRule.NUMBERED}))
+    )
     assert wired_bits(number_signals(program, given))["gojob"] == "group_out:9-16"
 
 
 def test_the_proof_knows_where_these_groups_are_wired() -> None:
     program = read(NUMBERED_GROUPS)
-    after = passed(program, (number_signals,), context(program, replace(EVERYTHING, numbered_groups=False)))
+    after = passed(
+        program,
+        (number_signals,),
+        context(
+            program, replace(EVERYTHING, io=replace(EVERYTHING.io, groups=EVERYTHING.io.groups - {GroupRule.NUMBERED}))
+        ),
+    )
     other = replace(after, modules=tuple(replace(one, dialect="krl") for one in after.modules))
     cell = parse_cell('[[input]]\nsignal = "gi[1]"\nvalue = 7\ntime = 1.0\n')
     verdict = prove_programs(program, other, cell=cell)

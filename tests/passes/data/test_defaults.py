@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from rpl import ir
+from rpl.passes.capabilities import PlaceRule
 from rpl.passes.legalise.data.defaults import starting_values
 from rpl.passes.legalise.source.prelude import link_prelude
 from rpl.passes.legalise.storage.unused import drop_unused
@@ -102,7 +103,13 @@ def _begun(text: str) -> ir.Program:
     program = read(text, "krl")
     usual = context(program, "krl")
     assert starting_values(program, usual) is program
-    whole = replace(usual, capabilities=replace(usual.capabilities, whole_places=True))
+    whole = replace(
+        usual,
+        capabilities=replace(
+            usual.capabilities,
+            places=replace(usual.capabilities.places, rules=usual.capabilities.places.rules | {PlaceRule.WHOLE}),
+        ),
+    )
     return starting_values(program, whole)
 
 

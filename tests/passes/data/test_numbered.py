@@ -67,7 +67,12 @@ def test_numbers_do_not_move_when_other_lines_change() -> None:
 
 
 def test_too_many_variables_are_an_error_with_counts() -> None:
-    small = replace(NUMBERED, banks={**NUMBERED.banks, "RealType": Bank("R", 1, 2), "IntType": Bank("R", 1, 2)})
+    small = replace(
+        NUMBERED,
+        storage=replace(
+            NUMBERED.storage, banks={**NUMBERED.banks, "RealType": Bank("R", 1, 2), "IntType": Bank("R", 1, 2)}
+        ),
+    )
     before = read(main("a = 1", "VAR a, b, c: INT"))
     given_ = context(before, small)
     passed(before, PASSES, given_)

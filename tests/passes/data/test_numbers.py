@@ -6,6 +6,7 @@ import pytest
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
+from rpl.passes.capabilities import Fault
 from rpl.passes.legalise.data.numbers import numbers
 from rpl.passes.legalise.io.signals import number_signals
 from rpl.passes.typing import normalise
@@ -126,7 +127,11 @@ def _without_round(capabilities: object) -> object:
     from dataclasses import replace
 
     functions = capabilities.functions - {"round"}  # type: ignore
-    return replace(capabilities, functions=functions, faults_fractions=False)  # type: ignore
+    return replace(
+        capabilities,
+        functions=functions,
+        errors=replace(capabilities.errors, faults=capabilities.errors.faults - {Fault.INDEX_FRACTION}),
+    )  # type: ignore
 
 
 def test_a_target_without_whole_numbers_has_reals() -> None:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from rpl import ir
-from rpl.passes.capabilities import Bank
+from rpl.passes.capabilities import Bank, Local
 from rpl.passes.legalise.storage.sharing import share_temporaries
 from rpl.source import NOWHERE
 
@@ -72,7 +72,12 @@ def _names(program: ir.Program) -> set[str]:
 
 def _can(numbers: int, **more: object) -> object:
     bank = Bank("R", 1, numbers)
-    return replace(NUMBERED, locals=False, banks={**NUMBERED.banks, "RealType": bank, "IntType": bank}, **more)
+    return replace(
+        NUMBERED,
+        **more,
+        routines=replace(NUMBERED.routines, locals=NUMBERED.routines.locals - {Local.VARIABLES}),
+        storage=replace(NUMBERED.storage, banks={**NUMBERED.banks, "RealType": bank, "IntType": bank}),
+    )
 
 
 def test_what_never_meets_shares() -> None:
@@ -96,4 +101,15 @@ def test_variables_of_the_source_keep_their_own() -> None:
 
 def test_only_for_targets_without_variables_of_routines() -> None:
     program = _given()
-    assert share_temporaries(program, context(program, replace(NUMBERED, locals=True))) is program
+    assert (
+        share_temporaries(
+            program,
+            context(
+                program,
+                replace(
+                    NUMBERED, routines=replace(NUMBERED.routines, locals=NUMBERED.routines.locals | {Local.VARIABLES})
+                ),
+            ),
+        )
+        is program
+    )

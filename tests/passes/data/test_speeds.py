@@ -16,8 +16,15 @@ from .helpers import routine
 
 ARM = SimpleNamespace(name="arm", speeds=(120.0, 120.0, 200.0))
 PERCENT = EVERYTHING
-AXIS = replace(EVERYTHING, speeds=frozenset(("axis", "path", "axis_acceleration")))
-ALL = replace(EVERYTHING, speeds=frozenset(("axis", "joint", "path", "axis_acceleration", "path_acceleration")))
+AXIS = replace(
+    EVERYTHING, settings=replace(EVERYTHING.settings, speeds=frozenset(("axis", "path", "axis_acceleration")))
+)
+ALL = replace(
+    EVERYTHING,
+    settings=replace(
+        EVERYTHING.settings, speeds=frozenset(("axis", "joint", "path", "axis_acceleration", "path_acceleration"))
+    ),
+)
 HOME = "{j1: 0, j2: -90, j3: 90, j4: 0, j5: 0, j6: 0}"
 HALF = ir.RealLiteral(50.0)
 CASES = [

@@ -9,6 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from rpl import ir
+from rpl.passes.capabilities import Aggregate, Limit
 from rpl.passes.legalise.control.logic import decide_logic
 from rpl.passes.legalise.control.steps import POLLED, steps
 from rpl.passes.legalise.facts.effects import children, statements_in
@@ -17,8 +18,11 @@ from rpl.passes.legalise.rewriting.operands import is_operand
 from .executed import EVERYTHING, WEAK, context, passed, read, same
 from .helpers import lines, show_statement
 
-STEPS = replace(WEAK, short_circuit=True, operators=EVERYTHING.operators)
-ALONE = replace(EVERYTHING, functions_alone=True, calculated_places=False)
+STEPS = replace(WEAK, operators=EVERYTHING.operators, control=replace(WEAK.control, short_circuit=True))
+ALONE = replace(
+    EVERYTHING,
+    control=replace(EVERYTHING.control, limits=EVERYTHING.control.limits | {Limit.FUNCTIONS_ALONE, Limit.PLAIN_PLACES}),
+)
 
 
 def program(body: str, data: str = "") -> str:
@@ -228,7 +232,7 @@ END MODULE
 
 
 def test_computed_positions_are_put_together_in_a_variable() -> None:
-    target = replace(ALONE, constant_aggregates=True)
+    target = replace(ALONE, data=replace(ALONE.data, aggregates=ALONE.data.aggregates | {Aggregate.CONSTANT}))
     before = read(SPREAD)
     after = same(before, (steps,), context(before, target), robot="kuka_kr6r900sixx", entry="main")
     found = lines(after, "main")

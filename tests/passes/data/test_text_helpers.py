@@ -14,7 +14,11 @@ from .executed import EVERYTHING, context, read, run
 
 LACKED = {"text_value", "from_code", "character_code", "format", "text_part"}
 BY_VALUE = replace(EVERYTHING, functions=EVERYTHING.functions - LACKED | {"text_part"})
-BY_STATEMENT = replace(EVERYTHING, functions=EVERYTHING.functions - LACKED | {"format"}, text_results=False)
+BY_STATEMENT = replace(
+    EVERYTHING,
+    functions=EVERYTHING.functions - LACKED | {"format"},
+    routines=replace(EVERYTHING.routines, text_results=False),
+)
 PROGRAM = """.PROGRAM main()
         AUTO $s
         AUTO REAL n

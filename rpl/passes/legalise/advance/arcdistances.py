@@ -15,6 +15,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes import rigid
+from rpl.passes.capabilities import PathRule
 from rpl.passes.curves import circle_through
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.advance.earlyways import by_way, is_early, number_with_sign
@@ -51,7 +52,7 @@ _WITHIN = 0.999  # of the arc: a place farther than that from one end is at the 
 @legalising()
 def arc_distances(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that measure places on a path straight."""
-    nodes = walk(*program.modules) if context.capabilities.straight_distances else ()
+    nodes = walk(*program.modules) if PathRule.STRAIGHT_DISTANCES in context.capabilities.motion.paths else ()
     if not any(isinstance(node, ir.Trigger) for node in nodes):
         return program
     unchanged = Unchanged(usage_of(program).assigned)
@@ -114,7 +115,7 @@ class _Arcs:
 
     def move(self, move: ir.Move, before: list[ir.Trigger]) -> ir.Body:
         given = [one for one in (*before, *move.triggers) if isinstance(one, ir.Trigger)]
-        cut = self.context.capabilities.path_points and written(move, given, self.editor, self.shared.unchanged)
+        cut = self.context.capabilities.motion.cut_from_mm and written(move, given, self.editor, self.shared.unchanged)
         if cut and ends_known(self.last, move, self.editor, self.shared.unchanged):
             return (*before, move)  # the writer cuts the arc itself
         move, before, speed = self.early(move, before)

@@ -13,6 +13,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import Concurrent
 from rpl.passes.legalise.advance.lookahead import touches
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import inside
@@ -72,25 +73,26 @@ def looks(node: object) -> bool:
     return False
 
 
-@legalising(unless=lambda context: context.capabilities.concurrent_moves == "moves", sees=("Move",))
+@legalising(unless=lambda context: context.capabilities.motion.concurrent is Concurrent.MOVES, sees=("Move",))
 def moves_ahead(program: ir.Program, context: Context) -> ir.Program:
     """Moves that the program does not wait for, as the target can say them; otherwise the loss is named."""
-    kind = context.capabilities.concurrent_moves
+    kind = context.capabilities.motion.concurrent
     if not any(isinstance(node, ir.Move) and node.concurrent for node in walk(*program.modules)):
         return program
     beside = Beside(program, context)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        if kind == "tasks":
+        if kind is Concurrent.TASKS:
             return edit_bodies(routine, StepsBeside(editor, routine, beside).body)
-        return edit_bodies(routine, _Ahead(editor, routine, beside, kind == "advance").body)
+        return edit_bodies(routine, _Ahead(editor, routine, beside, kind is Concurrent.ADVANCE).body)
 
     return beside.placed(edit_routines(program, context, work))
 
 
 @legalising(
     unless=lambda context: (
-        rules_of(context.source).advance.runs_ahead_of != "begun" or context.capabilities.concurrent_moves != "advance"
+        rules_of(context.source).advance.runs_ahead_of != "begun"
+        or context.capabilities.motion.concurrent is not Concurrent.ADVANCE
     )
 )
 def polled_ahead(program: ir.Program, context: Context) -> ir.Program:

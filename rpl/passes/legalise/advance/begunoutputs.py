@@ -13,6 +13,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
+from rpl.passes.capabilities import Concurrent
 from rpl.passes.legalise.advance.begunmoves import looks
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import inside
@@ -37,19 +38,19 @@ def begun_outputs(program: ir.Program, context: Context) -> ir.Program:
     source, target = (rules_of(one).advance.runs_ahead_of for one in (context.source, context.target))
     if source != "begun" or target == "begun":
         return program
-    goes_on = context.capabilities.concurrent_moves
+    goes_on = context.capabilities.motion.concurrent
     put: list[ir.Statement] = []
     modules = tuple(
         replace(module, routines=tuple(_routine(one, goes_on, put) for one in module.routines))
         for module in program.modules
     )
     program = replace(program, modules=modules)
-    if goes_on != "advance":
+    if goes_on is not Concurrent.ADVANCE:
         _Late(program, context, put).report()
     return program
 
 
-def _routine(routine: ir.Routine, goes_on: str, put: list[ir.Statement]) -> ir.Routine:
+def _routine(routine: ir.Routine, goes_on: Concurrent, put: list[ir.Statement]) -> ir.Routine:
     """The routine with its bodies changed; what now stands in front of a move comes to `put`."""
     given = frozenset(one.name.lower() for one in routine.parameters if one.mode == "reference")
 
@@ -59,12 +60,16 @@ def _routine(routine: ir.Routine, goes_on: str, put: list[ir.Statement]) -> ir.R
         driving = False  # a move that the program does not wait for is on its way
         while rest:
             statement = inside(rest.pop(0), placed)
-            if isinstance(statement, ir.Move) and statement.search is None and not (statement.concurrent and goes_on):
+            if (
+                isinstance(statement, ir.Move)
+                and statement.search is None
+                and not (statement.concurrent and goes_on is not Concurrent.NO)
+            ):
                 first, rest = _at_begin(statement, rest, given)
                 if first and driving:  # the source is held here until that one ends
                     done.append(ir.WaitForMotion(origin=replace(statement.origin, comments=())))
                 driving = False
-                done.extend(_in_front(first, statement, goes_on == "advance"))
+                done.extend(_in_front(first, statement, goes_on is Concurrent.ADVANCE))
                 put.extend(done[-1 - len(first) : -1])
                 continue
             if isinstance(statement, ir.Move):

@@ -30,7 +30,7 @@ PROCESS = code(
 _BRAKING_MM_S2 = 5000.0
 
 
-@legalising(unless=lambda context: context.capabilities.move_settings)
+@legalising(unless=lambda context: context.capabilities.settings.of_moves)
 def corners(program: ir.Program, context: Context) -> ir.Program:
     """The program with corners that the target can measure."""
     if not any(_foreign(node) for node in walk(*program.modules)):

@@ -14,6 +14,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite, walk
+from rpl.passes.capabilities import Concurrent
 from rpl.passes.legalise.advance.begunmoves import looks
 from rpl.passes.legalise.advance.lookahead import touches
 from rpl.passes.legalise.context import Context, rules_of
@@ -47,7 +48,7 @@ def corner_steps(program: ir.Program, context: Context) -> ir.Program:
     source, target = (rules_of(one).advance for one in (context.source, context.target))
     if source.runs_ahead_of != "fly_by" or source.signals_stop:
         return program
-    ahead = target.runs_ahead_of == "all" and context.capabilities.concurrent_moves == "advance"
+    ahead = target.runs_ahead_of == "all" and context.capabilities.motion.concurrent is Concurrent.ADVANCE
     if not ahead and target.runs_ahead_of != "begun":
         return program
     beside = Beside(program, context)

@@ -14,6 +14,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes import rigid
+from rpl.passes.capabilities import TriggerRule, Watched
 from rpl.passes.fold import constant
 from rpl.passes.legalise.advance.pathwatches import at_present_speed, ramp_s
 from rpl.passes.legalise.context import Context, rules_of
@@ -48,12 +49,15 @@ _EVENT = "rpl_on_path"
 
 
 @legalising(
-    unless=lambda context: not context.capabilities.watching_tasks and context.capabilities.late_triggers,
+    unless=lambda context: (
+        context.capabilities.interrupts.watched is not Watched.ALL
+        and TriggerRule.LATE in context.capabilities.motion.triggers
+    ),
     sees=("Trigger",),
 )
 def path_events(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose path events are tasks, all of them or those that come behind the end of a move."""
-    watched = context.capabilities.watching_tasks
+    watched = context.capabilities.interrupts.watched is Watched.ALL
     beside = Beside(program, context)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
@@ -290,7 +294,7 @@ class _Events:
             ir.Assign(ir.Name("now"), near),
             ir.Loop(
                 (
-                    ir.Wait(_seconds(self.context.capabilities.poll_s)),
+                    ir.Wait(_seconds(self.context.capabilities.io.poll_s)),
                     ir.Assign(ir.Name("now"), left),
                     away,
                     ir.Assign(near, ir.Name("now")),
@@ -304,11 +308,11 @@ class _Events:
         was, now, left = ir.Name("was"), ir.Name("now"), _distance(way.end)
         ramp = ramp_s(way.move, self.context)
         seconds = seconds if way.ends_in is not None else at_present_speed(seconds, ramp)
-        cycles = ir.RealLiteral(_short(seconds / self.context.capabilities.poll_s))
+        cycles = ir.RealLiteral(_short(seconds / self.context.capabilities.io.poll_s))
         near = _sum(size, ir.Binary("*", ir.Binary("-", was, now), cycles))
         comes = ir.Binary("cor", ir.Binary("<=", now, near), ir.Unary("not", ir.Name(self.beside.moving_name())))
         looks = (
-            ir.Wait(_seconds(self.context.capabilities.poll_s)),
+            ir.Wait(_seconds(self.context.capabilities.io.poll_s)),
             ir.Assign(now, left),
             ir.If(((comes, (ir.ExitLoop(),)),)),
             ir.Assign(was, now),

@@ -48,7 +48,7 @@ _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.StopMotion, ir.StartMotion, i
 @legalising()
 def path_points(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that are asked for this."""
-    nodes = walk(*program.modules) if context.capabilities.path_points else ()
+    nodes = walk(*program.modules) if context.capabilities.motion.cut_from_mm else ()
     if not any(isinstance(node, ir.Trigger) for node in nodes):
         return program
     drivers = closure(program, _MOTION)
@@ -203,7 +203,7 @@ class _Points:
 
     @property
     def corner(self) -> float:
-        return self.context.capabilities.path_points
+        return self.context.capabilities.motion.cut_from_mm
 
     def is_known(self, move: ir.Move, events: list[_Event]) -> bool:
         """Are both ends and the places constants that the writer sees as such?"""

@@ -71,7 +71,7 @@ def watched(
         return None
     if move.kind == "circular" and any(one.time < 0.0 for one in apart):
         return None  # not as fast as the tool comes straight nearer
-    poll = editor.capabilities.poll_s
+    poll = editor.capabilities.io.poll_s
     editor.context.diagnostics.report(WATCHED, given[0].origin, seconds=poll)
     names = temporary("to", ir.PoseType()), temporary("was", ir.RealType()), temporary("left", ir.RealType())
     started = [one.trigger for one in found if one.trigger.reference == "start"]

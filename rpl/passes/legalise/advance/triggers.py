@@ -9,6 +9,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes import rigid
+from rpl.passes.capabilities import TriggerRule
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.advance.earlyways import by_way
 from rpl.passes.legalise.advance.storedevents import events_before_moves
@@ -38,7 +39,7 @@ _ARM_STANDS = (
 def triggers(program: ir.Program, context: Context) -> ir.Program:
     """Rewrites towards whichever form the target has."""
     statements = context.capabilities.statements
-    if context.capabilities.move_triggers:
+    if TriggerRule.OF_MOVES in context.capabilities.motion.triggers:
         return _at_moves(events_before_moves(program, context))
     if "Trigger" not in statements and "DefineTrigger" in statements:
         return _Stored(context).program(program)

@@ -11,7 +11,7 @@ from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_rout
 from rpl.passes.legalise.stages import legalising
 
 
-@legalising(unless=lambda context: context.capabilities.else_if or "If" not in context.capabilities.statements)
+@legalising(unless=lambda context: context.capabilities.control.else_if or "If" not in context.capabilities.statements)
 def nest_branches(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose If has one condition. Without blocks the pass of labels knows a shorter form."""
 

@@ -58,7 +58,6 @@ class _Lowering:
 
     def __init__(self, editor: Editor, names: LabelNames, entered: set[int]) -> None:
         self.has = editor.capabilities.statements
-        self.switch_jumps = editor.capabilities.switch_jumps
         self.names = names
         self.entered = entered
 
@@ -85,8 +84,6 @@ class _Lowering:
         return expansion(statement.origin, self.lowered(statement, around))
 
     def keeps(self, statement: ir.Statement) -> bool:
-        if isinstance(statement, ir.Switch) and self.switch_jumps:
-            return all(_one_jump(body) for body in blocks(statement) if body)
         return statement.__class__.__name__ in self.has and id(statement) not in self.entered
 
     def lowered(self, statement: ir.Statement, around: _Around) -> ir.Body:

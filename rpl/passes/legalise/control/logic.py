@@ -20,7 +20,7 @@ _EARLY = {"and": "cand", "or": "cor"}
 @legalising()
 def decide_logic(program: ir.Program, context: Context) -> ir.Program:
     """The program with the logical operators that the target has, meaning the same."""
-    if context.capabilities.short_circuit:
+    if context.capabilities.control.short_circuit:
         return edit_routines(program, context, _early)
     return edit_routines(program, context, _strict)
 

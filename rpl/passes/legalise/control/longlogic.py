@@ -19,10 +19,10 @@ _CHAINS = ("and", "or")
 _PLACES = (ir.Name, ir.Signal, ir.System)
 
 
-@legalising(unless=lambda context: not context.capabilities.logic_names)
+@legalising(unless=lambda context: not context.capabilities.control.logic_names)
 def long_logic(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that say how much a condition names at most."""
-    most = context.capabilities.logic_names
+    most = context.capabilities.control.logic_names
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         def change(statement: ir.Statement) -> ir.Body:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.ir.walk import bodies, walk
+from rpl.passes.capabilities import Counting
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.counters import declared_loops, jumps_about, overwritten, used_outside_loops
@@ -139,15 +140,15 @@ class _Loops:
     # ---- For
 
     def counting(self, loop: ir.For) -> ir.Body:
-        if not self.editor.capabilities.for_looks_once and self.bound_changes(loop):
+        if Counting.LOOKS_EACH_PASS in self.editor.capabilities.control.counting and self.bound_changes(loop):
             last = self.editor.temporary("last", self.editor.type_of(loop.stop) or ir.RealType())
             return expansion(loop.origin, (ir.Assign(last, loop.stop), *self.counting(replace(loop, stop=last))))
         rule = self.rule(loop)
         if self.fits(loop, rule):
-            if loop.keeps_last != self.editor.capabilities.for_keeps_last:
+            if loop.keeps_last != (Counting.KEEPS_LAST in self.editor.capabilities.control.counting):
                 loop = replace(loop, keeps_last=not loop.keeps_last)  # nobody looks at the counter afterwards
             return self.left(loop, self.inside(loop))
-        if self.editor.capabilities.for_scoped:
+        if Counting.SCOPED in self.editor.capabilities.control.counting:
             done = self.as_scoped(loop, rule)
         else:
             done = self.as_plain(loop, rule)
@@ -197,22 +198,26 @@ class _Loops:
         if not self.sayable(loop, rule) or (self.counter_matters(loop) and self.misses_value(loop)):
             return False
         if (loop.scoped, loop.automatic, loop.at_least_once) != (
-            target.for_scoped,
-            target.for_automatic,
-            target.for_at_least_once,
+            Counting.SCOPED in target.control.counting,
+            Counting.AUTOMATIC in target.control.counting,
+            Counting.AT_LEAST_ONCE in target.control.counting,
         ):
             return False
-        return target.for_scoped or ((target.for_real or self.whole_counter(loop)) and rule.step is not None)
+        return Counting.SCOPED in target.control.counting or (
+            (Counting.REAL in target.control.counting or self.whole_counter(loop)) and rule.step is not None
+        )
 
     def sayable(self, loop: ir.For, rule: _Rule) -> bool:
         """Has the target a For with such a step, and can it be that no jump goes into the loop?"""
         if "For" not in self.has or id(loop) in self.entered:
             return False
-        return self.editor.capabilities.for_steps == "any" or (rule.step is not None and abs(rule.step) == 1.0)
+        return Counting.ONE_STEP not in self.editor.capabilities.control.counting or (
+            rule.step is not None and abs(rule.step) == 1.0
+        )
 
     def misses_value(self, loop: ir.For) -> bool:
         """Would the target's FOR leave another value in the counter?"""
-        return not loop.scoped and loop.keeps_last != self.editor.capabilities.for_keeps_last
+        return not loop.scoped and loop.keeps_last != (Counting.KEEPS_LAST in self.editor.capabilities.control.counting)
 
     def counter_matters(self, loop: ir.For) -> bool:
         """May something look at the counter behind the loop?"""
@@ -233,11 +238,11 @@ class _Loops:
         if not rule.step or not self.sayable(loop, rule) or (loop.at_least_once and not rule.passes):
             return None
         counts_whole = rule.whole if loop.scoped else self.whole_counter(loop)
-        if not (counts_whole or target.for_real):
+        if not (counts_whole or Counting.REAL in target.control.counting):
             return None
         written = loop.step if loop.step is not None else None if rule.step == 1.0 else _number(rule.step)
         if not loop.scoped:
-            last = target.for_keeps_last
+            last = Counting.KEEPS_LAST in target.control.counting
             plain = replace(loop, step=written, automatic=False, at_least_once=False, keeps_last=last)
             if not self.counter_matters(loop) or not self.misses_value(loop):
                 return self.left(plain, self.passed_on(plain))
@@ -252,7 +257,7 @@ class _Loops:
             return expansion(loop.origin, (*self.left(plain, self.passed_on(plain)), mended))
         name = self.counter(loop, ir.IntType() if rule.whole else ir.RealType())
         body = self.renamed(loop, name)
-        last = target.for_keeps_last
+        last = Counting.KEEPS_LAST in target.control.counting
         plain = ir.For(
             name.id, _whole(loop.start), _whole(loop.stop), written, body, keeps_last=last, origin=loop.origin
         )

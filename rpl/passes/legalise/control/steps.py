@@ -12,6 +12,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.capabilities import Aggregate, Limit, MessageRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import children, everything, is_constant
 from rpl.passes.legalise.facts.usage import assigned_in
@@ -41,11 +42,11 @@ _STRUCTURES = (ir.If, ir.While, ir.Repeat, ir.For, ir.Switch, ir.Loop)
 
 @legalising(
     unless=lambda context: (
-        context.capabilities.expressions == "any"
+        Limit.STEPS not in context.capabilities.control.limits
         and (
-            context.capabilities.calculated_places
-            and context.capabilities.conditions == "any"
-            and (not context.capabilities.functions_alone)
+            Limit.PLAIN_PLACES not in context.capabilities.control.limits
+            and Limit.COMPARISONS not in context.capabilities.control.limits
+            and (Limit.FUNCTIONS_ALONE not in context.capabilities.control.limits)
         )
     )
 )
@@ -63,7 +64,7 @@ class _Steps(Hoister):
     def __init__(self, editor: Editor, changes: frozenset[str] | None) -> None:
         super().__init__(editor, lambda _: None)
         self.can = editor.capabilities
-        self.by_steps = self.can.expressions == "steps"
+        self.by_steps = Limit.STEPS in self.can.control.limits
         self.changes = changes
         self.pool: dict[ir.Type, list[ir.Name]] = {}
         self.lent: list[tuple[ir.Type, ir.Name]] = []
@@ -108,7 +109,12 @@ class _Steps(Hoister):
 
     def stored(self, before: ir.Body, value: ir.Expression) -> Lowered:
         type = self.editor.type_of(value)
-        if type is not None and isinstance(value, ir.Aggregate) and self.can.constant_aggregates and is_computed(value):
+        if (
+            type is not None
+            and isinstance(value, ir.Aggregate)
+            and Aggregate.CONSTANT in self.can.data.aggregates
+            and is_computed(value)
+        ):
             place = self.temporary(type)
             parts = spread(place, value)
             if parts is not None:
@@ -154,12 +160,16 @@ class _Steps(Hoister):
     def must_stand_alone(self, value: ir.Expression) -> bool:
         """Does the target take this only as the whole right side of an assignment?"""
         if isinstance(value, ir.Aggregate):
-            return self.can.constant_aggregates and not self.can.calculated_places and is_computed(value)
+            return (
+                Aggregate.CONSTANT in self.can.data.aggregates
+                and Limit.PLAIN_PLACES in self.can.control.limits
+                and is_computed(value)
+            )
         if isinstance(value, ir.Quantity):
             return False
         if isinstance(value, ir.Builtin) and value.function == "text_equal":
             return self.by_steps  # a comparison
-        joined = self.can.functions_alone and isinstance(value, ir.Binary) and value.op == "&"
+        joined = Limit.FUNCTIONS_ALONE in self.can.control.limits and isinstance(value, ir.Binary) and value.op == "&"
         return self.by_steps or joined or isinstance(value, ir.Call | ir.Builtin | ir.Convert)
 
     def whole(self, expression: ir.Expression, lvalue: bool = False) -> Lowered:
@@ -181,7 +191,7 @@ class _Steps(Hoister):
         while isinstance(pieces[0], ir.Binary) and pieces[0].op == "&":
             pieces[:1] = [pieces[0].left, pieces[0].right]
         before, values = self.several(pieces, [False] * len(pieces))
-        most = self.can.joined_texts or len(values)
+        most = self.can.texts.joined or len(values)
         if len(values) <= most and all(new is old for new, old in zip(values, pieces, strict=True)):
             return before, expression
         done, count = values[0], 1
@@ -249,7 +259,7 @@ class _Steps(Hoister):
 
     def condition(self, expression: ir.Expression) -> Lowered:
         """A condition as the target takes it."""
-        if self.can.conditions == "any":
+        if Limit.COMPARISONS not in self.can.control.limits:
             return self.operand(expression) if self.by_steps else self.lower(expression)
         match expression:
             case ir.BoolLiteral():
@@ -269,7 +279,7 @@ class _Steps(Hoister):
         return before, ir.Binary("=", value, ir.BoolLiteral(True), origin=expression.origin)
 
     def opposite(self, condition: ir.Expression) -> ir.Expression:
-        return negation(condition) if self.can.conditions == "any" else opposite(condition)
+        return negation(condition) if Limit.COMPARISONS not in self.can.control.limits else opposite(condition)
 
     def denied(self, expression: ir.Expression, operand: ir.Expression) -> Lowered:
         """`not`: pushed down to the comparisons."""
@@ -315,7 +325,7 @@ class _Steps(Hoister):
 
     def shortened(self, before: ir.Body, condition: ir.Binary) -> Lowered:
         """A condition that takes no more comparisons than the target's: parts of it are found out before."""
-        most = self.can.condition_terms
+        most = self.can.control.condition_terms
         while most and sum(_alternatives(condition)) > most:
             longer = max(("left", "right"), key=lambda side: sum(_alternatives(getattr(condition, side))))
             result = self.temporary(ir.BoolType())
@@ -350,11 +360,11 @@ class _Steps(Hoister):
                 return self.counted(statement)
             case ir.WaitUntil():
                 return self.waiting(statement)
-            case ir.Message() if not self.can.computed_messages:
+            case ir.Message() if MessageRule.COMPUTED not in self.can.texts.messages:
                 return (statement,)  # its values are variables that the text names
         if isinstance(statement, _STRUCTURES):
             return super().statement(statement)
-        if self.can.calculated_places and not self.by_steps:
+        if Limit.PLAIN_PLACES not in self.can.control.limits and not self.by_steps:
             return super().statement(statement)
         self.simple_parts = True
         done = super().statement(statement)
@@ -364,7 +374,7 @@ class _Steps(Hoister):
     def counted(self, statement: ir.For) -> ir.Body:
         """Bounds are read once, but a loop made of labels reads them again: their temporaries last."""
         given = [statement.start, statement.stop] + ([] if statement.step is None else [statement.step])
-        self.lasting, self.simple_parts = True, self.by_steps or not self.can.calculated_places
+        self.lasting, self.simple_parts = True, self.by_steps or Limit.PLAIN_PLACES in self.can.control.limits
         before, values = self.several(given, [False] * len(given))
         self.lasting = self.simple_parts = False
         with self.editor.counting(statement):
@@ -380,7 +390,7 @@ class _Steps(Hoister):
         """The target of a move may be what only a move can say."""
         before, target = self.at_move(statement.target)
         further, via = ((), None) if statement.via is None else self.at_move(statement.via)
-        self.simple_parts = self.by_steps or not self.can.calculated_places
+        self.simple_parts = self.by_steps or Limit.PLAIN_PLACES in self.can.control.limits
         done = super()._move(replace(statement, target=_HELD, via=None), search)
         last = done[-1]
         assert isinstance(last, ir.Move)  # _move keeps the statement's class
@@ -391,7 +401,7 @@ class _Steps(Hoister):
         return self._finished(statement, first, replace(last, target=target, via=via))
 
     def at_move(self, target: ir.Expression) -> Lowered:
-        says = self.can.move_functions
+        says = self.can.places.move_functions
         match target:
             case ir.Binary(op=":", left=left, right=right) if ":" in says:
                 before, base = self.at_move(left)
@@ -402,14 +412,14 @@ class _Steps(Hoister):
                 shifts = [self.operand(one) for one in rest]
                 steps_before = tuple(one for further, _ in shifts for one in further)
                 return (*before, *steps_before), replace(target, arguments=(base, *(value for _, value in shifts)))
-        if self.by_steps or not self.can.calculated_places:
+        if self.by_steps or Limit.PLAIN_PLACES in self.can.control.limits:
             return self.operand(target)
         return self.lower(target)
 
     def _switch(self, statement: ir.Switch) -> ir.Body:
-        simple = self.by_steps or not self.can.calculated_places
+        simple = self.by_steps or Limit.PLAIN_PLACES in self.can.control.limits
         before, selector = self.operand(statement.selector) if simple else self.lower(statement.selector)
-        if self.can.switch_variables and self.is_signal(selector):
+        if self.can.control.switch_variables and self.is_signal(selector):
             kept = self.temporary(ir.IntType())
             before, selector = (*before, ir.Assign(kept, selector)), kept
         cases = tuple(replace(case, body=self.body(case.body)) for case in statement.cases)
@@ -430,7 +440,7 @@ class _Steps(Hoister):
             first, value = self.stored(first, value)
             return self._finished(statement, first, replace(statement, target=place, value=value))
         value = _plain_number(value)
-        if isinstance(target, ir.Signal) and not self.can.calculated_places:
+        if isinstance(target, ir.Signal) and Limit.PLAIN_PLACES in self.can.control.limits:
             before, value = self.operand(value)
         elif self.by_steps and isinstance(self.editor.type_of(target), ir.BoolType) and _is_logic(value):
             return expansion(statement.origin, (*first, *self.decided(place, value)))
@@ -454,7 +464,7 @@ class _Steps(Hoister):
             further, values = self.operand(limit[0]) if limit else ((), None)
             new = replace(statement, condition=condition, timeout=values)
             return self._finished(statement, (*before, *further), new)
-        shortest = self.can.shortest_wait_s or POLL_S
+        shortest = self.can.io.shortest_wait_s or POLL_S
         period = ir.RealLiteral(round(round(POLL_S / shortest) * shortest, 6))
         self.editor.context.diagnostics.report(POLLED, statement.origin, seconds=period.value)
         first, late, counted = self.limited(statement, period)

@@ -107,7 +107,7 @@ class _Tidy:
     def choice(self, statement: ir.If) -> ir.Body:
         branches, otherwise = list(statement.branches), statement.otherwise
         match otherwise:
-            case (ir.If() as inner,) if not inner.origin.comments and self.editor.capabilities.else_if:
+            case (ir.If() as inner,) if not inner.origin.comments and self.editor.capabilities.control.else_if:
                 branches, otherwise = [*branches, *inner.branches], inner.otherwise
         while branches and not branches[-1][1] and not otherwise and self.silent(branches[-1][0]):
             branches.pop()

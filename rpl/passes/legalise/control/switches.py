@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rpl import ir
+from rpl.passes.capabilities import Composite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import is_constant, root
 from rpl.passes.legalise.rewriting.editing import (
@@ -40,19 +41,21 @@ class _Switches(Hoister):
         values = [value for case in statement.cases for value in case.values]
         if not all(self.editor.effects.quiet(value) for value in values):
             return False  # a case that is looked at acts
-        if capabilities.switch_constant_cases and not all(map(is_constant, values)):
+        if capabilities.control.constant_cases and not all(map(is_constant, values)):
             return False
-        if not capabilities.switch_types:
+        if not capabilities.control.switch_types:
             return True
         kinds = {self._kind(value) for value in (statement.selector, *values)}
-        return kinds <= capabilities.switch_types
+        return kinds <= capabilities.control.switch_types
 
     def _kind(self, expression: ir.Expression) -> str:
         type = self.editor.type_of(expression)
         if isinstance(type, ir.NamedType):
             if not isinstance(self.editor.scope.type(type.name), ir.EnumDeclaration):
                 return "RecordDeclaration"
-            return "NamedType" if self.editor.capabilities.enums else "IntType"  # its members become whole numbers
+            return (
+                "NamedType" if Composite.ENUMS in self.editor.capabilities.data.composites else "IntType"
+            )  # its members become whole numbers
         return type.__class__.__name__
 
     def _chain(self, statement: ir.Switch) -> ir.Body:

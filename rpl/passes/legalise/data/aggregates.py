@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.capabilities import Aggregate, PlaceRule
 from rpl.passes.fold import constant, lasting, literal
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
@@ -41,11 +42,11 @@ class _Aggregates(Rewriter):
         super().__init__(program, context)
         can = context.capabilities
         self.named, self.partial, self.constant = (
-            can.named_aggregates,
-            can.partial_aggregates,
-            can.constant_aggregates,
+            Aggregate.NAMED in can.data.aggregates,
+            Aggregate.PARTIAL in can.data.aggregates,
+            Aggregate.CONSTANT in can.data.aggregates,
         )
-        self.whole_arrays = not can.named_aggregates
+        self.whole_arrays = Aggregate.NAMED not in can.data.aggregates
         self.start: list[ir.Statement] = []
 
     def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
@@ -289,7 +290,7 @@ class _Aggregates(Rewriter):
 
     def begun_joints(self, target: ir.Expression, value: ir.Aggregate, type: ir.Type) -> list[ir.Statement]:
         """Joints that say that the place holds joints, where it could hold a pose until now."""
-        if not self.context.capabilities.untyped_places or not isinstance(type, ir.JointsType):
+        if PlaceRule.UNTYPED not in self.context.capabilities.places.rules or not isinstance(type, ir.JointsType):
             return []
         if not self.is_complete(value, type):
             return []

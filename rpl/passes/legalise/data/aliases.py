@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.capabilities import DataRule
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 
 
-@legalising(unless=lambda context: context.capabilities.aliases)
+@legalising(unless=lambda context: DataRule.ALIASES in context.capabilities.data.rules)
 def without_aliases(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without aliases."""
     if not any(isinstance(d, ir.AliasDeclaration) for module in program.modules for d in module.declarations):

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from rpl import ir
+from rpl.passes.capabilities import Limit
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.places.library import call, function, minus, number, plus, times
 from rpl.passes.legalise.rewriting.support import with_support
@@ -23,9 +24,9 @@ Parts = tuple[tuple[tuple[str, ir.Type], ...], ir.Type, tuple[tuple[str, ir.Type
 
 @legalising(
     unless=lambda context: (
-        not context.capabilities.banks
-        and context.capabilities.expressions == "any"
-        and (not context.capabilities.functions_alone)
+        not context.capabilities.storage.banks
+        and Limit.STEPS not in context.capabilities.control.limits
+        and (Limit.FUNCTIONS_ALONE not in context.capabilities.control.limits)
     )
 )
 def arithmetic(program: ir.Program, context: Context) -> ir.Program:

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import DataRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
@@ -97,7 +98,11 @@ def _plus(value: ir.Expression, shift: int) -> ir.Expression:
     return ir.Binary("+" if shift > 0 else "-", value, ir.IntLiteral(abs(shift)), origin=value.origin)
 
 
-@legalising(unless=lambda context: "dimension" in context.capabilities.functions and context.capabilities.row_sizes)
+@legalising(
+    unless=lambda context: (
+        "dimension" in context.capabilities.functions and DataRule.ROW_SIZES in context.capabilities.data.rules
+    )
+)
 def array_sizes(program: ir.Program, context: Context) -> ir.Program:
     """Sizes of arrays that a routine is given come with them."""
     asked: dict[_Asked, str] = {}

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.capabilities import TextRule
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import Effects, is_constant
@@ -48,7 +49,7 @@ _HELPER_FUNCTIONS = {
 def rewrite_calls(program: ir.Program, context: Context) -> ir.Program:
     """The program with only the functions, procedures, operators and conversions of the target."""
     helpers = Helpers(context)
-    if not context.capabilities.text_results:
+    if not context.capabilities.routines.text_results:
         program = text_results(program, context)
     effects = Effects(program)
     scopes = ProgramScope(program)
@@ -290,7 +291,7 @@ class _Calls(TextHoister):
                     return ir.Binary(op, one, other)
                 case ir.Convert(how=how, operand=bit), _ if how in _BIT_WEIGHTS and value is not None:
                     return _bit_test(op, bit, value, _BIT_WEIGHTS[how])
-        if e.op not in ("=", "<>") or self.capabilities.text_results or not self.can("text_equal"):
+        if e.op not in ("=", "<>") or self.capabilities.routines.text_results or not self.can("text_equal"):
             return None
         if not all(isinstance(self.editor.type_of(side), ir.StringType) for side in (e.left, e.right)):
             return None
@@ -354,7 +355,7 @@ class _Calls(TextHoister):
 
     def _read_by_target(self, operand: ir.Expression) -> bool:
         """Where signals have names, they read as numbers."""
-        return isinstance(operand, ir.Signal) and bool(self.capabilities.signal_prefixes)
+        return isinstance(operand, ir.Signal) and bool(self.capabilities.io.signal_prefixes)
 
     def function(self, e: ir.Builtin) -> ir.Expression | None:
         made = _FUNCTIONS.get(e.function)
@@ -473,12 +474,12 @@ def _size(calls: _Calls, given: Arguments) -> ir.Expression | None:
 def _equal(calls: _Calls, given: Arguments) -> ir.Expression | None:
     """Texts compare by the operator; without regard to case both in upper case."""
     ignore = given[2] if len(given) > 2 else ir.BoolLiteral(False)
-    if not isinstance(ignore, ir.BoolLiteral) or not calls.capabilities.text_results:
+    if not isinstance(ignore, ir.BoolLiteral) or not calls.capabilities.routines.text_results:
         return None
     left, right = given[0], given[1]
     if not ignore.value:
         return ir.Binary("=", left, right)
-    if not calls.capabilities.text_case:
+    if TextRule.CASE not in calls.capabilities.texts.rules:
         return ir.Builtin("text_equal", (left, right, ignore))  # the target compares so by itself
     return ir.Binary("=", *(_upper(calls, side) for side in (left, right)))
 
@@ -498,7 +499,7 @@ def _fraction(calls: _Calls, given: Arguments) -> ir.Expression | None:
 
 def _code(calls: _Calls, given: Arguments) -> ir.Expression | None:
     """The code of a text's first character, where the target tells that of a text of one character."""
-    if "code" not in calls.capabilities.conversions or not calls.capabilities.text_results:
+    if "code" not in calls.capabilities.conversions or not calls.capabilities.routines.text_results:
         return None
     match given[0]:
         case ir.TextLiteral(value=text) if text:
@@ -510,7 +511,7 @@ def _code(calls: _Calls, given: Arguments) -> ir.Expression | None:
 
 
 def _from_code(calls: _Calls, given: Arguments) -> ir.Expression | None:
-    if "char" not in calls.capabilities.conversions or not calls.capabilities.text_results:
+    if "char" not in calls.capabilities.conversions or not calls.capabilities.routines.text_results:
         return None
     return calls.text_function(ir.Builtin("from_code", given)) or ir.Convert("char", given[0])
 

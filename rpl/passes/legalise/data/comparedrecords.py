@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.capabilities import DataRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines
 from rpl.passes.legalise.stages import legalising
@@ -20,7 +21,7 @@ _PLACES = (ir.Name, ir.Index, ir.Field)
 _AXES = tuple(ir.COMPONENTS[ir.AxesType])
 
 
-@legalising(unless=lambda context: context.capabilities.compares_records)
+@legalising(unless=lambda context: DataRule.COMPARED_RECORDS in context.capabilities.data.rules)
 def compared_records(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that do not compare records themselves."""
 

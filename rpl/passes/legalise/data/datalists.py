@@ -10,6 +10,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies
+from rpl.passes.capabilities import DataRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import each_expression, each_statement
 from rpl.passes.legalise.stages import legalising
@@ -23,7 +24,7 @@ SET_AT_START = code(
 )
 
 
-@legalising(unless=lambda context: context.capabilities.data_lists)
+@legalising(unless=lambda context: DataRule.LISTS in context.capabilities.data.rules)
 def set_data_at_start(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose data cannot be set outside of routines."""
     modules: list[ir.Module] = []

@@ -13,6 +13,7 @@ from typing import TypeGuard
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import Local, PlaceRule
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.usage import base_name
@@ -42,8 +43,10 @@ def starting_values(program: ir.Program, context: Context) -> ir.Program:
     that are filled component by component."""
     can = context.capabilities
     if rules_of(context.source).undefined:
-        return _InParts(program, context).program() if can.whole_places else program
-    left_over = rules_of(context.target).undefined or bool(can.banks) or not can.locals
+        return _InParts(program, context).program() if PlaceRule.WHOLE in can.places.rules else program
+    left_over = (
+        rules_of(context.target).undefined or bool(can.storage.banks) or Local.VARIABLES not in can.routines.locals
+    )
     if not left_over:
         return program
     return _Defaults(program, context).program()

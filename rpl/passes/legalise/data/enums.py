@@ -9,13 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
+from rpl.passes.capabilities import Composite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 
-@legalising(unless=lambda context: context.capabilities.enums)
+@legalising(unless=lambda context: Composite.ENUMS in context.capabilities.data.composites)
 def enums_to_constants(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without enumerations."""
     numbering = _Numbering()

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.capabilities import Composite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.data.arraycopies import array_copy
 from rpl.passes.legalise.facts.effects import everything
@@ -51,7 +52,7 @@ class Made:
     declared: list[ir.Variable] = field(default_factory=list)
 
 
-@legalising(unless=lambda context: context.capabilities.records)
+@legalising(unless=lambda context: Composite.RECORDS in context.capabilities.data.composites)
 def flat_records(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without records."""
     if not _has_records(program):

@@ -12,6 +12,7 @@ from dataclasses import replace
 from itertools import product
 
 from rpl import ir
+from rpl.passes.capabilities import Passing
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines
 from rpl.passes.legalise.stages import legalising
@@ -96,7 +97,7 @@ class _Lists(Hoister):
     def note(self, name: str, arguments: Sequence[ir.Argument]) -> None:
         """Lists among the arguments of a call of the program's own routine."""
         routine = self.editor.scope.routine(name)
-        if routine is None or self.editor.capabilities.list_arguments:
+        if routine is None or Passing.WRITTEN_LISTS in self.editor.capabilities.routines.passing:
             return
         fold = self.editor.scope.fold
         named = {fold(parameter.name): parameter for parameter in routine.parameters}

@@ -10,6 +10,7 @@ from typing import TypeGuard
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import TextRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.rewriting.walk import Rewriter
@@ -170,9 +171,9 @@ class _Functions(Rewriter):
         can = self.context.capabilities
         match node:
             case ir.Builtin(function=("round" | "trunc"), arguments=(_, decimals)):
-                return not can.computed_decimals and not isinstance(decimals, ir.IntLiteral)
+                return TextRule.COMPUTED_DECIMALS not in can.texts.rules and not isinstance(decimals, ir.IntLiteral)
             case ir.Builtin(function="text_order"):
-                return can.texts and node.function not in can.functions
+                return node.function not in can.functions
             case ir.Builtin(function=("aligned" | "arc_middle")):
                 return node.function not in can.functions
         return False

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
+from rpl.passes.capabilities import Fault
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.data.wholes import Wholes, place_key
@@ -174,7 +175,9 @@ class _Split(Rewriter):
 
     def subscript(self, old: ir.Expression) -> ir.Expression:
         """A subscript: rounded only where the controller would not stop at a fraction, as the source's does."""
-        return self.expression(old) if self.context.capabilities.faults_fractions else self.whole(old)
+        return (
+            self.expression(old) if Fault.INDEX_FRACTION in self.context.capabilities.errors.faults else self.whole(old)
+        )
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
         match expression:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import Fault
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.errors.raising import raising_of
@@ -21,12 +22,12 @@ _BESIDE = (ir.DeclareInterrupt, ir.ConnectInterrupt, ir.OrderInterrupt, ir.TaskC
 _WATCHING = (ir.WaitUntil, ir.DeclareInterrupt, ir.OrderInterrupt, ir.Trigger, ir.DefineTrigger, ir.Spline)
 
 
-@legalising(unless=lambda context: context.capabilities.faults_outside, sees=("Index",))
+@legalising(unless=lambda context: Fault.INDEX_OUTSIDE in context.capabilities.errors.faults, sees=("Index",))
 def checked_subscripts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose controllers do not stop at such an index themselves. A program that catches the error gets
     its checks with its handlers (passes.legalise.errors)."""
     can = context.capabilities
-    if not can.error_handlers and "out_of_range" in raising_of(program).caught:
+    if not can.errors.handlers and "out_of_range" in raising_of(program).caught:
         return program
     tasks = {module.task for module in program.modules}
     alone = len(tasks) == 1 and len(program.tasks) <= 1

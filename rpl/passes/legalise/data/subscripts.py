@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.capabilities import Composite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
@@ -15,7 +16,7 @@ from rpl.passes.legalise.stages import legalising
 @legalising()
 def joined_subscripts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without arrays of their own."""
-    return program if context.capabilities.arrays else _Joined(program, context).program()
+    return program if Composite.ARRAYS in context.capabilities.data.composites else _Joined(program, context).program()
 
 
 class _Joined(Rewriter):

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.capabilities import Truth
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
@@ -22,7 +23,7 @@ _STORED = (ir.Name, ir.Index, ir.Field, ir.Call)
 def truths_to_numbers(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that cannot declare truth values."""
     can = context.capabilities
-    kept = "BoolType" in can.banks if can.banks else "BoolType" in can.types
+    kept = "BoolType" in can.storage.banks if can.storage.banks else "BoolType" in can.types
     return program if kept else _Truths(program, context).program()
 
 
@@ -32,9 +33,9 @@ class _Truths(Rewriter):
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
         can = context.capabilities
-        have = can.banks or can.types
+        have = can.storage.banks or can.types
         self.number: ir.Type = ir.IntType() if "IntType" in have else ir.RealType()
-        self.yes = -1 if can.truth == "minus_one" else 1
+        self.yes = -1 if can.data.truth is Truth.MINUS_ONE else 1
 
     def type(self, type: ir.Type) -> ir.Type:
         return self.number if isinstance(type, ir.BoolType) else super().type(type)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.ir.walk import bodies, walk
+from rpl.passes.capabilities import Fault
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.data.subscriptchecks import Checks
 from rpl.passes.legalise.data.wholes import Wholes
@@ -18,7 +19,7 @@ from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 
 
-@legalising(unless=lambda context: context.capabilities.faults_fractions)
+@legalising(unless=lambda context: Fault.INDEX_FRACTION in context.capabilities.errors.faults)
 def whole_subscripts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose controllers do not stop at such an index themselves."""
     scopes = ProgramScope(program)

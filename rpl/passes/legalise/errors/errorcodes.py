@@ -16,7 +16,7 @@ from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.storage.unused import is_linked
 
 
-@legalising(unless=lambda context: not context.capabilities.error_handlers)
+@legalising(unless=lambda context: not context.capabilities.errors.handlers)
 def name_errors(program: ir.Program, context: Context) -> ir.Program:
     """For targets with error handlers: the names of errors are the target's, which defines them itself."""
     ours, theirs = rules_of(context.source).errors, rules_of(context.target).errors

@@ -37,7 +37,7 @@ _COMES_FROM: Mapping[str, tuple[type, ...]] = {
 @legalising()
 def error_numbers(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with error handlers of their own, whose numbers are not the source's."""
-    if not context.capabilities.error_handlers:
+    if not context.capabilities.errors.handlers:
         return program
     theirs = rules_of(context.target).errors
     numbers = {name: number for name, number in rules_of(context.source).errors.items() if spelled_among(name, theirs)}

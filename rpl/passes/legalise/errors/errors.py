@@ -54,7 +54,7 @@ class _Names:
     number: ir.Name
 
 
-@legalising(unless=lambda context: context.capabilities.error_handlers)
+@legalising(unless=lambda context: context.capabilities.errors.handlers)
 def check_errors(program: ir.Program, context: Context) -> ir.Program:
     """The program with errors as values that are passed on and looked at."""
     facts = raising_of(program)

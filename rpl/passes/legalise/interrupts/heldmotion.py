@@ -13,6 +13,7 @@ from functools import partial
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import bodies, walk
+from rpl.passes.capabilities import InterruptRule, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import statements_in
@@ -227,8 +228,8 @@ class _Held:
     def drops(self) -> bool:
         """Is a move that was stopped begun again on the target?"""
         can = self.context.capabilities
-        watched = can.watching_tasks or can.watched_interrupts
-        return can.stopping_reactions or watched or "StopMotion" not in can.statements
+        watched = can.interrupts.watched is Watched.ALL or can.interrupts.watched is Watched.INTERRUPTS
+        return InterruptRule.STOPPING in can.interrupts.rules or watched or "StopMotion" not in can.statements
 
     def lost(self, what: Code, statement: ir.Statement) -> ir.Body:
         """Named, and the program stops here: no robot may drive on by itself."""

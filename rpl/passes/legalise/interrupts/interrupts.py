@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.ir.walk import bodies
+from rpl.passes.capabilities import InterruptRule, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name, called_names, each_statement, exposed
 from rpl.passes.legalise.interrupts.changes import watched_changes
@@ -97,7 +98,7 @@ class _Priorities:
                 name = base_name(handle)
                 if name is None or name not in self.priority_of:
                     return [statement]
-                single = statement.once and self.context.capabilities.one_shot_reactions
+                single = statement.once and InterruptRule.ONE_SHOT in self.context.capabilities.interrupts.rules
                 action = self.action(name, statement.once and not single)
                 priority = ir.IntLiteral(self.priority_of[name])
                 later = replace(statement.origin, comments=())
@@ -109,7 +110,7 @@ class _Priorities:
                 name = base_name(handle)
                 if name is not None and name in self.priority_of and self.watching:
                     return self.watched(statement, name)
-                if name is None or name not in self.priority_of or not self.context.capabilities.timers:
+                if name is None or name not in self.priority_of or not self.context.capabilities.io.timers:
                     return [statement]
                 return self.every(statement, name, time)
             case ir.ControlInterrupt(op=op, handle=handle) if handle is not None:
@@ -128,7 +129,7 @@ class _Priorities:
         """A timer that counts up to zero; its interrupt sets it back by the period, so that no time is lost. Periods
         that pass while it has to wait come once, and the next one at its own time."""
         if name not in self.timer_of:
-            self.timer_of[name] = self.context.capabilities.timers - len(self.timer_of)
+            self.timer_of[name] = self.context.capabilities.io.timers - len(self.timer_of)
         timer, stopped = self.timer(name, "timer"), self.timer(name, "timer_stopped")
         priority, later = ir.IntLiteral(self.priority_of[name]), replace(statement.origin, comments=())
         off = ir.ControlInterrupt("off", priority)
@@ -149,7 +150,10 @@ class _Priorities:
 
     @property
     def watching(self) -> bool:
-        return self.context.capabilities.watching_tasks or self.context.capabilities.watched_interrupts
+        return (
+            self.context.capabilities.interrupts.watched is Watched.ALL
+            or self.context.capabilities.interrupts.watched is Watched.INTERRUPTS
+        )
 
     def watched(self, statement: ir.OrderInterrupt, name: str) -> list[ir.Statement]:
         """A timer for a target whose interrupts are tasks: these know how to wait for a time by themselves."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.interrupts.watching import number_of
 from rpl.passes.legalise.stages import legalising
@@ -22,7 +23,12 @@ _TAKES_TIME = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Move, ir.Spline, ir.D
 @legalising(
     unless=lambda context: (
         "DeclareInterrupt" in context.capabilities.statements
-        and (not (context.capabilities.watching_tasks or context.capabilities.watched_interrupts))
+        and (
+            not (
+                context.capabilities.interrupts.watched is Watched.ALL
+                or context.capabilities.interrupts.watched is Watched.INTERRUPTS
+            )
+        )
     )
 )
 def nested_interrupts(program: ir.Program, context: Context) -> ir.Program:

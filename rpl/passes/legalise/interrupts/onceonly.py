@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
+from rpl.passes.capabilities import InterruptRule, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import called_names, exposed
 from rpl.passes.legalise.rewriting.support import with_support
@@ -21,22 +22,38 @@ from rpl.source import Origin
 @legalising()
 def reactions_once(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose interrupts come again."""
-    return program if context.capabilities.one_shot_reactions else _as_target_has_it(program, context)
+    return (
+        program
+        if InterruptRule.ONE_SHOT in context.capabilities.interrupts.rules
+        else _as_target_has_it(program, context)
+    )
 
 
 @legalising()
 def rearmed_reactions(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose interrupts come once, with all that other passes make interrupts of."""
-    return _as_target_has_it(program, context) if context.capabilities.one_shot_reactions else program
+    return (
+        _as_target_has_it(program, context)
+        if InterruptRule.ONE_SHOT in context.capabilities.interrupts.rules
+        else program
+    )
 
 
 def _as_target_has_it(program: ir.Program, context: Context) -> ir.Program:
     """Interrupts with a number that is known."""
     can = context.capabilities
-    if not (can.watching_tasks or can.watched_interrupts or {"DeclareInterrupt", "ConnectInterrupt"} & can.statements):
+    if not (
+        can.interrupts.watched is Watched.ALL
+        or can.interrupts.watched is Watched.INTERRUPTS
+        or {"DeclareInterrupt", "ConnectInterrupt"} & can.statements
+    ):
         return program
     found = [one for one in walk(*program.modules) if isinstance(one, ir.DeclareInterrupt)]
-    wanted = {one for one in found if one.once != can.one_shot_reactions and _number(one) is not None}
+    wanted = {
+        one
+        for one in found
+        if one.once != (InterruptRule.ONE_SHOT in can.interrupts.rules) and _number(one) is not None
+    }
     if not wanted:
         return program
     worker = _Once(program, context, found)
@@ -92,7 +109,7 @@ class _Once:
         serving: dict[str, set[int | None]] = {}
         for one in self.found:
             if (name := _routine(one)) is not None:
-                same = one.once != self.context.capabilities.one_shot_reactions
+                same = one.once != (InterruptRule.ONE_SHOT in self.context.capabilities.interrupts.rules)
                 serving.setdefault(name, set()).add(_number(one) if same else None)
         actions = [id(one.action) for one in self.found]
         elsewhere = set[str]()
@@ -108,12 +125,12 @@ class _Once:
                 self.numbers[name] = number
 
     def first(self, number: int, origin: Origin) -> ir.ControlInterrupt:
-        op = "on" if self.context.capabilities.one_shot_reactions else "off"
+        op = "on" if InterruptRule.ONE_SHOT in self.context.capabilities.interrupts.rules else "off"
         handle = next(_handle(one) for one in self.found if _number(one) == number)  # spelled as it is declared
         return ir.ControlInterrupt(op, handle, origin=origin)
 
     def declared(self, one: ir.DeclareInterrupt) -> ir.DeclareInterrupt:
-        number, once = _number(one), self.context.capabilities.one_shot_reactions
+        number, once = _number(one), InterruptRule.ONE_SHOT in self.context.capabilities.interrupts.rules
         if one.once == once or number is None:
             return one
         if _routine(one) in self.numbers:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import InterruptRule, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.usage import called_names, exposed
@@ -42,8 +43,8 @@ _FIRST_PRIORITY = 10  # as passes.interrupts numbers them
 
 @legalising(
     unless=lambda context: (
-        context.capabilities.watching_tasks
-        or context.capabilities.watched_interrupts
+        context.capabilities.interrupts.watched is Watched.ALL
+        or context.capabilities.interrupts.watched is Watched.INTERRUPTS
         or not {"DeclareInterrupt", "ConnectInterrupt"} & context.capabilities.statements
     )
 )
@@ -51,8 +52,8 @@ def reactions(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with interrupts, and programs that give theirs an identity."""
     can = context.capabilities
     declared = [one for one in walk(*program.modules) if isinstance(one, ir.DeclareInterrupt)]
-    drops = not context.capabilities.stopping_reactions
-    switched = not can.one_shot_reactions
+    drops = InterruptRule.STOPPING not in context.capabilities.interrupts.rules
+    switched = InterruptRule.ONE_SHOT not in can.interrupts.rules
     if not any(one.identity is not None or (one.once and switched) or (one.stops and drops) for one in declared):
         return program
     if any(number_of(one.priority) is None or key_of(one) is None for one in declared):
@@ -107,7 +108,7 @@ class _Reactions:
         can, waiting = self.context.capabilities, self.waiting(mask)
         if mask.handle is not None and number_of(mask.handle) is None:
             return (mask,)  # the writer names what it cannot say
-        if can.interrupt_masks:
+        if InterruptRule.MASKED in can.interrupts.rules:
             return (replace(mask, handle=ir.IntLiteral(min(waiting)) if waiting else None),)
         if 0 < len(waiting) < len(self.urgency) and "DeclareInterrupt" not in can.statements:
             self.context.diagnostics.report(MASKED, mask.origin)
@@ -129,10 +130,10 @@ class _Reactions:
             case ir.DeclareInterrupt():
                 own = ir.IntLiteral(self.numbers[number_of(_identity(statement)) or 0])
                 action = self.action(statement, own)
-                stops = statement.stops and self.context.capabilities.stopping_reactions
+                stops = statement.stops and InterruptRule.STOPPING in self.context.capabilities.interrupts.rules
                 # What drops the motion leaves down to the level that declared it.
                 everywhere = statement.everywhere and (stops or not statement.stops)
-                once = statement.once and self.context.capabilities.one_shot_reactions
+                once = statement.once and InterruptRule.ONE_SHOT in self.context.capabilities.interrupts.rules
                 done = replace(statement, priority=own, identity=None, once=once, stops=stops, action=action)
                 return (replace(done, everywhere=everywhere),)
             case ir.ControlInterrupt(op="mask"):
@@ -144,9 +145,9 @@ class _Reactions:
 
     def action(self, declared: ir.DeclareInterrupt, own: ir.Expression) -> ir.CallRoutine | ir.Assign:
         """The action, or a routine around it."""
-        once = declared.once and not self.context.capabilities.one_shot_reactions
+        once = declared.once and InterruptRule.ONE_SHOT not in self.context.capabilities.interrupts.rules
         first: ir.Body = (ir.ControlInterrupt("off", own),) if once else ()
-        stops = declared.stops and not self.context.capabilities.stopping_reactions
+        stops = declared.stops and InterruptRule.STOPPING not in self.context.capabilities.interrupts.rules
         if stops:
             first = (*first, ir.StopMotion(hard=True))
         if not first:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import InterruptRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.usage import called_below
@@ -25,7 +26,7 @@ from rpl.passes.legalise.tasks.beside import tidy
 
 @legalising(
     unless=lambda context: (
-        not context.capabilities.stopping_reactions
+        InterruptRule.STOPPING not in context.capabilities.interrupts.rules
         or "StartMotion" in context.capabilities.statements
         or "ClearMotion" not in context.capabilities.statements
     )

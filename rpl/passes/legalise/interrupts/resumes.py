@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import bodies, walk
+from rpl.passes.capabilities import InterruptRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import each_expression, each_statement
 from rpl.passes.legalise.interrupts.armedcalls import ArmedElsewhere, armed_calls
@@ -31,7 +32,7 @@ NOT_BRAKED = code(
 @legalising()
 def resumes(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that cannot resume at the level of a declaration but can clear the path."""
-    statements, drops = context.capabilities.statements, context.capabilities.stopping_reactions
+    statements, drops = context.capabilities.statements, InterruptRule.STOPPING in context.capabilities.interrupts.rules
     if "ResumeLevel" in statements and "ClearMotion" not in statements:
         return _resume_clears(program)
     if "ResumeLevel" in statements or not ({"ClearMotion", "StartMotion"} <= statements or drops):

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.capabilities import SearchResult, Watched
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
@@ -37,7 +38,7 @@ def search_parts(program: ir.Program, context: Context) -> ir.Program:
                     if not missed:
                         missed.append(editor.temporary("missed", ir.BoolType()))
                     return _handled(statement, statement.search, editor, missed[0])
-                if editor.capabilities.watching_tasks:
+                if editor.capabilities.interrupts.watched is Watched.ALL:
                     return _told(statement, statement.search, editor, raises)
                 return _fitted(statement, statement.search, editor, raises)
             return (inside(statement, lambda inner: map_body(inner, change)),)
@@ -54,9 +55,9 @@ def search_parts(program: ir.Program, context: Context) -> ir.Program:
 def _by_handler(search: ir.Search, editor: Editor, raises: bool) -> bool:
     """Can only an error handler find out what the program asks for, whether the condition came true?"""
     can = editor.capabilities
-    unknown = search.hit is not None and "hit" not in can.search_results
+    unknown = search.hit is not None and SearchResult.HIT not in can.motion.search_results
     named = _NOT_FOUND in rules_of(editor.context.target).errors
-    return unknown and named and can.error_handlers and not raises and search.stop != "none"
+    return unknown and named and can.errors.handlers and not raises and search.stop != "none"
 
 
 def _handled(move: ir.Move, search: ir.Search, editor: Editor, missed: ir.Name) -> ir.Body:
@@ -92,15 +93,15 @@ def _told(move: ir.Move, search: ir.Search, editor: Editor, raises: bool) -> ir.
 
 
 def _fitted(move: ir.Move, search: ir.Search, editor: Editor, raises: bool) -> ir.Body:
-    says = editor.capabilities.search_results
+    says = editor.capabilities.motion.search_results
     report = editor.context.diagnostics.report
-    if search.hit is not None and "hit" not in says:
+    if search.hit is not None and SearchResult.HIT not in says:
         report(NO_HIT, move.origin)
         return (move,)
-    if search.found is None and "hit" not in says:
+    if search.found is None and SearchResult.HIT not in says:
         place = editor.temporary("found", ir.TargetType(editor.context.source))
         return (replace(move, search=replace(search, found=place)),)
-    if search.found is None or "found" in says:
+    if search.found is None or SearchResult.FOUND in says:
         return _told(move, search, editor, raises) if "hit" in says else (move,)
     if search.stop == "none":
         report(NO_PLACE, move.origin)

@@ -217,7 +217,7 @@ class Served:
         late = ir.Binary(">=", waited, plain(wait.timeout))
         (loop,) = self.waiting(ir.Binary("cor", wait.condition, late))
         assert isinstance(loop, ir.While)  # as waiting makes it
-        step = ir.Assign(waited, ir.Binary("+", waited, ir.RealLiteral(self.context.capabilities.poll_s)))
+        step = ir.Assign(waited, ir.Binary("+", waited, ir.RealLiteral(self.context.capabilities.io.poll_s)))
         told: ir.Body = ()
         if wait.timed_out is not None:
             told = (ir.Assign(wait.timed_out, ir.Unary("not", wait.condition)),)
@@ -259,7 +259,7 @@ class Served:
 
     def wait_routine(self, look: ir.Statement, pause: ir.Statement) -> ir.Routine:
         waited, time = ir.Name("waited"), ir.Name("seconds")
-        more = ir.Assign(waited, ir.Binary("+", waited, ir.RealLiteral(self.context.capabilities.poll_s)))
+        more = ir.Assign(waited, ir.Binary("+", waited, ir.RealLiteral(self.context.capabilities.io.poll_s)))
         going: ir.Expression = ir.Binary("<", waited, time)
         if self.leaves:
             going = ir.Binary("cand", going, ir.Unary("not", ir.Name(self.name("rpl_left"))))
@@ -357,7 +357,7 @@ def _flag(name: str, value: bool, statement: ir.Statement) -> ir.Statement:
 
 
 def _pause(context: Context) -> ir.Statement:
-    return ir.Wait(ir.Quantity(ir.RealLiteral(context.capabilities.poll_s), "s"))
+    return ir.Wait(ir.Quantity(ir.RealLiteral(context.capabilities.io.poll_s), "s"))
 
 
 __all__ = ["MOTION", "Served", "Watch"]

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import InterruptRule, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.usage import called_names, exposed
@@ -28,9 +29,9 @@ _HOLDS = ("disable", "enable")
 
 @legalising(
     unless=lambda context: (
-        context.capabilities.single_disables
-        or context.capabilities.watching_tasks
-        or context.capabilities.watched_interrupts
+        InterruptRule.SINGLE_DISABLES in context.capabilities.interrupts.rules
+        or context.capabilities.interrupts.watched is Watched.ALL
+        or context.capabilities.interrupts.watched is Watched.INTERRUPTS
         or not {"DeclareInterrupt", "ConnectInterrupt"} & context.capabilities.statements
     )
 )

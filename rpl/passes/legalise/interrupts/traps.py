@@ -142,7 +142,7 @@ class _Traps:
         if parts:
             every = list(dict.fromkeys(parts))
             return [order("change", part, number) for number, part in enumerate(every, 1)], False
-        period = self.context.capabilities.shortest_interrupt_period_s
+        period = self.context.capabilities.interrupts.shortest_period_s
         local = any(isinstance(node, ir.Name) and node.id.lower() in own for node in walk(condition))
         if not period or local:
             return [], False
@@ -255,7 +255,7 @@ class _Traps:
         trap = _Trap(self.context.fresh(f"rpl_trap_{priority}"), declared.condition, tuple(orders))
         if not exact:
             trap.held = self.context.fresh(f"rpl_held_{priority}")
-            period = self.context.capabilities.shortest_interrupt_period_s
+            period = self.context.capabilities.interrupts.shortest_period_s
             told = POLLED if orders[0].event == "timer" else ANY_CHANGE
             values = {"seconds": str(period)} if told is POLLED else {}
             self.context.diagnostics.report(told, declared.origin, **values)

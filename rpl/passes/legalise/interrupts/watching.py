@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
+from rpl.passes.capabilities import PathRule, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside, left_with
 from rpl.passes.legalise.facts.usage import called_names, exposed
@@ -57,15 +58,18 @@ _ALONE = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.Raise, ir.Halt,
 
 
 @legalising(
-    unless=lambda context: not context.capabilities.watching_tasks and (not context.capabilities.watched_interrupts)
+    unless=lambda context: (
+        context.capabilities.interrupts.watched is not Watched.ALL
+        and (context.capabilities.interrupts.watched is not Watched.INTERRUPTS)
+    )
 )
 def watching(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that are asked for this."""
     can = context.capabilities
     nodes = list(walk(*program.modules))
-    searches = can.watching_tasks and any(isinstance(node, ir.Search) for node in nodes)
+    searches = can.interrupts.watched is Watched.ALL and any(isinstance(node, ir.Search) for node in nodes)
     interrupts = any(isinstance(node, ir.DeclareInterrupt) for node in nodes)
-    concurrent = can.watching_tasks and has_concurrent(program)
+    concurrent = can.interrupts.watched is Watched.ALL and has_concurrent(program)
     if not searches and not interrupts and not concurrent:
         return program
     beside = Beside(program, context)
@@ -74,7 +78,9 @@ def watching(program: ir.Program, context: Context) -> ir.Program:
     watches.collect()
     serving: list[Served] = []
     for some in watches.together():
-        served = (Served if can.watching_tasks else EndedMoves)(program, context, beside, movers, some)
+        served = (Served if can.interrupts.watched is Watched.ALL else EndedMoves)(
+            program, context, beside, movers, some
+        )
         served.marked = armed_statements(program, served)
         if served.leaves:
             served.marked = with_calls(program, served.marked, served.declaring)
@@ -144,7 +150,7 @@ class _Watches:
     def together(self) -> list[dict[int, Watch]]:
         """Those that the program serves: all at once, or one by one where a move looks at one condition."""
         served = {key: one for key, one in self.watches.items() if one.served}
-        if self.beside.context.capabilities.watching_tasks:
+        if self.beside.context.capabilities.interrupts.watched is Watched.ALL:
             return [served] if served else []
         return [{key: one} for key, one in served.items()]
 
@@ -202,7 +208,7 @@ class _Watches:
         if timed or key not in self.periods:
             watch.was = self.flag(f"rpl_interrupt_{key}_was")
         if timed and watch.may_come() is not None:
-            if self.beside.context.capabilities.watching_tasks:
+            if self.beside.context.capabilities.interrupts.watched is Watched.ALL:
                 watch.came = self.flag(f"rpl_interrupt_{key}_came")
             else:
                 report(MISSED, one.origin, action=_name(one.action))
@@ -233,7 +239,11 @@ class _Watches:
         times, can = self.periods.get(key, []), self.beside.context.capabilities
         if times and any(time != times[0] for time in times):
             return "it comes by time, and at different ones"
-        if times and self.takes_time(one) and not (one.once and (can.watching_tasks or can.searched_data)):
+        if (
+            times
+            and self.takes_time(one)
+            and not (one.once and (can.interrupts.watched is Watched.ALL or PathRule.SEARCHED_DATA in can.motion.paths))
+        ):
             return "it comes by time, takes time itself, and comes again or cannot be looked for in a move"
         if any(isinstance(node, ir.Name) and node.id.lower() in own for node in walk(*times)):
             return "its time is a variable of the routine that orders it"
@@ -241,13 +251,13 @@ class _Watches:
             return "it puts the motion aside"
         if name in drives and name not in brakes and not one.stops:
             return "it moves the robot without braking first"
-        if can.watching_tasks or not self.takes_time(one):
+        if can.interrupts.watched is Watched.ALL or not self.takes_time(one):
             return ""
         others = [other.key for other in self.watches.values() if other.served and other.key != key]
         if any(self.overlap(key, other) for other in others):
             return "another one stops the robot already, and a move looks at one condition"
         looked = replace(one, condition=ir.Name(_DUE)) if times else one
-        return unending(looked, name in brakes, can.searched_data, _signals(self.program))
+        return unending(looked, name in brakes, PathRule.SEARCHED_DATA in can.motion.paths, _signals(self.program))
 
     def takes_time(self, one: ir.DeclareInterrupt) -> bool:
         if one.stops:
@@ -369,7 +379,7 @@ class _Watches:
             elif op in ("enable", "disable") and watch.enabled:
                 done.append(_set(watch.enabled, op == "disable", statement))
         if op == "enable" and any(watch.enabled for watch in chosen):  # what has waited for that comes first
-            done.append(ir.Wait(ir.Quantity(ir.RealLiteral(self.beside.context.capabilities.poll_s), "s")))
+            done.append(ir.Wait(ir.Quantity(ir.RealLiteral(self.beside.context.capabilities.io.poll_s), "s")))
         return expansion(statement.origin, done)
 
     # ---- levels

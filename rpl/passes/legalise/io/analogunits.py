@@ -96,7 +96,7 @@ class _Units:
         """Its range here and on the target's controller; None where it must not pass, which is reported."""
         number = signal.index.value if isinstance(signal.index, ir.IntLiteral) else None
         names = {name for name in (own, signal.name) if name}
-        prefix = self.context.capabilities.signal_prefixes.get(signal.kind)
+        prefix = self.context.capabilities.io.signal_prefixes.get(signal.kind)
         further = {f"{prefix}{number}"} if prefix and number is not None else set()
         here = self.sources[self.language].of(signal.kind, number, names)
         there = self.target.of(signal.kind, number, names | further)

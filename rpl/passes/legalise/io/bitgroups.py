@@ -14,6 +14,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import GroupRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.io.polling import polled
 from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion
@@ -32,8 +33,8 @@ ONE_BY_ONE = code(
 def groups_to_bits(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that cannot name a group by its first and last signal, or know some sizes of groups only (the
     numbers of some have been given by now)."""
-    if context.capabilities.signal_groups:
-        return shared_groups_to_bits(program, context) if context.capabilities.group_sizes else program
+    if GroupRule.FREE in context.capabilities.io.groups:
+        return shared_groups_to_bits(program, context) if context.capabilities.io.group_sizes else program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         return edit_bodies(routine, _Bits(editor).body)
@@ -46,18 +47,22 @@ def shared_groups_to_bits(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose signals have names: groups of which another statement uses a part; for those whose groups have
     sizes: groups of another size, or that begin elsewhere."""
     capabilities = context.capabilities
-    named = bool(capabilities.signal_prefixes) or capabilities.declared_groups or not capabilities.computed_groups
+    named = (
+        bool(capabilities.io.signal_prefixes)
+        or GroupRule.DECLARED in capabilities.io.groups
+        or GroupRule.COMPUTED not in capabilities.io.groups
+    )
     apart: frozenset[Group] = frozenset()
-    if capabilities.signal_prefixes:
+    if capabilities.io.signal_prefixes:
         apart = _overlapping(program)
-    elif capabilities.group_sizes:
-        apart = _odd(program, capabilities.group_sizes)
+    elif capabilities.io.group_sizes:
+        apart = _odd(program, capabilities.io.group_sizes)
     computed = named and any(isinstance(node, ir.Signal) and _is_computed(node) for node in walk(*program.modules))
     if not apart and not computed:
         return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        return edit_bodies(routine, _Shared(editor, apart, computed, capabilities.group_sizes).body)
+        return edit_bodies(routine, _Shared(editor, apart, computed, capabilities.io.group_sizes).body)
 
     return edit_routines(program, context, work)
 

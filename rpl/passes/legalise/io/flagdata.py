@@ -60,11 +60,11 @@ def flags_as_data(program: ir.Program, context: Context) -> ir.Program:
     can = context.capabilities
     numbers = [number for node in walk(*program.modules) if (number := _number(node)) is not None]
     largest = max((number.value for number in numbers if isinstance(number, ir.IntLiteral)), default=0)
-    if can.flags and not 0 < can.last_flag < largest:
+    if can.io.flags and not 0 < can.io.last_flag < largest:
         return program
     computed = next((number for number in numbers if not isinstance(number, ir.IntLiteral)), None)
     if computed is None:
-        return _beyond(program, context) if can.flags else program
+        return _beyond(program, context) if can.io.flags else program
     last = max(_REACH, *(number.value for number in numbers if isinstance(number, ir.IntLiteral)), 1)
     name = context.fresh("flag")
     context.diagnostics.report(COMPUTED, computed.origin, last=last)
@@ -92,7 +92,7 @@ def _beyond(program: ir.Program, context: Context) -> ir.Program:
 
     def placed(node: object) -> object:
         number = _number(node)
-        if not isinstance(number, ir.IntLiteral) or number.value <= context.capabilities.last_flag:
+        if not isinstance(number, ir.IntLiteral) or number.value <= context.capabilities.io.last_flag:
             return node
         assert isinstance(node, ir.Signal | ir.System)  # only these have a number
         if number.value not in names:

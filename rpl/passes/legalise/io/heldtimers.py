@@ -23,7 +23,9 @@ Known = dict[int, bool]  # number of a timer -> whether it runs
 
 
 @legalising(
-    unless=lambda context: not context.capabilities.timers or "timer_stopped" in context.capabilities.system_variables
+    unless=lambda context: (
+        not context.capabilities.io.timers or "timer_stopped" in context.capabilities.system_variables
+    )
 )
 def held_timers(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with numbered timers that cannot be stopped. Timers of computed numbers stay for the writer."""

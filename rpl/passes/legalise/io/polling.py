@@ -37,16 +37,16 @@ def _needed(statement: ir.WaitUntil, context: Context) -> bool:
     can = context.capabilities
     if "WaitUntil" not in can.statements:
         return True
-    timers = "timer" in can.system_variables and can.timers
-    if statement.timeout is not None and not can.wait_timeout and not timers:
+    timers = "timer" in can.system_variables and can.io.timers
+    if statement.timeout is not None and not can.io.wait_timeout and not timers:
         return True
-    return not can.function_routines and any(isinstance(one, ir.Call) for one in everything(statement.condition))
+    return not can.routines.functions and any(isinstance(one, ir.Call) for one in everything(statement.condition))
 
 
 def polled(statement: ir.WaitUntil, editor: Editor, facts: Raising | None = None) -> ir.Body:
     """The wait as a loop. `facts`: only needed for one that ends too late and has nothing to say it by."""
     can = editor.capabilities
-    period = ir.RealLiteral(can.poll_s)
+    period = ir.RealLiteral(can.io.poll_s)
     pause = ir.Wait(ir.Quantity(period, "s"))
     before: list[ir.Statement] = []
     if statement.in_position:

@@ -21,9 +21,9 @@ _TIMERS = ("timer", "timer_stopped", "timer_positive")
         ("time" in context.capabilities.system_variables or context.capabilities.carries_rules)
         or (
             not (
-                context.capabilities.timers
+                context.capabilities.io.timers
                 or "Clock" in context.capabilities.statements
-                or context.capabilities.counted_clocks
+                or context.capabilities.io.clock_step_s
             )
         )
     )
@@ -42,7 +42,7 @@ def program_times(program: ir.Program, context: Context) -> ir.Program:
             case ir.System(name=name) if name in _TIMERS:
                 return program
     number = next(each for each in range(1, len(used) + 2) if each not in used)
-    if can.timers and number > can.timers:
+    if can.io.timers and number > can.io.timers:
         return program
     index = (ir.IntLiteral(number),)
     timer = ir.System("timer", index)

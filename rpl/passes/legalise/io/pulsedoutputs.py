@@ -14,6 +14,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
+from rpl.passes.capabilities import PulseRule
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
@@ -29,7 +30,7 @@ PULSED = code(
 _HIGH, _LOW = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
 
-@legalising(unless=lambda context: context.capabilities.pulse_levels)
+@legalising(unless=lambda context: PulseRule.ANY_LEVEL in context.capabilities.io.pulses)
 def pulsed_outputs(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose pulses are to high."""
     scopes = ProgramScope(program)

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import PulseRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import is_constant
@@ -24,8 +25,11 @@ _HIGH, _LOW = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
 @legalising(
     unless=lambda context: (
-        (context.capabilities.pulse_levels and context.capabilities.pulse_times)
-        or "start" not in context.capabilities.task_operations
+        (
+            PulseRule.ANY_LEVEL in context.capabilities.io.pulses
+            and PulseRule.COMPUTED_TIME in context.capabilities.io.pulses
+        )
+        or "start" not in context.capabilities.tasks.operations
         or "TaskControl" not in context.capabilities.statements
     )
 )
@@ -76,7 +80,7 @@ class _Pulses:
 
     def measured(self, pulse: ir.Pulse) -> bool:
         """Can the target say how long the pulse is?"""
-        return self.context.capabilities.pulse_times or is_constant(pulse.duration)
+        return PulseRule.COMPUTED_TIME in self.context.capabilities.io.pulses or is_constant(pulse.duration)
 
     def set_back(self, signal: ir.Expression, level: ir.BoolLiteral, duration: ir.Expression) -> ir.Body:
         """The level now, and a task that gives the output the other one."""

@@ -14,7 +14,7 @@ from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 
-@legalising(unless=lambda context: context.capabilities.reset_stops)
+@legalising(unless=lambda context: context.capabilities.io.reset_stops)
 def stopped_resets(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose stop watches count on when they are set to zero."""
     return edit_all(program, _body)

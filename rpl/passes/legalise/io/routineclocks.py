@@ -13,13 +13,18 @@ from typing import TypeGuard
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import Local
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.activations import Activations
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Fold, rules_of
 
 
-@legalising(unless=lambda context: context.capabilities.local_clocks and "ClockType" in context.capabilities.types)
+@legalising(
+    unless=lambda context: (
+        Local.CLOCKS in context.capabilities.routines.locals and "ClockType" in context.capabilities.types
+    )
+)
 def clocks_of_routines(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose routines have no stop watches: theirs are data of the program, or numbered timers."""
     recursive = Activations.of(program).recursive

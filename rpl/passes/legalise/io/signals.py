@@ -15,6 +15,7 @@ from dataclasses import replace
 from rpl import ir, registry
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
+from rpl.passes.capabilities import GroupRule
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.io.groupwidths import TOO_NARROW, WIDTH, group_widths
 from rpl.passes.legalise.io.signalnumbers import numbers_as_arguments, parameters_as_numbers
@@ -39,7 +40,7 @@ _MOST = 1024  # beyond it a number that the program puts somewhere is none of a 
 _VALUES: dict[str, ir.Type] = {"analog": ir.RealType(), "group": ir.IntType()}
 
 
-@legalising(unless=lambda context: not context.capabilities.signal_prefixes)
+@legalising(unless=lambda context: not context.capabilities.io.signal_prefixes)
 def name_signals(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose signals have names."""
     scopes = ProgramScope(program)
@@ -93,7 +94,7 @@ def _place(place: ir.Name | ir.Index) -> str:
 class _Named:
     def __init__(self, program: ir.Program, context: Context) -> None:
         self.context = context
-        self.prefixes = context.capabilities.signal_prefixes
+        self.prefixes = context.capabilities.io.signal_prefixes
         self.aliases: dict[tuple[str, int], str] = {}
         self.declared: dict[str, ir.Signal] = {}  # by folded name; the first of that name keeps it
         self.highest: dict[str, int] = {}
@@ -280,7 +281,7 @@ def _constant(index: ir.Expression | None) -> bool:
     return isinstance(index, ir.IntLiteral)
 
 
-@legalising(unless=lambda context: context.capabilities.signal_prefixes)
+@legalising(unless=lambda context: context.capabilities.io.signal_prefixes)
 def number_signals(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose signals have numbers."""
     computed = _computed(program)
@@ -300,7 +301,7 @@ def _computed(program: ir.Program) -> frozenset[str]:
 
 def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str]) -> ir.Program:
     prefixes = _prefixes()
-    alone = not context.capabilities.numbered_groups
+    alone = GroupRule.NUMBERED not in context.capabilities.io.groups
 
     def known(signal: ir.Signal) -> str | None:
         """The name of a named signal, or that of a group with a number of its own."""
@@ -317,7 +318,7 @@ def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str
     for kind in computed:  # any of them may be meant
         taken = used.setdefault(kind, set())
         taken.update(range(1, max({_REACH, *taken}) + 1))
-    widest = context.capabilities.widest_group
+    widest = context.capabilities.io.widest_group
     own = rules_of(context.source).group_bits
     widths = group_widths(program, known, widest, WIDTH if alone else widest, own)
     numbers = _numbers(names, prefixes, used, alone, {key: bits for key, (bits, _) in widths.items()})
@@ -403,7 +404,7 @@ def _prefixes() -> dict[str, set[str]]:
     """The prefixes with which any target names a numbered signal of a kind."""
     found: dict[str, set[str]] = {}
     for name in registry.target_names():
-        for kind, prefix in registry.target(name).capabilities().signal_prefixes.items():
+        for kind, prefix in registry.target(name).capabilities().io.signal_prefixes.items():
             found.setdefault(kind, set()).add(prefix.lower())
     return found
 

@@ -32,7 +32,7 @@ def step_times(program: ir.Program, context: Context) -> ir.Program:
     if _STEP not in list(walk(*program.modules)):
         return program
     cycle = rules_of(context.source).wait_poll_s or _CYCLE_S
-    seconds = max(cycle, context.capabilities.shortest_wait_s)
+    seconds = max(cycle, context.capabilities.io.shortest_wait_s)
     known = ir.RealLiteral(seconds)
     if seconds > cycle:
         context.diagnostics.report(LONGER, _first(program), cycle=cycle, seconds=seconds)

@@ -24,9 +24,9 @@ def timers_to_clocks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without numbered timers that have stop watches, or a task that counts them. Computed timer
     numbers stay for the writer. Where timers have no flag that tells whether they are past zero, they are compared."""
     capabilities = context.capabilities
-    if capabilities.timers and "timer_positive" not in capabilities.system_variables:
+    if capabilities.io.timers and "timer_positive" not in capabilities.system_variables:
         return _Compared(program, context).program()
-    if capabilities.timers or not ("Clock" in capabilities.statements or capabilities.counted_clocks):
+    if capabilities.io.timers or not ("Clock" in capabilities.statements or capabilities.io.clock_step_s):
         return program
     worker = _Clocks(context)
     for module in program.modules:  # which timers are asked whether they run

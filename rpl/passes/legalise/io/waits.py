@@ -80,13 +80,13 @@ class _Timers:
                     index = one.indices[0]
                     numbers = [index.value] if isinstance(index, ir.IntLiteral) else []
                     # a computed number may mean any timer: none is free then
-                    self.used.update(numbers or range(1, self.context.capabilities.timers + 1))
+                    self.used.update(numbers or range(1, self.context.capabilities.io.timers + 1))
 
     def take(self, purpose: str, count: int = 1) -> int | None:
         """The first of `count` timers that nothing else uses; None when there are not as many."""
         if purpose not in self.given:
             self.given[purpose] = None
-            for first in range(self.context.capabilities.timers - count + 1, 0, -1):
+            for first in range(self.context.capabilities.io.timers - count + 1, 0, -1):
                 wanted = set(range(first, first + count))
                 if not wanted & self.used:
                     self.used |= wanted
@@ -144,7 +144,7 @@ class _Waits:
 
     def statement(self, statement: ir.Statement) -> ir.Body:
         match statement:
-            case ir.WaitUntil(timeout=timeout) if timeout is not None and not self.capabilities.wait_timeout:
+            case ir.WaitUntil(timeout=timeout) if timeout is not None and not self.capabilities.io.wait_timeout:
                 return self.limited(statement, timeout)
             case ir.SetAfter() if "SetAfter" not in self.capabilities.statements:
                 return self.set_after(statement)
@@ -180,7 +180,7 @@ class _Waits:
         )
 
     def _none_left(self, statement: ir.Statement, what: str) -> None:
-        self.editor.context.diagnostics.report(NO_TIMER, statement.origin, what=what, count=self.capabilities.timers)
+        self.editor.context.diagnostics.report(NO_TIMER, statement.origin, what=what, count=self.capabilities.io.timers)
 
     def set_after(self, statement: ir.SetAfter) -> ir.Body:
         """An output that changes later is a pulse of the opposite level, unless it has its level already."""
@@ -297,7 +297,7 @@ def _number(clock: ir.Variable, numbers: dict[int, int], timers: _Timers, contex
     number = timers.take(f"clock {id(clock)}", count)
     if number is None:
         context.diagnostics.report(
-            NO_TIMER, clock.origin, what=f"the clock {clock.name}", count=context.capabilities.timers
+            NO_TIMER, clock.origin, what=f"the clock {clock.name}", count=context.capabilities.io.timers
         )
         return
     numbers[id(clock)] = number

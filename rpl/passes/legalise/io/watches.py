@@ -26,7 +26,7 @@ COUNTED = code(
 _TASK, _RUNS = "rpl_watch", "rpl_watch_runs"
 
 
-@legalising(unless=lambda context: not context.capabilities.counted_clocks)
+@legalising(unless=lambda context: not context.capabilities.io.clock_step_s)
 def counted_watches(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without stop watches and timers where a task can count."""
     if not program.modules:
@@ -35,7 +35,7 @@ def counted_watches(program: ir.Program, context: Context) -> ir.Program:
     modules = tuple(worker.module(module) for module in program.modules)
     if not worker.watches:
         return program
-    context.diagnostics.report(COUNTED, worker.first.origin, step=context.capabilities.counted_clocks)
+    context.diagnostics.report(COUNTED, worker.first.origin, step=context.capabilities.io.clock_step_s)
     program = replace(program, modules=(*modules, worker.home(modules[0])))
     return worker.started(program)
 
@@ -49,7 +49,7 @@ class _Watch:
 class _Watches:
     def __init__(self, context: Context, scopes: ProgramScope) -> None:
         self.context, self.scopes = context, scopes
-        self.step = context.capabilities.counted_clocks
+        self.step = context.capabilities.io.clock_step_s
         self.watches: dict[int, _Watch] = {}
         self.first: ir.Variable
         self.task, self.runs = _TASK, _RUNS

@@ -20,10 +20,10 @@ from rpl.passes.rewrite import rewrite_parts
 _Key = tuple[str, int]
 
 
-@legalising(unless=lambda context: not context.capabilities.write_only)
+@legalising(unless=lambda context: not context.capabilities.io.write_only)
 def kept_outputs(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that have such outputs."""
-    kinds = context.capabilities.write_only
+    kinds = context.capabilities.io.write_only
     outputs = _Outputs(kinds)
     for module in program.modules:
         for routine in module.routines:

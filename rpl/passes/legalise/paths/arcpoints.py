@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.capabilities import PlaceRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
@@ -18,7 +19,7 @@ _POSITION = ("x", "y", "z")
 _ANGLES = ("a", "b", "c")
 
 
-@legalising(unless=lambda context: context.capabilities.partial_targets)
+@legalising(unless=lambda context: PlaceRule.PARTIAL in context.capabilities.places.rules)
 def whole_arc_points(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without places of some components."""
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import PathRule
 from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.taughtvalues import WRITTEN, taught_names, tell_written
@@ -117,7 +118,7 @@ class _Paths:
         if not isinstance(statement, ir.Move):
             return None
         passed, self.passed = self.passed, not isinstance(statement.blend, ir.BlendStop | None)
-        if not is_fixed(statement) or self.context.capabilities.fixed_arcs or passed:
+        if not is_fixed(statement) or PathRule.FIXED_ARCS in self.context.capabilities.motion.paths or passed:
             return None
         done = self.arcs.written(statement, self.scope) if self.reports and self.scope is not None else None
         if done is not None:
@@ -210,7 +211,7 @@ class _Paths:
             return move
         start = state.last
         if start is None or there is None or is_fixed(move):
-            if is_fixed(move) and self.context.capabilities.fixed_arcs:
+            if is_fixed(move) and PathRule.FIXED_ARCS in self.context.capabilities.motion.paths:
                 state.last = None
                 return move
             if self.reports:

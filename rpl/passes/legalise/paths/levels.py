@@ -33,7 +33,9 @@ _CORNER = "rpl_corner"
 
 
 @legalising(
-    unless=lambda context: not rules_of(context.source).blend_levels or "BlendLevel" in context.capabilities.blends
+    unless=lambda context: (
+        not rules_of(context.source).blend_levels or "BlendLevel" in context.capabilities.settings.blends
+    )
 )
 def levels_to_distances(program: ir.Program, context: Context) -> ir.Program:
     """Constant levels by their distance; computed ones where they change nothing else."""

@@ -15,6 +15,7 @@ from typing import Literal
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import PathRule
 from rpl.passes.curves import SAME_MM, Leg, Segment, block, circle_through, rotation_of_vector, vector_of_rotation
 from rpl.passes.fold import Unchanged, constant, constant_number, lasting
 from rpl.passes.legalise.context import Context, rules_of
@@ -132,7 +133,7 @@ class SplineArcs:
         self, spline: ir.Spline, moves: Sequence[ir.Move], before: Sequence[ir.Statement], curve: _Curve
     ) -> ir.Body | None:
         """The block as points of the target's own curve, where that is the same within a tolerance."""
-        if not self.context.capabilities.curve_points or len(curve[2]) != 1 or _blends(before):
+        if PathRule.CURVE_POINTS not in self.context.capabilities.motion.paths or len(curve[2]) != 1 or _blends(before):
             return None
         deviation = self._leaves(curve, rules_of(self.context.target).mean_parabolas)
         last = next((one for one in reversed(before) if isinstance(one, ir.Move | ir.Spline)), None)

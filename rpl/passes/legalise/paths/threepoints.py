@@ -17,6 +17,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes import rigid
+from rpl.passes.capabilities import PathRule
 from rpl.passes.fold import Unchanged, constant, constant_number, lasting
 from rpl.passes.legalise.advance.arctriggers import placeable, shared_out
 from rpl.passes.legalise.context import Context, rules_of
@@ -117,7 +118,8 @@ def circle_through(start: rigid.Vector, via: rigid.Vector, end: rigid.Vector) ->
 
 @legalising(
     unless=lambda context: (
-        context.capabilities.arcs_by_angle and "circle_orientation" in context.capabilities.system_variables
+        PathRule.ARCS_BY_ANGLE in context.capabilities.motion.paths
+        and "circle_orientation" in context.capabilities.system_variables
     )
 )
 def three_point_arcs(program: ir.Program, context: Context) -> ir.Program:
@@ -188,7 +190,7 @@ class _Arcs:
 
     @property
     def without_angle(self) -> bool:
-        return not self.context.capabilities.arcs_by_angle
+        return PathRule.ARCS_BY_ANGLE not in self.context.capabilities.motion.paths
 
     def rule(self, move: ir.Move) -> str:
         """How the tool turns on an arc: `base`, `path`; empty text: it is not known."""

@@ -10,6 +10,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite
+from rpl.passes.capabilities import PathRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.stages import legalising
 
@@ -22,7 +23,7 @@ EVEN_TURN = code(
 )
 
 
-@legalising(unless=lambda context: context.capabilities.wrist_paths)
+@legalising(unless=lambda context: PathRule.EVEN_WRIST in context.capabilities.motion.paths)
 def wrist_paths(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such paths."""
     reported = False

@@ -463,7 +463,7 @@ class _ToAngles(WantedRewriter):
                 return self.here(arguments)
             case "current_joints", () if not can:
                 return ir.System("actual_joints", origin=expression.origin)
-            case name, _ if name in KINEMATICS and not can and self.context.capabilities.kinematics is not None:
+            case name, _ if name in KINEMATICS and not can and self.context.capabilities.places.kinematics is not None:
                 return self.kinematic(name, arguments)
         return rewrite_parts(expression, self.expression)
 
@@ -563,4 +563,4 @@ def _at_a_point(origin: list[ir.Expression]) -> bool:
 
 def _target_type(program: ir.Program, context: Context) -> ir.Type:
     """The notation that targets have now: the target's where they are converted already."""
-    return ir.TargetType(context.capabilities.notation)
+    return ir.TargetType(context.capabilities.places.notation)

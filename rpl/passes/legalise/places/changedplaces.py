@@ -12,6 +12,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
@@ -34,7 +35,9 @@ _COMPUTED = (
 )
 
 
-@legalising(unless=lambda context: not context.foreign or not context.capabilities.flags_by_sign)
+@legalising(
+    unless=lambda context: not context.foreign or PlaceRule.FLAGS_BY_SIGN not in context.capabilities.places.rules
+)
 def changed_places(program: ir.Program, context: Context) -> ir.Program:
     """The program in whose joint moves changed targets are poses."""
     changed = _changed(program)

@@ -4,6 +4,7 @@ where the robot stands go into a variable first; of other data that nothing chan
 from __future__ import annotations
 
 from rpl import ir
+from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import Unchanged, constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
@@ -16,7 +17,7 @@ _ARM = 6  # joints of the arm; further ones are external axes
 _PLACES = (ir.PoseType, ir.TargetType, ir.JointsType)
 
 
-@legalising(unless=lambda context: context.capabilities.place_components)
+@legalising(unless=lambda context: PlaceRule.COMPONENTS in context.capabilities.places.rules)
 def read_components(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that say so."""
     known = unchanged_in(program)

@@ -46,7 +46,7 @@ class _Composed(Rewriter):
         self.routines: list[ir.Routine] = []
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
-        if isinstance(statement, ir.Move) and self.context.capabilities.move_functions:
+        if isinstance(statement, ir.Move) and self.context.capabilities.places.move_functions:
             target = self.at_move(statement.target)
             both = isinstance(target, ir.Binary | ir.Builtin)  # a move says from where one of its places is seen
             seen = self.expression if both and self.product else self.at_move
@@ -57,7 +57,7 @@ class _Composed(Rewriter):
 
     def at_move(self, target: ir.Expression) -> ir.Expression:
         """A target of a move: the move itself may say that it is seen from another place."""
-        says = self.context.capabilities.move_functions
+        says = self.context.capabilities.places.move_functions
         match target:
             case ir.Binary(op=":", left=left, right=right) if ":" in says:
                 return replace(target, left=self.at_move(left), right=self.expression(right))

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
+from rpl.passes.capabilities import Rotation
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.stages import legalising
@@ -27,13 +28,15 @@ _DONE, _ONE, _OTHER, _PRODUCT = "done", "one", "other", "product"
 @legalising(
     unless=lambda context: (
         not {*_OPERATORS, *_MOVED, "pose_of"}
-        - (context.capabilities.functions - (context.capabilities.move_functions & set(_MOVED)))
+        - (context.capabilities.functions - (context.capabilities.places.move_functions & set(_MOVED)))
     )
 )
 def elementwise(program: ir.Program, context: Context) -> ir.Program:
     """The program without the functions of this kind that the target lacks."""
     can = context.capabilities
-    alone = can.functions - (can.move_functions & set(_MOVED))  # what only a move's target may be is lacking elsewhere
+    alone = can.functions - (
+        can.places.move_functions & set(_MOVED)
+    )  # what only a move's target may be is lacking elsewhere
     lacking = {*_OPERATORS, *_MOVED, "pose_of"} - alone
     return _Worker(context, frozenset(lacking)).program(program)
 
@@ -81,7 +84,7 @@ class _Worker:
     def moves(self, target: ir.Builtin) -> bool:
         """Does a move of the target's say this itself?"""
         can = self.context.capabilities
-        return target.function in _MOVED and target.function in can.move_functions & can.functions
+        return target.function in _MOVED and target.function in can.places.move_functions & can.functions
 
     def call(self, node: ir.Builtin, scope: Scope) -> ir.Expression:
         """The call of the function for these types; the node where a type is not known."""
@@ -95,7 +98,7 @@ class _Worker:
         if key not in self.names:
             name = self.names[key] = self.context.fresh(f"rpl_{node.function}")
             made = _MAKERS[node.function](name, node.function, one, other)
-            whole = self.context.capabilities.rotation == "quaternion" and node.function in _MOVED
+            whole = self.context.capabilities.places.rotation is Rotation.QUATERNION and node.function in _MOVED
             self.routines.append(_by_wholes(made) if whole else made)
         arguments = tuple(ir.Argument(argument) for argument in node.arguments)
         return ir.Call(self.names[key], arguments, origin=node.origin)

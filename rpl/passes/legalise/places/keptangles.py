@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import PlaceRule, Rotation
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import root
 from rpl.passes.legalise.stages import legalising
@@ -34,7 +35,12 @@ _PLACES = (ir.PoseType, ir.TargetType)
 Key = tuple[str, str]
 
 
-@legalising(unless=lambda context: context.capabilities.keeps_angles and context.capabilities.rotation != "quaternion")
+@legalising(
+    unless=lambda context: (
+        PlaceRule.KEEP_ANGLES in context.capabilities.places.rules
+        and context.capabilities.places.rotation is not Rotation.QUATERNION
+    )
+)
 def named_angles(program: ir.Program, context: Context) -> ir.Program:
     """Looks only; for targets that keep rotations."""
     if any(_unusual(node) for node in walk(*program.modules)):

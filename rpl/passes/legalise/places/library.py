@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from rpl import ir
+from rpl.passes.capabilities import Aggregate
 from rpl.passes.legalise.context import Context
 
 _REAL, _POSE, _JOINTS = ir.RealType(), ir.PoseType(), ir.JointsType()
@@ -77,7 +78,7 @@ class Library:
 
     def asked(self, type: ir.Type, *parts: str) -> ir.Expression:
         """The controller's own function for the joints of a target, or for the target of joints; `error` is written."""
-        inverse, forward = self.context.capabilities.kinematics or ("", "")
+        inverse, forward = self.context.capabilities.places.kinematics or ("", "")
         name = inverse if type == _JOINTS else forward
         return ir.VendorValue(self.context.target, f"{name}({','.join((*parts, 'error'))})", type)
 
@@ -115,7 +116,7 @@ def _names(words: str) -> list[ir.Expression]:
 def _frame(library: Library) -> Made:
     """The six numbers at once where the target can say so: set one by one, angles beyond 90 degrees come out otherwise
     where a place does not keep its angles."""
-    if not library.context.capabilities.constant_aggregates:
+    if Aggregate.CONSTANT not in library.context.capabilities.data.aggregates:
         whole = ir.Aggregate(tuple((name, ir.Name(name)) for name in COMPONENTS), "pose")
         return _reals("x y z a b c"), _POSE, (), (ir.Return(whole),)
     body: ir.Body = (*(_set(f"f.{name}", ir.Name(name)) for name in COMPONENTS), ir.Return(ir.Name("f")))

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import constant, constant_number, lasting
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.taughtvalues import WRITTEN, taught_names
@@ -60,7 +61,7 @@ class Known:
         return len(kept) in (0, 3) or abs(abs(self.parts.get("b", 90.0)) - 90.0) > _STRAIGHT_DEG
 
 
-@legalising(unless=lambda context: context.capabilities.partial_targets)
+@legalising(unless=lambda context: PlaceRule.PARTIAL in context.capabilities.places.rules)
 def partial_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without places of some components."""
     if not any(_is_partial_move(node) for node in walk(program)):

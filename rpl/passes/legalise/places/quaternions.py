@@ -129,7 +129,7 @@ class _ToQuaternions(WantedRewriter):
                 return self.now_except(target, isinstance(type, ir.JointsType))
         if isinstance(type, ir.PoseType):
             pose = self.lvalue(target)
-            name = self.kept(ir.Builtin("current_target", ()), ir.TargetType(self.context.capabilities.notation))
+            name = self.kept(ir.Builtin("current_target", ()), ir.TargetType(self.context.capabilities.places.notation))
             self.before.extend(ir.Assign(ir.Field(name, part), ir.Field(pose, part)) for part in ("trans", "rot"))
             return name
         return self.expression(target)
@@ -138,7 +138,7 @@ class _ToQuaternions(WantedRewriter):
         if joints:
             name = self.kept(ir.Builtin("current_joints", ()), ir.JointsType())
         else:
-            name = self.kept(ir.Builtin("current_target", ()), ir.TargetType(self.context.capabilities.notation))
+            name = self.kept(ir.Builtin("current_target", ()), ir.TargetType(self.context.capabilities.places.notation))
         angles = {written: self.expression(value) for written, value in target.entries if written in _ANGLES}
         for written, value in target.entries:
             if written is not None and written not in _ANGLES:

@@ -17,7 +17,7 @@ _NONE = ir.System("null_frame")
 @legalising(
     unless=lambda context: (
         context.capabilities.carries_rules
-        or not context.capabilities.modal_motion
+        or not context.capabilities.settings.modal
         or not {"current_tool", "current_frame"} - context.capabilities.functions
     )
 )

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.passes import rigid
+from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import usage_of
@@ -21,7 +22,7 @@ _INTO_JOINTS = frozenset(("target_to_joints", "target_to_joints_near", "is_reach
 _SEEN = frozenset(("current_target", "current_position", "joints_to_target"))
 
 
-@legalising(unless=lambda context: not context.capabilities.places_in_base)
+@legalising(unless=lambda context: PlaceRule.IN_BASE not in context.capabilities.places.rules)
 def seen_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that say so."""
     return _Seen(program, context).program()
@@ -29,8 +30,8 @@ def seen_places(program: ir.Program, context: Context) -> ir.Program:
 
 @legalising(
     unless=lambda context: (
-        context.capabilities.places_in_base
-        or not context.capabilities.banks
+        PlaceRule.IN_BASE in context.capabilities.places.rules
+        or not context.capabilities.storage.banks
         or "ToolType" in context.capabilities.types
     )
 )

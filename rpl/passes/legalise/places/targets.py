@@ -13,6 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes import rigid
+from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import Unchanged, constant, constant_number, lasting
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.control.jumps import inside
@@ -43,7 +44,11 @@ _ANGLES = ("a", "b", "c")
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 
 
-@legalising(unless=lambda context: context.capabilities.relative_moves and context.capabilities.partial_targets)
+@legalising(
+    unless=lambda context: (
+        context.capabilities.motion.relative and PlaceRule.PARTIAL in context.capabilities.places.rules
+    )
+)
 def whole_targets(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without relative moves or partial targets."""
     scopes, unchanged = ProgramScope(program), unchanged_in(program)
@@ -83,14 +88,19 @@ class Whole:
 
     def needs_work(self, move: ir.Move) -> bool:
         if move.relative is not None:
-            return not self.context.capabilities.relative_moves
-        return not self.context.capabilities.partial_targets and self.missing(move.target)
+            return not self.context.capabilities.motion.relative
+        return PlaceRule.PARTIAL not in self.context.capabilities.places.rules and self.missing(move.target)
 
     def is_partial_way(self, move: ir.Move) -> bool:
         """A way from here that the target can say, of some components that are computed: the place that it is computed
         in has to have them all."""
         can, way = self.context.capabilities, move.target
-        if move.relative is None or not can.relative_moves or can.partial_targets or move.via is not None:
+        if (
+            move.relative is None
+            or not can.motion.relative
+            or PlaceRule.PARTIAL in can.places.rules
+            or move.via is not None
+        ):
             return False
         parts = way.entries if isinstance(way, ir.Aggregate) and self.missing(way) else ()
         return any(constant_number(value, self.scope, self.unchanged) is None for _, value in parts)
@@ -108,8 +118,8 @@ class Whole:
         if move.via is None or isinstance(self.type_of(move.via), ir.JointsType):
             return False
         if move.relative is not None:
-            return not self.context.capabilities.relative_moves and isinstance(move.via, ir.Aggregate)
-        return not self.context.capabilities.partial_targets and self.missing(move.via)
+            return not self.context.capabilities.motion.relative and isinstance(move.via, ir.Aggregate)
+        return PlaceRule.PARTIAL not in self.context.capabilities.places.rules and self.missing(move.via)
 
     def whole_via(self, move: ir.Move, done: list[ir.Statement]) -> tuple[list[ir.Statement], ir.Move]:
         """What the point on the way of an arc needs first, and the arc with this point in full."""

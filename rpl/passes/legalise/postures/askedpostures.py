@@ -12,6 +12,7 @@ from typing import Any
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import Postures
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.flow import ModalFlow
@@ -116,7 +117,7 @@ class _Asked(Rewriter):
         """Does the arm come to this place without words, but as an earlier word has left it and not as it stands at
         first? Targets whose places say the posture would turn it back."""
         frames, arm, pose = self.flow.frames.get(id(move)), self.arm, pose_of(goal)
-        if not self.worded or self.here is None or self.context.capabilities.postures != "flags":
+        if not self.worded or self.here is None or self.context.capabilities.places.postures is not Postures.FLAGS:
             return False
         flange = None if frames is None or pose is None else frames.flange(pose)
         if flange is None or arm is None:

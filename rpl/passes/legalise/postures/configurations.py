@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import Postures, Rotation
 from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Arm, Context, rules_of
 from rpl.passes.legalise.facts.flow import Use, Uses
@@ -85,13 +86,13 @@ class _Configurations(Rewriter):
         super().__init__(program, context)
         self.trial = trial
         kept = context.capabilities.carries_rules or not context.foreign
-        self.target_notation = context.source if kept else context.capabilities.notation
+        self.target_notation = context.source if kept else context.capabilities.places.notation
         sources = {module.dialect for module in program.modules}
         self.foreign = not kept and any(one != self.target_notation for one in sources)
         self.side_by_side = True  # are the flags of the target written now beside its position?
         self.arm, self.to_arm = context.robot, context.to_robot or context.robot
         self.other_arm = bool(self.arm and self.to_arm and self.arm.name != self.to_arm.name)
-        self.near = self.foreign and context.capabilities.postures == "joints"
+        self.near = self.foreign and context.capabilities.places.postures is Postures.JOINTS
         self.implications: Known = {}
         self.changed: tuple[str, str] | None = None  # the posture of the place looked at now, on one arm and the other
         self.told: set[tuple[int, int]] = set()  # source and line where single axes have been told
@@ -308,7 +309,7 @@ class _Configurations(Rewriter):
     @property
     def flat(self) -> bool:
         """Do the target's targets have their flags side by side with the position?"""
-        return self.context.capabilities.rotation == "zyx" if self.foreign else self.side_by_side
+        return self.context.capabilities.places.rotation is Rotation.ZYX if self.foreign else self.side_by_side
 
     @property
     def fields(self) -> tuple[str, ...]:

@@ -12,6 +12,7 @@ from dataclasses import replace
 from rpl import ir, registry
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.postures.externalaxes import AXES, is_nothing
@@ -36,7 +37,7 @@ _TYPES = ("target", "pose", "joints")
 Known = dict[str, float]
 
 
-@legalising(unless=lambda context: context.capabilities.partial_targets)
+@legalising(unless=lambda context: PlaceRule.PARTIAL in context.capabilities.places.rules)
 def external_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without partial places, and programs that move external axes."""
     used = _used(program)

@@ -32,7 +32,7 @@ def flag_readings(program: ir.Program, context: Context) -> ir.Program:
     """The program with flags as numbers of their own, as far as they can be known."""
     can = context.capabilities
     sources = {module.dialect for module in program.modules}
-    if not any(one != can.notation for one in sources):
+    if not any(one != can.places.notation for one in sources):
         return program
     look = _Look(program, context)
     look.program()

@@ -50,7 +50,7 @@ def free_postures(program: ir.Program, context: Context) -> ir.Program:
     arm, other, can = context.robot, context.to_robot, context.capabilities
     if arm is None or can.carries_rules or not context.foreign or (other is not None and other is not arm):
         return program
-    ours, theirs = registry.dialect(context.source).notation, registry.dialect(can.notation).notation
+    ours, theirs = registry.dialect(context.source).notation, registry.dialect(can.places.notation).notation
     if ours is None or theirs is None or not any(_may_be_free(one) for one in walk(*program.modules)):
         return program
     one: Any = arm

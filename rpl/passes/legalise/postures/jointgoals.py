@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.capabilities import PathRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.stages import legalising
 
 
-@legalising(unless=lambda context: context.capabilities.paths_to_joints)
+@legalising(unless=lambda context: PathRule.TO_JOINTS in context.capabilities.motion.paths)
 def joint_goals(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that say so."""
 

@@ -27,7 +27,7 @@ _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 @legalising(
     unless=lambda context: (
         context.robot is None
-        or context.capabilities.kinematics is not None
+        or context.capabilities.places.kinematics is not None
         or (context.to_robot is not None and context.to_robot is not context.robot)
     ),
     sees=("Builtin",),

@@ -14,6 +14,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
+from rpl.passes.capabilities import Postures
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.flow import ModalFlow
@@ -36,7 +37,9 @@ _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 
 
 @legalising(
-    unless=lambda context: _NEAR in context.capabilities.functions or context.capabilities.kinematics is not None,
+    unless=lambda context: (
+        _NEAR in context.capabilities.functions or context.capabilities.places.kinematics is not None
+    ),
     sees=("Builtin",),
 )
 def near_joints(program: ir.Program, context: Context) -> ir.Program:
@@ -81,7 +84,7 @@ class _Solved(Rewriter):
         if found is not None:
             self.written.tell(move, self.scope, place)
             return replace(move, target=_written(found))
-        if self.context.capabilities.postures == "joints":
+        if self.context.capabilities.places.postures is Postures.JOINTS:
             return replace(move, target=ir.Builtin(_NEAR, (place, _written(joints))))
         self.context.diagnostics.report(POSTURE, move.origin)
         return replace(move, target=place)

@@ -17,7 +17,9 @@ from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 
-@legalising(unless=lambda context: context.capabilities.kinematics is not None or context.capabilities.carries_rules)
+@legalising(
+    unless=lambda context: context.capabilities.places.kinematics is not None or context.capabilities.carries_rules
+)
 def seen_joints(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without kinematic functions, in routines that see the robot standing still between the lines."""
 

@@ -50,7 +50,7 @@ def solved_places(program: ir.Program, context: Context) -> ir.Program:
     lacking = {name for name in _ROUTINES if name not in can.functions}
     if "target_to_joints_near" in lacking:
         lacking.add("target_to_joints")  # such functions choose by the posture that is written at the place
-    if arm is None or can.kinematics is not None or not lacking:
+    if arm is None or can.places.kinematics is not None or not lacking:
         return program
     if context.to_robot is not None and context.to_robot is not arm:
         return program
@@ -70,12 +70,14 @@ class _Solved(Rewriter):
         super().__init__(program, context)
         self.flow, self.helpers, self.lacking = ModalFlow(program, self.scopes), helpers, lacking
         can = context.capabilities
-        self.looked_at = _looked_at(program) if can.banks else set()
-        self.kept = set(_OWN) - can.functions if can.banks else set()
+        self.looked_at = _looked_at(program) if can.storage.banks else set()
+        self.kept = set(_OWN) - can.functions if can.storage.banks else set()
         self.read, self.here = program, NOWHERE
         self.uses: Uses | None = None
         # Numbered positions are read in the frame of the last move: only where no move has one of its own.
-        self.framed = can.banks and any(isinstance(one, ir.Move) and (one.frame or one.tool) for one in walk(program))
+        self.framed = can.storage.banks and any(
+            isinstance(one, ir.Move) and (one.frame or one.tool) for one in walk(program)
+        )
         self.sets_flags = _sets_flags(program)
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:

@@ -12,6 +12,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes import rigid
+from rpl.passes.capabilities import TurnedWay
 from rpl.passes.fold import Unchanged, constant, lasting
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.places.targets import Whole, here
@@ -28,7 +29,7 @@ _ANGLES = ("a", "b", "c")
 _PLACES = 9
 
 
-@legalising(unless=lambda context: {"base", "tool", "joint"} <= context.capabilities.turned_ways, sees=("Move",))
+@legalising(unless=lambda context: context.capabilities.motion.turned_ways == frozenset(TurnedWay), sees=("Move",))
 def turned_ways(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such relative moves."""
     if not any(isinstance(node, ir.Move) and node.relative in ("base", "tool") for node in walk(program)):
@@ -53,13 +54,13 @@ class _Turned(Whole):
         self.usual = usual
 
     def needs_work(self, move: ir.Move) -> bool:
-        can = self.context.capabilities.turned_ways
+        can = self.context.capabilities.motion.turned_ways
         type = self.type_of(move.target)
         if move.relative not in ("base", "tool") or move.via is not None or type is None:
             return False
         if isinstance(type, ir.JointsType):
             return False
-        joint = move.kind == "joint" and "joint" not in can
+        joint = move.kind == "joint" and TurnedWay.JOINT not in can
         return joint or (move.relative not in can and self.turns(move.target))
 
     def via_needs_work(self, move: ir.Move) -> bool:

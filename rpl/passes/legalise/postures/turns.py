@@ -14,6 +14,7 @@ from typing import Any
 from rpl import ir, registry
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
+from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
@@ -38,7 +39,9 @@ _OTHER_TURN_DEG = 180.0  # what differs by more is another turn, though joints a
 
 @legalising(
     unless=lambda context: (
-        context.capabilities.place_turns or not context.foreign or ((context.to_robot or context.robot) is None)
+        PlaceRule.TURNS in context.capabilities.places.rules
+        or not context.foreign
+        or ((context.to_robot or context.robot) is None)
     ),
     sees=("Move",),
 )
@@ -60,7 +63,7 @@ class _Turns(Rewriter):
         super().__init__(program, context)
         self.written = JointsOfPlaces(program, context)
         self.arm: Any = context.to_robot or context.robot
-        make = registry.dialect(context.capabilities.notation).notation
+        make = registry.dialect(context.capabilities.places.notation).notation
         self.notation: Any = None if make is None else make()
         self.stands = Whereabouts(program, context, converted=True)
         self.low, self.high = self.range(program)

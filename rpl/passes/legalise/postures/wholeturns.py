@@ -10,6 +10,7 @@ from collections.abc import Collection
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.capabilities import PlaceRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import children
@@ -22,7 +23,7 @@ _ANGLES = ("a", "b", "c")
 _ALL = ("x", "y", "z", *_ANGLES)
 
 
-@legalising(unless=lambda context: context.capabilities.keeps_angles)
+@legalising(unless=lambda context: PlaceRule.KEEP_ANGLES in context.capabilities.places.rules)
 def whole_turns(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that say so."""
 

@@ -31,7 +31,7 @@ _SOLVED = {
 def _unsolved(statement: ir.Statement, asked: Asked) -> Found:
     """Kinematic functions that the target has in no form."""
     can, found = asked.can, list[Mapping[str, object]]()
-    if can.kinematics is not None:
+    if can.places.kinematics is not None:
         return ()
 
     def look(expression: ir.Expression) -> None:
@@ -41,9 +41,9 @@ def _unsolved(statement: ir.Statement, asked: Asked) -> Found:
         if expression.function == "target_to_joints_near":
             if isinstance(statement, ir.Move) and statement.target == expression:
                 return  # how a move says the posture that it wants
-            chosen = isinstance(type_of(expression.arguments[0], asked.scope), ir.TargetType) and not can.banks
+            chosen = isinstance(type_of(expression.arguments[0], asked.scope), ir.TargetType) and not can.storage.banks
             needed = {"target_to_joints"} if chosen else {"target_to_joints", "target_to_joints_near"}
-        elif can.banks and expression.function != "is_reachable":
+        elif can.storage.banks and expression.function != "is_reachable":
             return  # registers change their form where they are assigned
         if not needed <= can.functions:
             found.append({"what": _SOLVED[expression.function]})

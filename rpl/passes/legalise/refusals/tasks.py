@@ -36,7 +36,7 @@ def _critical(statement: ir.Critical, asked: Asked) -> Found:
 
 def _task(statement: ir.TaskControl, asked: Asked) -> Found:
     op, can = statement.op, asked.can
-    if "TaskControl" in can.statements and op in can.task_operations:
+    if "TaskControl" in can.statements and op in can.tasks.operations:
         return ()
     return ({"what": _WHAT.get(op, op), "name": statement.task},)
 

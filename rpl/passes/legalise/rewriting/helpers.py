@@ -412,7 +412,7 @@ class Helpers:
         if not self.names:
             return program
         text = "\n".join(self.texts[helper] for helper in self.names)
-        if self.context.capabilities.text_results:
+        if self.context.capabilities.routines.text_results:
             text = _TEXT_REFERENCE.sub("", text)  # texts are values there
         text = _NAME.sub(lambda match: self.names.get(match[0], match[0]), text)
         read = _read(text)

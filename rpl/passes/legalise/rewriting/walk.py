@@ -190,7 +190,7 @@ class Rewriter:
         if wait.timeout is not None and wait.timed_out is None:
             self.context.diagnostics.report(EARLY, statement.origin)
             return _in_order([*first, wait], statement)
-        shortest = self.context.capabilities.shortest_wait_s or POLL_S
+        shortest = self.context.capabilities.io.shortest_wait_s or POLL_S
         period = ir.RealLiteral(round(round(POLL_S / shortest) * shortest, 6))
         self.context.diagnostics.report(POLLED, statement.origin, seconds=period.value)
         pause = ir.Wait(ir.Quantity(period, "s"))

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
+from rpl.passes.capabilities import ActionArguments, Parameters, Passing, TriggerRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
@@ -20,9 +21,9 @@ _NUMBERS = (ir.IntType, ir.RealType, ir.StringType)
 
 @legalising(
     unless=lambda context: (
-        {"reaction", "path", "own"} <= context.capabilities.action_arguments
-        and context.capabilities.path_assignments == "any"
-        and context.capabilities.reference_parameters
+        context.capabilities.interrupts.action_arguments == frozenset(ActionArguments)
+        and TriggerRule.ANY_VARIABLE in context.capabilities.motion.triggers
+        and Passing.REFERENCES in context.capabilities.routines.passing
     ),
     sees=(
         "DeclareInterrupt",
@@ -87,9 +88,9 @@ class _Actions:
         """Other actions than calls and assignments (KRL `DO PULSE(...)`) become a routine too, where calls do; so do
         assignments of an interrupt, where it calls routines without arguments."""
         can = self.context.capabilities
-        kinds = {"path": ir.Trigger, "reaction": ir.DeclareInterrupt}
-        work = tuple(kind for word, kind in kinds.items() if word not in can.action_arguments)
-        signals_only = can.path_assignments == "signals"
+        kinds = {ActionArguments.PATH: ir.Trigger, ActionArguments.REACTION: ir.DeclareInterrupt}
+        work = tuple(kind for word, kind in kinds.items() if word not in can.interrupts.action_arguments)
+        signals_only = TriggerRule.ANY_VARIABLE not in can.motion.triggers
         if not work and not signals_only:
             return routine
 
@@ -117,14 +118,16 @@ class _Actions:
         if not call.arguments or call.dynamic is not None:
             return False
         can = self.context.capabilities
-        if kind not in can.action_arguments:
+        if kind not in can.interrupts.action_arguments:
             return True
-        if "own" not in can.action_arguments and any(_is_local(name, scope) for name in _names(call)):
+        if ActionArguments.OWN not in can.interrupts.action_arguments and any(
+            _is_local(name, scope) for name in _names(call)
+        ):
             return True
         routine = scope.routine(call.name)
-        if routine is not None and not can.reference_parameters:
+        if routine is not None and Passing.REFERENCES not in can.routines.passing:
             return any(one.mode == "reference" for one in routine.parameters)
-        if kind != "path" or can.parameters == "names" or routine is None:
+        if kind != "path" or can.routines.parameters is Parameters.NAMES or routine is None:
             return False
         return any(one.mode != "value" or not isinstance(one.type, _NUMBERS) for one in routine.parameters)
 

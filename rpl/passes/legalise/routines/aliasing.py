@@ -16,6 +16,7 @@ from typing import cast, get_args
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, children
+from rpl.passes.capabilities import Parameters, Passing
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.activations import Activations
@@ -43,7 +44,10 @@ Place = tuple[Key, Steps]
 
 
 @legalising(
-    unless=lambda context: context.capabilities.reference_parameters and context.capabilities.parameters == "names"
+    unless=lambda context: (
+        Passing.REFERENCES in context.capabilities.routines.passing
+        and context.capabilities.routines.parameters is Parameters.NAMES
+    )
 )
 def without_shared_references(program: ir.Program, context: Context) -> ir.Program:
     """Guards calls whose arguments by reference are seen under a second name. Only for targets without references."""

@@ -35,7 +35,7 @@ CALL_LEFT = code(
 )
 
 
-@legalising(unless=lambda context: context.capabilities.function_routines)
+@legalising(unless=lambda context: context.capabilities.routines.functions)
 def functions_to_procedures(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without user functions."""
     results: dict[int, str] = {}

@@ -19,7 +19,7 @@ _MOST = 4  # versions of one routine
 _OWN = (ir.Variable, ir.Parameter)
 
 
-@legalising(unless=lambda context: not context.capabilities.banks)
+@legalising(unless=lambda context: not context.capabilities.storage.banks)
 def given_arrays(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with banks, and calls that say all their arguments in order."""
     for _ in range(8):  # an array that is handed on is known when the routine in between knows it

@@ -14,7 +14,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.errornames import spelled_among
 from rpl.ir.walk import bodies, walk
-from rpl.passes.capabilities import NameRules
+from rpl.passes.capabilities import NameRules, Parameters, Passing
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.data.datalists import calls_of, never_called, reached
 from rpl.passes.legalise.facts.effects import blocks, children, everything, statements_in
@@ -58,7 +58,11 @@ def names_stay(program: ir.Program, rules: NameRules) -> bool:
 def fit_parameters(program: ir.Program, context: Context) -> ir.Program:
     """The program with parameters, arguments and calls by name as the target has them."""
     can = context.capabilities
-    if not can.dynamic_calls or can.parameters != "names" or not names_stay(program, can.names):
+    if (
+        not can.routines.dynamic_calls
+        or can.routines.parameters is not Parameters.NAMES
+        or not names_stay(program, can.names)
+    ):
         chosen = edit_routines(program, context, lambda editor, routine: edit_bodies(routine, _Dynamic(editor).body))
         program = _with_entry(program, chosen)
     facts = _facts(program)
@@ -66,7 +70,7 @@ def fit_parameters(program: ir.Program, context: Context) -> ir.Program:
         program = _asking_presence(program, facts)
         facts = _facts(program)
     optional = any(p.optional or p.switch for m in program.modules for r in m.routines for p in r.parameters)
-    if context.capabilities.optional_parameters:
+    if Passing.OPTIONAL in context.capabilities.routines.passing:
         return _declared(program, facts) if facts.left_out else program
     if not optional and not facts.left_out and not facts.asked:
         return program
@@ -368,7 +372,7 @@ class _Dynamic:
     def __init__(self, editor: Editor) -> None:
         self.editor = editor
         can = editor.capabilities
-        self.itself = can.dynamic_calls and names_stay(editor.scope.program.program, can.names)
+        self.itself = can.routines.dynamic_calls and names_stay(editor.scope.program.program, can.names)
         self.held: HeldTexts | None = None
         self.before: ir.Body = ()  # of the statement that is looked at, in its block
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies
+from rpl.passes.capabilities import Local, Parameters
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import goes_on, inside
 from rpl.passes.legalise.data.arraycopies import array_copy
@@ -52,7 +53,7 @@ class _Plan:
     again: bool = False
 
 
-@legalising(unless=lambda context: context.capabilities.parameters == "names")
+@legalising(unless=lambda context: context.capabilities.routines.parameters is Parameters.NAMES)
 def fit_arguments(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without named parameters."""
     scopes = ProgramScope(program)
@@ -64,7 +65,7 @@ def fit_arguments(program: ir.Program, context: Context) -> ir.Program:
     }
     if not plans:
         return program
-    if not context.capabilities.recursion or not context.capabilities.locals:
+    if not context.capabilities.routines.recursion or Local.VARIABLES not in context.capabilities.routines.locals:
         for key in Activations.of(program).recursive & plans.keys():
             plans[key].again = True
     done = edit_routines(program, context, lambda editor, routine: _Calls(editor, plans).routine(routine, plans))
@@ -83,7 +84,7 @@ def _plan(routine: ir.Routine, scope: Scope, context: Context, sizes: ArraySizes
         type = scope.resolve(parameter.type)
         key = parameter.name.lower()
         by_value = parameter.mode != "reference" and isinstance(type, _NUMBERED)
-        if by_value and context.capabilities.parameters == "numbered":
+        if by_value and context.capabilities.routines.parameters is Parameters.NUMBERED:
             plan.numbers[key] = len(plan.numbers) + 1
             continue
         name = context.fresh(f"{routine.name}_{parameter.name}")

@@ -72,10 +72,10 @@ class _Stacks:
 
     def sized(self) -> None:
         """As large as the deepest nest of calls needs, within the bank."""
-        depth = self.context.capabilities.call_depth or _UNKNOWN_DEPTH
+        depth = self.context.capabilities.routines.call_depth or _UNKNOWN_DEPTH
         for stack in self.found.values():
             stack.size = depth * stack.most
-            bank = self.context.capabilities.banks.get(stack.type.__class__.__name__)
+            bank = self.context.capabilities.storage.banks.get(stack.type.__class__.__name__)
             if bank is not None:
                 stack.size = max(stack.most, min(stack.size, (bank.last - bank.first + 1) // _SHARE))
 
@@ -127,8 +127,8 @@ def kept_on_stacks(program: ir.Program, context: Context, facts: Activations) ->
 
 def _report(context: Context, facts: Activations, stacks: _Stacks) -> None:
     parts = []
-    if context.capabilities.call_depth:
-        parts.append(f"the target's calls nest {context.capabilities.call_depth} deep at most")
+    if context.capabilities.routines.call_depth:
+        parts.append(f"the target's calls nest {context.capabilities.routines.call_depth} deep at most")
     for stack in stacks.found.values():
         parts.append(f"{stack.name} keeps up to {stack.size} values of its activations")
     for key in facts.recursive:

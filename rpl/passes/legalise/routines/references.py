@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.ir.walk import bodies
+from rpl.passes.capabilities import Passing
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks, is_constant, statements_in
 from rpl.passes.legalise.facts.usage import base_name
@@ -31,7 +32,7 @@ _LVALUES = (ir.Name, ir.Index, ir.Field)
 Key = tuple[str, str]
 
 
-@legalising(unless=lambda context: context.capabilities.reference_parameters)
+@legalising(unless=lambda context: Passing.REFERENCES in context.capabilities.routines.passing)
 def references_as_copies(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without parameters by reference."""
     facts = _Facts(program)

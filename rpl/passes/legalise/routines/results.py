@@ -25,7 +25,11 @@ from rpl.passes.rewrite import rewrite_parts
 @legalising()
 def list_results(program: ir.Program, context: Context) -> ir.Program:
     """The program with no function that gives a list of known size, where the target has none."""
-    return program if context.capabilities.list_results else _as_parameters(program, context, ir.ArrayType, "list")
+    return (
+        program
+        if context.capabilities.routines.list_results
+        else _as_parameters(program, context, ir.ArrayType, "list")
+    )
 
 
 def text_results(program: ir.Program, context: Context) -> ir.Program:

@@ -21,10 +21,10 @@ _Call = ir.Call | ir.CallRoutine
 _Item = TypeVar("_Item")
 
 
-@legalising(unless=lambda context: not context.capabilities.most_arguments)
+@legalising(unless=lambda context: not context.capabilities.routines.most_arguments)
 def drop_unread_parameters(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with a limit on the arguments of a call."""
-    most = context.capabilities.most_arguments
+    most = context.capabilities.routines.most_arguments
     routines = [routine for module in program.modules for routine in module.routines]
     if all(len(routine.parameters) <= most for routine in routines):
         return program

@@ -12,6 +12,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, rewrite, walk
+from rpl.passes.capabilities import Passing
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import assigned_in
 from rpl.passes.legalise.routines.parameters import ArraySizes
@@ -26,7 +27,7 @@ SHARED = code(
 )
 
 
-@legalising(unless=lambda context: context.capabilities.arrays_by_value)
+@legalising(unless=lambda context: Passing.ARRAYS_BY_VALUE in context.capabilities.routines.passing)
 def copy_value_arrays(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that know no copies of arrays as arguments."""
     sizes = ArraySizes(program, ProgramScope(program))

@@ -27,7 +27,7 @@ _SIMPLE = (ir.Assign, ir.Nothing, ir.LookAhead, ir.Wait, ir.WaitUntil, ir.WaitFo
 
 @legalising(
     unless=lambda context: (
-        (context.capabilities.move_settings and "acceleration_percent" not in context.capabilities.system_variables)
+        (context.capabilities.settings.of_moves and "acceleration_percent" not in context.capabilities.system_variables)
         or not context.capabilities.system_variables & {"acceleration_percent", "joint_acceleration"}
     )
 )

@@ -14,6 +14,7 @@ from functools import partial
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import rewrite, walk
+from rpl.passes.capabilities import MoveSetting, PathRule
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.data.datalists import moving_entries
 from rpl.passes.legalise.facts.usage import assigned_below, assigned_in, base_name, doing, each_statement, usage_of
@@ -69,7 +70,7 @@ _CHECKS = frozenset(
 _BRAKES = frozenset(("deceleration_percent",))  # beside acceleration_percent, where a target has both
 
 
-@legalising(unless=lambda context: not context.capabilities.modal_motion)
+@legalising(unless=lambda context: not context.capabilities.settings.modal)
 def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with modal motion; moves without explicit settings stay as they are."""
     scopes = ProgramScope(program)
@@ -163,9 +164,10 @@ class Modal:
         quiet: frozenset[str] = frozenset(),
         below: Mapping[str, set[str]] | None = None,
     ) -> None:
-        self.context, self.scope, self.assigned, self.reported = context, scope, assigned, reported
+        self.context, self.can, self.scope = context, context.capabilities, scope
+        self.assigned, self.reported = assigned, reported
         self.usual, self.quiet, self.below = usual, quiet, below or {}
-        self.brakes = _BRAKES & context.capabilities.system_variables
+        self.brakes = _BRAKES & self.can.system_variables
         ours = rules_of(context.source).advance
         self.at_corners = (
             {"Trigger", "LookAhead"} <= context.capabilities.statements
@@ -213,7 +215,7 @@ class Modal:
 
     def other(self, statement: ir.Statement, known: Environment) -> list[ir.Statement]:
         match statement:
-            case ir.Assign(target=ir.System(name="acceleration_percent")) if self.context.capabilities.move_settings:
+            case ir.Assign(target=ir.System(name="acceleration_percent")) if self.can.settings.of_moves:
                 return [statement]  # it decides on corners; movesettings leaves it out then
             case ir.Assign(target=ir.System(name=name), value=value) if name in _CHECKS and name not in self.brakes:
                 if is_usual_ramp(name, value):
@@ -403,24 +405,23 @@ class Modal:
 
     def timed(self, move: ir.Move) -> ir.Speed | None:
         """The time of a move that says one, for targets whose moves can."""
-        can = self.context.capabilities
         if move.speed is None or move.speed.duration is None:
             return None
-        kept = "speed" in can.move_settings and "duration" in can.speeds
-        kept = kept and (move.kind != "circular" or can.timed_arcs)
+        kept = MoveSetting.SPEED in self.can.settings.of_moves and "duration" in self.can.settings.speeds
+        kept = kept and (move.kind != "circular" or PathRule.TIMED_ARCS in self.can.motion.paths)
         return ir.Speed(duration=move.speed.duration) if kept else None
 
     def own_speed(self, move: ir.Move) -> ir.Speed | None:
         """A time, a turning speed or a leading axis' speed that the target's moves say themselves, so that it does not
         become a modal one."""
-        timed, speed, can = self.timed(move), move.speed, self.context.capabilities
-        if timed is not None or speed is None or "speed" not in can.move_settings:
+        timed, speed, can = self.timed(move), move.speed, self.can
+        if timed is not None or speed is None or MoveSetting.SPEED not in can.settings.of_moves:
             return timed
-        if move.kind == "joint" and speed.axis is not None and speed.joint is None and "axis" in can.speeds:
-            rate = speed.axis_acceleration if "axis_acceleration" in can.speeds else None
+        if move.kind == "joint" and speed.axis is not None and speed.joint is None and "axis" in can.settings.speeds:
+            rate = speed.axis_acceleration if "axis_acceleration" in can.settings.speeds else None
             return ir.Speed(axis=speed.axis, axis_acceleration=rate)
         alone = speed.path is None and speed.profile is None and speed.rotation is not None and move.kind != "joint"
-        return ir.Speed(rotation=speed.rotation) if alone and "rotation" in can.speeds else None
+        return ir.Speed(rotation=speed.rotation) if alone and "rotation" in can.settings.speeds else None
 
     def speed(self, move: ir.Move, speed: ir.Speed, wanted: dict[str, ir.Expression]) -> None:
         if speed.duration is not None:

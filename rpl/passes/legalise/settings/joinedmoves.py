@@ -14,6 +14,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, rewrite, walk
+from rpl.passes.capabilities import PathRule
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import blocks
@@ -101,7 +102,7 @@ def _alone(program: ir.Program, moves: frozenset[int]) -> bool:
     return all(holds(body) for module in program.modules for one in module.routines for body in bodies(one))
 
 
-@legalising(unless=lambda context: not context.capabilities.ways_from_here)
+@legalising(unless=lambda context: PathRule.FROM_HERE not in context.capabilities.motion.paths)
 def stand_before_ways(program: ir.Program, context: Context) -> ir.Program:
     """Ways in joints, in targets whose programs work them out from where the robot is: it has to stand there."""
 

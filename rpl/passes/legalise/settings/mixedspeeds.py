@@ -25,7 +25,7 @@ UNKNOWN = code(
 )
 
 
-@legalising(unless=lambda context: not context.capabilities.modal_motion)
+@legalising(unless=lambda context: not context.capabilities.settings.modal)
 def mixed_speeds(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with modal motion, and programs with both kinds of moves."""
     moves = [node for node in walk(*program.modules) if isinstance(node, ir.Move)]

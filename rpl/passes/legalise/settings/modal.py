@@ -95,7 +95,7 @@ _KINDS: dict[str, tuple[ir.Type, str]] = {
 }
 
 
-@legalising(unless=lambda context: context.capabilities.modal_motion)
+@legalising(unless=lambda context: context.capabilities.settings.modal)
 def modal_to_explicit(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without modal motion and sources that have it."""
     usage = usage_of(program)
@@ -319,10 +319,10 @@ class _Explicit:
     def seen(self, expression: ir.Builtin) -> ir.Builtin:
         """Where the robot is, with the tool and frame that are set, and not with those of the last move."""
         capabilities, at = self.context.capabilities, PLACES[expression.function][0]
-        if len(expression.arguments) != at or not capabilities.no_tool:
+        if len(expression.arguments) != at or not capabilities.settings.no_tool:
             return expression
-        tool = self.modal_data("tool") or ir.Name(capabilities.no_tool)
-        frame = self.modal_data("base") or ir.Name(capabilities.no_frame)
+        tool = self.modal_data("tool") or ir.Name(capabilities.settings.no_tool)
+        frame = self.modal_data("base") or ir.Name(capabilities.settings.no_frame)
         return replace(expression, arguments=(*expression.arguments, tool, frame))
 
     # ---- moves

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import MoveSetting
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.modalflow import SETTINGS, Flow, State
 from rpl.passes.legalise.places.coordinatedmoves import REMOTE
@@ -32,12 +33,12 @@ _TYPES: dict[str, ir.Type] = {"tool": ir.PoseType(), "base": ir.PoseType()}
 _AT_MOVES = (COORDINATED, "external_speed", REMOTE)
 _LEFT_OUT = DROPPED_SETTINGS | {"swivel_speed", "twist_speed", "acceleration_percent"}
 _PARTS = {
-    "tool": ("tool",),
-    "base": ("frame",),
-    "path_speed": ("speed",),
-    "joint_speed": ("speed",),
-    "blend_distance": ("blend",),
-    "blend_joint": ("blend",),
+    "tool": (MoveSetting.TOOL,),
+    "base": (MoveSetting.FRAME,),
+    "path_speed": (MoveSetting.SPEED,),
+    "joint_speed": (MoveSetting.SPEED,),
+    "blend_distance": (MoveSetting.BLEND,),
+    "blend_joint": (MoveSetting.BLEND,),
 }
 
 
@@ -47,7 +48,7 @@ def _tools(program: ir.Program) -> Iterator[ir.Expression]:
             yield node.value
 
 
-@legalising(unless=lambda context: not context.capabilities.move_settings)
+@legalising(unless=lambda context: not context.capabilities.settings.of_moves)
 def settings_at_moves(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose moves say some settings and keep the rest modal."""
     return _Settings(program, context).program()
@@ -71,7 +72,7 @@ class _Settings:
 
     def says(self, name: str) -> bool:
         """Do moves of the target say this setting?"""
-        return bool(set(_PARTS[name]) & self.context.capabilities.move_settings)
+        return bool(set(_PARTS[name]) & self.context.capabilities.settings.of_moves)
 
     def report_once(self, what: Code, statement: ir.Statement, key: str, **arguments: object) -> None:
         if (what, key) not in self.reported:
@@ -147,7 +148,7 @@ class _Settings:
         done = rewrite_parts(expression, self.expression)
         if self.several and self.says("tool"):
             done = self.with_tool(done)
-        return self.in_base(done) if "frame" in self.context.capabilities.move_settings else done
+        return self.in_base(done) if MoveSetting.FRAME in self.context.capabilities.settings.of_moves else done
 
     def with_tool(self, seen: ir.Expression) -> ir.Expression:
         """What depends on the modal tool, told: a target that sets none may take another one."""
@@ -198,7 +199,7 @@ class _Settings:
         own = {place.name: value for place, value in move.settings if isinstance(place, ir.System)}
         can = self.context.capabilities
         at_move = set(_AT_MOVES) if COORDINATED in can.system_variables else set()
-        at_move |= {"deceleration_percent"} if "deceleration" in can.move_settings else set()
+        at_move |= {"deceleration_percent"} if MoveSetting.DECELERATION in can.settings.of_moves else set()
         for name in own.keys() - SETTINGS - at_move:
             self.report_once(DROPPED, move, name, name=name.replace("_", " "))
         kept = tuple(one for one in move.settings if isinstance(one[0], ir.System) and one[0].name in at_move)
@@ -207,15 +208,15 @@ class _Settings:
         if isinstance(near, ir.Builtin) and near.function == "target_to_joints_near":
             # a posture beside the move's target: the target stands in the frame of the move
             done = replace(done, target=rewrite_parts(near, self.expression))
-        says = self.context.capabilities.move_settings
-        blend = self.blend(move, state, own) if "blend" in says else move.blend
+        says = self.context.capabilities.settings.of_moves
+        blend = self.blend(move, state, own) if MoveSetting.BLEND in says else move.blend
         done = replace(done, blend=blend)
-        if "frame" in says and move.frame is None:
+        if MoveSetting.FRAME in says and move.frame is None:
             frame = self.value("base", state, own)
             done = replace(done, frame=None if frame == ir.System("null_frame") else frame)
-        if "tool" in says and move.tool is None:
+        if MoveSetting.TOOL in says and move.tool is None:
             done = replace(done, tool=self.value("tool", state, own))
-        if "speed" in says and move.speed is None:
+        if MoveSetting.SPEED in says and move.speed is None:
             done = replace(done, speed=self.speed(move, state, own))
         return self.accelerations.with_acceleration(done, state)
 
@@ -230,7 +231,7 @@ class _Settings:
         return ir.Speed(path=self.value("path_speed", state, own))
 
     def blend(self, move: ir.Move, state: State, own: dict[str, ir.Expression]) -> ir.Blend | None:
-        if move.blend.__class__.__name__ in self.context.capabilities.blends and not _modal(move.blend):
+        if move.blend.__class__.__name__ in self.context.capabilities.settings.blends and not _modal(move.blend):
             return rewrite_parts(move.blend, self.expression)
         size: ir.Expression
         match move.blend:

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import MoveSetting, PathRule
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import inside
@@ -65,9 +66,11 @@ class _Wanted:
 def move_times(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the setting, or whose moves say no time."""
     can = context.capabilities
-    said = "duration" in (can.speeds or USUAL) and (not can.modal_motion or "speed" in can.move_settings)
+    said = "duration" in (can.settings.speeds or USUAL) and (
+        not can.settings.modal or MoveSetting.SPEED in can.settings.of_moves
+    )
     nodes = list(walk(*program.modules))
-    arcs = said and (can.timed_arcs or "speed" not in can.move_settings)
+    arcs = said and (PathRule.TIMED_ARCS in can.motion.paths or MoveSetting.SPEED not in can.settings.of_moves)
     timed = {node.kind == "circular" for node in nodes if isinstance(node, ir.Move) and _own(node) is not None}
     wanted = _Wanted(
         _TIME.name not in can.system_variables and _TIME in nodes,
@@ -111,7 +114,7 @@ class _Facts:
         name = "path_acceleration"
         found, ours = _number(state[name]), self.ours.get(name, 5000.0)
         can = self.context.capabilities  # such targets' moves say those of the source, or are set to them
-        brought = name in can.speeds or (name in can.system_variables and can.modal_motion)
+        brought = name in can.settings.speeds or (name in can.system_variables and can.settings.modal)
         theirs = ours if brought else self.theirs.get(name, 5000.0)
         value = float(theirs if found is None or found == ours else found)
         return value * self.effort(state)
@@ -121,7 +124,7 @@ class _Facts:
         name, can = "path_acceleration", self.context.capabilities
         ours, theirs = self.ours.get(name), float(self.theirs.get(name, 5000.0))
         slower = isinstance(ours, int | float) and ours < theirs
-        return ir.RealLiteral(theirs) if slower and name in can.system_variables and can.modal_motion else None
+        return ir.RealLiteral(theirs) if slower and name in can.system_variables and can.settings.modal else None
 
     def effort(self, state: State) -> float:
         found = _number(state["acceleration_percent"])
@@ -337,7 +340,9 @@ class _Times:
         can, ask = self.editor.context.capabilities, "target_to_joints"
         if move.kind != "joint" or isinstance(type, ir.JointsType):
             return (move.target, []) if move.kind == "joint" else (None, [])
-        if not isinstance(type, ir.PoseType | ir.TargetType) or (can.kinematics is None and ask not in can.functions):
+        if not isinstance(type, ir.PoseType | ir.TargetType) or (
+            can.places.kinematics is None and ask not in can.functions
+        ):
             return None, []
         joints = self.editor.temporary("joints_there", ir.JointsType())
         return joints, [ir.Assign(joints, ir.Builtin(ask, (move.target, *_around(move))))]

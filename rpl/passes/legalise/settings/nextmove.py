@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies
-from rpl.passes.capabilities import Capabilities
+from rpl.passes.capabilities import Capabilities, MoveSetting
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside, leaves
 from rpl.passes.legalise.facts.activations import Activations, called
@@ -32,7 +32,8 @@ _OTHER_MOTION = (ir.MoveExternal, ir.Spline)
 
 @legalising(
     unless=lambda context: (
-        context.capabilities.next_move_settings and (not context.capabilities.move_settings & {"speed", "blend"})
+        context.capabilities.settings.next_move
+        and (not context.capabilities.settings.of_moves & {MoveSetting.SPEED, MoveSetting.BLEND})
     )
 )
 def settings_of_next_move(program: ir.Program, context: Context) -> ir.Program:
@@ -63,7 +64,7 @@ def set_at_move(statement: ir.Statement, can: Capabilities) -> bool:
         return False
     setting = statement.setting.value if isinstance(statement.setting, ir.Magnitude) else statement.setting
     name = setting.name if isinstance(setting, ir.System) else ""
-    return not can.next_move_settings or name in _AT_MOVES
+    return not can.settings.next_move or name in _AT_MOVES
 
 
 def _every(routine: ir.Routine) -> list[ir.Statement]:

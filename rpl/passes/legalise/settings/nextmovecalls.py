@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import bodies
+from rpl.passes.capabilities import MoveSetting
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside, leaves
 from rpl.passes.legalise.data.datalists import never_called
@@ -25,7 +26,8 @@ _DEEPEST = 6
 
 @legalising(
     unless=lambda context: (
-        context.capabilities.next_move_settings and (not context.capabilities.move_settings & {"speed", "blend"})
+        context.capabilities.settings.next_move
+        and (not context.capabilities.settings.of_moves & {MoveSetting.SPEED, MoveSetting.BLEND})
     )
 )
 def next_moves_behind_calls(program: ir.Program, context: Context) -> ir.Program:

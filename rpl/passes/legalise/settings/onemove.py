@@ -23,7 +23,7 @@ _PATH = frozenset(
 _TURNING = frozenset(("orientation_mode", "circle_orientation"))
 
 
-@legalising(unless=lambda context: not context.capabilities.modal_motion or context.capabilities.move_settings)
+@legalising(unless=lambda context: not context.capabilities.settings.modal or context.capabilities.settings.of_moves)
 def settings_of_one_move(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose speeds are all modal; spline moves have settings of their own there."""
     flow = Flow.of(program, dict(rules_of(context.source).system_defaults))

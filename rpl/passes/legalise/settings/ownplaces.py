@@ -24,7 +24,7 @@ from rpl.passes.rewrite import rewrite_parts
 _NOWHERE = ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ("x", "y", "z", "a", "b", "c")), "pose")
 
 
-@legalising(unless=lambda context: not context.capabilities.modal_motion)
+@legalising(unless=lambda context: not context.capabilities.settings.modal)
 def own_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with modal motion; programs that set a tool or frame and have moves with one of their own."""
     nodes = [*walk(*program.modules)]

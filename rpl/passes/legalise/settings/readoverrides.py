@@ -25,7 +25,7 @@ _FULL_PERCENT = 100.0
 
 @legalising(
     unless=lambda context: (
-        context.capabilities.reads_override or "override" not in context.capabilities.system_variables
+        context.capabilities.settings.reads_override or "override" not in context.capabilities.system_variables
     )
 )
 def read_overrides(program: ir.Program, context: Context) -> ir.Program:

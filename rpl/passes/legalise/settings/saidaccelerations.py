@@ -13,6 +13,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import MoveSetting
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.modalflow import BRAKING, State
 from rpl.passes.legalise.settings.modal import DROPPED
@@ -34,8 +35,8 @@ class Accelerations:
 
     def __init__(self, program: ir.Program, context: Context, start: State) -> None:
         self.context, self.start = context, start
-        says = {"path_acceleration", "axis_acceleration"} <= context.capabilities.speeds
-        self.active = context.foreign and says and "speed" in context.capabilities.move_settings
+        says = {"path_acceleration", "axis_acceleration"} <= context.capabilities.settings.speeds
+        self.active = context.foreign and says and MoveSetting.SPEED in context.capabilities.settings.of_moves
         self.set = {
             node.target.name
             for node in (walk(*program.modules) if self.active else ())

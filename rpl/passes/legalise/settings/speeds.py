@@ -36,7 +36,7 @@ _ACCELERATIONS = {"path_acceleration": "path acceleration", "axis_acceleration":
 @legalising()
 def fit_speeds(program: ir.Program, context: Context) -> ir.Program:
     """Every target; most programs stay as they are."""
-    return _Speeds(program, context, context.capabilities.speeds or USUAL).program()
+    return _Speeds(program, context, context.capabilities.settings.speeds or USUAL).program()
 
 
 class _Speeds(Rewriter):

@@ -14,6 +14,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import MoveSetting
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.modalflow import Flow
@@ -82,9 +83,9 @@ class _Strengths:
         self.context, self.flow = context, Flow.of(program, dict(rules_of(context.source).system_defaults))
         said = {name for node in walk(*program.modules) for name in _set(node)}
         self.apart = has_both(context.source) or DOWN in said
-        in_numbers = {"path_acceleration", "axis_acceleration"} <= can.speeds
+        in_numbers = {"path_acceleration", "axis_acceleration"} <= can.settings.speeds
         self.at_moves = UP not in can.system_variables and not in_numbers
-        self.modal, self.moves_say = DOWN in can.system_variables, "deceleration" in can.move_settings
+        self.modal, self.moves_say = DOWN in can.system_variables, MoveSetting.DECELERATION in can.settings.of_moves
         self.reported: set[tuple[str, str]] = set()
         moves = [node for node in walk(*program.modules) if isinstance(node, ir.Move)]
         self.known = all(self.flow.at(move).get(UP) is not None for move in moves)

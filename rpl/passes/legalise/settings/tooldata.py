@@ -84,7 +84,7 @@ _TOOL = _Kind(ir.ToolType(), "frame", "rpl_with_tool")
 _FRAME = _Kind(ir.WorkObjectType(), "user_frame", "rpl_with_frame")
 
 
-@legalising(unless=lambda context: not context.capabilities.no_tool)
+@legalising(unless=lambda context: not context.capabilities.settings.no_tool)
 def tool_data(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose moves need records as tool and frame."""
     worker = _ToolData(program, context)
@@ -176,7 +176,9 @@ class _ToolData(Rewriter):
             return value
         if pose_of(constant(value, self.scope)) == rigid.IDENTITY:
             capabilities = self.context.capabilities
-            return ir.Name(capabilities.no_tool if kind is _TOOL else capabilities.no_frame, origin=value.origin)
+            return ir.Name(
+                capabilities.settings.no_tool if kind is _TOOL else capabilities.settings.no_frame, origin=value.origin
+            )
         return self.own(value, kind)
 
     def own(self, value: ir.Expression, kind: _Kind) -> ir.Expression:

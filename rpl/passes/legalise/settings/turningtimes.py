@@ -13,6 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes import rigid
+from rpl.passes.capabilities import MoveSetting
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
@@ -33,8 +34,13 @@ _PLACES = (ir.System("tool"), ir.System("base"))
 
 @legalising(
     unless=lambda context: (
-        (not ("speed" in context.capabilities.move_settings and "duration" in context.capabilities.speeds))
-        or "rotation" in context.capabilities.speeds
+        (
+            not (
+                MoveSetting.SPEED in context.capabilities.settings.of_moves
+                and "duration" in context.capabilities.settings.speeds
+            )
+        )
+        or "rotation" in context.capabilities.settings.speeds
         or "swivel_speed" in context.capabilities.system_variables
     ),
     sees=("Move",),

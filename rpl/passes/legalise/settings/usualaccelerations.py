@@ -33,13 +33,13 @@ def usual_accelerations(program: ir.Program, context: Context) -> ir.Program:
     """Only where the source's language says an acceleration, and the target's moves do not carry it anyway."""
     given = rules_of(context.source).system_defaults.get(_SETTING)
     can = context.capabilities
-    if given is None or _SETTING in can.speeds:
+    if given is None or _SETTING in can.settings.speeds:
         return program
     own, usual = float(given), float(rules_of(context.target).system_defaults.get(_SETTING, _USUAL_MM_S2))
     first = next((node for node in walk(*program.modules) if _on_path(node)), None)
     if not isinstance(first, ir.Move):
         return program
-    if _SETTING not in can.system_variables or not can.modal_motion:
+    if _SETTING not in can.system_variables or not can.settings.modal:
         if own != usual:
             context.diagnostics.report(DIFFERS, first.origin, own=own)
         return program

@@ -54,7 +54,7 @@ def own_names(program: ir.Program, context: Context, shared: Callable[[ir.Declar
     return replace(program, modules=tuple(modules[id(one)] for one in program.modules), tasks=renamed)
 
 
-@legalising(unless=lambda context: context.capabilities.local_routines)
+@legalising(unless=lambda context: context.capabilities.routines.local_routines)
 def names_of_local_routines(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose routines are all global: a routine that only its module sees gets a name of its own where
     another module has one of that name, too (`init` of two modules)."""

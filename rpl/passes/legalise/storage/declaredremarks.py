@@ -14,7 +14,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.stages import legalising
 
 
-@legalising(unless=lambda context: not context.capabilities.banks)
+@legalising(unless=lambda context: not context.capabilities.storage.banks)
 def declared_remarks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with numbered data."""
     return replace(program, modules=tuple(map(_of_module, program.modules)))

@@ -27,10 +27,10 @@ _MOST = 50  # elements along a dimension that grows, where there is room
 _SPARE = 5  # this part of a bank is left for what the passes need themselves
 
 
-@legalising(unless=lambda context: not context.capabilities.banks)
+@legalising(unless=lambda context: not context.capabilities.storage.banks)
 def grown_arrays(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with banks."""
-    banks = context.capabilities.banks
+    banks = context.capabilities.storage.banks
     fixed, grown = _data(program, banks)
     if not grown:
         return program

@@ -14,7 +14,7 @@ from rpl.source import Comment
 __all__ = ["labels_as_remarks"]
 
 
-@legalising(unless=lambda context: context.capabilities.banks)
+@legalising(unless=lambda context: context.capabilities.storage.banks)
 def labels_as_remarks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose variables have names; numbered ones have a place for the label itself."""
     modules = (replace(module, declarations=tuple(map(_remarked, module.declarations))) for module in program.modules)

@@ -12,6 +12,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.capabilities import Local, Parameters
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.activations import Activations, called
@@ -36,7 +37,9 @@ SHARED = code(
 
 @legalising(
     unless=lambda context: (
-        context.capabilities.locals and context.capabilities.recursion and (context.capabilities.parameters == "names")
+        Local.VARIABLES in context.capabilities.routines.locals
+        and context.capabilities.routines.recursion
+        and (context.capabilities.routines.parameters is Parameters.NAMES)
     )
 )
 def variables_of_routines(program: ir.Program, context: Context) -> ir.Program:
@@ -45,20 +48,22 @@ def variables_of_routines(program: ir.Program, context: Context) -> ir.Program:
     facts = Activations.of(program)
     again: set[int] = set()
     for key, routine in facts.routines.items():
-        shares = (not can.locals and _variables(routine)) or (can.parameters == "none" and bool(routine.parameters))
-        if key in facts.recursive and (shares or not can.recursion):
+        shares = (Local.VARIABLES not in can.routines.locals and _variables(routine)) or (
+            can.routines.parameters is Parameters.NONE and bool(routine.parameters)
+        )
+        if key in facts.recursive and (shares or not can.routines.recursion):
             again.add(key)
         elif key in facts.beside and shares:
             context.diagnostics.report(SHARED, routine.origin, name=routine.name)
     if again:
         program = _again(program, context, facts, again)
-    return program if can.locals else _moved(program, context)
+    return program if Local.VARIABLES in can.routines.locals else _moved(program, context)
 
 
 def _again(program: ir.Program, context: Context, facts: Activations, again: set[int]) -> ir.Program:
     """The program whose routines `again` may be active twice, or with stops where they would be."""
     lost = dict.fromkeys(again, "the target's routines cannot be active twice")
-    if context.capabilities.parameters != "names":
+    if context.capabilities.routines.parameters is not Parameters.NAMES:
         program, lost = kept_on_stacks(program, context, facts)
     for key, reason in lost.items():
         routine = facts.routines[key]

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import TypeGuard
 
 from rpl import ir
+from rpl.passes.capabilities import ModulePoints
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.storage.points import is_point
@@ -18,17 +19,17 @@ from rpl.passes.legalise.storage.points import is_point
 __all__ = ["points_of_modules"]
 
 
-@legalising(unless=lambda context: not context.capabilities.module_points)
+@legalising(unless=lambda context: context.capabilities.storage.module_points is ModulePoints.NO)
 def points_of_modules(program: ir.Program, context: Context) -> ir.Program:
     """Only where nothing else of that name could be meant."""
-    kind = context.capabilities.module_points
+    kind = context.capabilities.storage.module_points
     everywhere = Counter(name for module in program.modules for name in _names(module))
     shared = {name for module in program.modules for name in _shared(module)}
     modules = []
     for module in program.modules:
         own = Counter(_names(module))
-        meant = everywhere if kind == "global" else own + Counter(shared)
-        storage = "persistent" if kind == "list" else "constant"
+        meant = everywhere if kind is ModulePoints.GLOBAL else own + Counter(shared)
+        storage = "persistent" if kind is ModulePoints.LIST else "constant"
         modules.append(_lifted(module, {name for name, times in meant.items() if times == 1}, storage))
     return replace(program, modules=tuple(modules))
 

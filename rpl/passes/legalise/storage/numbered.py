@@ -69,7 +69,7 @@ class Facts:
     )  # arrays stored into it as a whole
 
 
-@legalising(unless=lambda context: not context.capabilities.banks)
+@legalising(unless=lambda context: not context.capabilities.storage.banks)
 def number_data(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with banks."""
     worker = _Numbered(program, context)
@@ -83,7 +83,7 @@ class _Numbered(Rewriter):
         super().__init__(program, context)
         self.unchanged: Unchanged = unchanged_in(program)
         self.facts = _facts(program, self.scopes)
-        self.numbers = Numbers(context, held(program, context.capabilities.banks.values()))
+        self.numbers = Numbers(context, held(program, context.capabilities.storage.banks.values()))
         self.points = Points(context, self.unchanged)
         self.places: dict[int, Place] = {}
         self.declared: list[ir.Declaration] = []
@@ -194,7 +194,7 @@ class _Numbered(Rewriter):
 
     def bank_of(self, type: ir.Type) -> Bank | None:
         """The bank for a type; numbers and texts of one kind may be kept with the other."""
-        banks, name = self.context.capabilities.banks, type.__class__.__name__
+        banks, name = self.context.capabilities.storage.banks, type.__class__.__name__
         return banks.get(name) or banks.get(_ELSE.get(name, ""))
 
     def is_constant(self, declaration: ir.Variable, element: ir.Type, scope: Scope, chosen: bool) -> bool:
@@ -202,7 +202,7 @@ class _Numbered(Rewriter):
         if chosen:
             return False
         taught = isinstance(element, ir.TargetType | ir.JointsType) and self.points.is_taught(declaration, scope)
-        if taught and self.context.capabilities.points is not None:
+        if taught and self.context.capabilities.storage.points is not None:
             return True
         if isinstance(scope.resolve(declaration.type), ir.ArrayType) or declaration.storage != "constant":
             return False
@@ -224,7 +224,7 @@ class _Numbered(Rewriter):
     def with_points(self, assign: ir.Statement) -> ir.Statement:
         """Positions that data starts with are points of the routine that sets them."""
         match assign:
-            case ir.Assign(value=ir.Aggregate() as value) if self.context.capabilities.points is not None:
+            case ir.Assign(value=ir.Aggregate() as value) if self.context.capabilities.storage.points is not None:
                 type = word_type(value.type_name, self.scope) if value.type_name else None
                 point = self.points.written(value, type)
                 return assign if point is None else replace(assign, value=point)
@@ -327,7 +327,7 @@ class _Numbered(Rewriter):
                 known = lasting(expression, self.scope)
                 if isinstance(known, int | float) and not isinstance(known, bool):
                     return replace(literal(known) or expression, origin=expression.origin)
-            case ir.Aggregate() if self.context.capabilities.points is not None:
+            case ir.Aggregate() if self.context.capabilities.storage.points is not None:
                 point = self.inline(expression)
                 if point is not None:
                     return point
@@ -366,7 +366,7 @@ class _Numbered(Rewriter):
             made = None if known is None or not isinstance(known, bool | int | float | str) else literal(known)
             if made is not None:
                 return replace(made, origin=expression.origin)
-        if self.context.capabilities.points is not None:
+        if self.context.capabilities.storage.points is not None:
             point = self.points.named(expression, symbol.declaration, self.scope)
             return expression if point is None else point
         return expression
@@ -433,7 +433,7 @@ class _Numbered(Rewriter):
     def helper(self) -> ir.Expression:
         """A number that says which element; free again behind the statement."""
         if self.helpers_in_use == len(self.helpers):
-            banks = self.context.capabilities.banks
+            banks = self.context.capabilities.storage.banks
             kind = ir.IntType() if "IntType" in banks else ir.RealType()
             bank = banks[kind.__class__.__name__]
             bank = self.larger.get(bank.name, bank)

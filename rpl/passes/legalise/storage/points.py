@@ -120,7 +120,7 @@ class Points:
         return self.point(value, type, value, "", value)
 
     def point(self, key: object, type: ir.Type, value: ir.Expression, label: str, used: ir.Expression) -> ir.Name:
-        bank = self.context.capabilities.points
+        bank = self.context.capabilities.storage.points
         assert bank is not None  # asked only for targets that have points
         if key not in self.found:
             number = self.number(label)
@@ -136,11 +136,11 @@ class Points:
 
     def bank(self) -> str:
         """The name of this routine's points in the map of numbers."""
-        bank = self.context.capabilities.points
+        bank = self.context.capabilities.storage.points
         return f"{self.routine}.{bank.name if bank is not None else ''}"
 
     def number(self, label: str) -> int:
-        bank = self.context.capabilities.points
+        bank = self.context.capabilities.storage.points
         assert bank is not None  # asked only for targets that have points
         earlier = {name.lower(): at for (kept, at), name in self.context.registers.items() if kept == self.bank()}
         given = earlier.get(label.lower()) if label else None
@@ -152,7 +152,7 @@ class Points:
 
     def own_numbers(self) -> set[int]:
         """Numbers that names of the program say for themselves."""
-        bank = self.context.capabilities.points
+        bank = self.context.capabilities.storage.points
         names = () if bank is None else self.context.taken
         found = {own_number(name, bank) for name in names} if bank is not None else set()
         return {number for number in found if number is not None}

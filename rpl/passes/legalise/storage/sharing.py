@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.ir.walk import bodies
-from rpl.passes.capabilities import Bank
+from rpl.passes.capabilities import Bank, Local
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.activations import Activations
 from rpl.passes.legalise.facts.effects import children, everything, statements_in
@@ -35,17 +35,21 @@ _KINDS = (ir.IntType, ir.RealType, ir.BoolType, ir.StringType, ir.PoseType, ir.T
 _SAME = {"IntType": "RealType"}
 
 
-@legalising(unless=lambda context: not context.capabilities.banks or context.capabilities.locals)
+@legalising(
+    unless=lambda context: (
+        not context.capabilities.storage.banks or Local.VARIABLES in context.capabilities.routines.locals
+    )
+)
 def share_temporaries(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with banks whose routines have no variables, and only for banks that would run out."""
     can = context.capabilities
-    short = _short_banks(program, can.banks)
+    short = _short_banks(program, can.storage.banks)
     if not short:
         return program
     facts = Activations.of(program)
     pool = _Pool(context, facts)
     given: dict[int, dict[str, str]] = {}
-    for routine, variables in _temporaries(program, facts, short, can.banks):
+    for routine, variables in _temporaries(program, facts, short, can.storage.banks):
         places = companions(routine, variables)
         used = {one.name: pool.give(id(routine), one) for one in variables if places[one.name.lower()] is one}
         given[id(routine)] = {name: used[one.name] for name, one in places.items()}

@@ -8,12 +8,13 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import rewrite
+from rpl.passes.capabilities import Local
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Fold
 
 
-@legalising(unless=lambda context: context.capabilities.static_locals)
+@legalising(unless=lambda context: Local.STATICS in context.capabilities.routines.locals)
 def static_variables(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such variables. One keeps its name where no other data has it."""
     scopes = ProgramScope(program)

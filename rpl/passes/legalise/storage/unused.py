@@ -83,7 +83,7 @@ def drop_untyped(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=tuple(modules))
 
 
-@legalising(unless=lambda context: not context.capabilities.banks)
+@legalising(unless=lambda context: not context.capabilities.storage.banks)
 def drop_idle_data(program: ir.Program, context: Context) -> ir.Program:
     """The program without global data that nothing uses, for targets where it would take a number of its own. Whole
     records of tools and loads leave such parts when they are taken apart."""

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import Background
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
@@ -70,7 +71,9 @@ class _UnfitError(Exception):
 
 
 @legalising(
-    unless=lambda context: not context.capabilities.background_tasks or "TaskControl" in context.capabilities.statements
+    unless=lambda context: (
+        context.capabilities.tasks.background is Background.NO or "TaskControl" in context.capabilities.statements
+    )
 )
 def background_tasks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with background programs and no statement that starts a task."""
@@ -83,7 +86,7 @@ def background_tasks(program: ir.Program, context: Context) -> ir.Program:
 class _Maker:
     def __init__(self, program: ir.Program, context: Context, controls: list[ir.TaskControl]) -> None:
         self.program, self.context = program, context
-        self.separate = context.capabilities.background_tasks == "separate"
+        self.separate = context.capabilities.tasks.background is Background.SEPARATE
         known = {"tool_of_moves", "frame_of_moves", "actual_pose"} <= context.capabilities.system_variables
         self.seen_beside = known and not self.separate
         self.scopes = ProgramScope(program)
@@ -171,7 +174,7 @@ class _Maker:
                     yield from self.closure(home, one, seen)
 
     def check(self, module: ir.Module, routine: ir.Routine) -> None:
-        asks = self.context.capabilities.places_beside
+        asks = self.context.capabilities.tasks.places_beside
         for node in walk(routine):
             match node:
                 case ir.Builtin(function=function) if self.separate and function.startswith("current_") and not asks:

@@ -20,8 +20,8 @@ from rpl.passes.legalise.stages import legalising
 @legalising(
     unless=lambda context: (
         "TaskControl" not in context.capabilities.statements
-        or "join" in context.capabilities.task_operations
-        or "start" not in context.capabilities.task_operations
+        or "join" in context.capabilities.tasks.operations
+        or "start" not in context.capabilities.tasks.operations
     )
 )
 def joins(program: ir.Program, context: Context) -> ir.Program:

@@ -26,8 +26,8 @@ _TRUE, _FALSE = ir.BoolLiteral(True), ir.BoolLiteral(False)
 @legalising(
     unless=lambda context: (
         "TaskControl" not in context.capabilities.statements
-        or "stop" in context.capabilities.task_operations
-        or "start" not in context.capabilities.task_operations
+        or "stop" in context.capabilities.tasks.operations
+        or "start" not in context.capabilities.tasks.operations
     )
 )
 def stopped_tasks(program: ir.Program, context: Context) -> ir.Program:

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import bodies, rewrite, walk
+from rpl.passes.capabilities import Parameters, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.usage import assigned_in
@@ -17,7 +18,10 @@ from rpl.passes.legalise.stages import legalising
 
 
 @legalising(
-    unless=lambda context: not context.capabilities.watching_tasks and context.capabilities.parameters == "names"
+    unless=lambda context: (
+        context.capabilities.interrupts.watched is not Watched.ALL
+        and context.capabilities.routines.parameters is Parameters.NAMES
+    )
 )
 def task_arguments(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose tasks take none."""

@@ -13,6 +13,7 @@ from typing import TypeGuard
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import Background
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.source.ownnames import own_names
 from rpl.passes.legalise.stages import legalising
@@ -21,7 +22,7 @@ from rpl.passes.scope import Fold, rules_of
 _TYPES = (ir.RecordDeclaration, ir.EnumDeclaration, ir.AliasDeclaration)
 
 
-@legalising(unless=lambda context: context.capabilities.background_tasks == "separate")
+@legalising(unless=lambda context: context.capabilities.tasks.background is Background.SEPARATE)
 def shared_task_data(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without tasks that have data of their own, and programs of several tasks."""
     if len({module.task for module in program.modules}) < 2:

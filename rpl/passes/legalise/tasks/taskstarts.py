@@ -10,6 +10,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite, walk
+from rpl.passes.capabilities import Watched
 from rpl.passes.legalise.advance.cornerways import Ways
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import doing
@@ -23,7 +24,7 @@ STOPS_BEFORE = code(
 )
 
 
-@legalising(unless=lambda context: not context.capabilities.watching_tasks)
+@legalising(unless=lambda context: context.capabilities.interrupts.watched is not Watched.ALL)
 def stand_before_tasks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose tasks drive single moves."""
     starts = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl) and node.op == "start"]

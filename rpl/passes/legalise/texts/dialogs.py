@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.capabilities import MessageRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
@@ -28,7 +29,7 @@ BY_TIME = code(
 )
 
 
-@legalising(unless=lambda context: not context.capabilities.asks_numbers_only)
+@legalising(unless=lambda context: MessageRule.ASKS_NUMBERS not in context.capabilities.texts.messages)
 def number_dialogs(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that ask for numbers only."""
 

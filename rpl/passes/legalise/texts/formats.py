@@ -90,8 +90,7 @@ END FUNCTION
 @legalising(
     unless=lambda context: (
         context.capabilities.carries_rules
-        or not context.capabilities.texts
-        or not context.capabilities.text_results
+        or not context.capabilities.routines.text_results
         or "format_into" in context.capabilities.procedures
     )
 )

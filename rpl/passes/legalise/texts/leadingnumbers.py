@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import TextRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.rewriting.walk import Rewriter
@@ -102,7 +103,7 @@ END FUNCTION
 
 @legalising(
     unless=lambda context: (
-        context.capabilities.leading_numbers
+        TextRule.LEADING_NUMBERS in context.capabilities.texts.rules
         or context.capabilities.carries_rules
         or not rules_of(context.source).leading_numbers
     )
@@ -132,7 +133,7 @@ class _Leading(Rewriter):
                 number = written_number(text, self.marks, leading=True) or 0
                 size = ir.RealLiteral(abs(float(number)))
                 return ir.Unary("-", size, origin=done.origin) if number < 0 else size
-            case ir.Builtin(function="text_value", arguments=(text,)) if self.context.capabilities.texts:
+            case ir.Builtin(function="text_value", arguments=(text,)):
                 return self.helpers.call(_HELPER, text)
         return done
 

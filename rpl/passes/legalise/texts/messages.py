@@ -12,6 +12,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite
+from rpl.passes.capabilities import MessageRule, TextRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_all, edit_bodies, edit_routines, map_body
@@ -28,10 +29,10 @@ _ENDS = re.compile(r"\r\n|\r|\n")
 _WORDS = re.compile(r"\s*\S+\s*|\s+")
 
 
-@legalising(unless=lambda context: not context.capabilities.longest_message)
+@legalising(unless=lambda context: not context.capabilities.texts.longest_message)
 def split_messages(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose messages have a longest line."""
-    most = context.capabilities.longest_message
+    most = context.capabilities.texts.longest_message
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         def change(statement: ir.Statement) -> ir.Body:
@@ -44,7 +45,7 @@ def split_messages(program: ir.Program, context: Context) -> ir.Program:
     return edit_routines(program, context, work)
 
 
-@legalising(unless=lambda context: context.capabilities.line_ends)
+@legalising(unless=lambda context: TextRule.LINE_ENDS in context.capabilities.texts.rules)
 def message_lines(program: ir.Program, context: Context) -> ir.Program:
     """A message for each line of one, where texts of the target have no line ends; empty lines are not shown."""
 
@@ -56,7 +57,7 @@ def message_lines(program: ir.Program, context: Context) -> ir.Program:
     return edit_all(program, lambda body: map_body(body, change))
 
 
-@legalising(unless=lambda context: context.capabilities.numbered_messages)
+@legalising(unless=lambda context: MessageRule.NUMBERED in context.capabilities.texts.messages)
 def senders_as_texts(program: ir.Program, context: Context) -> ir.Program:
     """The number of an alarm as a text, where what stands in front of a message is one."""
 
@@ -141,8 +142,8 @@ def _words(pieces: list[ir.Expression], most: int) -> list[ir.Expression]:
 
 def _length(piece: ir.Expression, editor: Editor, most: int) -> int:
     """How long the piece can be at most."""
-    if not editor.capabilities.computed_messages and not isinstance(piece, ir.TextLiteral):
-        banks = [editor.capabilities.banks.get(name) for name in ("RealType", "BoolType", "StringType")]
+    if MessageRule.COMPUTED not in editor.capabilities.texts.messages and not isinstance(piece, ir.TextLiteral):
+        banks = [editor.capabilities.storage.banks.get(name) for name in ("RealType", "BoolType", "StringType")]
         return max((len(f"{bank.name}{bank.last}") for bank in banks if bank is not None), default=most)
     match piece:
         case ir.TextLiteral(value=text):

@@ -13,6 +13,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.capabilities import MessageRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
@@ -30,7 +31,7 @@ _TEMPLATES = {"message_text": _NUMBERED, "format": _FORMATTED}
 _LOOKS = frozenset(("text_upper", "text_lower", "text_trim"))
 
 
-@legalising(unless=lambda context: context.capabilities.computed_messages)
+@legalising(unless=lambda context: MessageRule.COMPUTED in context.capabilities.texts.messages)
 def values_beside_messages(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without computed messages."""
 

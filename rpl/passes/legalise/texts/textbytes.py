@@ -9,6 +9,7 @@ from typing import TypeGuard
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import TextRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.rewriting.walk import Rewriter
@@ -62,7 +63,7 @@ def text_bytes(program: ir.Program, context: Context) -> ir.Program:
     first = next((node for node in walk(*program.modules) if _is_bytes(node)), None)
     if first is None:
         return program
-    if context.capabilities.printable_texts:  # the writer guards the steps
+    if TextRule.PRINTABLE in context.capabilities.texts.rules:  # the writer guards the steps
         context.diagnostics.report(NO_BYTES, first.origin)
         return program
     worker = _Bytes(program, context)

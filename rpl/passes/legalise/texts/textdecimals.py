@@ -23,7 +23,7 @@ OTHER_DIGITS = code(
 @legalising(
     unless=lambda context: (
         context.capabilities.carries_rules
-        or rules_of(context.source).text_decimals == context.capabilities.text_decimals
+        or rules_of(context.source).text_decimals == context.capabilities.texts.decimals
     )
 )
 def text_decimals(program: ir.Program, context: Context) -> ir.Program:
@@ -36,7 +36,7 @@ def text_decimals(program: ir.Program, context: Context) -> ir.Program:
             match node:
                 case ir.Builtin(function="value_text", arguments=(value,)):
                     if isinstance(editor.type_of(value), ir.RealType):
-                        shown = {"theirs": _count(theirs), "ours": _count(can.text_decimals)}
+                        shown = {"theirs": _count(theirs), "ours": _count(can.texts.decimals)}
                         context.diagnostics.report(OTHER_DIGITS, routine.origin, **shown)
                         break
         return routine

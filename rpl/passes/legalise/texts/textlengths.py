@@ -39,7 +39,7 @@ _SHAPED = frozenset(("format", "message_text"))
 @legalising()
 def text_lengths(program: ir.Program, context: Context) -> ir.Program:
     """Reports, and gives texts more room where the target declares how much each has."""
-    usual, most = context.capabilities.text_room or (0, rules_of(context.target).text_length)
+    usual, most = context.capabilities.texts.room or (0, rules_of(context.target).text_length)
     least = rules_of(context.source).text_length
     if not most or (least and least <= (usual or most)) or not any(map(_is_text, _types(program))):
         return program
@@ -52,9 +52,9 @@ def text_lengths(program: ir.Program, context: Context) -> ir.Program:
 @legalising()
 def roomy_texts(program: ir.Program, context: Context) -> ir.Program:
     """What keeps parts of texts beside those that got more room gets as much."""
-    if context.capabilities.text_room is None:
+    if context.capabilities.texts.room is None:
         return program
-    most = context.capabilities.text_room[1]
+    most = context.capabilities.texts.room[1]
     return _with_room(program, most) if ir.StringType(ir.IntLiteral(most)) in _types(program) else program
 
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import TextRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.rewriting.walk import Rewriter
@@ -33,9 +34,7 @@ END FUNCTION
 
 
 @legalising(
-    unless=lambda context: (
-        context.capabilities.text_ordering or context.capabilities.carries_rules or not context.capabilities.texts
-    ),
+    unless=lambda context: TextRule.ORDER in context.capabilities.texts.rules or context.capabilities.carries_rules,
     sees=("Binary",),
 )
 def text_orders(program: ir.Program, context: Context) -> ir.Program:

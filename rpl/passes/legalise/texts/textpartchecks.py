@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from rpl import ir, registry
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import Fault
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.errors.raising import raising_of
@@ -20,8 +21,11 @@ _SIMPLE = (ir.Name, ir.IntLiteral, ir.TextLiteral)
 
 @legalising(
     unless=lambda context: (
-        not context.capabilities.text_parts_cut
-        or (context.source in registry.target_names() and registry.target(context.source).capabilities().text_parts_cut)
+        Fault.TEXT_PART in context.capabilities.errors.faults
+        or (
+            context.source in registry.target_names()
+            and Fault.TEXT_PART not in registry.target(context.source).capabilities().errors.faults
+        )
     )
 )
 def checked_text_parts(program: ir.Program, context: Context) -> ir.Program:
@@ -29,7 +33,7 @@ def checked_text_parts(program: ir.Program, context: Context) -> ir.Program:
     can = context.capabilities
     if not any(_part(node) for node in walk(*program.modules)):
         return program
-    if not can.error_handlers and "out_of_range" in raising_of(program).caught:
+    if not can.errors.handlers and "out_of_range" in raising_of(program).caught:
         return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from rpl.passes.capabilities import Capabilities
+from rpl.passes.capabilities import Capabilities, TextRule
 
 # Functions of the IR -> helper.
 FUNCTIONS: Final = {
@@ -29,8 +29,8 @@ PARSE_REAL, PARSE_WHOLE = "rpl_parse_number", "rpl_parse_whole"
 def by_parts(capabilities: Capabilities) -> bool:
     """Does the target have texts as values with these few operations, in numbered storage or by its own word?"""
     has = {"text_part", "text_length"} <= capabilities.functions and "&" in capabilities.operators
-    stored = bool(capabilities.banks) or capabilities.text_parts
-    return has and capabilities.texts and stored and capabilities.text_results
+    stored = bool(capabilities.storage.banks) or TextRule.PARTS in capabilities.texts.rules
+    return has and stored and capabilities.routines.text_results
 
 
 _LOWER, _UPPER = "abcdefghijklmnopqrstuvwxyz", "ABCDEFGHIJKLMNOPQRSTUVWXYZ"

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.capabilities import TextRule
 from rpl.passes.legalise.facts.effects import everything
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, Rule, expansion
@@ -158,7 +159,7 @@ class TextHoister(Hoister):
         if made is None:
             return None
         template, values = made
-        state_type = self.editor.capabilities.format_state
+        state_type = self.editor.capabilities.texts.format_state
         state = self.shared("state", state_type) if state_type is not None else None
         offset = self.shared("offset", ir.IntType())
         call = ir.Do("format_into", (target, state, offset, ir.TextLiteral(template), *values))
@@ -237,7 +238,7 @@ class TextHoister(Hoister):
             before, values = self.variables(expression.arguments)
             return before, self.helpers.call(_READERS[expression.function], *values)
         helper = _WRITERS.get(expression.function)
-        if helper is None or self.editor.capabilities.text_results:
+        if helper is None or self.editor.capabilities.routines.text_results:
             return None
         before, values = self.variables(expression.arguments)
         text = self.editor.temporary("text", ir.StringType())
@@ -254,7 +255,7 @@ class TextHoister(Hoister):
                     return None
                 rounded = ir.Convert("round_half_away", value)
                 return replace(expression, arguments=(rounded, ir.IntLiteral(0)))
-            case ir.Builtin(function="number_text") if self.editor.capabilities.banks:
+            case ir.Builtin(function="number_text") if self.editor.capabilities.storage.banks:
                 return self.helpers.call(textparts.NUMBER_TEXT, *expression.arguments)
             case ir.Builtin(function=function) if function in textparts.FUNCTIONS:
                 if not self.has(expression):
@@ -269,7 +270,7 @@ class TextHoister(Hoister):
     def has(self, call: ir.Builtin) -> bool:
         """Has the target this function, with these arguments?"""
         can = self.editor.capabilities
-        if call.function == "text_find" and not can.text_find_from:
+        if call.function == "text_find" and TextRule.FIND_FROM not in can.texts.rules:
             return call.function in can.functions and call.arguments[1:2] == (ir.IntLiteral(1),)
         return call.function in can.functions
 
@@ -292,7 +293,7 @@ class TextHoister(Hoister):
         can = self.editor.capabilities
         if function == "text_value":
             return "parse_number" in can.procedures
-        return can.texts and not can.banks and "CharType" in can.types
+        return not can.storage.banks and "CharType" in can.types
 
     def variables(self, values: Sequence[ir.Expression]) -> tuple[ir.Body, list[ir.Expression]]:
         """Texts that are passed by reference have to be variables."""
@@ -300,7 +301,7 @@ class TextHoister(Hoister):
         done: list[ir.Expression] = []
         for value in values:
             held = isinstance(value, _PLACES) or not isinstance(self.editor.type_of(value), ir.StringType)
-            if held or (self.editor.capabilities.text_results and not isinstance(value, ir.TextLiteral)):
+            if held or (self.editor.capabilities.routines.text_results and not isinstance(value, ir.TextLiteral)):
                 done.append(value)
                 continue
             kept = self.editor.temporary("text", ir.StringType())

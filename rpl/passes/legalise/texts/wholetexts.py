@@ -7,6 +7,7 @@ from __future__ import annotations
 from functools import reduce
 
 from rpl import ir
+from rpl.passes.capabilities import TextRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines
 from rpl.passes.legalise.stages import legalising
@@ -16,7 +17,7 @@ _PLAIN = (*ir.NUMBER_TYPES, ir.StringType, ir.CharType, ir.BoolType)
 _MOST = 24  # components that are written one by one
 
 
-@legalising(unless=lambda context: context.capabilities.whole_texts)
+@legalising(unless=lambda context: TextRule.WHOLE in context.capabilities.texts.rules)
 def whole_texts(program: ir.Program, context: Context) -> ir.Program:
     """Where the target has no such texts itself."""
 

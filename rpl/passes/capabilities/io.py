@@ -1,0 +1,82 @@
+"""A target's signals, flags, waits and clocks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum, auto
+
+
+class GroupRule(StrEnum):
+    """What a group of signals can be. Where signals have names (`signal_prefixes`), a group has one of its own; groups
+    of which a part is used otherwise are written bit by bit."""
+
+    DECLARED = auto()
+    """It exists only by a declaration with a name (KRL SIGNAL)."""
+
+    FREE = auto()
+    """It can be named by its first and last signal, or a pass or the writer finds a name for it."""
+
+    COMPUTED = auto()
+    """It may have computed numbers. Without this, or where groups are declared or have names, such groups of a constant
+    width are written bit by bit."""
+
+    NUMBERED = auto()
+    """It has a number of its own beside those of its bits (GO[2])."""
+
+
+class PulseRule(StrEnum):
+    """What a Pulse can be."""
+
+    ANY_LEVEL = auto()  # else it is to high
+    COMPUTED_TIME = auto()  # else its length is a number
+
+
+@dataclass(frozen=True, slots=True)
+class Io:
+    """Signals, flags, waits and clocks."""
+
+    signal_prefixes: Mapping[str, str] = field(default_factory=dict)
+    """Empty when signals have numbers (KRL); otherwise signals have names (RAPID), and a number 5 of a kind is called
+    prefix + 5."""
+
+    groups: frozenset[GroupRule] = frozenset((GroupRule.FREE, GroupRule.COMPUTED))
+
+    group_sizes: tuple[int, ...] = ()
+    """A group has so many signals and begins behind a multiple of them (empty: any)."""
+
+    widest_group: int = 8
+    """Bits of a group at most, where a program shows that eight are not enough."""
+
+    write_only: frozenset[str] = frozenset()
+    """Kinds of outputs that programs set and cannot read back."""
+
+    pulses: frozenset[PulseRule] = frozenset(PulseRule)
+
+    flags: bool = True
+    """The controller has flags with numbers, or the passes give them names (else they are data)."""
+
+    last_flag: int = 0
+    """The largest number of a flag there is (0: any); flags beyond it are data."""
+
+    timers: int = 0
+    """How many system timers there are (`timer[1]` ...)."""
+
+    clock_step_s: float = 0.0
+    """There are no stop watches, but a task can count them in steps of so many seconds (0: none can, or there are
+    some)."""
+
+    reset_stops: bool = True
+    """A stop watch that is set to zero stands (else it counts on)."""
+
+    wait_timeout: bool = False
+    """WaitUntil takes a timeout."""
+
+    waits_at_rest: bool = True
+    """Waits say that the robot stands before they begin."""
+
+    shortest_wait_s: float = 0.0
+    """The smallest time that a wait can be given (0: any)."""
+
+    poll_s: float = 0.008
+    """Time between two looks in a loop that waits for a condition, for targets without WaitUntil."""

@@ -1,0 +1,98 @@
+"""How a target's robot moves: ways, paths, what happens on a path, and whether the program goes on meanwhile."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum, auto
+
+
+class TurnedWay(StrEnum):
+    """A relative move that may turn the tool too: in the axes of the frame or the tool, or as a joint move."""
+
+    BASE = auto()
+    TOOL = auto()
+    JOINT = auto()
+
+
+class PathRule(StrEnum):
+    """What a path may be."""
+
+    ARCS_BY_ANGLE = auto()
+    """An arc may go on for an angle (else it ends at a computed point)."""
+
+    FIXED_ARCS = auto()
+    """An arc may keep the tool as it is to the arc (else its end is worked out)."""
+
+    TIMED_ARCS = auto()
+    """An arc may say its time, where the other moves can (else it gets the speed that takes so long)."""
+
+    STRAIGHT_DISTANCES = auto()
+    """A place on the way of an arc is looked for by how far it is straight from an end of the arc."""
+
+    CURVE_POINTS = auto()
+    """Moves of the kind spline in a row, from a first one at its beginning, are one curve through points (INFORM
+    MOVS); there are no spline blocks."""
+
+    TO_JOINTS = auto()
+    """A straight move may go to joint values."""
+
+    EVEN_WRIST = auto()
+    """The wrist axes of a straight move may go evenly to their end values."""
+
+    FROM_HERE = auto()
+    """A way in joints is worked out from where the robot is, which has to stand for it."""
+
+    SEARCHED_DATA = auto()
+    """A search may look at a truth value, which another task sets, in place of an input."""
+
+
+class TriggerRule(StrEnum):
+    """What an action on the path may be."""
+
+    OF_MOVES = auto()
+    """A move says the actions on its path itself (Move.triggers), and only so."""
+
+    LATE = auto()
+    """It may come some time behind the end of a move that stops there (else a task does it)."""
+
+    ANY_VARIABLE = auto()
+    """It may assign any variable (else signals: a routine assigns the others)."""
+
+
+class SearchResult(StrEnum):
+    """What a search move gives: the place, and whether there was one."""
+
+    FOUND = auto()
+    HIT = auto()
+
+
+class Concurrent(StrEnum):
+    """Whether a program goes on while a move is driven."""
+
+    NO = auto()  # it waits, which is named a loss
+    MOVES = auto()  # moves say so, or a task that watches drives them (Watched.ALL)
+    ADVANCE = auto()  # the program runs ahead over moves where it is allowed to
+    TASKS = auto()  # tasks do what stands beside the move
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """What moves can be."""
+
+    relative: bool = False
+    """A move may go on from where the one before it ends."""
+
+    turned_ways: frozenset[TurnedWay] = frozenset(TurnedWay)
+    """The relative moves that may turn the tool (the others go to a computed place)."""
+
+    paths: frozenset[PathRule] = frozenset((PathRule.TO_JOINTS, PathRule.EVEN_WRIST))
+
+    triggers: frozenset[TriggerRule] = frozenset((TriggerRule.LATE, TriggerRule.ANY_VARIABLE))
+
+    cut_from_mm: float = 0.0
+    """The smallest corner of a point that the writer cuts a straight move at for an action on its path; where the ends
+    of the move are computed, a pass does it (0: moves are not cut)."""
+
+    concurrent: Concurrent = Concurrent.NO
+
+    search_results: frozenset[SearchResult] = frozenset((SearchResult.FOUND,))

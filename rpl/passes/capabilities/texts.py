@@ -1,0 +1,78 @@
+"""A target's texts and messages."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum, auto
+
+from rpl.ir.types import Type
+
+
+class TextRule(StrEnum):
+    """What is true of texts."""
+
+    LINE_ENDS = auto()
+    """They may have line ends (else a message is shown line by line)."""
+
+    CASE = auto()
+    """Comparisons tell capital letters from small ones."""
+
+    ORDER = auto()
+    """`<` of texts is their order (else only `=` and `<>` compare them)."""
+
+    FIND_FROM = auto()
+    """text_find begins at any position."""
+
+    PRINTABLE = auto()
+    """A text holds only the printable signs of ASCII, so no bytes."""
+
+    LEADING_NUMBERS = auto()
+    """A text that is read as a number may go on behind it; without a number it is 0."""
+
+    COMPUTED_DECIMALS = auto()
+    """A number can be rounded to a count of decimals that is computed."""
+
+    PARTS = auto()
+    """Without numbered storage as well, helpers read numbers from texts and search them by cutting and comparing
+    parts."""
+
+    WHOLE = auto()
+    """`value_text` makes a text of a value with components too (else of those one by one)."""
+
+
+class MessageRule(StrEnum):
+    """What is true of messages and questions."""
+
+    NUMBERED = auto()
+    """Who sends a message may be a number (the number of an alarm); else it is a text."""
+
+    COMPUTED = auto()
+    """A message may show computed text (else it names the registers of its values)."""
+
+    ASKS_NUMBERS = auto()
+    """The operator can type a number and nothing else, and the question is a message in front of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Texts:
+    """What texts and messages can be."""
+
+    rules: frozenset[TextRule] = frozenset((TextRule.CASE, TextRule.FIND_FROM, TextRule.COMPUTED_DECIMALS))
+
+    messages: frozenset[MessageRule] = frozenset((MessageRule.COMPUTED,))
+
+    longest_message: int = 0
+    """Characters of a message's line (0: any)."""
+
+    joined: int = 0
+    """Texts that one assignment joins at most (0: any)."""
+
+    decimals: int = 0
+    """A number with a fraction shows so many decimals in a text (0: six digits in all)."""
+
+    room: tuple[int, int] | None = None
+    """Each text is declared with its longest length: what it gets where nothing says more, and the most that the
+    controller's own functions take."""
+
+    format_state: Type | None = None
+    """Type of the state that format_into writes; None when it has none."""
