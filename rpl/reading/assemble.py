@@ -130,6 +130,8 @@ class _Assembler:
             return
         if piece.kind in (COMMENT, LAYOUT):
             self.ledger.claim(piece.start, piece.end, TRIVIA)
+            if piece.kind == LAYOUT and not piece.text:  # what stands around the program, such as an XML header
+                return
             if not self.comments:
                 self.comment_start = piece.start
             self.comments.append(Comment(piece.text, layout=piece.kind == LAYOUT))
