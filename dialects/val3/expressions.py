@@ -285,7 +285,7 @@ def as_text(value: Value) -> ir.Expression:
 def target(place: ir.Aggregate, flags: list[int | None]) -> ir.Aggregate:
     """A point of its trsf and its flags; `same` is a flag left out."""
     given = tuple((name, ir.IntLiteral(flag)) for name, flag in zip(FLAGS, flags, strict=False) if flag is not None)
-    return ir.Aggregate((*place.entries, *given), "target.val3")
+    return ir.Aggregate((*place.entries, *given), "target val3")
 
 
 def _bare(node: ir.Expression) -> ir.Expression:
