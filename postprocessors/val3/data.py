@@ -1,0 +1,95 @@
+"""The data of the application that is written: what the program declares, and what movements need beside it.
+
+A movement names a tool, a movement descriptor and a point that hangs on its frame. Where the program has only values,
+data is made for them: one for each value, named after it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from rpl.writing.text import number_text
+
+from . import tables
+
+
+@dataclass(slots=True)
+class Datum:
+    """One datum: its type, the attributes of each element as text, and where it hangs (`fatherId`)."""
+
+    name: str
+    type: str
+    values: list[str] = field(default_factory=list)
+    size: int = 1
+    father: str = ""
+    dimensions: tuple[int, ...] = ()
+
+    @property
+    def count(self) -> str:
+        return ",".join(map(str, self.dimensions)) or str(max(self.size, len(self.values), 1))
+
+    @property
+    def rows(self) -> list[str]:
+        """The attributes of each element with its father."""
+        values = self.values or ([""] if self.father else [])
+        return [" ".join(part for part in (value, f'fatherId="{self.father}"' if self.father else "") if part)
+                for value in values]  # fmt: skip
+
+
+class Store:
+    """All data of one application. `taken`: names that the program has."""
+
+    def __init__(self, taken: set[str]) -> None:
+        self.taken = set(taken)
+        self.data: dict[str, Datum] = {}
+        self.made: dict[tuple[str, ...], str] = {}
+
+    def fresh(self, wish: str) -> str:
+        """A name that nothing has, at most 15 signs long."""
+        name, number = wish[: tables.LONGEST_NAME], 1
+        while name in self.taken or name in tables.RESERVED:
+            number += 1
+            name = f"{wish[: tables.LONGEST_NAME - len(str(number))]}{number}"
+        self.taken.add(name)
+        return name
+
+    def add(self, datum: Datum) -> None:
+        self.data[datum.name] = datum
+
+    def once(self, wish: str, type: str, value: str, father: str = "") -> str:
+        """The name of a datum of this value, made where there is none."""
+        key = (type, value, father)
+        if key not in self.made:
+            name = self.fresh(wish)
+            self.made[key] = name
+            self.add(Datum(name, type, [value] if value else [], father=father))
+        return self.made[key]
+
+    def helper(self, wish: str, type: str, father: str = "") -> str:
+        """A datum that the program sets itself before it uses it, one of a type and father."""
+        return self.once(wish, type, "", father)
+
+    def signal(self, name: str, kind: str) -> str:
+        """A signal that the program names: it is declared, and wired to the next place of its kind."""
+        if name not in self.data:
+            letter = "Q" if kind.endswith("out") else "I"
+            used = sum(f"%{letter}" in row for datum in self.data.values() for row in datum.values)
+            type, rack = ("dio", "BasicIO-1") if kind.startswith("digital") else ("aio", "AnalogIO-1")
+            self.taken.add(name)
+            self.add(Datum(name, type, [f'link="{rack}\\%{letter}{used}"']))
+        return name
+
+    def descriptor(self, vel: float, tmax: float, blend: str, leave: float) -> str:
+        """A movement descriptor of these numbers."""
+        size, limit = number_text(leave, 4), number_text(tmax, 4)
+        share = number_text(vel, 4)
+        name = f"mJ{share}" if tmax >= UNLIMITED else f"mL{limit}"
+        name = (name + (f"B{size}" if blend != "off" else "")).replace(".", "_")
+        value = (
+            f'accel="100" vel="{share}" decel="100" tmax="{limit}" rmax="{number_text(UNLIMITED)}" blend="{blend}"'
+            f' leave="{size}" reach="{size}"'
+        )
+        return self.once(name, "mdesc", value)
+
+
+UNLIMITED = 99999.0

@@ -1,0 +1,164 @@
+"""IR moves as VAL3: movej, movel, movec with a point, a tool and a movement descriptor.
+
+What has no name becomes data (`data.Store`); what is worked out at the movement is put into a helper datum in front of
+it. A point has to hang on the frame of the movement: one that hangs elsewhere is copied into a helper that does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rpl import ir
+from rpl.passes.fold import constant_number
+from rpl.writing.statements import CannotSayError
+from rpl.writing.text import number_text
+
+from . import tables
+from .data import UNLIMITED
+from .expressions import Expressions, point_row
+
+_WORDS = {"joint": "movej", "linear": "movel", "circular": "movec"}
+
+
+@dataclass(frozen=True, slots=True)
+class MoveText:
+    """What the template needs: lines in front, the instruction's word, its points, tool and descriptor."""
+
+    before: tuple[str, ...]
+    word: str
+    points: tuple[str, ...]
+    tool: str
+    descriptor: str
+
+
+class Motion:
+    """Prints moves inside of one scope."""
+
+    def __init__(self, expressions: Expressions) -> None:
+        self.expressions, self.store = expressions, expressions.store
+        self.before: list[str] = []
+
+    def move(self, move: ir.Move) -> MoveText:
+        self.refuse(move)
+        self.before = []
+        word = _WORDS.get(move.kind)
+        if word is None:
+            raise CannotSayError(f"there is no {move.kind} move")
+        tool = self.hung(move.tool, "tool", "flange")
+        joints = isinstance(self.expressions.type(move.target), ir.JointsType)
+        if joints and move.kind != "joint":
+            raise CannotSayError("a path movement to joint values")
+        if joints:
+            points = [self.joints(move.target)]
+        else:
+            frame = self.hung(move.frame, "frame", "world")
+            points = [self.place(move.target, frame, "pMove")]
+            if move.kind == "circular":
+                if move.via is None:
+                    raise CannotSayError("a circle needs its point on the way")
+                points.insert(0, self.place(move.via, frame, "pVia"))
+        descriptor = self.descriptor(move)
+        return MoveText(tuple(self.before), word, tuple(points), tool, descriptor)
+
+    def refuse(self, move: ir.Move) -> None:
+        for what, found in (
+            ("a relative move", move.relative),
+            ("a circle by its angle", move.swept),
+            ("a load of its own", move.load),
+            ("an acceleration of its own", move.acceleration),
+            ("an orientation rule of its own", move.orientation not in (None, "variable")),
+            ("a circle's orientation rule", move.circle_orientation not in (None, "base")),
+            ("settings of its own", move.settings),
+            ("actions on its path", move.triggers),
+            ("a search", move.search),
+            ("a motion group", move.group != 1),
+            (f"{move.motion_class} motion", move.motion_class != "classic"),
+        ):
+            if found:
+                raise CannotSayError(f"a move with {what}")
+
+    def hung(self, value: ir.Expression | None, role: str, root: str) -> str:
+        """The name of the tool or frame; one that is worked out is put into a helper."""
+        try:
+            return self.expressions.tool(value) if role == "tool" else self.expressions.frame(value)
+        except CannotSayError:
+            assert value is not None  # None has a name
+            name = self.store.helper("tMove" if role == "tool" else "fMove", role, f"{root}[0]")
+            self.before.append(f"{name}.trsf={self.expressions.text(value)}")
+            return name
+
+    def joints(self, target: ir.Expression) -> str:
+        if isinstance(target, ir.Name | ir.Index):
+            return self.expressions.storage(target)
+        if isinstance(target, ir.Builtin):
+            return self.expressions.text(target)
+        known = dict(target.entries) if isinstance(target, ir.Aggregate) else {}
+        numbers = [constant_number(part, self.expressions.scope) for part in known.values()]
+        if all(number is not None for number in numbers):
+            given = dict(zip(known, numbers, strict=True))
+            row = " ".join(f'{name}="{number_text(given.get(name) or 0.0, 10)}"' for name in tables.JOINTS)
+            return self.store.once("jPos", "jointRx", row)
+        name = self.store.helper("jMove", "jointRx")
+        self.before.append(f"{name}={self.expressions.text(target)}")
+        return name
+
+    def place(self, target: ir.Expression, frame: str, wish: str) -> str:
+        """A point of the frame."""
+        e = self.expressions
+        if isinstance(target, ir.Aggregate):
+            try:
+                return self.store.once("pPoint", "pointRx", point_row(target, e.scope), f"{frame}[0]")
+            except CannotSayError:
+                pass
+        elif e.is_point(target) and e.father(target) == frame:
+            return e.point(target)
+        name = self.store.helper(wish, "pointRx", f"{frame}[0]")
+        self.before.append(f"{name}.trsf={e.text(target)}")
+        root = _origin(target) if e.is_point(target) else None
+        words = tables.FLAGS.values()
+        config = f"{e.storage(root)}.config" if root is not None else f"{{{','.join(one[0] for one in words)}}}"
+        self.before.append(f"{name}.config={config}")
+        return name
+
+    def descriptor(self, move: ir.Move) -> str:
+        """The movement descriptor; components that are worked out are set in front."""
+        speed, joint = move.speed or ir.Speed(), move.kind == "joint"
+        wanted = speed.joint if joint else speed.path
+        if wanted is None or speed.duration is not None or speed.profile is not None or speed.axis is not None:
+            raise CannotSayError("a move without a speed of its kind")
+        blend = "off"
+        distance: ir.Expression = ir.IntLiteral(0)
+        match move.blend:
+            case None | ir.BlendStop():
+                pass
+            case ir.BlendDistance(distance=given) if given is not None:
+                blend, distance = "joint" if joint else "Cartesian", given
+            case _:
+                raise CannotSayError("a corner is given by its distance")
+        scope = self.expressions.scope
+        share, leave = constant_number(wanted, scope), constant_number(distance, scope)
+        if share is not None and leave is not None:
+            if leave <= 0.0:
+                blend = "off"
+            if joint:
+                return self.store.descriptor(share, UNLIMITED, blend, leave)
+            return self.store.descriptor(100.0, share, blend, leave)
+        part = "vel" if joint else "tvel"
+        name = self.store.helper(f"m{'J' if joint else 'L'}{blend.capitalize()[:5]}", "mdesc")
+        self.store.data[name].values = [f'blend="{blend}"']
+        self.before.append(f"{name}.{part}={self.expressions.text(wanted)}")
+        for component in ("leave", "reach") if blend != "off" else ():
+            self.before.append(f"{name}.{component}={self.expressions.text(distance)}")
+        return name
+
+
+def _origin(target: ir.Expression) -> ir.Expression | None:
+    """The variable that a point's configuration is of."""
+    match target:
+        case ir.Name() | ir.Index():
+            return target
+        case ir.Builtin(function="current_target" | "joints_to_target"):
+            return None
+        case ir.Builtin(arguments=(first, *_)):
+            return _origin(first)
+    return None

@@ -1,0 +1,1 @@
+"""Rewritings that VAL3 alone needs."""

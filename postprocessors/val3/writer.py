@@ -1,0 +1,292 @@
+"""Write a program as a VAL3 application: a project, its data, and a file for each program."""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
+from rpl.passes import rigid
+from rpl.passes.fold import constant, constant_number
+from rpl.passes.scope import ProgramScope, Scope
+from rpl.writing.ledger import EmissionLedger
+from rpl.writing.statements import CannotSayError
+from rpl.writing.target import OutputFile, WriteContext
+from rpl.writing.templates import macros_of
+from rpl.writing.text import number_text
+
+from . import tables
+from .data import Datum, Store
+from .expressions import NULL, Expressions, point_row, pose_row, root_of
+from .passes.waits import waits_put_in
+from .statements import Statements, indented
+
+LOST = code("val3-lost-declaration", Severity.LOSS, "VAL3 cannot declare {name}: {reason}", "what uses it will not run")
+_ENTRY, _END = "start", "stop"
+_ATTRIBUTE_SIGNS = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\n": " "})
+
+
+def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
+    """All files of the application. Raises InternalError when a node was neither written nor reported."""
+    if context.foreign:
+        program = waits_put_in(program)
+    return _Application(program, context).files()
+
+
+class _Application:
+    def __init__(self, program: ir.Program, context: WriteContext) -> None:
+        self.program, self.diagnostics = program, context.diagnostics
+        self.say = macros_of(__package__, context.templates)
+        self.ledger = EmissionLedger()
+        self.scopes = ProgramScope(program)
+        self.roles = _roles(program)
+        self.fathers = _fathers(program, self.roles)
+        self.store = Store(_names(program))
+        self.entry = _entry(program)
+
+    def files(self) -> list[OutputFile]:
+        for module in self.program.modules:
+            self.ledger.written(module)
+            expressions = self.expressions(self.scopes.module(module))
+            for declaration in module.declarations:
+                self.declaration(declaration, expressions)
+        programs: dict[str, str] = {}
+        for module in self.program.modules:
+            for routine in module.routines:
+                programs[routine.name] = self.routine(module, routine)
+        if _ENTRY not in programs:
+            calls = [f"{self.say('step')}call {self.entry}()"] if self.entry else []
+            programs[_ENTRY] = self.say("program", name=_ENTRY, parameters=[], locals=[], lines=calls)
+        programs.setdefault(_END, self.say("program", name=_END, parameters=[], locals=[], lines=[]))
+        self.ledger.check(self.program)
+        name = self.program.modules[0].name if self.program.modules else "application"
+        rows = [(one.name, one.type, one.count, one.rows) for _, one in sorted(self.store.data.items())]
+        files = {f"{own}.pgx": text for own, text in programs.items()}
+        files[f"{name}.dtx"] = self.say("data", data=rows)
+        files[f"{name}.pjx"] = self.say("project", name=name, programs=sorted(programs))
+        return [OutputFile(path, (text + "\n").encode("utf-8-sig")) for path, text in sorted(files.items())]
+
+    def expressions(self, scope: Scope) -> Expressions:
+        return Expressions(scope, self.store, self.roles, self.fathers)
+
+    # ---- data
+
+    def declaration(self, declaration: ir.Declaration, expressions: Expressions) -> None:
+        try:
+            match declaration:
+                case ir.Variable():
+                    self.store.add(self.datum(declaration, expressions))
+                case ir.SignalDeclaration(name=name, signal=signal):
+                    expressions.text(signal)
+                case ir.Unread(text="") | ir.ExternalDeclaration():
+                    pass
+                case _:
+                    raise CannotSayError(f"there is no {declaration.__class__.__name__}")
+        except CannotSayError as error:
+            name = str(getattr(declaration, "name", "this"))
+            self.ledger.reported(declaration)
+            self.diagnostics.report(LOST, declaration.origin, name=name, reason=str(error))
+        else:
+            self.ledger.written(declaration)
+
+    def datum(self, variable: ir.Variable, expressions: Expressions) -> Datum:
+        scope = expressions.scope
+        type, size = _element(scope.resolve(variable.type), scope)
+        word = self.roles.get(variable.name) or tables.TYPES.get(type.__class__.__name__)
+        if word is None:
+            raise CannotSayError(f"there is no type {type.__class__.__name__}")
+        father = ""
+        if word in ("frame", "tool"):
+            father = "world[0]" if word == "frame" else "flange[0]"
+        elif word == "pointRx":
+            father = f"{self.fathers.get(variable.name, 'world')}[0]"
+        values = _elements(variable.initial, size)
+        rows = [self.row(type, value, scope) for value in values]
+        return Datum(variable.name, word, rows if any(rows) else [], size, father)
+
+    def row(self, type: ir.Type, value: ir.Expression | None, scope: Scope) -> str:
+        """The attributes of one element."""
+        match type:
+            case ir.IntType() | ir.RealType():
+                number = 0.0 if value is None else constant_number(value, scope)
+                if number is None:
+                    raise CannotSayError("a first value that is worked out")
+                return f'value="{number_text(number, None, tables.NUMBERS)}"'
+            case ir.BoolType():
+                if value is not None and not isinstance(value, ir.BoolLiteral):
+                    raise CannotSayError("a first value that is worked out")
+                return f'value="{"true" if value == ir.BoolLiteral(True) else "false"}"'
+            case ir.StringType():
+                if value is not None and not isinstance(value, ir.TextLiteral):
+                    raise CannotSayError("a first value that is worked out")
+                return f'value="{(value.value if value is not None else "").translate(_ATTRIBUTE_SIGNS)}"'
+            case ir.TargetType() if isinstance(value, ir.Aggregate):
+                return point_row(value, scope)
+            case ir.JointsType() if isinstance(value, ir.Aggregate):
+                numbers = {name: constant_number(part, scope) for name, part in value.entries}
+                if None in numbers.values():
+                    raise CannotSayError("a first value that is worked out")
+                given = [(name, numbers.get(name) or 0.0) for name in tables.JOINTS]
+                return " ".join(f'{name}="{number_text(number, 10, tables.NUMBERS)}"' for name, number in given)
+        if value is None or value == NULL:
+            return ""
+        known = constant(value, scope)
+        if isinstance(known, rigid.Pose):
+            return pose_row(known)
+        raise CannotSayError("a first value that is worked out")
+
+    # ---- programs
+
+    def routine(self, module: ir.Module, routine: ir.Routine) -> str:
+        scope = self.scopes.routine(module, routine)
+        expressions = self.expressions(scope)
+        statements = Statements(expressions, self.diagnostics, self.ledger, self.say)
+        self.ledger.written(routine)
+        lines = statements.remarks(routine.origin)
+        locals_: list[tuple[str, str, int]] = []
+        for declaration in routine.declarations:
+            try:
+                lines.extend(self.local(declaration, expressions, locals_))
+                self.ledger.written(declaration)
+            except CannotSayError as error:
+                name = str(getattr(declaration, "name", "this"))
+                self.ledger.reported(declaration)
+                self.diagnostics.report(LOST, declaration.origin, name=name, reason=str(error))
+        if routine.name == self.entry:
+            for task in self.program.tasks:
+                if task.kind == "background":
+                    lines.extend(self.say.lines("create", task=task.entry, priority=10, name=task.entry, arguments=""))
+        parameters = [self.parameter(one, scope) for one in routine.parameters]
+        lines.extend(statements.body(routine.body))
+        for handler in routine.handlers:
+            for statement in handler.body:
+                self.ledger.reported(statement)
+            self.diagnostics.report(LOST, handler.origin, name=routine.name, reason="there are no error handlers")
+        return self.say(
+            "program",
+            name=routine.name,
+            parameters=parameters,
+            locals=locals_,
+            lines=indented(lines, statements.step),
+        )
+
+    def parameter(self, parameter: ir.Parameter, scope: Scope) -> tuple[str, str, bool]:
+        type, _ = _element(scope.resolve(parameter.type), scope)
+        if isinstance(type, ir.SignalType):
+            return parameter.name, "dio" if type.kind.startswith("digital") else "aio", False
+        word = self.roles.get(parameter.name) or tables.TYPES.get(type.__class__.__name__, "num")
+        return parameter.name, word, parameter.mode == "reference"
+
+    def local(
+        self, declaration: ir.Declaration, expressions: Expressions, found: list[tuple[str, str, int]]
+    ) -> list[str]:
+        """A routine's own datum, and what gives it its first value."""
+        match declaration:
+            case ir.Unread(text=""):
+                return []
+            case ir.Variable(name=name, initial=initial):
+                type, size = _element(expressions.scope.resolve(declaration.type), expressions.scope)
+                word = self.roles.get(name) or tables.TYPES.get(type.__class__.__name__)
+                if word is None:
+                    raise CannotSayError(f"there is no type {type.__class__.__name__}")
+                found.append((name, word, size))
+                if size != 1:
+                    values = _elements(initial, size) if initial is not None else []
+                    return [f"{name}[{at}]={expressions.text(v)}" for at, v in enumerate(values) if v is not None]
+                if initial is None or _is_zero(initial):
+                    return []
+                place = expressions.text(ir.Name(name))
+                return [f"{place}={expressions.text(initial)}"]
+        raise CannotSayError(f"there is no {declaration.__class__.__name__}")
+
+
+def _is_zero(value: ir.Expression) -> bool:
+    return value in (ir.IntLiteral(0), ir.RealLiteral(0.0), ir.BoolLiteral(False), ir.TextLiteral(""), NULL)
+
+
+def _element(type: ir.Type, scope: Scope) -> tuple[ir.Type, int]:
+    """The type of a datum's elements and how many there are."""
+    if not isinstance(type, ir.ArrayType):
+        return type, 1
+    bound = type.dimensions[0]
+    most = constant_number(bound, scope) if bound is not None else 0
+    if len(type.dimensions) > 1 or most is None:
+        raise CannotSayError("a list of more than one dimension")
+    return scope.resolve(type.element), int(most) + 1
+
+
+def _elements(initial: ir.Expression | None, size: int) -> list[ir.Expression | None]:
+    if size == 1:
+        return [initial]
+    given = [value for _, value in initial.entries] if isinstance(initial, ir.Aggregate) else []
+    return [given[at] if at < len(given) else None for at in range(size)]
+
+
+def _roles(program: ir.Program) -> dict[str, str]:
+    """Variables of poses that are tools or frames of movements."""
+    found: dict[str, str] = {}
+    for node in walk(*program.modules):
+        pairs: list[tuple[ir.Expression | None, str]] = []
+        match node:
+            case ir.Move(tool=tool, frame=frame):
+                pairs = [(tool, "tool"), (frame, "frame")]
+            case ir.Builtin(function="current_target", arguments=(tool, frame)):
+                pairs = [(tool, "tool"), (frame, "frame")]
+            case ir.Builtin(function="joints_to_target", arguments=(_, tool, frame)):
+                pairs = [(tool, "tool"), (frame, "frame")]
+        for value, role in pairs:
+            if isinstance(value, ir.Name | ir.Index) and found.setdefault(root_of(value), role) != role:
+                found[root_of(value)] = "tool"
+    return found
+
+
+def _fathers(program: ir.Program, roles: dict[str, str]) -> dict[str, str]:
+    """Points of the application's data that all movements use in one frame; they hang on it."""
+    used: dict[str, set[str]] = {}
+    for node in walk(*program.modules):
+        match node:
+            case ir.Move(target=target, via=via, frame=frame):
+                named = isinstance(frame, ir.Name) and roles.get(frame.id) == "frame"
+                father = frame.id if isinstance(frame, ir.Name) and named else "world"
+                if frame is not None and frame != NULL and not named:
+                    father = ""  # a frame without a name of its own
+                for point in (target, via):
+                    if point is not None:
+                        used.setdefault(_point(point), set()).add(father)
+            case ir.CallRoutine(arguments=arguments) | ir.TaskControl(arguments=arguments):
+                for argument in arguments:
+                    if argument.value is not None:
+                        used.setdefault(_point(argument.value), set()).add("world")
+    data = {d.name for m in program.modules for d in m.declarations if isinstance(d, ir.Variable)}
+    single = {name: next(iter(frames)) for name, frames in used.items() if len(frames) == 1 and name in data}
+    return {name: father for name, father in single.items() if father not in ("", "world")}
+
+
+def _point(value: ir.Expression) -> str:
+    match value:
+        case ir.Builtin(function="offset" | "tool_offset" | "displaced" | "displaced_in_tool", arguments=(first, *_)):
+            return _point(first)
+    return root_of(value)
+
+
+def _names(program: ir.Program) -> set[str]:
+    found: set[str] = set()
+    for module in program.modules:
+        found.update(str(getattr(declaration, "name", "")) for declaration in module.declarations)
+        for routine in module.routines:
+            found.add(routine.name)
+            found.update(parameter.name for parameter in routine.parameters)
+            found.update(str(getattr(declaration, "name", "")) for declaration in routine.declarations)
+    found.update(node.name or "" for node in walk(*program.modules) if isinstance(node, ir.Signal))
+    return found
+
+
+def _entry(program: ir.Program) -> str:
+    """The routine that the application begins with: the one that is named, else the first that nobody calls."""
+    if program.entry:
+        return program.entry
+    routines = [routine.name for module in program.modules for routine in module.routines]
+    called = {node.name for node in walk(*program.modules) if isinstance(node, ir.CallRoutine)}
+    started = {node.task for node in walk(*program.modules) if isinstance(node, ir.TaskControl)}
+    started |= {task.entry for task in program.tasks if task.kind == "background"}
+    free = [name for name in routines if name not in called | started]
+    return next((name for name in free if name.lower() == "main"), free[0] if free else "")
