@@ -17,7 +17,7 @@ from .data import Datum
 from .expressions import BLENDS, parts_of
 from .facts import Facts
 from .places import WORLD, Value, moved_to, number_of, real
-from .rules import FULL_PATH_SPEED_MM_S, FULL_ROTATION_SPEED_DEG_S, UNLIMITED
+from .rules import FULL_PATH_SPEED_MM_S, UNLIMITED
 
 UNEQUAL = code(
     "val3-unequal-corner",
@@ -134,17 +134,15 @@ def _speed(kind: str, of: Descriptor) -> ir.Speed:
     """Joint movements: vel percent of each joint's speed. Paths: tmax and rmax, and not faster than the joints."""
     if kind == "joint":
         return ir.Speed(joint=of.parts["vel"])
-    limits = []
-    for part, full in (("tvel", FULL_PATH_SPEED_MM_S), ("rvel", FULL_ROTATION_SPEED_DEG_S)):
-        share, limit = _share(of, full), of.parts[part]
-        one, other = number_of(share), number_of(limit)
-        if other is not None and other < UNLIMITED:
-            limits.append(limit)
-        elif one is not None and other is not None:
-            limits.append(share)
-        else:
-            limits.append(ir.Builtin("min", (share, limit)))
-    return ir.Speed(path=limits[0], rotation=limits[1])
+    share, limit = _share(of, FULL_PATH_SPEED_MM_S), of.parts["tvel"]
+    known, most = number_of(share), number_of(limit)
+    if most is not None and most < UNLIMITED:
+        path = limit
+    elif known is not None and most is not None:
+        path = share
+    else:
+        path = ir.Builtin("min", (share, limit))
+    return ir.Speed(path=path, rotation=None if of.number("rvel") == UNLIMITED else of.parts["rvel"])
 
 
 def _blend(of: Descriptor) -> ir.Blend:

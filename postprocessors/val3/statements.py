@@ -23,11 +23,6 @@ NOT_SAID = code(
     "VAL3 cannot say this: {reason}",
     "the original stands there as a comment, and the task stops for good",
 )
-CORNER = code(
-    "val3-corner-given-up",
-    Severity.WARNING,
-    "the robot stops at this corner: the program has to wait there for what comes next",
-)
 _TASKS = {"stop": "taskKill", "pause": "taskSuspend", "resume": "taskResume"}
 _MESSAGES = {"write": "putln", "notify": "popUpMsg", "state": "putln", "error": "popUpMsg"}
 _PRIORITY = 10
@@ -44,18 +39,9 @@ class Statements:
     def body(self, body: ir.Body) -> list[str]:
         """All lines of a body, not indented."""
         lines: list[str] = []
-        for at, statement in enumerate(body):
-            self.given_up(statement, body[at + 1 :])
+        for statement in body:
             lines.extend(self.statement(statement))
         return lines
-
-    def given_up(self, statement: ir.Statement, rest: ir.Body) -> None:
-        """A corner that a wait behind it takes away is told."""
-        if not isinstance(statement, ir.Move) or statement.blend in (None, ir.BlendStop()):
-            return
-        following = next((one for one in rest if not isinstance(one, ir.Nothing)), None)
-        if isinstance(following, ir.WaitForMotion):
-            self.diagnostics.report(CORNER, statement.origin)
 
     def statement(self, statement: ir.Statement) -> list[str]:
         origin = statement.origin

@@ -14,13 +14,13 @@ def words(text: str) -> frozenset[str]:
 RESERVED = words(
     """begin end if then else elseIf endIf while endWhile do until for to step endFor switch case default break
     endSwitch return call taskCreate taskCreateSync and or xor true false num bool string trsf frame tool point
-    pointRx joint jointRx config mdesc dio aio sio world flange abs acos aioGet aioSet appro asc asin atan autoConnectMove chr clock
-    close cls compose cos delay dioGet dioSet distance enablePower exp find get getKey getMonitorSpeed here herej
-    interpolateL isEmpty isPowered isSettled jointToPoint left len limit link ln log logMsg max mid min movec movej
-    movel open pointToJoint popUpMsg position power put putln resetMotion restartMove right round roundDown roundUp sel
-    setFrame setMonitorSpeed sin size sqrt start stop stopMove tan taskKill taskResume taskStatus taskSuspend toNum
-    toString trunc userPage wait waitEndMove watch off Cartesian righty lefty ssame sfree epositive enegative esame
-    efree wpositive wnegative wsame wfree"""
+    pointRx joint jointRx config mdesc dio aio sio world flange abs acos aioGet aioSet appro asc asin atan
+    autoConnectMove chr clock close cls compose cos delay dioGet dioSet distance enablePower exp find get getKey
+    getMonitorSpeed here herej interpolateL isEmpty isPowered isSettled jointToPoint left len limit link ln log
+    logMsg max mid min movec movej movel open pointToJoint popUpMsg position power put putln resetMotion
+    restartMove right round roundDown roundUp sel setFrame setMonitorSpeed sin size sqrt start stop stopMove tan
+    taskKill taskResume taskStatus taskSuspend toNum toString trunc userPage wait waitEndMove watch off Cartesian
+    righty lefty ssame sfree epositive enegative esame efree wpositive wnegative wsame wfree"""
 )
 LONGEST_NAME = 15
 NUMBERS = NumberStyle(exponent="")

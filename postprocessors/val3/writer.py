@@ -28,7 +28,7 @@ _ATTRIBUTE_SIGNS = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "
 def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     """All files of the application. Raises InternalError when a node was neither written nor reported."""
     if context.foreign:
-        program = waits_put_in(program)
+        program = waits_put_in(program, context.diagnostics)
     return _Application(program, context).files()
 
 

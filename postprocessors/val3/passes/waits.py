@@ -11,10 +11,16 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import children, walk
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.rewrite import rewrite_parts
 
+CORNER = code(
+    "val3-corner-given-up",
+    Severity.WARNING,
+    "the robot stops at this corner: the program has to wait there for what comes next",
+)
 _MOVES = (ir.Move, ir.MoveExternal, ir.Spline)
 _ACTS = (
     *(ir.Wait, ir.WaitUntil, ir.Message, ir.Dialog, ir.Pulse, ir.SetAfter, ir.Clock, ir.Halt, ir.TaskControl),
@@ -23,10 +29,10 @@ _ACTS = (
 _LOOKS = frozenset(("current_target", "current_joints", "current_position", "clock_seconds", "task_runs"))
 
 
-def waits_put_in(program: ir.Program) -> ir.Program:
+def waits_put_in(program: ir.Program, diagnostics: Diagnostics) -> ir.Program:
     """The program with a wait wherever the robot has to stand before a statement."""
     routines = {routine.name: routine for module in program.modules for routine in module.routines}
-    worker = _Waits(_moving(routines), _watched(program))
+    worker = _Waits(_moving(routines), _watched(program), diagnostics)
     modules = []
     for module in program.modules:
         done = []
@@ -63,17 +69,24 @@ def _watched(program: ir.Program) -> frozenset[str]:
 
 
 class _Waits:
-    def __init__(self, movers: frozenset[str], watched: frozenset[str]) -> None:
-        self.movers, self.watched = movers, watched
+    def __init__(self, movers: frozenset[str], watched: frozenset[str], diagnostics: Diagnostics) -> None:
+        self.movers, self.watched, self.diagnostics = movers, watched, diagnostics
         self.pending = False
+        self.last: ir.Move | None = None  # the movement just commanded, where it goes over into the next one
 
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
         for statement in body:
             if self.pending and self.needs_rest(statement):
+                if self.last is not None:
+                    self.diagnostics.report(CORNER, self.last.origin)
                 done.append(ir.WaitForMotion(origin=replace(statement.origin, comments=())))
                 self.pending = False
+            if not isinstance(statement, ir.Nothing):
+                self.last = None
             done.append(self.inside(statement))
+            if isinstance(statement, ir.Move) and statement.blend not in (None, ir.BlendStop()):
+                self.last = statement
         return tuple(done)
 
     def inside(self, statement: ir.Statement) -> ir.Statement:
