@@ -171,7 +171,7 @@ def test_without_a_command_the_help_is_shown(capsys: pytest.CaptureFixture[str])
 
 
 def python(*code: str, **options: object) -> "subprocess.CompletedProcess[str]":
-    return subprocess.run([sys.executable, *code], capture_output=True, text=True, timeout=60, **options)  # type: ignore
+    return subprocess.run([sys.executable, *code], capture_output=True, text=True, timeout=600, **options)  # type: ignore
 
 
 def test_check_starts_light(program: Path) -> None:
@@ -189,7 +189,7 @@ print(",".join(heavy), end="")
 
 def test_a_closed_pipe_is_no_traceback() -> None:
     command = f"{sys.executable} -m rpl.cli.main robots | head -n 1"
-    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, timeout=60)
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, timeout=600)
     assert done.stderr == ""
     assert len(done.stdout.splitlines()) == 1
 

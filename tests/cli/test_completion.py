@@ -82,5 +82,7 @@ def test_the_documented_lines_give_scripts() -> None:
     for shell in shells:
         environment = {**os.environ, "_RPL_COMPLETE": f"{shell}_source"}
         code = "import sys; sys.argv = ['rpl']; from rpl.cli.main import main; main()"
-        done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, timeout=60)
+        done = subprocess.run(
+            [sys.executable, "-c", code], env=environment, capture_output=True, text=True, timeout=600
+        )
         assert "_RPL_COMPLETE" in done.stdout, done.stderr

@@ -72,7 +72,7 @@ def test_a_stream_that_the_shell_has_closed_is_no_traceback(tmp_path: Path, clos
     path.write_text("DEF a()\nWAIT SEC 1\nEND\n")
     given = "-" if status else str(path)
     command = f"{sys.executable} -m rpl.cli.main run {given} {closed}"
-    made = subprocess.run(["sh", "-c", command], capture_output=True, text=True, timeout=60, check=False)
+    made = subprocess.run(["sh", "-c", command], capture_output=True, text=True, timeout=600, check=False)
     assert made.returncode == status and "Traceback" not in made.stderr
 
 

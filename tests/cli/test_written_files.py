@@ -108,7 +108,7 @@ def test_a_pipe_that_nobody_reads_is_not_waited_for(source: Path, capsys: pytest
     taker = subprocess.Popen(["cat", str(pipe)], stdout=subprocess.PIPE)
     with pipe.open("wb"):  # somebody reads from here on
         assert run(["run", str(source), "--trace", str(pipe)]) == 0
-    taken, _ = taker.communicate(timeout=30)
+    taken, _ = taker.communicate(timeout=600)
     assert taken.count(b"\n") > 1
 
 

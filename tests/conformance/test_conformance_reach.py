@@ -6,6 +6,7 @@ left is listed with its reason in docs/reach.md.
 
 from __future__ import annotations
 
+import math
 import sys
 from pathlib import Path
 
@@ -16,7 +17,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from outcomes import model_of
 from test_conformance_samples import SAMPLES, expected, name_of, programs_of
 
-from rpl.proof.explore import explore
+from rpl.proof.explore import Budget, explore
 from rpl.proof.reach import Reach, lines_of, reach_of
 from rpl.proof.watched import side_of
 
@@ -37,7 +38,7 @@ def reaches_of(sample: Path) -> tuple[Reach, Reach]:
     """In the sample's own cell, and explored."""
     wanted, program = expected(sample), programs_of(sample).program
     side = side_of(program, model_of(wanted.robot), wanted.entry, controller="plain")
-    found = explore([side], wanted.cell)
+    found = explore([side], wanted.cell, Budget(seconds=math.inf))
     assert not found.ended
     alone = reach_of(program, found.reached[0][:1], wanted.entry)
     return alone, reach_of(program, found.reached[0], wanted.entry, found.remarks[0], found.one_way[0])

@@ -105,7 +105,7 @@ def execute(line: str) -> None:
         else:
             commands[-1].append(word)
     if any(command[0] != "rpl" for command in commands):
-        subprocess.run(["bash", "-ec", line], check=True, timeout=60, capture_output=True)
+        subprocess.run(["bash", "-ec", line], check=True, timeout=600, capture_output=True)
         return
     text = piped(commands)
     if target is not None:

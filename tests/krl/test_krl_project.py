@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -246,15 +244,6 @@ RECOGNISED = [
 @pytest.mark.parametrize(("path", "text", "wanted"), RECOGNISED)
 def test_recognition_by_content(path: str, text: str, wanted: bool) -> None:
     assert (registry.dialect("krl").recognise(path, text) >= 30) == wanted
-
-
-@pytest.mark.slow
-def test_twenty_thousand_points_read_in_about_a_second() -> None:
-    lines = [f"DECL E6POS XP{n}={{X {n}.5,Y -{n}.25,Z 1,A 0,B 0,C 0,S 2,T 35,E1 0,E2 0}}" for n in range(20_000)]
-    text = "\n".join(["DEFDAT P", *lines, "ENDDAT", ""])
-    start = time.process_time()
-    read({"p.dat": text}, normal=False)
-    assert time.process_time() - start < 4
 
 
 @pytest.mark.parametrize(

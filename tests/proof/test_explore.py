@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from rpl import ir
@@ -37,7 +39,7 @@ def krl(*lines: str, data: str = "") -> ir.Program:
 
 
 def explored(program: ir.Program, cell: str = "", budget: Budget | None = None) -> tuple[Exploration, Reach]:
-    found = explore([side_of(program)], parse_cell(cell), budget or Budget())
+    found = explore([side_of(program)], parse_cell(cell), budget or Budget(seconds=math.inf))
     return found, reach_of(program, found.reached[0], None, found.remarks[0], found.one_way[0])
 
 
