@@ -11,7 +11,7 @@ from rpl.passes.legalise.interrupts.resumes import resumes
 from rpl.passes.legalise.interrupts.storedpaths import stored_paths
 from rpl.passes.legalise.io.resetclocks import stopped_resets
 from rpl.passes.legalise.io.routineclocks import clocks_of_routines
-from rpl.passes.legalise.refusals.__init__ import refuse
+from rpl.passes.legalise.refusals import refuse
 from rpl.passes.legalise.settings.keptsettings import kept_settings
 from rpl.passes.legalise.settings.overrides import full_override
 from rpl.passes.legalise.settings.readoverrides import read_overrides
