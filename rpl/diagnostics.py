@@ -133,6 +133,12 @@ class Diagnostics:
             kept.append(item)
         self.items[:] = kept
 
+    def stopping(self, origin: Origin) -> Diagnostic | None:
+        """The report of a pass that says why the program stops at this place."""
+        here = origin.file, origin.line, origin.column
+        lost = (item for item in self.items if item.code.stops and item.severity == Severity.LOSS)
+        return next((item for item in lost if item.origin.source and _place(item) == here), None)
+
     def of(self, severity: Severity) -> list[Diagnostic]:
         return [item for item in self.items if item.severity == severity]
 

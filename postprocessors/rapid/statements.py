@@ -114,7 +114,9 @@ class Statements:
         """The original as comment lines and the controller's own stop."""
         self.ledger.reported(statement)
         code, why = refusal(statement, "rapid") or (NOT_SAID, reason)
+        told = self.diagnostics.stopping(statement.origin)
         self.diagnostics.report(code, statement.origin, reason=why)
+        reason = told.message if told is not None else reason
         original = statement.text if isinstance(statement, ir.Opaque | ir.Vendor) else statement.origin.text
         shown = [line.strip() for line in (original or repr(statement)).splitlines()][:_SHOWN_LINES]
         return [*self.layout.remarks(statement.origin), *self.say.lines("guarded", reason=reason, original=shown)]

@@ -18,6 +18,7 @@ from rpl.passes.legalise.data.datalists import routines_beside
 from rpl.passes.legalise.data.records import RECORDS, Records
 from rpl.passes.legalise.places.library import Library, composed, minus, number, plus, times
 from rpl.passes.legalise.postures.externalaxes import has_external_axes, is_unused
+from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.rewriting.wanted import Kind, WantedRewriter
 from rpl.passes.legalise.settings.tooldata import KINEMATICS
 from rpl.passes.rewrite import rewrite_parts
@@ -28,6 +29,7 @@ QUATERNION_PART = code(
     "quaternion-component",
     Severity.LOSS,
     "the target has no quaternions; assigning one component of a quaternion is not carried over",
+    stops=True,
 )
 REFERENCE_PART = code(
     "component-by-reference",
@@ -98,8 +100,7 @@ class _ToAngles(WantedRewriter):
         target, value = statement.target, statement.value
         match target:
             case ir.Field(base=base, name=name) if name in _QUATERNION and self.is_a(base, ir.RotationType):
-                self.context.diagnostics.report(QUATERNION_PART, statement.origin)
-                return [ir.Opaque(statement.origin.text or f"{name} of a quaternion", origin=statement.origin)]
+                return [stopped(statement, QUATERNION_PART, self.context)]
         type = self.type_of(target)
         match type:
             case ir.VectorType():

@@ -20,6 +20,7 @@ from rpl.passes.legalise.facts.flow import Use, Uses
 from rpl.passes.legalise.postures.families import changed_posture, differing
 from rpl.passes.legalise.postures.flagwrites import FlagFlow, FlagValues, only_turns
 from rpl.passes.legalise.postures.impliedflags import Known, implied_flags
+from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -53,7 +54,10 @@ JOINTS_LOST = code(
     "joints-not-converted", Severity.LOSS, "these joint values are not constant; they mean another posture on {arm}"
 )
 FLAG_ACCESS = code(
-    "configuration-field", Severity.LOSS, "{name} is part of the arm configuration, which the target writes otherwise"
+    "configuration-field",
+    Severity.LOSS,
+    "{name} is part of the arm configuration, which the target writes otherwise",
+    stops=True,
 )
 
 _AXES, _EXTERNAL = tuple(ir.COMPONENTS[ir.AxesType]), tuple(ir.COMPONENTS[ir.ExternalType])
@@ -241,8 +245,7 @@ class _Configurations(Rewriter):
             case ir.Assign(target=ir.Field(name=name) as target, value=value) if self.is_flag(target):
                 if self.set_alike(statement, target, value):
                     return []
-                self.context.diagnostics.report(FLAG_ACCESS, statement.origin, name=name)
-                return [ir.Opaque(statement.origin.text or f"assignment to {name}", origin=statement.origin)]
+                return [stopped(statement, FLAG_ACCESS, self.context, name=name)]
             case ir.Assign(target=ir.Field(base=base, name="conf"), value=value):
                 return self.copied(statement, base, value)
         return super().statement(statement)
@@ -287,8 +290,7 @@ class _Configurations(Rewriter):
     def copied(self, statement: ir.Assign, base: ir.Expression, value: ir.Expression) -> list[ir.Statement]:
         """One target's configuration to another's; it is copied flag by flag where targets have them side by side."""
         if not (isinstance(value, ir.Field) and value.name == "conf"):
-            self.context.diagnostics.report(FLAG_ACCESS, statement.origin, name="the configuration")
-            return [ir.Opaque(statement.origin.text or "a configuration", origin=statement.origin)]
+            return [stopped(statement, FLAG_ACCESS, self.context, name="the configuration")]
         if not self.flat:
             return super().statement(statement)
         place, given = self.expression(base), self.expression(value.base)
