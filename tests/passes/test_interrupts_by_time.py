@@ -96,7 +96,7 @@ ENDMODULE
 """
 
 
-@pytest.mark.parametrize("target", ["krl", "tp", "urscript", "vplus"])
+@pytest.mark.parametrize("target", ["krl"])
 def test_once_and_the_robot_is_held(target: str) -> None:
     diagnostics = Diagnostics()
     read = read_sources([source_from_text("a.mod", HELD)], "rapid", diagnostics)

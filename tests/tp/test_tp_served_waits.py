@@ -15,8 +15,8 @@ PROGRAM = """MODULE Waits
     VAR clock ck;
     VAR bool bLate;
     CONNECT iLow WITH tLow;
-    ISignalDI diLow,1,iLow;
     MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;
+    ISignalDI diLow,1,iLow;
     ClkReset ck;
     ClkStart ck;
     WaitUntil diClear=1\\MaxTime:=2\\TimeFlag:=bLate;
@@ -27,16 +27,14 @@ PROGRAM = """MODULE Waits
     WaitTime 2;
     ClkStop ck;
     IF Abs(ClkRead(ck)-2)<0.1 SetDO do2,1;
-    MoveAbsJ [[20,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v50,fine,tool0;
+    WaitTime 3;
     IDelete iLow;
     IF nLow=1 SetDO do3,1;
   ENDPROC
 
   TRAP tLow
-    StopMove;
     nLow:=nLow+1;
     WaitTime 0.5;
-    StartMove;
   ENDTRAP
 ENDMODULE
 """

@@ -137,10 +137,22 @@ PULSE = cell((12.0, "$IN[1]", True), (13.0, "$IN[1]", False), (30.0, "$IN[2]", T
 TWICE = cell((12.0, "$IN[1]", True), (13.0, "$IN[1]", False), (14.0, "$IN[1]", True))
 
 
-@pytest.mark.parametrize("handler", ["LIT", "HELD", "BRAKED", "LEFT"])
-@pytest.mark.parametrize("routine", ["WAY", "CORNERS", "WAITING"])
+ACTS = [("LIT", "WAY"), ("LIT", "CORNERS"), ("LEFT", "WAY"), ("LEFT", "CORNERS")]
+WAITS = [(handler, "WAITING") for handler in HANDLERS]
+
+
+@pytest.mark.parametrize(("handler", "routine"), [*ACTS, *WAITS])
 def test_interrupts_act_while_the_program_waits(handler: str, routine: str) -> None:
     same_events("krl", handled(handler, f"{routine}()"), PULSE)
+
+
+@pytest.mark.parametrize("handler", ["HELD", "BRAKED"])
+@pytest.mark.parametrize("routine", ["WAY", "CORNERS"])
+def test_one_that_takes_time_or_stops_a_move_that_goes_on_is_refused_where_it_is_declared(
+    handler: str, routine: str
+) -> None:
+    script, losses, _ = translated("krl", handled(handler, f"{routine}()"), PULSE)
+    assert losses == ["interrupt-not-watched"] and script.count("halt") == 1, script
 
 
 @pytest.mark.parametrize(

@@ -1,39 +1,66 @@
-"""Interrupts that stop the robot, for targets whose tasks cannot stop it, but whose moves end at a condition.
+"""Interrupts that stop the robot, or that come while the program waits, for targets whose tasks cannot stop it, but
+whose moves end at a condition.
 
 While such an interrupt may come, each move is a search for its condition. Where that came, the program acts behind the
-move: it goes on there, drives to the end of the move, or leaves the level of the declaration.
+move, and goes on there or leaves the level of the declaration; while the program only waits it looks for the condition
+in each cycle. A move that would have to go on from its middle is refused: it would be another one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import bodies, walk
+from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
-from rpl.passes.legalise.interrupts.heldmotion import not_again, path_differs, with_kept_target
-from rpl.passes.legalise.interrupts.served import Served
-from rpl.passes.legalise.rewriting.editing import Editor, negation
-from rpl.passes.legalise.tasks.beside import tidy
+from rpl.passes.legalise.facts.usage import called_below
+from rpl.passes.legalise.interrupts.watches import Watch
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, expansion, map_body, negation
+from rpl.passes.legalise.rewriting.support import default_value
+from rpl.passes.legalise.settings.movesettings import plain
+from rpl.passes.legalise.tasks.beside import closure, tidy
+
+__all__ = ["CORNER", "EndedMoves", "goes_on", "unending"]
 
 CORNER = code(
     "interrupt-stops-corner",
     Severity.WARNING,
     "a move that an interrupt may stop ends at its point: its corner is not rounded while the interrupt may come",
 )
+_TRUE, _FALSE = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
 
-def unending(
-    one: ir.DeclareInterrupt, brakes: bool, data: bool = False, signals: Mapping[str, ir.Signal] | None = None
-) -> str:
-    """Why no move can end for it; empty when one can. `data`: a move may end at a truth value too; `signals`: those
-    that have names, folded."""
+def goes_on(program: ir.Program, one: ir.DeclareInterrupt) -> bool:
+    """Does the interrupt stop the robot in the middle of a move that may go on behind the action? Not where the action
+    surely leaves its level behind that."""
+    stopping = closure(program, (ir.StopMotion,))
+    if one.stops or not isinstance(one.action, ir.CallRoutine) or one.action.name.lower() not in stopping:
+        return False
+    for routine in (routine for module in program.modules for routine in module.routines):
+        if routine.name.lower() == one.action.name.lower():
+            ways_out = any(isinstance(node, ir.Return | ir.Goto) for node in walk(*bodies(routine)))
+            said = [each for each in routine.body if not isinstance(each, ir.Nothing)]
+            return ways_out or not said or not isinstance(said[-1], ir.ResumeLevel)
+    return True
+
+
+def unending(one: ir.DeclareInterrupt, brakes: bool, any_condition: bool, data: bool, program: ir.Program) -> str:
+    """Why no move can end for it; empty when one can. `any_condition`: a move may end at any; `data`: at a truth value
+    too."""
     if not brakes and not one.stops:
         return "it takes time while the robot moves on"
-    if not _looks_at_input(one.condition, data, signals or {}):
+    if not any_condition and not _looks_at_input(one.condition, data, _signals(program)):
         return "a move ends at one input only"
     return ""
+
+
+def _signals(program: ir.Program) -> dict[str, ir.Signal]:
+    """The physical signals by their names, folded."""
+    found = (node for module in program.modules for node in module.declarations)
+    return {one.name.lower(): one.signal for one in found if isinstance(one, ir.SignalDeclaration)}
 
 
 def _looks_at_input(condition: ir.Expression, data: bool, signals: Mapping[str, ir.Signal]) -> bool:
@@ -50,88 +77,184 @@ def _looks_at_input(condition: ir.Expression, data: bool, signals: Mapping[str, 
 
 
 @dataclass(slots=True)
-class EndedMoves(Served):
-    """Serves as `Served` does, with searches in place of a task that drives."""
+class EndedMoves:
+    """Rewrites a program for one interrupt. `marked`: statements (by identity) that may run while it is on; `handlers`:
+    what its action calls, `declaring`: the routines that declare it (both folded); `leaves`: its action leaves its
+    level."""
 
-    def body(self, editor: Editor, body: ir.Body) -> ir.Body:
-        done: list[ir.Statement] = []
-        for statement in body:
-            if isinstance(statement, ir.Move) and statement.search is None and id(statement) in self.marked:
-                done.extend(self.drive(editor, [statement]))
-            else:
-                done.extend(self.statement(editor, statement))
-        return tuple(done)
+    program: ir.Program
+    context: Context
+    watch: Watch
+    marked: frozenset[int] = frozenset()
+    made: list[ir.Routine] = field(default_factory=list)
+    names: dict[str, str] = field(default_factory=dict)
+    handlers: frozenset[str] = frozenset()
+    declaring: frozenset[str] = frozenset()
+    leaves: bool = False
+    here: ir.Routine | None = None
+
+    def __post_init__(self) -> None:
+        action = self.watch.declared.action
+        roots = {action.name.lower()} if isinstance(action, ir.CallRoutine) else set[str]()
+        self.handlers = called_below(self.program, roots)
+        resuming = closure(self.program, (ir.ResumeLevel,))
+        self.leaves = bool(roots & resuming)
+        self.declaring = frozenset(
+            routine.name.lower()
+            for module in self.program.modules
+            for routine in module.routines
+            for node in walk(*bodies(routine))
+            if isinstance(node, ir.DeclareInterrupt) and _resumes(node, resuming)
+        )
+
+    def name(self, stem: str) -> str:
+        if stem not in self.names:
+            self.names[stem] = self.context.fresh(stem)
+        return self.names[stem]
+
+    def arms(self, statement: ir.ControlInterrupt) -> bool | None:
+        """Does it arm the interrupt (TRUE), or leave it off (FALSE)?"""
+        if statement.op not in ("on", "off", "delete"):
+            return None
+        other = isinstance(statement.handle, ir.IntLiteral) and statement.handle.value != self.watch.key
+        return None if other else statement.op == "on"
+
+    # ---- routines
+
+    def routine(self, editor: Editor, original: ir.Routine, routine: ir.Routine) -> ir.Routine:
+        self.here = original
+        if original.name.lower() in self.handlers:
+            return edit_bodies(routine, lambda body: map_body(body, self.handler))
+        return edit_bodies(routine, lambda body: map_body(body, lambda one: self.statement(editor, one)))
 
     def statement(self, editor: Editor, statement: ir.Statement) -> ir.Body:
-        if isinstance(statement, ir.Move) and statement.search is not None:
-            return (statement,)
-        if isinstance(statement, ir.WaitForMotion) and id(statement) in self.marked:
-            look = ir.CallRoutine(self.name("rpl_interrupts"), origin=tidy(statement.origin))
-            return self.leaving(statement, (statement, look))
-        return Served.statement(self, editor, statement)
+        """Of the program: while the interrupt may come, what takes time looks for it."""
+        if id(statement) not in self.marked:
+            return (inside(statement, lambda body: map_body(body, lambda one: self.statement(editor, one))),)
+        match statement:
+            case ir.Move(search=None):
+                return self.drive(editor, statement)
+            case ir.Move():
+                return (statement,)
+            case ir.WaitForMotion():
+                return self.leaving(statement, (statement, self.look(statement)))
+            case ir.Wait(time=time):
+                given = ir.Argument(plain(time))
+                return self.leaving(statement, (ir.CallRoutine(self.name("rpl_wait"), (given,)),))
+            case ir.WaitUntil():
+                return self.leaving(statement, self.until(editor, statement))
+            case ir.CallRoutine():
+                return self.leaving(statement, (statement,))
+        return (inside(statement, lambda body: map_body(body, lambda one: self.statement(editor, one))),)
 
-    def drive(self, editor: Editor, moves: list[ir.Move]) -> ir.Body:
-        """The move, which ends where the condition comes; what was only stopped begins again from there. Where the
-        condition holds from the start the interrupt has come before and the move is one as any other."""
-        (move,) = moves
-        first: ir.Body = ()
-        again = id(move) in self.again
-        if again:
-            first, move = with_kept_target(editor, move)
-        if again and path_differs(move):
-            return not_again(move, path_differs(move), self.context)
+    def drive(self, editor: Editor, move: ir.Move) -> ir.Body:
+        """The move, which ends where the condition comes. Where that holds from the start the interrupt has come before
+        and the move is one as any other."""
         if not isinstance(move.blend, ir.BlendStop | None):
             self.context.diagnostics.report(CORNER, move.origin)
-        (watch,) = self.watches.values()
         hit = editor.temporary("hit", ir.BoolType())
-        condition, was = watch.declared.condition, ir.Name(watch.was)
-        look = ir.CallRoutine(self.name("rpl_interrupts"))
         bare = replace(move, origin=tidy(move.origin))
-        ended = replace(bare, search=ir.Search(condition, stop="stop", hit=hit), blend=ir.BlendStop())
-        comes: ir.Expression = ir.Binary("cand", ir.Name(watch.armed), negation(was))
-        held = watch.may_come()
-        if held is not None:
-            comes = ir.Binary("cand", comes, held)
-        rest: ir.Body = () if watch.declared.stops else (self.onward(hit, bare),)
-        tried: ir.Body = (ended, ir.If(((hit, (look, *rest)),)))
-        told = self.leaving(move, (look,), True)
-        return (*first, *told, *self.leaving(bare, (ir.If(((comes, tried),), (bare,)),), True))
+        search = ir.Search(self.watch.declared.condition, stop="stop", hit=hit)
+        ended = replace(bare, search=search, blend=ir.BlendStop())
+        tried: ir.Body = (ended, ir.If(((hit, (self.look(bare),)),)))
+        told = self.leaving(move, (self.look(move),))
+        return (*told, *self.leaving(bare, (ir.If(((self.comes(), tried),), (bare,)),), True))
 
-    def onward(self, hit: ir.Expression, move: ir.Move) -> ir.Statement:
-        """The rest of the move, unless the level was left."""
-        if not self.leaves:
-            return move
-        return ir.If(((negation(ir.Name(self.name("rpl_left"))), (move,)),))
+    def look(self, statement: ir.Statement) -> ir.Statement:
+        return ir.CallRoutine(self.name("rpl_interrupts"), origin=tidy(statement.origin))
+
+    def comes(self) -> ir.Expression:
+        """May it come, if its condition does?"""
+        comes: ir.Expression = ir.Binary("cand", ir.Name(self.watch.armed), negation(ir.Name(self.watch.was)))
+        held = self.watch.may_come()
+        return comes if held is None else ir.Binary("cand", comes, held)
 
     def handler(self, statement: ir.Statement) -> ir.Body:
-        """The robot stands when the interrupt acts."""
+        """In the routine of the interrupt: the robot stands when it acts."""
         match statement:
             case ir.StopMotion() | ir.ClearMotion() | ir.StartMotion():
                 return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
             case ir.ResumeLevel():
-                left = ir.Assign(ir.Name(self.name("rpl_left")), ir.BoolLiteral(True), origin=statement.origin)
+                left = ir.Assign(ir.Name(self.name("rpl_left")), _TRUE, origin=statement.origin)
                 return (left, ir.Return(origin=tidy(statement.origin)))
-        return (inside(statement, lambda body: tuple(one for each in body for one in self.handler(each))),)
+        return (inside(statement, lambda body: map_body(body, self.handler)),)
 
-    def looking(self) -> ir.Body:
+    # ---- waits
+
+    def waiting(self, condition: ir.Expression) -> ir.While:
+        """Waits for a condition and looks meanwhile."""
+        if self.leaves:
+            condition = ir.Binary("cor", condition, ir.Name(self.name("rpl_left")))
+        look = ir.CallRoutine(self.name("rpl_interrupts"))
+        return ir.While(negation(condition), (look, _pause(self.context)))
+
+    def until(self, editor: Editor, wait: ir.WaitUntil) -> ir.Body:
+        if wait.timeout is None:
+            return (self.waiting(wait.condition),)
+        waited = editor.temporary("waited", ir.RealType())
+        late = ir.Binary(">=", waited, plain(wait.timeout))
+        loop = self.waiting(ir.Binary("cor", wait.condition, late))
+        step = ir.Assign(waited, ir.Binary("+", waited, ir.RealLiteral(self.context.capabilities.io.poll_s)))
+        told: ir.Body = ()
+        if wait.timed_out is not None:
+            told = (ir.Assign(wait.timed_out, ir.Unary("not", wait.condition)),)
+        return (ir.Assign(waited, ir.RealLiteral(0.0)), replace(loop, body=(*loop.body, step)), *told)
+
+    def leaving(self, statement: ir.Statement, done: ir.Body, marked: bool = False) -> ir.Body:
+        """What takes time, and the way out behind it where the interrupt may have left the level."""
+        if not self.leaves or self.here is None or not (marked or id(statement) in self.marked):
+            return expansion(statement.origin, done)
+        left = ir.Name(self.name("rpl_left"))
+        lower = ir.Assign(left, _FALSE)
+        if self.here.name.lower() in self.declaring:
+            return expansion(statement.origin, (*done, lower))
+        value = default_value(self.here.returns) if self.here.returns is not None else None
+        return expansion(statement.origin, (*done, ir.If(((left, (ir.Return(value),)),))))
+
+    # ---- what the program brings along
+
+    def finish(self) -> None:
+        """Adds the routines that look and act."""
+        look = ir.CallRoutine(self.name("rpl_interrupts"))
+        self.made.append(ir.Routine(self.name("rpl_interrupts"), body=(self.looking(),), scope="global"))
+        if "rpl_wait" in self.names:
+            self.made.append(self.wait_routine(look))
+
+    def wait_routine(self, look: ir.Statement) -> ir.Routine:
+        waited, time = ir.Name("waited"), ir.Name("seconds")
+        more = ir.Assign(waited, ir.Binary("+", waited, ir.RealLiteral(self.context.capabilities.io.poll_s)))
+        going: ir.Expression = ir.Binary("<", waited, time)
+        if self.leaves:
+            going = ir.Binary("cand", going, ir.Unary("not", ir.Name(self.name("rpl_left"))))
+        loop = ir.While(going, (look, _pause(self.context), more))
+        return ir.Routine(
+            self.name("rpl_wait"),
+            parameters=(ir.Parameter("seconds", ir.RealType()),),
+            declarations=(ir.Variable("waited", ir.RealType(), scope="routine"),),
+            body=(ir.Assign(waited, ir.RealLiteral(0.0)), loop),
+            scope="global",
+        )
+
+    def looking(self) -> ir.Statement:
         """The interrupt, unless it is acting."""
-        (watch,) = self.watches.values()
-        was, condition = ir.Name(watch.was), watch.declared.condition
-        comes: ir.Expression = ir.Binary("cand", ir.Name(watch.armed), negation(was))
-        held = watch.may_come()
-        if held is not None:
-            comes = ir.Binary("cand", comes, held)
-        acts: list[ir.Statement] = [ir.Assign(was, ir.BoolLiteral(True))]
-        if watch.declared.once:
-            acts.insert(0, ir.Assign(ir.Name(watch.armed), ir.BoolLiteral(False)))
-        acts.append(replace(watch.declared.action, origin=tidy(watch.declared.action.origin)))
-        gone = (negation(condition), (ir.Assign(was, ir.BoolLiteral(False)),))
-        return (ir.If(((ir.Binary("cand", condition, comes), tuple(acts)), gone)),)
+        was, condition = ir.Name(self.watch.was), self.watch.declared.condition
+        acts: list[ir.Statement] = [ir.Assign(was, _TRUE)]
+        if self.watch.declared.once:
+            acts.insert(0, ir.Assign(ir.Name(self.watch.armed), _FALSE))
+        action = self.watch.declared.action
+        acts.append(replace(action, origin=tidy(action.origin)))
+        gone = (negation(condition), (ir.Assign(was, _FALSE),))
+        return ir.If(((ir.Binary("cand", condition, self.comes()), tuple(acts)), gone))
 
     def data(self) -> tuple[ir.Variable, ...]:
         if "rpl_left" not in self.names:
             return ()
-        return (ir.Variable(self.names["rpl_left"], ir.BoolType(), ir.BoolLiteral(False), scope="global"),)
+        return (ir.Variable(self.names["rpl_left"], ir.BoolType(), _FALSE, scope="global"),)
 
 
-__all__ = ["EndedMoves", "unending"]
+def _resumes(one: ir.DeclareInterrupt, resuming: frozenset[str]) -> bool:
+    return isinstance(one.action, ir.CallRoutine) and one.action.name.lower() in resuming
+
+
+def _pause(context: Context) -> ir.Statement:
+    return ir.Wait(ir.Quantity(ir.RealLiteral(context.capabilities.io.poll_s), "s"))

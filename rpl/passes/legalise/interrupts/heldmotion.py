@@ -1,5 +1,5 @@
 """Interrupt routines that stop the robot on its path and let it go on (RAPID StopMove .. StartMove), for targets that
-know no such start: what their interrupt braked goes on when the routine ends, or the move is commanded again.
+know no such start, but whose robot goes on when the routine ends that has braked it (KRL).
 
 A start that is the last thing in the routine which takes time is left out, and so is the pair that puts the path aside
 in between (StorePath .. RestoPath). Everything else is named: there the robot would go on at another time.
@@ -18,17 +18,11 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.facts.usage import called_below
-from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_routines
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.legalise.tasks.beside import closure, tidy
+from rpl.passes.legalise.tasks.beside import closure
 from rpl.source import Comment
 
-AGAIN = code(
-    "stopped-move-begins-again",
-    Severity.WARNING,
-    "the move that {routine} stops is commanded again to the same target: a straight line goes on straight, a joint"
-    " move goes from where it stands, and its speed builds up as that of a new move",
-)
 STAYS = code(
     "motion-stays-stopped",
     Severity.LOSS,
@@ -42,24 +36,16 @@ EARLY = code(
     "{routine} lets the robot go on before it has ended: on the target the robot goes on when the routine ends",
     "put what takes time behind the start into the program, or in front of it",
 )
-ANOTHER = code(
-    "stopped-move-lost",
-    Severity.LOSS,
-    "an interrupt may stop this move and let it go on; the target would have to begin it again, which is another path:"
-    " {reason}",
-)
 _TIME = (
     *(ir.Move, ir.MoveExternal, ir.Spline, ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.StopMotion),
     *(ir.StartMotion, ir.ClearMotion, ir.StoreMotion, ir.Halt),
 )
-_POSITION = ("x", "y", "z")
-_OFFSETS = {"base": "offset", "tool": "tool_offset"}
 _LEAVING = (ir.Return, ir.Goto, ir.Raise, ir.Retry, ir.TryNext, ir.ResumeLevel, ir.ClearMotion, ir.StartMotion)
 
 
-@legalising(unless=lambda context: "StartMotion" in context.capabilities.statements)
+@legalising(unless=lambda context: "StartMotion" in context.capabilities.statements or drops_braked(context))
 def held_motion(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets that cannot start the motion again by a word of their own."""
+    """Only for targets that cannot start the motion again by a word of their own, and whose brake does not drop it."""
     connected: set[str] = set()
     declared: set[str] = set()
     for node in walk(*program.modules):
@@ -80,60 +66,11 @@ def held_motion(program: ir.Program, context: Context) -> ir.Program:
     )
 
 
-def path_differs(move: ir.Move) -> str:
-    """Why a move that begins again from its middle is another one; empty when it is not."""
-    if move.kind not in ("joint", "linear"):
-        return "an arc has another centre then"
-    return "its target counts from where it begins" if _reads_place(move) or move.relative is not None else ""
-
-
-def _reads_place(move: ir.Move) -> bool:
-    for node in walk(move.target):
-        match node:
-            case ir.Builtin(function=function) if function.startswith("current_"):
-                return True
-            case ir.System(name="actual_pose" | "actual_joints"):
-                return True
-    return False
-
-
-def with_kept_target(editor: Editor, move: ir.Move) -> tuple[ir.Body, ir.Move]:
-    """A straight or joint move that counts from where it begins, with its end in a variable that is set in front of it:
-    so it can begin again. The robot stands there. A way that also turns the tool, or of single axes, stays as it is."""
-    if move.kind not in ("joint", "linear") or not (_reads_place(move) or move.relative in _OFFSETS):
-        return (), move
-    place: ir.Expression = move.target
-    type = editor.type_of(place)
-    if move.relative is not None:
-        if not isinstance(place, ir.Aggregate) or not all(name in _POSITION for name, _ in place.entries):
-            return (), move
-        steps = dict(place.entries)
-        offsets = tuple(steps.get(name, ir.RealLiteral(0.0)) for name in _POSITION)
-        place = ir.Builtin(_OFFSETS[move.relative], (_here(move), *offsets))
-        type = ir.TargetType(editor.scope.rules.name)
-    if type is None:
-        return (), move
-    kept = editor.temporary("rpl_goal", type)
-    first = (ir.WaitForMotion(origin=move.origin), ir.Assign(kept, place, origin=_bare(move).origin))
-    return first, replace(_bare(move), target=kept, relative=None)
-
-
-def _here(move: ir.Move) -> ir.Expression:
-    """Where the robot is, with the tool and in the frame that the move says itself."""
-    if move.tool is None and move.frame is None:
-        return ir.System("actual_pose")
-    return ir.Builtin("current_target", (move.tool or ir.System("tool"), move.frame or ir.System("null_frame")))
-
-
-def not_again(move: ir.Move, reason: str, context: Context) -> ir.Body:
-    """Names a move that cannot begin again, and the program stops in front of it."""
-    context.diagnostics.report(ANOTHER, move.origin, reason=reason)
-    remark = Comment(" stopped on its way, the next move would not go on along its path")
-    return (ir.Halt(origin=replace(move.origin, comments=(*move.origin.comments, remark))), _bare(move))
-
-
-def _bare(move: ir.Move) -> ir.Move:
-    return replace(move, origin=tidy(move.origin))
+def drops_braked(context: Context) -> bool:
+    """Is a move that was stopped gone on the target, so that it would have to begin again in its middle?"""
+    can = context.capabilities
+    watched = can.interrupts.watched in (Watched.ALL, Watched.INTERRUPTS)
+    return InterruptRule.STOPPING in can.interrupts.rules or watched or "StopMotion" not in can.statements
 
 
 @dataclass(slots=True)
@@ -194,8 +131,6 @@ class _Held:
                     pass  # what it stopped does not go on
                 elif self.strict:
                     done.extend(self.lost(STAYS, statement))
-                elif not self.strict and self.drops():
-                    self.context.diagnostics.report(AGAIN, statement.origin, routine=self.name)
             if isinstance(statement, ir.If | ir.Switch):
                 quiet = last and not any(map(self.takes_time, body[at + 1 :]))
                 statement = inside(statement, partial(self.body, last=quiet))
@@ -221,15 +156,7 @@ class _Held:
         kept = [one for one in (*between, _remark(body[end])) if not _empty(one)]
         if not last or any(map(self.takes_time, body[end + 1 :])):
             return (*self.lost(EARLY, body[at]), *body[at : end + 1])
-        if self.drops():
-            self.context.diagnostics.report(AGAIN, body[at].origin, routine=self.name)
         return (body[at], *kept)
-
-    def drops(self) -> bool:
-        """Is a move that was stopped begun again on the target?"""
-        can = self.context.capabilities
-        watched = can.interrupts.watched is Watched.ALL or can.interrupts.watched is Watched.INTERRUPTS
-        return InterruptRule.STOPPING in can.interrupts.rules or watched or "StopMotion" not in can.statements
 
     def lost(self, what: Code, statement: ir.Statement) -> ir.Body:
         """Named, and the program stops here: no robot may drive on by itself."""
@@ -246,4 +173,4 @@ def _empty(statement: ir.Statement) -> bool:
     return isinstance(statement, ir.Nothing) and not statement.origin.comments
 
 
-__all__ = ["held_motion"]
+__all__ = ["drops_braked", "held_motion"]

@@ -6,8 +6,6 @@ controller is how exactly the place is kept.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.control.jumps import inside
@@ -36,10 +34,8 @@ class SearchTasks:
             return self.search(statement, statement.search)
         return (inside(statement, self.body),)
 
-    def search(
-        self, move: ir.Move, search: ir.Search, wait: Callable[[ir.Expression], ir.Body] | None = None
-    ) -> ir.Body:
-        """The move in a task, and what looks; `wait`: how the program waits where it serves interrupts meanwhile."""
+    def search(self, move: ir.Move, search: ir.Search) -> ir.Body:
+        """The move in a task, and what looks."""
         self.beside.context.diagnostics.report(WATCHED, move.origin)
         later = tidy(move.origin)
         moving = ir.Name(self.beside.moving_name())
@@ -66,11 +62,10 @@ class SearchTasks:
         passing = (
             search.stop == "none" and search.edge != "either"
         )  # then what is there already is not what is searched
-        waits = wait if wait is not None else _wait
         way: list[ir.Statement] = [
-            *self.movers.begin(self.editor, self.routine, (move,)),
-            *(waits(ir.Binary("cor", negation(wanted), ir.Unary("not", moving))) if passing else ()),
-            *waits(ir.Binary("cor", wanted, ir.Unary("not", moving))),
+            *self.movers.begin(self.editor, self.routine, move),
+            *((ir.WaitUntil(ir.Binary("cor", negation(wanted), ir.Unary("not", moving))),) if passing else ()),
+            ir.WaitUntil(ir.Binary("cor", wanted, ir.Unary("not", moving))),
             ir.If(((moving, (*reached, *stops)),), origin=later),
         ]
         if search.hit is not None:
@@ -78,10 +73,6 @@ class SearchTasks:
         if search.edge == "either" or search.hit is None or passing:
             return expansion(move.origin, (*before, *way))
         return expansion(move.origin, (*before, ir.If(((wanted, tuple(reached)),), tuple(way), origin=later)))
-
-
-def _wait(condition: ir.Expression) -> ir.Body:
-    return (ir.WaitUntil(condition),)
 
 
 def _here(move: ir.Move) -> ir.Expression:

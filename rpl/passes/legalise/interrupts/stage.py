@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from rpl.passes.legalise.interrupts.brakedmoves import braked_moves
 from rpl.passes.legalise.interrupts.heldmotion import held_motion
 from rpl.passes.legalise.interrupts.interrupts import interrupts
 from rpl.passes.legalise.interrupts.onceonly import rearmed_reactions
 from rpl.passes.legalise.interrupts.reactions import reactions
-from rpl.passes.legalise.interrupts.repeatedmoves import repeated_moves
 from rpl.passes.legalise.interrupts.resumes import resumes
 from rpl.passes.legalise.interrupts.storedpaths import stored_paths
 from rpl.passes.legalise.io.resetclocks import stopped_resets
@@ -35,7 +35,7 @@ STAGE = Stage(
         resumes,
         interrupts,
         rearmed_reactions,
-        repeated_moves,
+        braked_moves,
         clocks_of_routines,
         stopped_resets,
         static_variables,

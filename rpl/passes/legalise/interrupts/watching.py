@@ -1,9 +1,10 @@
 """Searches, interrupts and moves that the program does not wait for, for targets that have tasks, but none of these.
 
 An interrupt whose action takes no time and leaves the robot alone is a task of its own that waits for the condition and
-acts in a critical section, where the target has these. Any other one the program serves itself: while it may come, a
-task drives the moves, and the program looks at the condition in each cycle of its waiting (`served`); or the moves are
-searches that end at the condition (`endedmoves`).
+acts in a critical section, where the target has these. For one that stops the robot for good, and for one that takes
+time while the program only waits, moves are searches that end at the condition, and the program looks at it in each
+cycle of its waiting (`endedmoves`). One that stops the robot in the middle of a move which then goes on is refused:
+what would brake and begin again is a task or a program that looks now and then, and nobody can prove its delay.
 """
 
 from __future__ import annotations
@@ -17,11 +18,13 @@ from rpl.passes.capabilities import PathRule, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside, left_with
 from rpl.passes.legalise.facts.usage import called_names, exposed
-from rpl.passes.legalise.interrupts.endedmoves import EndedMoves, unending
+from rpl.passes.legalise.interrupts.endedmoves import EndedMoves, goes_on, unending
 from rpl.passes.legalise.interrupts.reach import Armed, armed_statements, with_calls
+from rpl.passes.legalise.interrupts.refusedactions import REFUSED, without_actions
 from rpl.passes.legalise.interrupts.searchtasks import SearchTasks
-from rpl.passes.legalise.interrupts.served import MOTION, Served, Watch
+from rpl.passes.legalise.interrupts.watches import MOTION, Watch
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.rewriting.stopping import left_out
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.beside import Beside, closure, local_names, tidy
@@ -38,8 +41,8 @@ BESIDE = code(
 SERVED = code(
     "interrupt-served",
     Severity.WARNING,
-    "the program looks for the condition of {action} in each cycle while the robot moves and while it waits, not while"
-    " it calculates or acts on another one",
+    "moves end at the condition of {action}, and the program looks for it in each cycle while it waits, not while it"
+    " calculates",
 )
 MISSED = code(
     "interrupt-not-noted",
@@ -52,8 +55,10 @@ LOST = code(
     "interrupt-not-watched",
     Severity.LOSS,
     "{action} cannot be done by a program that watches the condition: {reason}",
+    "let a search move end at the condition, or use the controller's own monitoring function",
     stops=True,
 )
+_DRIVEN = (ir.Move, ir.MoveExternal, ir.Spline)
 _ALONE = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.Raise, ir.Halt, ir.ResumeLevel)
 
 
@@ -76,11 +81,9 @@ def watching(program: ir.Program, context: Context) -> ir.Program:
     movers = Movers(beside, ProgramScope(program))
     watches = _Watches(program, beside)
     watches.collect()
-    serving: list[Served] = []
-    for some in watches.together():
-        served = (Served if can.interrupts.watched is Watched.ALL else EndedMoves)(
-            program, context, beside, movers, some
-        )
+    serving: list[EndedMoves] = []
+    for one in (each for each in watches.watches.values() if each.served):
+        served = EndedMoves(program, context, one)
         served.marked = armed_statements(program, served)
         if served.leaves:
             served.marked = with_calls(program, served.marked, served.declaring)
@@ -90,7 +93,7 @@ def watching(program: ir.Program, context: Context) -> ir.Program:
         done = routine
         for one in serving:
             done = one.routine(editor, routine, done)
-        if searches and not serving:
+        if can.interrupts.watched is Watched.ALL and (searches or serving):
             done = edit_bodies(done, SearchTasks(editor, routine, beside, movers).body)
         if concurrent and not serving:
             done = edit_bodies(done, ConcurrentMoves(editor, routine, beside, movers).body)
@@ -100,18 +103,13 @@ def watching(program: ir.Program, context: Context) -> ir.Program:
     for one in serving:
         one.finish()
     movers.finish()
+    done = without_actions(done, [one for some in watches.lost.values() for one in some])
     done = watches.levels(beside.placed(done))
     done = replace(done, tasks=(*done.tasks, *watches.by_urgency()))
     made = (*(routine for one in serving for routine in one.made), *watches.made)
     done = exposed(done, called_names(made))
     data = (*movers.data(), *(datum for one in serving for datum in one.data()), *watches.data)
     return with_support(done, context, data, made, done.modules[0].task)
-
-
-def _signals(program: ir.Program) -> dict[str, ir.Signal]:
-    """The physical signals by their names, folded."""
-    found = (node for module in program.modules for node in module.declarations)
-    return {one.name.lower(): one.signal for one in found if isinstance(one, ir.SignalDeclaration)}
 
 
 def _name(action: ir.Assign | ir.CallRoutine) -> str:
@@ -139,20 +137,13 @@ class _Watches:
     program: ir.Program
     beside: Beside
     watches: dict[int, Watch] = field(default_factory=dict)
-    lost: set[int] = field(default_factory=set)
+    lost: dict[int, list[ir.DeclareInterrupt]] = field(default_factory=dict)
     declaring: dict[str, set[int]] = field(default_factory=dict)
     data: list[ir.Variable] = field(default_factory=list)
     made: list[ir.Routine] = field(default_factory=list)
     tasks: list[tuple[int, ir.Task]] = field(default_factory=list)  # with their priority: lower is more urgent
     mask: str = ""
     periods: dict[int, list[ir.Expression]] = field(default_factory=dict)  # of interrupts that come by time
-
-    def together(self) -> list[dict[int, Watch]]:
-        """Those that the program serves: all at once, or one by one where a move looks at one condition."""
-        served = {key: one for key, one in self.watches.items() if one.served}
-        if self.beside.context.capabilities.interrupts.watched is Watched.ALL:
-            return [served] if served else []
-        return [{key: one} for key, one in served.items()]
 
     def overlap(self, key: int, other: int) -> bool:
         """Is there a statement that runs while both may come?"""
@@ -183,7 +174,7 @@ class _Watches:
         reason = self.refused(one, key, routine)
         if reason or key is None:
             self.beside.context.diagnostics.report(LOST, one.origin, action=_name(one.action), reason=reason)
-            self.lost.add(key if key is not None else -1)
+            self.lost.setdefault(key if key is not None else -1, []).append(one)
             return
         if not one.everywhere:
             self.declaring.setdefault(routine.name.lower(), set()).add(key)
@@ -208,10 +199,7 @@ class _Watches:
         if timed or key not in self.periods:
             watch.was = self.flag(f"rpl_interrupt_{key}_was")
         if timed and watch.may_come() is not None:
-            if self.beside.context.capabilities.interrupts.watched is Watched.ALL:
-                watch.came = self.flag(f"rpl_interrupt_{key}_came")
-            else:
-                report(MISSED, one.origin, action=_name(one.action))
+            report(MISSED, one.origin, action=_name(one.action))
         if not timed:
             self.task(watch)
         elif key in self.periods:
@@ -251,13 +239,23 @@ class _Watches:
             return "it puts the motion aside"
         if name in drives and name not in brakes and not one.stops:
             return "it moves the robot without braking first"
-        if can.interrupts.watched is Watched.ALL or not self.takes_time(one):
-            return ""
+        return self.not_served(one, key, name in brakes) if self.takes_time(one) else ""
+
+    def not_served(self, one: ir.DeclareInterrupt, key: int, brakes: bool) -> str:
+        """Why no move can end for it, where one is driven while it is on."""
         others = [other.key for other in self.watches.values() if other.served and other.key != key]
         if any(self.overlap(key, other) for other in others):
             return "another one stops the robot already, and a move looks at one condition"
-        looked = replace(one, condition=ir.Name(_DUE)) if times else one
-        return unending(looked, name in brakes, PathRule.SEARCHED_DATA in can.motion.paths, _signals(self.program))
+        on = armed_statements(self.program, Armed(key))
+        driven = [node for node in walk(*self.program.modules) if id(node) in on and isinstance(node, _DRIVEN)]
+        if any(not isinstance(node, ir.Move) for node in driven):
+            return "what is driven while it is on is no single move"
+        if driven and goes_on(self.program, one):
+            return "it stops the robot in the middle of a move, which would have to go on from there"
+        can = self.beside.context.capabilities
+        looked = replace(one, condition=ir.Name(_DUE)) if key in self.periods else one
+        every, data = can.interrupts.watched is Watched.ALL, PathRule.SEARCHED_DATA in can.motion.paths
+        return unending(looked, brakes, every, data, self.program) if driven else ""
 
     def takes_time(self, one: ir.DeclareInterrupt) -> bool:
         if one.stops:
@@ -326,7 +324,7 @@ class _Watches:
         """Without disarming what is armed again at once: the task that watches would take the moment between for an
         end of its waiting, and look no more at what it has waited for."""
         began = {
-            watch.armed: {watch.armed, watch.was, watch.came} - {""}
+            watch.armed: {watch.armed, watch.was} - {""}
             for watch in self.watches.values()
             if watch.key not in self.periods
         }
@@ -365,6 +363,8 @@ class _Watches:
             value = handle if handle is not None else ir.IntLiteral(_NO_MASK)
             return (ir.Assign(ir.Name(self.mask), value, origin=statement.origin),)
         key = number_of(handle)
+        if key in self.lost:
+            return (left_out(statement, REFUSED),)
         chosen = [*self.watches.values()] if handle is None else [self.watches[key]] if key in self.watches else []
         if not chosen:
             return (statement,) if handle is not None else ()
@@ -372,8 +372,6 @@ class _Watches:
         for watch in chosen:
             if op == "on" and watch.was:
                 done.append(ir.Assign(ir.Name(watch.was), watch.declared.condition, origin=tidy(statement.origin)))
-            if op == "on" and watch.came:
-                done.append(ir.Assign(ir.Name(watch.came), ir.BoolLiteral(False)))
             if op in ("on", "off", "delete"):
                 done.append(_set(watch.armed, op == "on", statement))
             elif op in ("enable", "disable") and watch.enabled:

@@ -1,9 +1,12 @@
-"""Interrupts and searches, for targets that have none."""
+"""Interrupts and searches for targets that have none, and forms of motion that no target is given."""
 
 from __future__ import annotations
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.legalise.interrupts.brakedmoves import BRAKED
+from rpl.passes.legalise.interrupts.heldmotion import EARLY, STAYS
+from rpl.passes.legalise.interrupts.watching import LOST as NOT_WATCHED
 from rpl.passes.legalise.refusals.rows import PLAINLY, Asked, Found, Refusal
 
 __all__ = ["MOTION"]
@@ -44,5 +47,9 @@ def _search(statement: ir.Move, asked: Asked) -> Found:
 MOTION = (
     Refusal("an interrupt", INTERRUPT, (ir.DeclareInterrupt,), _declared),
     Refusal("an interrupt of a trap routine", INTERRUPT, (ir.ConnectInterrupt,), _connected),
+    Refusal("an interrupt that no task and no search can stand for", NOT_WATCHED),
+    Refusal("an interrupt that brakes a move which goes on behind it", BRAKED),
+    Refusal("a motion that an interrupt stops and something else lets go on", STAYS),
+    Refusal("a motion that goes on before the routine has ended that stopped it", EARLY),
     Refusal("a move that a condition ends", SEARCH, (ir.Move,), _search),
 )

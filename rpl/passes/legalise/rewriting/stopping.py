@@ -5,14 +5,23 @@ The pass's construct is a row of the table of refusals without a question of its
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from rpl import ir
 from rpl.diagnostics import Code
 from rpl.passes.legalise.context import Context
+from rpl.source import Comment
 
-__all__ = ["stopped"]
+__all__ = ["left_out", "stopped"]
 
 
 def stopped(statement: ir.Statement, code: Code, context: Context, **arguments: object) -> ir.Opaque:
     """The statement as a guarded stop. code: one that says by itself that the program stops there (`Code.stops`)."""
     context.diagnostics.report(code, statement.origin, **arguments)
     return ir.Opaque(statement.origin.text or type(statement).__name__, origin=statement.origin)
+
+
+def left_out(statement: ir.Statement, why: str) -> ir.Nothing:
+    """A statement that says nothing any more where the program has stopped before: a remark."""
+    remark = Comment(f" left out, {why}: {statement.origin.text.strip() or type(statement).__name__}")
+    return ir.Nothing(origin=replace(statement.origin, comments=(*statement.origin.comments, remark)))

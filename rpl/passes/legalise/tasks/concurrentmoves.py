@@ -85,7 +85,7 @@ class ConcurrentMoves:
         if self.going is not None:
             return (move,)  # both would stand in the queue of the controller: left for the writer to report
         self.going = move
-        return expansion(move.origin, self.movers.begin(self.editor, self.routine, (replace(move, concurrent=False),)))
+        return expansion(move.origin, self.movers.begin(self.editor, self.routine, replace(move, concurrent=False)))
 
     def corner(self, next_one: ir.Statement) -> None:
         """Would the robot go through a corner from the move to this one?"""

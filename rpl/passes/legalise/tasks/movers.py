@@ -6,7 +6,6 @@ way it ends the task and brakes. What a move needs that the task cannot see is c
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
@@ -18,15 +17,14 @@ from rpl.passes.scope import ProgramScope
 
 @dataclass(slots=True)
 class Movers:
-    """The moves of the task. `number`: data that says which one is driven; `last`: the last one of its group."""
+    """The moves of the task. `number`: data that says which one is driven."""
 
     beside: Beside
     scopes: ProgramScope
     home: ir.Routine | None = None  # the task stands beside this routine
-    groups: list[list[ir.Move]] = field(default_factory=list)  # moves of one group go on through their corners
+    moves: list[ir.Move] = field(default_factory=list)
     name: str = ""
     number: str = ""
-    last: str = ""
 
     def task(self) -> str:
         if not self.name:
@@ -34,23 +32,17 @@ class Movers:
             self.number = self.beside.context.fresh("rpl_move")
         return self.name
 
-    def begin(self, editor: Editor, routine: ir.Routine, moves: Sequence[ir.Move]) -> list[ir.Statement]:
-        """Statements that begin moves which follow each other through their corners (the last one stops). They go on
-        while the flag `moving` is TRUE."""
+    def begin(self, editor: Editor, routine: ir.Routine, move: ir.Move) -> list[ir.Statement]:
+        """Statements that begin a move, which stops at its end. It goes on while the flag `moving` is TRUE."""
         task = self.task()
         self.home = self.home or routine
         before: list[ir.Statement] = []
-        first = 1 + sum(map(len, self.groups))
-        group = [self.seen(editor, routine, replace(move, search=None, triggers=()), before) for move in moves]
-        group[-1] = replace(group[-1], blend=ir.BlendStop())
-        self.groups.append([replace(move, origin=tidy(move.origin)) for move in group])
-        later = tidy(moves[0].origin)
-        if len(moves) > 1 or self.last:
-            self.last = self.last or self.beside.context.fresh("rpl_last_move")
-            before.append(ir.Assign(ir.Name(self.last), ir.IntLiteral(first + len(moves) - 1), origin=later))
+        driven = self.seen(editor, routine, replace(move, search=None, triggers=()), before)
+        later = tidy(move.origin)
+        self.moves.append(replace(driven, blend=ir.BlendStop(), origin=later))
         return [
             *before,
-            ir.Assign(ir.Name(self.number), ir.IntLiteral(first), origin=later),
+            ir.Assign(ir.Name(self.number), ir.IntLiteral(len(self.moves)), origin=later),
             ir.Assign(ir.Name(self.beside.moving_name()), ir.BoolLiteral(True), origin=later),
             ir.TaskControl("start", task, origin=later),
         ]
@@ -85,29 +77,15 @@ class Movers:
         if self.home is None:
             return
         ended = ir.Assign(ir.Name(self.beside.moving_name()), ir.BoolLiteral(False))
-        number, at = ir.Name(self.number), 0
-        alone: list[ir.Case] = []
-        done: list[ir.Statement] = []
-        for group in self.groups:
-            for place, move in enumerate(group, 1):
-                at += 1
-                if len(group) == 1:
-                    alone.append(ir.Case((ir.IntLiteral(at),), (move,)))
-                    continue
-                onward: ir.Body = (ir.Assign(number, ir.IntLiteral(at + 1)),) if place < len(group) else ()
-                done.append(ir.If(((ir.Binary("=", number, ir.IntLiteral(at)), (move, *onward)),)))
-        if len(alone) == at == 1:
-            done = [*alone[0].body]
-        elif alone:
-            done.append(ir.Switch(number, tuple(alone)))
-        self.beside.routine(self.home, ir.Routine(self.name, body=(*done, ended), scope="global"))
+        cases = tuple(ir.Case((ir.IntLiteral(at),), (move,)) for at, move in enumerate(self.moves, 1))
+        driven: ir.Statement = self.moves[0] if len(cases) == 1 else ir.Switch(ir.Name(self.number), cases)
+        self.beside.routine(self.home, ir.Routine(self.name, body=(driven, ended), scope="global"))
 
     def data(self) -> tuple[ir.Variable, ...]:
         if self.home is None:
             return ()
         zero = ir.IntLiteral(0)
-        last = (ir.Variable(self.last, ir.IntType(), zero, scope="global"),) if self.last else ()
-        return (ir.Variable(self.number, ir.IntType(), zero, scope="global"), *last, self.beside.moving_flag())
+        return (ir.Variable(self.number, ir.IntType(), zero, scope="global"), self.beside.moving_flag())
 
 
 __all__ = ["Movers"]
