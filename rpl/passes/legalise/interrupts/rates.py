@@ -1,9 +1,9 @@
 """Motion at a given speed (URScript speedl, speedj), which goes on until it is told otherwise, for targets whose moves
 have an end.
 
-A loop that repeats it until a signal comes becomes searches of the way of one second, repeated, also where it counts
-its passes; a loop that ends otherwise makes the way of each pass; what lasts a known time is a move by speed times
-time. Anything else is refused.
+A loop that does nothing but repeat it until a signal comes becomes searches of the way of one second, repeated; what
+lasts a known time is a move by speed times time. Anything else is refused: a loop that counts its passes or does other
+work would make a robot stop and go in each of them.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.control.jumps import LOOPS, inside
-from rpl.passes.legalise.interrupts.countedrates import PART_S, Around, counted, is_outside, leaving, searched
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, negation
+from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
@@ -27,13 +27,6 @@ SEARCHED = code(
     Severity.WARNING,
     "a motion at a given speed that goes on until a condition is written as searches of the way of {seconds:g} s each,"
     " repeated: the robot stands for a moment between two of them",
-)
-STEPS = code(
-    "velocity-steps",
-    Severity.WARNING,
-    "a motion at a given speed is written as a move in each pass of its loop: the robot stops at the end of each, so"
-    " that the whole way takes longer",
-    "where the loop waits for a signal, let it look at nothing else, so that it can be a search",
 )
 WAY = code(
     "velocity-way",
@@ -44,9 +37,12 @@ LOST = code(
     "velocity-motion-lost",
     Severity.LOSS,
     "a motion that goes on at a given speed until it is told otherwise has no form in the target: {reason}",
-    "give it a time and a stop right behind it, or let one loop repeat it until a condition holds",
+    "give it a time and a stop right behind it, or let a loop that does nothing else repeat it until a signal comes",
+    stops=True,
 )
 _NOT_FOUND = "ERR_WHLSEARCH"
+_PART_S = 1.0  # s: how much of an endless way is written at once; less would stop more often, more might not be reached
+_LOGIC = (ir.Signal, ir.Unary, ir.Binary, ir.BoolLiteral, ir.IntLiteral, ir.RealLiteral)
 _PAUSE_S = 0.1  # s: a loop that waits longer than this between two such motions does something else meanwhile
 
 
@@ -57,7 +53,7 @@ def rates(program: ir.Program, context: Context) -> ir.Program:
         return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        return edit_bodies(routine, _Rates(editor, Around(program, routine)).body)
+        return edit_bodies(routine, _Rates(editor).body)
 
     return edit_routines(program, context, work)
 
@@ -67,16 +63,16 @@ def _is_rate(node: object) -> bool:
 
 
 class _Rates:
-    def __init__(self, editor: Editor, around: Around) -> None:
-        self.editor, self.context, self.around = editor, editor.context, around
+    def __init__(self, editor: Editor) -> None:
+        self.editor, self.context = editor, editor.context
 
     def searched(self, move: ir.Move, going: ir.Expression) -> ir.While:
         """Searches, repeated while the condition holds. Where the target makes an error of a search that finds nothing,
         it is asked whether it did."""
-        self.told(SEARCHED, move, seconds=PART_S)
+        self.told(SEARCHED, move, seconds=_PART_S)
         asked = _NOT_FOUND in rules_of(self.context.target).errors
         hit = self.editor.temporary("hit", ir.BoolType()) if asked else None
-        part = self.way(move, ir.RealLiteral(PART_S), tidy=True)
+        part = self.way(move, ir.RealLiteral(_PART_S), tidy=True)
         return ir.While(going, (replace(part, search=ir.Search(negation(going), stop="path", hit=hit)),))
 
     def body(self, body: ir.Body) -> ir.Body:
@@ -107,25 +103,16 @@ class _Rates:
         if more or any(not _is_rate(one) for one in moves):
             return (inside(loop, self.body),)
         others = [one for one in loop.body if one is not move and not _is_idle(one) and not _is_exit(one)]
-        if going is not None and not others and all(map(is_outside, walk(going))):
+        if going is not None and not others and all(map(_is_outside, walk(going))):
             return (replace(self.searched(move, going), origin=loop.origin),)
         if going is None and isinstance(loop, ir.Loop) and not others and not _leaves(loop.body):
-            self.told(SEARCHED, move, seconds=PART_S)
-            return (replace(loop, body=(self.way(move, ir.RealLiteral(PART_S)),)),)
-        found = counted(loop, move, self.around, _pauses(loop.body))
-        if found is not None and isinstance(loop, ir.While | ir.Loop):
-            self.told(SEARCHED, move, seconds=PART_S)
-            return searched(loop, move, found, self.editor, self.way)
-        others = [one for one in others if leaving(one) is None]
-        if move.speed is None or move.speed.duration is None or any(map(_waits, walk(*others))):
-            return (inside(loop, self.body),)
-        self.told(STEPS, move)
-        return (inside(loop, lambda body: tuple(self.stepped(one) for one in body)),)
+            self.told(SEARCHED, move, seconds=_PART_S)
+            return (replace(loop, body=(self.way(move, ir.RealLiteral(_PART_S)),)),)
+        return (inside(loop, lambda body: tuple(self.refused(one) for one in body)),)
 
-    def stepped(self, one: ir.Statement) -> ir.Statement:
-        if isinstance(one, ir.Move) and _is_rate(one):
-            assert one.speed is not None and one.speed.duration is not None  # asked by the caller
-            return self.way(one, one.speed.duration)
+    def refused(self, one: ir.Statement) -> ir.Statement:
+        if isinstance(one, ir.Move):
+            return stopped(one, LOST, self.context, reason="its loop counts its passes or does other work")
         return inside(one, self.body)
 
     # ---- single ones
@@ -149,12 +136,10 @@ class _Rates:
         if used == 0 and isinstance(after, ir.WaitUntil) and after.timeout is None and time is None:
             going = negation(after.condition)
             stops = len(behind) > 1 and isinstance(behind[1], ir.StopMotion)
-            if stops and all(map(is_outside, walk(going))):
+            if stops and all(map(_is_outside, walk(going))):
                 return expansion(move.origin, (self.searched(move, going),)), 1
         reason = "the program does other work meanwhile" if after is not None else "nothing says how long it lasts"
-        self.context.diagnostics.report(LOST, move.origin, reason=reason)
-        text = move.origin.text.strip() if move.origin.source is not None else "motion at a given speed"
-        return (ir.Vendor(self.context.source, text, "unknown", origin=move.origin),), 0
+        return (stopped(move, LOST, self.context, reason=reason),), 0
 
     def told(self, what: Code, move: ir.Move, **more: float) -> None:
         self.context.diagnostics.report(what, move.origin, **more)
@@ -221,18 +206,9 @@ def _is_idle(statement: ir.Statement) -> bool:
     return time is not None and time <= _PAUSE_S
 
 
-def _pauses(body: ir.Body) -> float | None:
-    """The seconds that the waits of a pass last."""
-    times = [_number(_seconds(one.time)) for one in body if isinstance(one, ir.Wait)]
-    known = [time for time in times if time is not None and time <= _PAUSE_S]
-    return sum(known) if len(known) == len(times) else None
-
-
-_WAITING = (ir.Wait, ir.WaitUntil, ir.CallRoutine, ir.Call, ir.Move, ir.StopMotion, ir.TaskControl)
-
-
-def _waits(node: object) -> bool:
-    return isinstance(node, _WAITING)
+def _is_outside(node: object) -> bool:
+    """Is it part of a condition that signals alone decide?"""
+    return not isinstance(node, ir.Expression) or isinstance(node, _LOGIC)
 
 
 def _seconds(time: ir.Expression) -> ir.Expression:

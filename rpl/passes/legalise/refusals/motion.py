@@ -6,6 +6,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.interrupts.brakedmoves import BRAKED
 from rpl.passes.legalise.interrupts.heldmotion import EARLY, STAYS
+from rpl.passes.legalise.interrupts.rates import LOST as RATE
 from rpl.passes.legalise.interrupts.watching import LOST as NOT_WATCHED
 from rpl.passes.legalise.refusals.rows import PLAINLY, Asked, Found, Refusal
 
@@ -52,4 +53,5 @@ MOTION = (
     Refusal("a motion that an interrupt stops and something else lets go on", STAYS),
     Refusal("a motion that goes on before the routine has ended that stopped it", EARLY),
     Refusal("a move that a condition ends", SEARCH, (ir.Move,), _search),
+    Refusal("a motion at a given speed whose loop counts its passes or does other work", RATE),
 )
