@@ -196,6 +196,13 @@ KNOWN_TO_EACH_OTHER = (
     {"rpl.emulator.splinerules", "rpl.emulator.splines"},
     {"rpl.emulator.closedforms", "rpl.emulator.model", "rpl.emulator.postures"},
     {"rpl.dialects.urscript.calls", "rpl.dialects.urscript.levels"},
+    {
+        "rpl.registry",
+        "rpl.passes.analog",
+        "rpl.passes.scope",
+        "rpl.passes.legalise.context",
+        "rpl.passes.legalise.stages",
+    },
     {f"rpl.postprocessors.vplus.{name}" for name in ("expressions", "locations", "places", "texts")},
     # the door hands out a target's own passes, and passes ask the door for the rules of a language
     {"rpl.registry", *(f"rpl.passes.{name}" for name in ("analog", "legalise.context", "legalise.stages", "scope"))},
