@@ -47,7 +47,6 @@ RULES = Rules(
     array_base=0,
     text_length=128,
     wait_poll_s=CYCLE_S,
-    last_tool=False,
     components={"PoseType": _XYZABC, "TargetType": _XYZABC},
     system_defaults={
         "override": 100.0,

@@ -58,11 +58,11 @@ CAPABILITIES = Capabilities(
     motion=Motion(turned_ways=frozenset(), paths=frozenset()),
     settings=Settings(
         modal=True,
-        of_moves=frozenset((MoveSetting.BLEND, MoveSetting.FRAME, MoveSetting.SPEED, MoveSetting.TOOL)),
+        of_moves=frozenset((MoveSetting.TOOL, MoveSetting.FRAME, MoveSetting.SPEED, MoveSetting.BLEND)),
         speeds=frozenset(("joint", "path")),
         blends=frozenset(("BlendDistance",)),
     ),
-    tasks=Tasks(places_beside=True, operations=frozenset(("start", "stop", "pause", "resume"))),
+    tasks=Tasks(operations=frozenset(("start", "stop", "pause", "resume")), places_beside=True),
     io=Io(
         signal_prefixes={
             "digital_in": "di",
@@ -77,14 +77,12 @@ CAPABILITIES = Capabilities(
         poll_s=0.004,
     ),
     texts=Texts(rules=frozenset((TextRule.CASE, TextRule.PRINTABLE))),
-    data=Data(aggregates=frozenset((Aggregate.NAMED,)), composites=frozenset((Composite.ARRAYS,))),
-    errors=Errors(faults=frozenset((Fault.INDEX_FRACTION, Fault.INDEX_OUTSIDE))),
-    routines=Routines(
-        functions=False, text_results=False, passing=frozenset((Passing.ARRAYS_BY_VALUE, Passing.REFERENCES))
-    ),
+    data=Data(aggregates=frozenset((Aggregate.NAMED,)), composites=frozenset((Composite.ARRAYS,)), rules=frozenset()),
+    routines=Routines(functions=False, text_results=False, passing=frozenset((Passing.REFERENCES,))),
+    errors=Errors(faults=frozenset((Fault.INDEX_OUTSIDE, Fault.INDEX_FRACTION))),
     control=Control(
+        counting=frozenset((Counting.REAL,)),
         short_circuit=True,
         switch_types=frozenset(("IntType", "RealType", "StringType")),
-        counting=frozenset((Counting.REAL,)),
     ),
 )

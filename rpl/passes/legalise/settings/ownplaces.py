@@ -23,6 +23,9 @@ from rpl.passes.rewrite import rewrite_parts
 
 _NOWHERE = ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ("x", "y", "z", "a", "b", "c")), "pose")
 
+# Solvers that a move may have around its goal (`configurations`): the move says with which tool.
+_GOALS = ("target_to_joints", "target_to_joints_near")
+
 
 @legalising(unless=lambda context: not context.capabilities.settings.modal)
 def own_places(program: ir.Program, context: Context) -> ir.Program:
@@ -86,9 +89,10 @@ class _Places:
     def statement(self, statement: ir.Statement) -> ir.Body:
         state = self.flow.at(statement)
         if self.questions:
+            goal = statement.target if isinstance(statement, ir.Move) else None
             done = rewrite_parts(
                 statement,
-                lambda one: self.expression(one, state),
+                lambda one: self.goal(one, state) if one is goal else self.expression(one, state),
                 lambda body: map_body(body, self.statement),
             )
         else:
@@ -119,6 +123,12 @@ class _Places:
         if name not in self.names:
             self.names[name] = self.context.fresh(f"{name}_set")
         return ir.Name(self.names[name])
+
+    def goal(self, goal: ir.Expression, state: dict[str, ir.Expression | None]) -> ir.Expression:
+        """The goal of a move: joints that are asked for there are those with the move's own tool and frame."""
+        if isinstance(goal, ir.Builtin) and goal.function in _GOALS:
+            return rewrite_parts(goal, lambda one: self.expression(one, state))
+        return self.expression(goal, state)
 
     def expression(self, expression: ir.Expression, state: dict[str, ir.Expression | None]) -> ir.Expression:
         done = rewrite_parts(expression, lambda one: self.expression(one, state))
