@@ -7,7 +7,7 @@ import pytest
 from rpl import ir
 from rpl.errors import InternalError
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.pipeline import STAGES
+from rpl.passes.legalise.pipeline import PASSES, STAGES
 from rpl.passes.legalise.stages import Pass, Placed, legalising, with_placed
 
 
@@ -18,6 +18,11 @@ def test_stages_have_names_of_their_own_and_say_what_they_are_for() -> None:
         home = import_module(f"rpl.passes.legalise.{name}.stage")
         assert home.STAGE.name == name
         assert home.__doc__
+
+
+def test_every_pass_stands_once() -> None:
+    names = [one.name for one in PASSES]
+    assert [name for name in names if names.count(name) > 1] == []
 
 
 @legalising()

@@ -1,12 +1,15 @@
-"""Loops, branches and nested expressions, in the blocks and steps that the target has."""
+"""Loops, branches and nested expressions, in the blocks and steps that the target has. Functions become procedures
+when no pass makes calls any more; what that puts in front of conditions makes loops, so these are fitted again;
+nested expressions become steps, and again behind labels, whose conditions are opposites.
+"""
 
 from __future__ import annotations
 
 from rpl.passes.legalise.control.elseif import nest_branches
 from rpl.passes.legalise.control.labels import structure_to_labels
 from rpl.passes.legalise.control.longlogic import long_logic
-from rpl.passes.legalise.control.loops import fit_loops
-from rpl.passes.legalise.control.steps import steps
+from rpl.passes.legalise.control.loops import fit_made_loops
+from rpl.passes.legalise.control.steps import steps, steps_of_conditions
 from rpl.passes.legalise.places.components import read_components
 from rpl.passes.legalise.routines.functions import functions_to_procedures
 from rpl.passes.legalise.routines.parameters import fit_arguments
@@ -18,13 +21,13 @@ STAGE = Stage(
     (
         functions_to_procedures,
         fit_arguments,
-        fit_loops,
+        fit_made_loops,
         read_components,
         long_logic,
         steps,
         variables_of_routines,
         nest_branches,
         structure_to_labels,
-        steps,
+        steps_of_conditions,
     ),
 )

@@ -1,21 +1,24 @@
-"""Conditions that break into a program, in the one form that the target has; then what has no form is refused."""
+"""Conditions that break into a program, in the one form that the target has, with the clocks that they may stop; then
+tasks again, because an interrupt may have become one.
+"""
 
 from __future__ import annotations
 
 from rpl.passes.legalise.interrupts.brakedmoves import braked_moves
+from rpl.passes.legalise.interrupts.emptyreactions import without_empty_reactions
 from rpl.passes.legalise.interrupts.heldmotion import held_motion
 from rpl.passes.legalise.interrupts.interrupts import interrupts
-from rpl.passes.legalise.interrupts.onceonly import rearmed_reactions
+from rpl.passes.legalise.interrupts.nestedinterrupts import nested_interrupts
+from rpl.passes.legalise.interrupts.onceonly import reactions_once, rearmed_reactions
 from rpl.passes.legalise.interrupts.reactions import reactions
 from rpl.passes.legalise.interrupts.resumes import resumes
+from rpl.passes.legalise.interrupts.singledisables import single_disables
 from rpl.passes.legalise.interrupts.storedpaths import stored_paths
+from rpl.passes.legalise.io.heldtimers import held_timers
+from rpl.passes.legalise.io.programtimes import program_times
 from rpl.passes.legalise.io.resetclocks import stopped_resets
 from rpl.passes.legalise.io.routineclocks import clocks_of_routines
-from rpl.passes.legalise.refusals import refuse
-from rpl.passes.legalise.settings.keptsettings import kept_settings
-from rpl.passes.legalise.settings.overrides import full_override
-from rpl.passes.legalise.settings.readoverrides import read_overrides
-from rpl.passes.legalise.settings.speedshares import speed_shares
+from rpl.passes.legalise.routines.actionarguments import action_arguments
 from rpl.passes.legalise.stages import Stage
 from rpl.passes.legalise.storage.statics import static_variables
 from rpl.passes.legalise.tasks.background import background_tasks
@@ -29,6 +32,15 @@ from rpl.passes.legalise.tasks.taskreferences import task_references
 STAGE = Stage(
     "interrupts",
     (
+        without_empty_reactions,
+        program_times,
+        held_timers,
+        clocks_of_routines,
+        stopped_resets,
+        reactions_once,
+        nested_interrupts,
+        single_disables,
+        action_arguments,
         stored_paths,
         held_motion,
         reactions,
@@ -36,8 +48,6 @@ STAGE = Stage(
         interrupts,
         rearmed_reactions,
         braked_moves,
-        clocks_of_routines,
-        stopped_resets,
         static_variables,
         task_references,
         without_criticals,
@@ -46,10 +56,5 @@ STAGE = Stage(
         stopped_tasks,
         joins,
         task_arguments,
-        speed_shares,
-        full_override,
-        read_overrides,
-        kept_settings,
-        refuse,
     ),
 )

@@ -1,26 +1,32 @@
-"""Signals, groups, clocks and pulses, with the numbers, names and forms of the target."""
+"""What has no form is refused; then settings that a program reads, signals, groups, clocks and pulses get the numbers,
+names and forms of the target. They stand before data, because calls of signals make data.
+"""
 
 from __future__ import annotations
 
-from rpl.passes.legalise.data.datalists import set_data_at_start
 from rpl.passes.legalise.io.analogunits import analog_units
 from rpl.passes.legalise.io.bitgroups import groups_to_bits, shared_groups_to_bits
 from rpl.passes.legalise.io.flagdata import flags_as_data
 from rpl.passes.legalise.io.groups import name_groups
+from rpl.passes.legalise.io.pulsedoutputs import pulsed_outputs
+from rpl.passes.legalise.io.pulselevels import pulse_levels
+from rpl.passes.legalise.io.restingwaits import resting_waits
+from rpl.passes.legalise.io.seldomlooks import seldom_looks
 from rpl.passes.legalise.io.signals import name_signals, number_signals
 from rpl.passes.legalise.io.timers import timers_to_clocks
 from rpl.passes.legalise.io.watches import counted_watches
 from rpl.passes.legalise.io.writeonly import kept_outputs
-from rpl.passes.legalise.places.targets import whole_targets
+from rpl.passes.legalise.refusals.__init__ import refuse
+from rpl.passes.legalise.settings.keptsettings import kept_settings
+from rpl.passes.legalise.settings.readoverrides import read_overrides
 from rpl.passes.legalise.stages import Stage
-from rpl.passes.legalise.storage.declaredremarks import declared_remarks
 
 STAGE = Stage(
     "io",
     (
-        whole_targets,
-        declared_remarks,
-        set_data_at_start,
+        refuse,
+        read_overrides,
+        kept_settings,
         timers_to_clocks,
         counted_watches,
         shared_groups_to_bits,
@@ -31,5 +37,9 @@ STAGE = Stage(
         name_groups,
         groups_to_bits,
         kept_outputs,
+        seldom_looks,
+        resting_waits,
+        pulsed_outputs,
+        pulse_levels,
     ),
 )

@@ -1,31 +1,29 @@
-"""Ways and what happens on them. They stand before interrupts: actions on a way may become interrupts."""
+"""Ways, and what happens on them while the program runs ahead. They stand before interrupts, because actions on a way
+may become interrupts.
+"""
 
 from __future__ import annotations
 
+from rpl.passes.legalise.advance.atrest import at_rest
 from rpl.passes.legalise.advance.begunmoves import begun_moves
 from rpl.passes.legalise.advance.begunoutputs import begun_outputs
+from rpl.passes.legalise.advance.latedelays import without_late_delays
 from rpl.passes.legalise.advance.lookahead import stop_blends
 from rpl.passes.legalise.advance.triggers import triggers
-from rpl.passes.legalise.interrupts.nestedinterrupts import nested_interrupts
-from rpl.passes.legalise.interrupts.onceonly import reactions_once
-from rpl.passes.legalise.interrupts.singledisables import single_disables
-from rpl.passes.legalise.io.heldtimers import held_timers
-from rpl.passes.legalise.io.programtimes import program_times
-from rpl.passes.legalise.routines.actionarguments import action_arguments
+from rpl.passes.legalise.paths.wristpaths import wrist_paths
+from rpl.passes.legalise.places.targets import whole_targets
 from rpl.passes.legalise.stages import Stage
 
 STAGE = Stage(
     "paths",
     (
+        at_rest,
+        without_late_delays,
+        wrist_paths,
         stop_blends,
         begun_moves,
         begun_outputs,
-        program_times,
-        held_timers,
-        reactions_once,
-        nested_interrupts,
-        single_disables,
-        action_arguments,
+        whole_targets,
         triggers,
     ),
 )

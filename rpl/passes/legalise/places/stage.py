@@ -1,13 +1,14 @@
-"""Frames, targets and postures. Taught data stays taught data; what is calculated has the target's means."""
+"""Frames, targets and postures, and the settings that hold for the next move only, which decide where it ends. They
+stand behind errors, because places of the prelude are places too; before paths, because a way needs its ends.
+"""
 
 from __future__ import annotations
 
-from rpl.passes.legalise.data.aliases import without_aliases
+from rpl.passes.legalise.io.queuedwaits import queued_waits
 from rpl.passes.legalise.paths.arcpoints import whole_arc_points
 from rpl.passes.legalise.paths.circles import circle_rules
 from rpl.passes.legalise.paths.threepoints import three_point_arcs
 from rpl.passes.legalise.places.destinations import destinations
-from rpl.passes.legalise.places.elementwise import elementwise
 from rpl.passes.legalise.places.partialplaces import partial_places
 from rpl.passes.legalise.postures.askedpostures import asked_postures
 from rpl.passes.legalise.postures.configurations import configurations
@@ -21,16 +22,28 @@ from rpl.passes.legalise.postures.otherarms import places_on_other_arm
 from rpl.passes.legalise.postures.seenjoints import seen_joints
 from rpl.passes.legalise.postures.solvedplaces import solved_places
 from rpl.passes.legalise.postures.turns import told_turns
+from rpl.passes.legalise.settings.joinedmoves import joined_moves
+from rpl.passes.legalise.settings.movetimes import move_times
+from rpl.passes.legalise.settings.nextmove import settings_of_next_move
+from rpl.passes.legalise.settings.nextmovecalls import next_moves_behind_calls
+from rpl.passes.legalise.settings.scaledaccelerations import scaled_accelerations
+from rpl.passes.legalise.settings.turningtimes import turning_times
 from rpl.passes.legalise.stages import Stage
 
 STAGE = Stage(
     "places",
     (
+        queued_waits,
+        next_moves_behind_calls,
+        settings_of_next_move,
+        scaled_accelerations,
+        joined_moves,
+        move_times,
+        turning_times,
         seen_joints,
         near_joints,
         known_joints,
         solved_places,
-        elementwise,
         asked_postures,
         joint_goals,
         partial_places,
@@ -44,6 +57,5 @@ STAGE = Stage(
         places_on_other_arm,
         configurations,
         told_turns,
-        without_aliases,
     ),
 )

@@ -1,4 +1,6 @@
-"""What places and data are made of, where the target has no such types: parts, numbers, calculated poses."""
+"""What places and data are made of, where the target has no such types: parts, numbers, calculated poses. They stand
+behind settings, because tools and frames of moves are places with names until then.
+"""
 
 from __future__ import annotations
 

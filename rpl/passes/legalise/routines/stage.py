@@ -1,16 +1,18 @@
-"""Calls, parameters and results, as the target gives and takes them."""
+"""Calls, parameters and results, as the target gives and takes them. They stand behind data, because a parameter has
+the type that the target gives its data.
+"""
 
 from __future__ import annotations
 
+from rpl.passes.legalise.data.aliases import without_aliases
 from rpl.passes.legalise.data.arrays import array_sizes
-from rpl.passes.legalise.data.defaults import starting_values
-from rpl.passes.legalise.data.numbers import numbers
 from rpl.passes.legalise.data.subscriptchecks import checked_subscripts
 from rpl.passes.legalise.data.undefined import asked_values
 from rpl.passes.legalise.data.undefinedparts import asked_elements
-from rpl.passes.legalise.data.wholesubscripts import whole_subscripts
+from rpl.passes.legalise.routines.aliasing import without_shared_references
 from rpl.passes.legalise.routines.givenarrays import given_arrays
 from rpl.passes.legalise.routines.optional import fit_parameters
+from rpl.passes.legalise.routines.results import list_results
 from rpl.passes.legalise.routines.valuearrays import copy_value_arrays
 from rpl.passes.legalise.stages import Stage
 from rpl.passes.legalise.texts.textpartchecks import checked_text_parts
@@ -18,9 +20,9 @@ from rpl.passes.legalise.texts.textpartchecks import checked_text_parts
 STAGE = Stage(
     "routines",
     (
-        whole_subscripts,
-        numbers,
-        starting_values,
+        without_shared_references,
+        list_results,
+        without_aliases,
         fit_parameters,
         asked_values,
         given_arrays,

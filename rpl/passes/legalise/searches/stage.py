@@ -1,9 +1,9 @@
-"""Moves that a condition ends, as the target ends them. They stand before errors: handlers read what a search found."""
+"""Moves that a condition ends, as the target ends them. They stand before errors, because what a search found is read
+by handlers and it may raise errors of the source; and before places, because what it found is a place.
+"""
 
 from __future__ import annotations
 
-from rpl.passes.legalise.advance.atrest import at_rest
-from rpl.passes.legalise.advance.latedelays import without_late_delays
 from rpl.passes.legalise.interrupts.reactionsearches import reaction_searches
 from rpl.passes.legalise.interrupts.searches import searches
 from rpl.passes.legalise.interrupts.searchparts import search_parts
@@ -15,7 +15,5 @@ STAGE = Stage(
         searches,
         reaction_searches,
         search_parts,
-        at_rest,
-        without_late_delays,
     ),
 )

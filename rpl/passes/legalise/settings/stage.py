@@ -1,5 +1,5 @@
 """Tool, frame, speed, acceleration, corner and load: at each move or before it, as the target says them. They stand
-behind statements because calls of built-in routines make settings too.
+behind statements, because calls of built-in routines make settings too.
 """
 
 from __future__ import annotations
@@ -22,9 +22,11 @@ from rpl.passes.legalise.settings.mixedspeeds import mixed_speeds
 from rpl.passes.legalise.settings.modal import modal_to_explicit
 from rpl.passes.legalise.settings.movesettings import settings_at_moves
 from rpl.passes.legalise.settings.onemove import settings_of_one_move
+from rpl.passes.legalise.settings.overrides import full_override
 from rpl.passes.legalise.settings.ownplaces import own_places
 from rpl.passes.legalise.settings.scaledspeeds import scaled_override
 from rpl.passes.legalise.settings.speeds import fit_speeds
+from rpl.passes.legalise.settings.speedshares import speed_shares
 from rpl.passes.legalise.settings.startbases import start_bases
 from rpl.passes.legalise.settings.strengths import strengths
 from rpl.passes.legalise.settings.tooldata import tool_data
@@ -34,6 +36,8 @@ from rpl.passes.legalise.stages import Stage
 STAGE = Stage(
     "settings",
     (
+        speed_shares,
+        full_override,
         coordinated_moves,
         strengths,
         usual_accelerations,

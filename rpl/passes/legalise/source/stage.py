@@ -1,4 +1,6 @@
-"""What only the source has: names of its own for neutral things, its units, how its values are kept and calculated."""
+"""What only the source has: names of its own for neutral things, its units, forms of places, settings and texts.
+Behind it a program says the same in neutral words.
+"""
 
 from __future__ import annotations
 
@@ -36,10 +38,6 @@ from rpl.passes.legalise.stages import Stage
 from rpl.passes.legalise.storage.grownarrays import grown_arrays
 from rpl.passes.legalise.storage.keptvalues import kept_values_known
 from rpl.passes.legalise.storage.unused import drop_untyped
-from rpl.passes.legalise.tasks.startedtasks import started_tasks
-from rpl.passes.legalise.tasks.taskdata import shared_task_data
-from rpl.passes.legalise.tasks.tasknames import task_names
-from rpl.passes.legalise.tasks.taskstates import task_states
 from rpl.passes.legalise.texts.formats import formats
 from rpl.passes.legalise.texts.leadingnumbers import leading_numbers
 from rpl.passes.legalise.texts.textbytes import text_bytes
@@ -69,12 +67,8 @@ STAGE = Stage(
         load_variables,
         whole_times,
         same_units,
-        shared_task_data,
         cyclic_flags,
         named_flags,
-        task_names,
-        started_tasks,
-        task_states,
         without_path_rules,
         straight_splines,
         home_positions,

@@ -1,19 +1,17 @@
-"""Waits, messages, choices and calls of what the controller has, also those that calls and errors have made."""
+"""Waits, messages, choices, conditions and calls of built-in things. They stand behind routines, because a handler
+that the target lacks becomes choices, and these become chains of conditions.
+"""
 
 from __future__ import annotations
 
 from rpl.passes.legalise.control.logic import decide_logic
 from rpl.passes.legalise.control.loops import fit_loops
-from rpl.passes.legalise.control.structure import labels_to_structure
+from rpl.passes.legalise.control.structure import structure_of_made_jumps
 from rpl.passes.legalise.control.switches import unroll_switches
 from rpl.passes.legalise.data.calls import rewrite_calls
 from rpl.passes.legalise.data.enums import enums_to_constants
 from rpl.passes.legalise.errors.errors import check_errors
 from rpl.passes.legalise.io.polling import poll_waits
-from rpl.passes.legalise.io.pulsedoutputs import pulsed_outputs
-from rpl.passes.legalise.io.pulselevels import pulse_levels
-from rpl.passes.legalise.io.restingwaits import resting_waits
-from rpl.passes.legalise.io.seldomlooks import seldom_looks
 from rpl.passes.legalise.io.waits import fit_waits
 from rpl.passes.legalise.routines.references import references_as_copies
 from rpl.passes.legalise.stages import Stage
@@ -25,12 +23,8 @@ STAGE = Stage(
     "statements",
     (
         check_errors,
-        labels_to_structure,
-        seldom_looks,
-        resting_waits,
+        structure_of_made_jumps,
         fit_waits,
-        pulsed_outputs,
-        pulse_levels,
         poll_waits,
         unroll_switches,
         decide_logic,

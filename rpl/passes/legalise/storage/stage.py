@@ -1,4 +1,4 @@
-"""Names, numbers and homes of data; what nothing uses is left out. Nothing has a name to add behind it."""
+"""Names, numbers and homes of data; what nothing uses is left out. Numbers are given when nothing has a name to add."""
 
 from __future__ import annotations
 
