@@ -17,7 +17,6 @@ from numpy.typing import ArrayLike
 
 from rpl.emulator.arms import Arm, BoolArray, Branch, OpwArm, ScaraArm, UrArm
 from rpl.emulator.chains import ChainArm, described, exact_opw, read_urdf, urdf_inertias
-from rpl.emulator.closedforms import ClosedForm, closed_form
 from rpl.emulator.inertias import ArmInertias, arm_inertias
 from rpl.emulator.mechanismfile import NEUTRAL_PULSES, Mechanism, checked_together, pulses_of
 from rpl.emulator.postures import Fact, in_posture, posture_facts, same_posture
@@ -302,10 +301,6 @@ class RobotModel:
     def posture_facts(self) -> dict[str, Fact]:
         """The posture as inequalities over the joints; empty where the arm's build has none."""
         return posture_facts(self)
-
-    def closed_form(self) -> ClosedForm | None:
-        """The inverse as plain numbers (rpl.emulator.closedforms); None where the arm's build has none."""
-        return closed_form(self)
 
     def jacobian(self, joints: ArrayLike) -> FloatArray:
         """Geometric Jacobian (..., 6, n) at the flange origin, base frame: mm/rad (mm/mm) above, rad/rad below.

@@ -13,7 +13,6 @@ from rpl.passes.capabilities import Capabilities
 from rpl.passes.scope import Fold, ProgramScope, rules_of
 
 if TYPE_CHECKING:
-    from rpl.emulator.closedforms import ClosedForm
     from rpl.emulator.postures import Fact
 
 
@@ -53,8 +52,6 @@ class Arm(Protocol):
     def posture(self, joints: Any) -> Any: ...
 
     def posture_facts(self) -> dict[str, Fact]: ...
-
-    def closed_form(self) -> ClosedForm | None: ...
 
     def in_posture(self, flange: Any, near: Any, asked: Mapping[str, str]) -> Any: ...
 

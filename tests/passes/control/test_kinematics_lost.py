@@ -1,20 +1,17 @@
-"""Kinematic functions that a target has in no form are refused by name; those that it has are not."""
+"""Kinematic functions that a target has in no form are refused at their places; those that it has are not."""
 
 from __future__ import annotations
 
 import pytest
 
-from rpl.diagnostics import Diagnostics
-from rpl.project import read_sources
-from rpl.source import source_from_text
-from rpl.translation import translate_program
+from tests.refusing import refused
 
 URSCRIPT = """def main():
   home = [0, -1.5, 1.5, -1.5, -1.5, 0]
-  q = get_inverse_kin(p[0.3, 0.2, 0.3, 3.14, 0, 0], home)
+  q = get_inverse_kin(get_actual_tcp_pose(), home)
   q[5] = 0
   movej(q)
-  if get_inverse_kin_has_solution(p[0.3, 0.2, 0.3, 3.14, 0, 0], home):
+  if get_inverse_kin_has_solution(get_actual_tcp_pose(), home):
     set_standard_digital_out(0, True)
   end
 end
@@ -24,31 +21,29 @@ RAPID = """MODULE k
   PROC main()
     VAR jointtarget j;
     VAR robtarget p;
-    p:=CalcRobT(jHome,tool0);
+    p:=CRobT();
     j:=CalcJointT(p,tool0);
+    j.robax.rax_6:=0;
     MoveAbsJ j,v1000,fine,tool0;
   ENDPROC
 ENDMODULE
 """
+LOST = "kinematics-lost"
 
 
 @pytest.mark.parametrize(
-    ("text", "dialect", "target", "count"),
+    ("text", "source", "target", "lines"),
     [
-        (URSCRIPT, "urscript", "rapid", 2),
-        (URSCRIPT, "urscript", "tp", 2),
-        (URSCRIPT, "urscript", "vplus", 1),
-        (URSCRIPT, "urscript", "krl", 0),
-        (RAPID, "rapid", "vplus", 1),
-        (RAPID, "rapid", "urscript", 0),
-        (RAPID, "rapid", "krl", 0),
+        (URSCRIPT, "urscript", "rapid", [3, 6]),
+        (URSCRIPT, "urscript", "tp", [3, 6]),
+        (URSCRIPT, "urscript", "vplus", [3]),
+        (URSCRIPT, "urscript", "krl", []),
+        (RAPID, "rapid", "vplus", [7]),
+        (RAPID, "rapid", "urscript", []),
+        (RAPID, "rapid", "krl", []),
     ],
 )
-def test_refused_by_name(text: str, dialect: str, target: str, count: int) -> None:
-    diagnostics = Diagnostics()
-    name = "main.script" if dialect == "urscript" else "k.mod"
-    read = read_sources([source_from_text(name, text)], dialect, diagnostics)
-    # an arm that is not known has no formulas that the program could bring along
-    translate_program(read, target, None if dialect == "urscript" else "abb_irb1200_5_90", None, diagnostics)
-    losses = [item.code.name for item in diagnostics if item.severity.name == "LOSS"]
-    assert losses.count("kinematics-lost") == count, losses
+@pytest.mark.parametrize("arm", ["ur5e", "abb_irb1200_5_90"])
+def test_refused_at_its_place(text: str, source: str, target: str, lines: list[int], arm: str) -> None:
+    told = [line for code, line in refused(text, source, target, arm) if code == LOST]
+    assert told == lines

@@ -24,7 +24,6 @@ from rpl.passes.legalise.storage.statics import static_variables
 from rpl.passes.legalise.tasks.background import background_tasks
 from rpl.passes.legalise.tasks.criticals import without_criticals
 from rpl.passes.legalise.tasks.joins import joins
-from rpl.passes.legalise.tasks.locks import critical_flags
 from rpl.passes.legalise.tasks.stoppedtasks import stopped_tasks
 from rpl.passes.legalise.tasks.taskarguments import task_arguments
 from rpl.passes.legalise.tasks.taskreferences import task_references
@@ -51,7 +50,6 @@ STAGE = Stage(
         static_variables,
         task_references,
         without_criticals,
-        critical_flags,
         background_tasks,
         stopped_tasks,
         joins,

@@ -20,7 +20,6 @@ from rpl.passes.legalise.postures.knownjoints import known_joints
 from rpl.passes.legalise.postures.nearjoints import near_joints
 from rpl.passes.legalise.postures.otherarms import places_on_other_arm
 from rpl.passes.legalise.postures.seenjoints import seen_joints
-from rpl.passes.legalise.postures.solvedplaces import solved_places
 from rpl.passes.legalise.postures.turns import told_turns
 from rpl.passes.legalise.settings.joinedmoves import joined_moves
 from rpl.passes.legalise.settings.movetimes import move_times
@@ -43,7 +42,6 @@ STAGE = Stage(
         seen_joints,
         near_joints,
         known_joints,
-        solved_places,
         asked_postures,
         joint_goals,
         partial_places,

@@ -17,7 +17,7 @@ KINEMATICS = code(
     "kinematics-lost",
     Severity.LOSS,
     "the target's programs cannot {what}",
-    "teach the position in the target's own form, or let the move itself find the joints",
+    "teach the joints there, or let the move itself find them; a constant place is worked out when the arm is given",
     stops=True,
 )
 _SOLVED = {
