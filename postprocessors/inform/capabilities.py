@@ -116,7 +116,6 @@ CAPABILITIES = Capabilities(
         functions=False,
         parameters=Parameters.NONE,
         recursion=False,
-        call_depth=tables.DEEPEST_CALL,
         locals=frozenset((Local.CLOCKS, Local.STATICS)),
     ),
     control=Control(

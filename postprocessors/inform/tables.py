@@ -89,7 +89,6 @@ LONGEST_LABEL: Final = 8
 LONGEST_TEXT: Final = 32  # M: 16 before the DX200
 LONGEST_MESSAGE: Final = 32
 LONGEST_NAME: Final = 32
-DEEPEST_CALL: Final = 12  # jobs that call each other: the levels of the job stack (YRC1000 operator's manual)
 LONGEST_LINE: Final = 128  # M
 WATCH_STEP_S: Final = 0.01  # the shortest TIMER
 MOST_SUBTASKS: Final = 5  # M

@@ -148,7 +148,6 @@ CAPABILITIES = Capabilities(
         functions=False,
         parameters=Parameters.NUMBERED,
         recursion=False,
-        call_depth=tables.DEEPEST_CALL,
         most_arguments=tables.MOST_ARGUMENTS,
         locals=frozenset((Local.STATICS,)),
     ),

@@ -111,7 +111,6 @@ MOST_ARGUMENTS: Final = 10
 MOST_HUNDREDTHS: Final = 32767
 MOST_TRIGGERS: Final = 5  # M: actions on the path of one move
 DEEPEST_BLOCK: Final = 10
-DEEPEST_CALL: Final = 10  # M: programs that call each other, with the usual stack size of a program
 # Ranges of the motion settings: M the last places of the units.
 LARGEST_PERCENT: Final = 100
 LARGEST_MM_S: Final = 2000

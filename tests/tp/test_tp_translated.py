@@ -32,48 +32,6 @@ def test_messages_name_the_registers_of_their_values() -> None:
     assert set(codes) == {"message-values-named", "message-split", "persistent-set-at-start"}
 
 
-RECURSION = """MODULE m
-  PROC main()
-    IF fact(5)=120 Set do1;
-    IF fib(7)=13 Set do2;
-    IF spell(3)="x123" Set do3;
-  ENDPROC
-  FUNC num fact(num n)
-    IF n<2 RETURN 1;
-    RETURN n*fact(n-1);
-  ENDFUNC
-  FUNC num fib(num n)
-    VAR bool small; VAR num first;
-    small:=n<2;
-    IF small RETURN n;
-    first:=fib(n-1);
-    RETURN first+fib(n-2);
-  ENDFUNC
-  FUNC string spell(num n)
-    VAR string end; VAR bool last;
-    end:="?";
-    last:=n=3;
-    IF n=1 end:="1";
-    IF n=2 end:="2";
-    IF last end:="3";
-    IF n=0 RETURN "x";
-    RETURN spell(n-1)+end+checked(last,n=3);
-  ENDFUNC
-  FUNC string checked(bool a,bool b)
-    IF a=b RETURN "";
-    RETURN "wrong";
-  ENDFUNC
-ENDMODULE
-"""
-
-
-def test_routines_that_call_themselves() -> None:
-    files, codes = same_in_tp("rapid", RECURSION)
-    assert "recursion-limited" in codes
-    assert "R[R[" not in files["FACT.LS"]  # its argument is kept by the controller
-    assert "]=R[R[" in files["FIB.LS"] and "SR[R[" in files["SPELL.LS"]
-
-
 TEXTS = """MODULE m
   PROC main()
     VAR string line:="part-7 blue";

@@ -61,11 +61,7 @@ class Routines:
     """A routine can be seen by its module alone."""
 
     recursion: bool = True
-    """A routine may be active twice, each time with variables of its own (else they are kept on a stack around calls
-    that lead back)."""
-
-    call_depth: int = 0
-    """How deep calls nest (0: not said)."""
+    """A routine may be active twice, each time with variables of its own (else calls that lead back are refused)."""
 
     most_arguments: int = 0
     """How many arguments a call has at most (0: any)."""

@@ -21,6 +21,7 @@ from rpl.passes.legalise.routines.parameters import ARGUMENTS, fit_arguments
 from rpl.passes.legalise.stages import Pass
 from rpl.passes.legalise.storage.locals import variables_of_routines
 from rpl.passes.rewrite import rewrite_parts
+from tests.refusing import refused
 
 from .common import PLAIN, RICH, count, legalised, nodes, read, same_run
 from .shaped import program, rewritten, same, shown, step, target, when
@@ -242,9 +243,13 @@ def test_recursion_that_cannot_be_is_reported_and_stopped() -> None:
         PLAIN, routines=replace(PLAIN.routines, recursion=False)
     )  # parameters with names, but only one activation
     after, context = legalised(read("rapid", _RECURSIVE), once, *ROUTINES)
-    assert [item.code.name for item in context.diagnostics] == ["recursion-lost"]
-    guarded = [one for one in nodes(after) if isinstance(one, ir.Vendor)]
-    assert len(guarded) == 1 and guarded[0].effect == "unknown"
+    assert [(item.code.name, item.origin.line) for item in context.diagnostics] == [("recursion-lost", 6)]
+    assert sum(isinstance(one, ir.Opaque) for one in nodes(after)) == 1
+
+
+@pytest.mark.parametrize("target", ["tp", "inform"])
+def test_recursion_is_refused_at_its_call(target: str) -> None:
+    assert refused(_RECURSIVE, "rapid", target, "abb_irb1200_5_90") == [("recursion-lost", 6)]
 
 
 def test_a_routine_in_two_threads_is_named() -> None:

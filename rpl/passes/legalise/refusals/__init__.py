@@ -18,6 +18,7 @@ from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.refusals.arm import ARM
 from rpl.passes.legalise.refusals.motion import MOTION
+from rpl.passes.legalise.refusals.routines import ROUTINES
 from rpl.passes.legalise.refusals.rows import Asked, Refusal
 from rpl.passes.legalise.refusals.settings import SETTINGS
 from rpl.passes.legalise.refusals.tasks import TASKS
@@ -32,7 +33,7 @@ TUNING = code(
     "set the same on the target's controller where it has it (payload, collision guard)",
 )
 
-REFUSALS: tuple[Refusal, ...] = (*TASKS, *MOTION, *ARM, *SETTINGS)
+REFUSALS: tuple[Refusal, ...] = (*TASKS, *MOTION, *ARM, *SETTINGS, *ROUTINES)
 
 
 @legalising()

@@ -1,5 +1,4 @@
-"""Which variables of a routine are still wanted behind each of its calls (what a call that runs the routine again must
-not destroy), and which it reads before it has set them (what it keeps from one run to the next).
+"""Which variables a routine reads before it has set them: what it keeps from one run to the next.
 
 Backwards over the structured body, again until the values at labels and loops stand still. Conservative: what cannot be
 followed (handlers, errors) wants everything.
@@ -14,11 +13,6 @@ Names = frozenset[str]
 _NONE: Names = frozenset()
 
 
-def wanted_behind_calls(routine: ir.Routine, names: Names) -> dict[int, Names]:
-    """id of a call statement -> those of `names` (folded) that are read behind it before they are assigned."""
-    return _Liveness(routine, names).behind
-
-
 def wanted_at_start(routine: ir.Routine, names: Names) -> Names:
     """Those of `names` (folded) that the routine may read before it assigns them."""
     return _Liveness(routine, names).start
@@ -27,7 +21,6 @@ def wanted_at_start(routine: ir.Routine, names: Names) -> Names:
 class _Liveness:
     def __init__(self, routine: ir.Routine, names: Names) -> None:
         self.names = names
-        self.behind: dict[int, Names] = {}
         self.labels: dict[str, Names] = {}
         self.loops: list[tuple[Names, Names]] = []  # what is wanted where ExitLoop and NextPass go
         self.raised = _NONE  # what is wanted where an error goes
@@ -56,9 +49,6 @@ class _Liveness:
         match statement:
             case ir.Assign(target=ir.Name(id=name), value=value):
                 return (wanted - {name.lower()}) | self.read(value)
-            case ir.CallRoutine():
-                self.behind[id(statement)] = wanted
-                return wanted | self.read(*children(statement))
             case ir.Label(name=name):
                 self.labels[name.lower()] = self.labels.get(name.lower(), _NONE) | wanted
                 return wanted

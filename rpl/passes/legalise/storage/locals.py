@@ -1,8 +1,7 @@
 """Variables of routines as variables of their module, for targets whose routines have none.
 
-What the routine declared with a value gets it where the routine begins. A routine that calls itself keeps its variables
-on a stack around such calls (passes.legalise.recursion); where that is not possible the calls are reported and become
-guarded stops.
+What the routine declared with a value gets it where the routine begins. Calls by which a routine comes to itself are
+refused: its variables are those of both activations.
 """
 
 from __future__ import annotations
@@ -16,9 +15,8 @@ from rpl.passes.capabilities import Local, Parameters
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.activations import Activations, called
-from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
-from rpl.passes.legalise.routines.recursion import kept_on_stacks
+from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import Origin
@@ -26,7 +24,9 @@ from rpl.source import Origin
 RECURSION = code(
     "recursion-lost",
     Severity.LOSS,
-    "{name} calls itself, directly or through others; {reason}",
+    "{name} calls itself, directly or through others; the target's routines cannot be active twice",
+    "write it as a loop, with an array for what each round has to keep",
+    stops=True,
 )
 SHARED = code(
     "variables-shared",
@@ -56,38 +56,25 @@ def variables_of_routines(program: ir.Program, context: Context) -> ir.Program:
         elif key in facts.beside and shares:
             context.diagnostics.report(SHARED, routine.origin, name=routine.name)
     if again:
-        program = _again(program, context, facts, again)
+        program = edit_routines(program, context, lambda editor, routine: _guarded(editor, routine, facts, again))
     return program if Local.VARIABLES in can.routines.locals else _moved(program, context)
-
-
-def _again(program: ir.Program, context: Context, facts: Activations, again: set[int]) -> ir.Program:
-    """The program whose routines `again` may be active twice, or with stops where they would be."""
-    lost = dict.fromkeys(again, "the target's routines cannot be active twice")
-    if context.capabilities.routines.parameters is not Parameters.NAMES:
-        program, lost = kept_on_stacks(program, context, facts)
-    for key, reason in lost.items():
-        routine = facts.routines[key]
-        context.diagnostics.report(RECURSION, routine.origin, name=routine.name, reason=reason)
-    if lost:
-        program = edit_routines(program, context, lambda editor, routine: _guarded(editor, routine, facts, lost))
-    return program
 
 
 def _variables(routine: ir.Routine) -> bool:
     return any(isinstance(one, ir.Variable) and one.storage == "variable" for one in routine.declarations)
 
 
-def _guarded(editor: Editor, routine: ir.Routine, facts: Activations, lost: dict[int, str]) -> ir.Routine:
-    """Calls that would activate a routine again, as statements that only the source's controller has."""
+def _guarded(editor: Editor, routine: ir.Routine, facts: Activations, again: set[int]) -> ir.Routine:
+    """The routine with stops in place of calls that would activate one of `again` a second time."""
 
     def change(statement: ir.Statement) -> ir.Body:
-        if not blocks(statement) and any(again(one) for one in called(statement, editor.scope)):
-            text = statement.origin.text or getattr(statement, "name", "call")
-            return (ir.Vendor(editor.context.source, str(text).strip(), "unknown", origin=statement.origin),)
+        callee = next(filter(comes_back, called(statement, editor.scope)), None)
+        if callee is not None:
+            return (stopped(statement, RECURSION, editor.context, name=callee.name),)
         return (inside(statement, lambda inner: map_body(inner, change)),)
 
-    def again(callee: ir.Routine) -> bool:
-        return id(callee) in lost and id(routine) in facts.reached({id(callee)})
+    def comes_back(callee: ir.Routine) -> bool:
+        return id(callee) in again and id(routine) in facts.reached({id(callee)})
 
     if id(routine) not in facts.recursive:
         return routine
