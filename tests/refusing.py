@@ -20,7 +20,7 @@ STOPS = {
 
 
 def refused(text: str, source: str, target: str, arm: str, file: str = "") -> list[tuple[str, int]]:
-    """Code and line (from 1) of each loss in the program; as many of the target's stops are written."""
+    """Code and line (from 1) of each loss in the program; where there is one, the target's own stop is written."""
     extension = {"krl": "src", "rapid": "mod", "urscript": "script", "vplus": "v2", "tp": "ls", "inform": "jbi"}
     diagnostics = Diagnostics()
     name = file or f"main.{extension.get(source, source)}"
@@ -29,5 +29,5 @@ def refused(text: str, source: str, target: str, arm: str, file: str = "") -> li
     files = translate_program(read, target, arm, None, diagnostics).files
     told = [(item.code.name, item.origin.line) for item in diagnostics.of(Severity.LOSS)]
     written = b"\n".join(one.data for one in files).decode("latin-1")
-    assert written.count(STOPS[target]) >= len(told), written
+    assert not told or STOPS[target] in written, written
     return told

@@ -11,6 +11,7 @@ from rpl.simulation import entry_name, run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 from tests.analog_wiring import WIRED
+from tests.refusing import refused
 
 ARM = "ur5e"
 OTHERS = ("krl", "rapid", "tp", "vplus", "inform", "rpl", "urscript")
@@ -103,14 +104,12 @@ def test_a_critical_section_with_one_access_is_left_out(target: str) -> None:
     assert [each[2] for each in result.outputs] == [True]
 
 
-def test_a_critical_section_that_others_may_see_half_done_is_told() -> None:
-    source = COUNTED.format(section="seen = seen + 1\n      last = seen", started="sleep(0.1)")
-    diagnostics = Diagnostics()
-    read = read_sources([source_from_text("main.script", source)], "urscript", diagnostics)
-    translate_program(read, "tp", ARM, None, diagnostics)
-    assert "critical-section-open" in [item.code.name for item in diagnostics]
-
-
-def test_a_critical_section_whose_data_others_change_is_named() -> None:
-    _, losses, _ = translated(COUNTED.format(section="seen = seen + 1", started="seen = seen + 0"), "tp")
-    assert "critical-section-lost" in losses
+@pytest.mark.parametrize("target", ["krl", "rapid", "tp", "vplus"])
+def test_a_critical_section_that_others_may_divide_is_refused(target: str) -> None:
+    for section, started in (
+        ("seen = seen + 1\n      last = seen", "sleep(0.1)"),
+        ("seen = seen + 1", "seen = seen + 0"),
+    ):
+        text = COUNTED.format(section=section, started=started)
+        told = [line for name, line in refused(text, "urscript", target, ARM) if name == "critical-section-lost"]
+        assert told == [text[: text.index("enter_critical")].count("\n") + 1]

@@ -13,6 +13,7 @@ CRITICAL = code(
     Severity.LOSS,
     "the target cannot keep other tasks from running in a section of a program",
     "let the tasks take turns by signals, or do in one task what must not be divided",
+    stops=True,
 )
 TASK = code(
     "task-control-lost",
