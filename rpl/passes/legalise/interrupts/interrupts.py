@@ -13,9 +13,7 @@ from rpl.passes.capabilities import InterruptRule, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name, called_names, each_statement, exposed
 from rpl.passes.legalise.interrupts.changes import watched_changes
-from rpl.passes.legalise.interrupts.interruptnumbers import known_interrupts
-from rpl.passes.legalise.interrupts.orderways import one_way_each
-from rpl.passes.legalise.interrupts.reconnected import one_trap_each
+from rpl.passes.legalise.interrupts.identities import one_meaning_each
 from rpl.passes.legalise.interrupts.traps import priorities_to_traps
 from rpl.passes.legalise.rewriting.editing import edit_all
 from rpl.passes.legalise.stages import legalising
@@ -31,11 +29,9 @@ def interrupts(program: ir.Program, context: Context) -> ir.Program:
     if "DeclareInterrupt" not in statements and "ConnectInterrupt" in statements:
         return priorities_to_traps(program, context)
     if "ConnectInterrupt" not in statements and "DeclareInterrupt" in statements:
-        program = known_interrupts(watched_changes(program, context), context)
-        program = one_trap_each(program, context)
-        if "timer_positive" not in context.capabilities.system_variables:  # else a number may be declared anew
-            program = one_way_each(program, context)
-        return _Priorities(program, context).program()
+        program = watched_changes(program, context)
+        kept = one_meaning_each(program, context)
+        return _Priorities(kept, context).program(refused=kept is not program)
     return program
 
 
@@ -49,7 +45,9 @@ class _Priorities:
     timer_of: dict[str, int] = field(default_factory=dict)
     made: list[ir.Routine] = field(default_factory=list)
 
-    def program(self) -> ir.Program:
+    def program(self, refused: bool) -> ir.Program:
+        """refused: some of the names that were interrupts are none any more."""
+
         def find(statement: ir.Statement) -> None:
             if isinstance(statement, ir.ConnectInterrupt):
                 name = base_name(statement.handle)
@@ -61,7 +59,7 @@ class _Priorities:
             for routine in module.routines:
                 for body in bodies(routine):
                     each_statement(body, find)
-        if not self.routine_of:
+        if not self.routine_of and not refused:
             return self.source
         program = edit_all(self.source, self.body)
         modules = []

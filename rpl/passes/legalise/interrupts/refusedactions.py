@@ -11,6 +11,7 @@ from collections.abc import Collection
 from rpl import ir
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.control.jumps import inside
+from rpl.passes.legalise.facts.effects import children
 from rpl.passes.legalise.facts.usage import called_below
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.stopping import left_out
@@ -21,10 +22,10 @@ REFUSED = "its interrupt is refused where it is declared"
 _OF_MOTION = (ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.StoreMotion, ir.ResumeLevel)
 
 
-def without_actions(program: ir.Program, refused: Collection[ir.DeclareInterrupt]) -> ir.Program:
+def without_actions(program: ir.Program, refused: Collection[ir.DeclareInterrupt | ir.ConnectInterrupt]) -> ir.Program:
     """The program with remarks in the routines that only these interrupts (as they stand in it) would run."""
-    actions = [one.action for one in refused]
-    dead = called_below(program, {one.name.lower() for one in actions if isinstance(one, ir.CallRoutine)})
+    actions = [one if isinstance(one, ir.ConnectInterrupt) else one.action for one in refused]
+    dead = called_below(program, {_called(one) for one in actions})
     gone = {id(one) for one in actions}
     while dead:
         used = {task.entry.lower() for task in program.tasks} | {(program.entry or "").lower()}
@@ -36,7 +37,7 @@ def without_actions(program: ir.Program, refused: Collection[ir.DeclareInterrupt
         dead -= called_below(program, set(dead & used))
 
     def change(statement: ir.Statement) -> ir.Body:
-        if isinstance(statement, _OF_MOTION):
+        if isinstance(statement, _OF_MOTION) or any(map(_asks, children(statement))):
             return (left_out(statement, REFUSED),)
         return (inside(statement, lambda body: map_body(body, change)),)
 
@@ -46,6 +47,11 @@ def without_actions(program: ir.Program, refused: Collection[ir.DeclareInterrupt
         return edit_bodies(routine, lambda body: map_body(body, change))
 
     return edit_each(program, work)
+
+
+def _asks(expression: ir.Expression) -> bool:
+    """Does it ask which interrupt has come?"""
+    return any(isinstance(node, ir.System) and node.name == "interrupt_number" for node in walk(expression))
 
 
 def _called(node: object) -> str:

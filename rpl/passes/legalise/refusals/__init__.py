@@ -12,10 +12,11 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import bodies
+from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import statements_in
+from rpl.passes.legalise.interrupts.refusedactions import REFUSED, without_actions
 from rpl.passes.legalise.refusals.arm import ARM
 from rpl.passes.legalise.refusals.motion import MOTION
 from rpl.passes.legalise.refusals.routines import ROUTINES
@@ -23,6 +24,7 @@ from rpl.passes.legalise.refusals.rows import Asked, Refusal
 from rpl.passes.legalise.refusals.settings import SETTINGS
 from rpl.passes.legalise.refusals.tasks import TASKS
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.rewriting.stopping import left_out
 from rpl.passes.legalise.stages import legalising
 from rpl.source import Comment
 
@@ -45,9 +47,15 @@ def refuse(program: ir.Program, context: Context) -> ir.Program:
             asked_of.setdefault(node, []).append(row)
     single = "Critical" not in context.capabilities.statements and _single(program)
     report = context.diagnostics.report
+    without = not {"DeclareInterrupt", "ConnectInterrupt"} & context.capabilities.statements
+    if without:
+        begun = [n for n in walk(*program.modules) if isinstance(n, ir.DeclareInterrupt | ir.ConnectInterrupt)]
+        program = without_actions(program, begun) if begun else program
 
     def changed(statement: ir.Statement, asked: Asked) -> ir.Body | None:
         match statement:
+            case ir.ControlInterrupt() | ir.OrderInterrupt() if without:
+                return (left_out(statement, REFUSED),)
             case ir.Critical() if single:
                 return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
             case ir.Vendor(dialect=owner, text=text, effect="tuning") if owner != context.target:

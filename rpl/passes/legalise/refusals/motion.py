@@ -6,6 +6,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.interrupts.brakedmoves import BRAKED
 from rpl.passes.legalise.interrupts.heldmotion import EARLY, STAYS
+from rpl.passes.legalise.interrupts.identities import ASKED, ORDERED, SEVERAL
 from rpl.passes.legalise.interrupts.rates import LOST as RATE
 from rpl.passes.legalise.interrupts.watching import LOST as NOT_WATCHED
 from rpl.passes.legalise.refusals.rows import PLAINLY, Asked, Found, Refusal
@@ -48,6 +49,9 @@ def _search(statement: ir.Move, asked: Asked) -> Found:
 MOTION = (
     Refusal("an interrupt", INTERRUPT, (ir.DeclareInterrupt,), _declared),
     Refusal("an interrupt of a trap routine", INTERRUPT, (ir.ConnectInterrupt,), _connected),
+    Refusal("an interrupt variable of several routines", SEVERAL),
+    Refusal("an interrupt variable that is ordered in several ways", ORDERED),
+    Refusal("a routine that asks which interrupt has called it", ASKED),
     Refusal("an interrupt that no task and no search can stand for", NOT_WATCHED),
     Refusal("an interrupt that brakes a move which goes on behind it", BRAKED),
     Refusal("a motion that an interrupt stops and something else lets go on", STAYS),

@@ -23,5 +23,6 @@ def stopped(statement: ir.Statement, code: Code, context: Context, **arguments: 
 
 def left_out(statement: ir.Statement, why: str) -> ir.Nothing:
     """A statement that says nothing any more where the program has stopped before: a remark."""
-    remark = Comment(f" left out, {why}: {statement.origin.text.strip() or type(statement).__name__}")
+    (text, *_) = (statement.origin.text.strip() or type(statement).__name__).splitlines()
+    remark = Comment(f" left out, {why}: {text}")
     return ir.Nothing(origin=replace(statement.origin, comments=(*statement.origin.comments, remark)))
