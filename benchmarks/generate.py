@@ -182,3 +182,55 @@ GENERATORS = {
     "inform": (inform, "LONG.JBI"),
     "rpl": (rpl, "long.rpl"),
 }
+
+
+def krl_points(lines: int, seed: int = 1) -> str:
+    """A list of KRL points of so many lines."""
+    rng = random.Random(seed)
+    text = ["DEF points()", "$VEL.CP=0.25", "$APO.CDIS=5"]
+    while len(text) < lines - 1:
+        x, y, z = rng.uniform(400, 600), rng.uniform(-200, 200), rng.uniform(300, 600)
+        a, b, c = rng.uniform(-90, 90), rng.uniform(60, 90), rng.uniform(-90, 90)
+        text.append(f"LIN {{X {x:.3f},Y {y:.3f},Z {z:.3f},A {a:.4f},B {b:.4f},C {c:.4f}}} C_DIS")
+    return "\n".join([*text, "END", ""])
+
+
+def rapid_points(lines: int, seed: int = 1) -> str:
+    """A list of RAPID points of so many lines."""
+    rng = random.Random(seed)
+    text = ["MODULE points", "  PROC main()"]
+    while len(text) < lines - 2:
+        x, y, z = rng.uniform(300, 500), rng.uniform(-200, 200), rng.uniform(300, 500)
+        rotation = [rng.gauss(0, 1) for _ in range(4)]
+        length = sum(part * part for part in rotation) ** 0.5
+        written = ",".join(f"{part / length:.7f}" for part in rotation)
+        flags = f"{rng.randint(-1, 1)},{rng.randint(-1, 1)},{rng.randint(-1, 1)},0"
+        target = f"[[{x:.3f},{y:.3f},{z:.3f}],[{written}],[{flags}],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+        text.append(f"    MoveL {target},v200,z1,tool0;")
+    return "\n".join([*text, "  ENDPROC", "ENDMODULE", ""])
+
+
+def tp_points(lines: int, seed: int = 1) -> str:
+    """A TP listing of about so many lines: moves, and six lines for the point of each."""
+    rng = random.Random(seed)
+    text, points = [], []
+    for number in range(1, max(lines - 7, 7) // 7 + 1):
+        text.append(f"{number:4}:L P[{number}] 250mm/sec CNT50    ;")
+        x, y, z = rng.uniform(400, 600), rng.uniform(-200, 200), rng.uniform(300, 600)
+        w, p, r = rng.uniform(-180, 180), rng.uniform(-90, 90), rng.uniform(-180, 180)
+        points += [
+            f"P[{number}]{{",
+            "   GP1:",
+            "\tUF : 0, UT : 1,\t\tCONFIG : 'N U T, 0, 0, 0',",
+            f"\tX = {x:9.3f}  mm,\tY = {y:9.3f}  mm,\tZ = {z:9.3f}  mm,",
+            f"\tW = {w:9.3f} deg,\tP = {p:9.3f} deg,\tR = {r:9.3f} deg",
+            "};",
+        ]
+    return "\n".join(["/PROG  POINTS", "/ATTR", 'COMMENT\t\t= "";', "/MN", *text, "/POS", *points, "/END", ""])
+
+
+POINTS = {
+    "krl": (krl_points, "points.src"),
+    "rapid": (rapid_points, "points.mod"),
+    "tp": (tp_points, "points.ls"),
+}

@@ -10,6 +10,7 @@ from typing import cast, get_args
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import statements, walk
+from rpl.passes.rewrite import changed
 from rpl.reading.pieces import Block, Item, ModulePart
 
 from . import modal, tables
@@ -149,7 +150,7 @@ class Builder:
             assert isinstance(position, ir.Variable)
             constant = position.initial is not None and position.name not in written
             storage = "constant" if constant else "persistent"
-            found.setdefault(position.name, replace(position, storage=storage))
+            found.setdefault(position.name, changed(position, storage=storage))
         missing: dict[str, ir.Variable] = {}
         reported: set[str] = set()
         for move in (node for node in inside if isinstance(node, ir.Move)):

@@ -149,6 +149,8 @@ def externals(position: Position) -> list[float | None]:
     """Extended axes of the arm, then the axes of the further groups (as many as there can be)."""
     arm = position.groups.get(1)
     values: list[float | None] = []
+    if arm is not None and len(position.groups) == 1 and len(arm.values) == len(_ORDER) and arm.kind == "p":
+        return values
     if arm is not None:
         values += [value for name, value in sorted(arm.values.items()) if name.startswith("E")]
         values += [value for name, value in sorted(arm.values.items()) if name in ("J7", "J8", "J9")]

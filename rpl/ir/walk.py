@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from operator import attrgetter, is_
 from typing import TypeGuard, TypeVar, cast, get_args
 
-from rpl.ir.expressions import Expression
+from rpl.ir.expressions import Aggregate, Expression
 from rpl.ir.modules import Routine
 from rpl.ir.statements import Body, Statement
 from rpl.source import Origin
@@ -20,6 +20,7 @@ Node = TypeVar("Node")
 
 _EXPRESSIONS = frozenset(get_args(Expression))
 _STATEMENTS = frozenset(get_args(Statement))
+_EMPTY: tuple[object, ...] = ()
 
 
 # Annotations of fields that never hold a node: names, operators, switches. Most fields are of these.
@@ -85,7 +86,7 @@ def children(node: object) -> list[object]:
         kind = part.__class__
         if kind in _NODES:
             found.append(part)
-        elif kind not in _PLAIN:
+        elif kind not in _PLAIN and part is not _EMPTY:
             _collect(part, found)
     return found
 
@@ -118,13 +119,16 @@ def walk(*roots: object) -> Iterator[object]:
         taken = parts_of[node.__class__]
         if taken is _no_parts:
             continue
+        if node.__class__ is Aggregate:  # most of what there is in a list of points
+            stack += [value for _, value in reversed(node.entries)]
+            continue
         # The same as `children`, in place: every pass goes through here for every node.
         below: list[object] = []
         for part in taken(node):
             kind = part.__class__
             if kind in _NODES:
                 below.append(part)
-            elif kind not in _PLAIN:
+            elif kind not in _PLAIN and part is not _EMPTY:
                 _collect(part, below)
         if below:
             below.reverse()

@@ -20,6 +20,7 @@ OnBody = Callable[[ir.Body], ir.Body]
 _EXPRESSIONS = frozenset(get_args(ir.Expression))
 _STATEMENTS = frozenset(get_args(ir.Statement))
 _LEAVES = frozenset((str, int, float, bool, type(None)))
+_EMPTY: tuple[object, ...] = ()
 _NOTHING_GIVEN: Mapping[str, object] = {}
 
 
@@ -46,9 +47,11 @@ def rewrite_parts(
     are without it). Parts that are neither (speeds, blends, cases, arguments) are entered. `given`: fields that are
     rewritten already, by name."""
     kind = node.__class__
+    if isinstance(node, ir.Aggregate) and not given:
+        return cast(Node, _aggregate(node, on_expression))
     changes: dict[str, object] | None = None
     for at, old in enumerate(PARTS[kind](node)):
-        if old.__class__ in _LEAVES:
+        if old.__class__ in _LEAVES or old is _EMPTY:
             continue
         name = PART_FIELDS[kind][at] if given else ""
         new = given[name] if name in given else _part(old, on_expression, on_body)
@@ -64,12 +67,26 @@ def rewrite_parts(
     return kind(**parts)
 
 
+def _aggregate(node: ir.Aggregate, on_expression: OnExpression) -> ir.Aggregate:
+    """As any other node; most of what there is in a list of points."""
+    old = [value for _, value in node.entries]
+    new = [on_expression(value) for value in old]
+    if all(map(is_, new, old)):
+        return node
+    entries = tuple([(entry[0], value) for entry, value in zip(node.entries, new, strict=True)])
+    return ir.Aggregate(entries, node.type_name, origin=node.origin)
+
+
 def visit_parts(
     node: object, on_expression: Callable[[ir.Expression], object], on_body: Callable[[ir.Body], object] | None = None
 ) -> None:
     """Show the same parts as `rewrite_parts` in the same order, and rebuild nothing."""
+    if node.__class__ is ir.Aggregate:
+        for _, value in node.entries:
+            on_expression(value)
+        return
     for part in PARTS[node.__class__](node):
-        if part.__class__ not in _LEAVES:
+        if part.__class__ not in _LEAVES and part is not _EMPTY:
             _visit(part, on_expression, on_body)
 
 
