@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.legalise.postures.externalaxes import leading, used_externals
+from rpl.passes.legalise.facts.externalaxes import leading, used_externals
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.source import NOWHERE
 from rpl.writing.ledger import EmissionLedger
@@ -216,7 +216,7 @@ class _Writer:
         """Constant tools and frames, and tasks that run beside, at the start of each program that may be started."""
         tasks = [task for task in self.program.tasks if task.kind == "background"]
         begin = [Line(f"  RUN {task.entry.upper()}") for task in tasks]
-        from rpl.passes.legalise.data.startdata import INITIALISE
+        from rpl.passes.legalise.rewriting.startdata import INITIALISE
 
         values = next((one for one in listings if one.name == INITIALISE.upper() and not one.entry), None)
         if values is not None:

@@ -8,7 +8,7 @@ from typing import Protocol
 from rpl import ir
 from rpl.ir.walk import expressions as all_expressions
 from rpl.passes.fold import constant
-from rpl.passes.legalise.control.jumps import opposite
+from rpl.passes.legalise.rewriting.jumps import opposite
 from rpl.passes.typewords import component_names, word_type
 from rpl.source import Origin
 from rpl.writing.statements import CannotSayError

@@ -12,9 +12,9 @@ from collections.abc import Iterable
 
 from rpl import ir
 from rpl.ir.walk import expressions, walk
-from rpl.passes.legalise.advance.standing import changed_beside
 from rpl.passes.legalise.facts.effects import blocks, children
 from rpl.passes.legalise.rewriting.operands import stands_still
+from rpl.passes.legalise.settings.corners.standing import changed_beside
 
 _LOOPS = (ir.For, ir.While, ir.Repeat, ir.Loop)
 _DEEPEST = 8  # calls in calls that are looked into

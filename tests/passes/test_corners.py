@@ -9,8 +9,8 @@ import pytest
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.ir.walk import walk
-from rpl.passes.legalise.advance.corners import corners
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.settings.corners.corners import corners
 
 TEN, FIFTY = ir.RealLiteral(10.0), ir.RealLiteral(50.0)
 HUNDRED_MM_S = ir.Speed(path=ir.Quantity(ir.RealLiteral(100.0), "mm/s"))

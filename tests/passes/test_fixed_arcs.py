@@ -9,7 +9,7 @@ import pytest
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity
-from rpl.passes.legalise.paths.arcsplit import is_short, split_points
+from rpl.passes.legalise.source.ways.arcsplit import is_short, split_points
 from rpl.project import read_sources
 from rpl.proof.prove import prove_programs
 from rpl.simulation import entry_name

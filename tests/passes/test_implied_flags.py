@@ -8,7 +8,7 @@ import pytest
 from rpl import registry
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import load_robot
-from rpl.passes.legalise.postures.impliedflags import implied_flags
+from rpl.passes.legalise.places.postures.impliedflags import implied_flags
 from rpl.project import read_sources
 from rpl.simulation import run_program
 from rpl.source import source_from_bytes, source_from_text

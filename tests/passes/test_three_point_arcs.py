@@ -9,7 +9,7 @@ import pytest
 
 from rpl.diagnostics import Diagnostics
 from rpl.passes import rigid
-from rpl.passes.legalise.paths.threepoints import circle_through
+from rpl.passes.legalise.places.threepoints import circle_through
 from rpl.project import read_sources
 from rpl.proof.prove import ProofResult, prove_programs
 from rpl.proof.wiring import with_signal_names

@@ -14,9 +14,9 @@ from rpl.passes.legalise.errors.stage import STAGE as ERRORS
 from rpl.passes.legalise.interrupts.stage import STAGE as INTERRUPTS
 from rpl.passes.legalise.io.stage import STAGE as IO
 from rpl.passes.legalise.paths.stage import STAGE as PATHS
+from rpl.passes.legalise.places.postures.configurations import configurations
+from rpl.passes.legalise.places.postures.otherarms import places_on_other_arm
 from rpl.passes.legalise.places.stage import STAGE as PLACES
-from rpl.passes.legalise.postures.configurations import configurations
-from rpl.passes.legalise.postures.otherarms import places_on_other_arm
 from rpl.passes.legalise.records.stage import STAGE as RECORDS
 from rpl.passes.legalise.routines.stage import STAGE as ROUTINES
 from rpl.passes.legalise.searches.stage import STAGE as SEARCHES

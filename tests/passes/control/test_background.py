@@ -11,8 +11,8 @@ from rpl.diagnostics import Diagnostics
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import Background, Local
 from rpl.passes.legalise.context import Context, names_in
-from rpl.passes.legalise.storage.statics import static_variables
-from rpl.passes.legalise.tasks.background import background_tasks
+from rpl.passes.legalise.interrupts.statics import static_variables
+from rpl.passes.legalise.interrupts.tasks.background import background_tasks
 from rpl.passes.typing import normalise
 from rpl.project import ReadProgram, read_sources
 from rpl.proof.prove import prove_programs

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from rpl import ir
-from rpl.passes.legalise.control.logic import decide_logic
 from rpl.passes.legalise.control.loops import fit_loops
-from rpl.passes.legalise.data.calls import rewrite_calls
 from rpl.passes.legalise.rewriting.helpers import _TEXTS
+from rpl.passes.legalise.statements.calls import rewrite_calls
+from rpl.passes.legalise.statements.logic import decide_logic
 
 from .common import PLAIN, RICH, count, legalised, read, same_run
 from .machine import run

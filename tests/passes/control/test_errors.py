@@ -6,8 +6,8 @@ import pytest
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
-from rpl.passes.legalise.control.logic import decide_logic
-from rpl.passes.legalise.errors.errors import check_errors
+from rpl.passes.legalise.statements.errors import check_errors
+from rpl.passes.legalise.statements.logic import decide_logic
 
 from .common import PLAIN, RICH, count, legalised, read, same_run
 

@@ -6,13 +6,13 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from rpl.passes.legalise.control.logic import decide_logic
 from rpl.passes.legalise.control.loops import fit_loops
-from rpl.passes.legalise.control.switches import unroll_switches
-from rpl.passes.legalise.data.calls import rewrite_calls
-from rpl.passes.legalise.errors.errors import check_errors
-from rpl.passes.legalise.io.waits import fit_waits
 from rpl.passes.legalise.routines.optional import fit_parameters
+from rpl.passes.legalise.statements.calls import rewrite_calls
+from rpl.passes.legalise.statements.errors import check_errors
+from rpl.passes.legalise.statements.logic import decide_logic
+from rpl.passes.legalise.statements.switches import unroll_switches
+from rpl.passes.legalise.statements.waits import fit_waits
 
 from .common import PLAIN, RICH, read, same_run
 

@@ -6,7 +6,7 @@ import pytest
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
-from rpl.passes.legalise.errors.knownerrors import settled
+from rpl.passes.legalise.statements.knownerrors import settled
 from rpl.project import read_sources
 from rpl.source import source_from_text
 from rpl.translation import translate_program

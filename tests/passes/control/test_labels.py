@@ -9,7 +9,7 @@ from rpl import ir
 from rpl.passes.capabilities import Control, Counting
 from rpl.passes.legalise.control.labels import structure_to_labels
 from rpl.passes.legalise.control.loops import fit_loops
-from rpl.passes.legalise.control.switches import unroll_switches
+from rpl.passes.legalise.statements.switches import unroll_switches
 
 from .common import count, nodes
 from .shaped import ALL, JUMPING, assign, bodies, jumping, less, number, program, rewritten, same, step, target, when

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from rpl import ir
-from rpl.passes.legalise.control.logic import decide_logic
 from rpl.passes.legalise.control.loops import fit_loops
-from rpl.passes.legalise.control.switches import unroll_switches
+from rpl.passes.legalise.statements.logic import decide_logic
+from rpl.passes.legalise.statements.switches import unroll_switches
 
 from .common import PLAIN, RICH, count, read, same_run
 

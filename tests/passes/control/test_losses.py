@@ -8,13 +8,13 @@ import pytest
 
 from rpl import ir
 from rpl.passes.capabilities import Motion, SearchResult, Settings, Tasks
-from rpl.passes.legalise.control.structure import labels_to_structure
 from rpl.passes.legalise.errors.errorroutines import error_routines
-from rpl.passes.legalise.errors.errors import check_errors
-from rpl.passes.legalise.interrupts.searches import searches
-from rpl.passes.legalise.interrupts.searchparts import search_parts
+from rpl.passes.legalise.places.nextmove.nextmove import settings_of_next_move
 from rpl.passes.legalise.refusals import refuse
-from rpl.passes.legalise.settings.nextmove import settings_of_next_move
+from rpl.passes.legalise.searches.searches import searches
+from rpl.passes.legalise.searches.searchparts import search_parts
+from rpl.passes.legalise.statements.errors import check_errors
+from rpl.passes.legalise.statements.jumps.structure import labels_to_structure
 
 from .common import count, nodes
 from .shaped import ALL, STRUCTURED, assign, context_for, less, number, program, rewritten, same, step, target, when

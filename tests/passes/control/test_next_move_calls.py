@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rpl import ir
-from rpl.passes.legalise.settings.nextmovecalls import next_moves_behind_calls
+from rpl.passes.legalise.places.nextmove.nextmovecalls import next_moves_behind_calls
 
 from .common import count, nodes
 from .shaped import ALL, assign, less, number, program, rewritten, step, target, when

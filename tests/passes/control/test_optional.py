@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from rpl import ir
-from rpl.passes.legalise.control.logic import decide_logic
 from rpl.passes.legalise.data.datalists import never_called
-from rpl.passes.legalise.errors.errors import check_errors
 from rpl.passes.legalise.routines.optional import fit_parameters
+from rpl.passes.legalise.statements.errors import check_errors
+from rpl.passes.legalise.statements.logic import decide_logic
 
 from .common import PLAIN, RICH, count, legalised, read, same_run
 

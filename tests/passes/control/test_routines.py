@@ -12,14 +12,14 @@ from rpl import ir
 from rpl.passes.capabilities import Control, Io, Local, Parameters, Routines
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.elseif import nest_branches
-from rpl.passes.legalise.control.logic import decide_logic
+from rpl.passes.legalise.control.functions import functions_to_procedures
+from rpl.passes.legalise.control.locals import variables_of_routines
 from rpl.passes.legalise.control.loops import fit_loops
-from rpl.passes.legalise.io.polling import poll_waits
+from rpl.passes.legalise.control.parameters import ARGUMENTS, fit_arguments
 from rpl.passes.legalise.routines.aliasing import without_shared_references
-from rpl.passes.legalise.routines.functions import functions_to_procedures
-from rpl.passes.legalise.routines.parameters import ARGUMENTS, fit_arguments
 from rpl.passes.legalise.stages import Pass
-from rpl.passes.legalise.storage.locals import variables_of_routines
+from rpl.passes.legalise.statements.logic import decide_logic
+from rpl.passes.legalise.statements.polling import poll_waits
 from rpl.passes.rewrite import rewrite_parts
 from tests.refusing import refused
 

@@ -8,8 +8,8 @@ from hypothesis import HealthCheck, given, settings
 from rpl import ir
 from rpl.passes.legalise.control.labels import structure_to_labels
 from rpl.passes.legalise.control.loops import fit_loops
-from rpl.passes.legalise.control.structure import labels_to_structure
-from rpl.passes.legalise.control.switches import unroll_switches
+from rpl.passes.legalise.statements.jumps.structure import labels_to_structure
+from rpl.passes.legalise.statements.switches import unroll_switches
 
 from .common import count
 from .shaped import STRUCTURED, assign, bodies, jumping, less, number, program, rewritten, same, step, target, when

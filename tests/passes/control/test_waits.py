@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from rpl import ir
-from rpl.passes.legalise.control.logic import decide_logic
-from rpl.passes.legalise.errors.errors import check_errors
-from rpl.passes.legalise.io.waits import fit_waits
+from rpl.passes.legalise.statements.errors import check_errors
+from rpl.passes.legalise.statements.logic import decide_logic
+from rpl.passes.legalise.statements.waits import fit_waits
 
 from .common import PLAIN, RICH, count, legalised, read, same_run
 

@@ -6,8 +6,8 @@ import pytest
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
-from rpl.passes.legalise.data.aggregates import aggregates
-from rpl.passes.legalise.places.geometry import geometry
+from rpl.passes.legalise.records.aggregates import aggregates
+from rpl.passes.legalise.records.geometry import geometry
 from rpl.passes.typing import normalise
 
 from .helpers import context, lines, read, show, show_statement, variable
@@ -93,7 +93,7 @@ def test_local_arrays_get_their_values_at_the_start() -> None:
 def test_with_geometry_a_computed_target_is_numbers() -> None:
     program = read(RAPID % "goal:=[[1,2,n],OrientZYX(n,0,180),goal.robconf,goal.extax];", "rapid")
     surroundings = context(program, "rapid")
-    from rpl.passes.legalise.postures.configurations import configurations
+    from rpl.passes.legalise.places.postures.configurations import configurations
 
     done = geometry(aggregates(configurations(program, surroundings), surroundings), surroundings)
     parts = [("x", "1"), ("y", "2"), ("z", "n"), ("a", "n"), ("b", "0"), ("c", "180")]

@@ -6,7 +6,7 @@ import pytest
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
-from rpl.passes.legalise.places.angles import to_angles
+from rpl.passes.legalise.records.angles import to_angles
 from rpl.passes.typing import normalise
 
 from .helpers import context, lines, read, routine, show, variable

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import Limit
-from rpl.passes.legalise.data.arithmetic import arithmetic
+from rpl.passes.legalise.records.arithmetic import arithmetic
 
 from .executed import EVERYTHING, context, passed, read, run
 

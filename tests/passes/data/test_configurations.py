@@ -10,8 +10,8 @@ import pytest
 from rpl import ir, registry
 from rpl.emulator.model import RobotModel, load_robot
 from rpl.emulator.rotations import matrix_to_zyx
-from rpl.passes.legalise.postures.configurations import configurations
-from rpl.passes.legalise.postures.flagreadings import flag_readings
+from rpl.passes.legalise.places.postures.configurations import configurations
+from rpl.passes.legalise.places.postures.flagreadings import flag_readings
 
 from .helpers import context, lines, read, show, variable
 

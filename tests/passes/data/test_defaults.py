@@ -9,7 +9,7 @@ import pytest
 from rpl import ir
 from rpl.passes.capabilities import PlaceRule
 from rpl.passes.legalise.data.defaults import starting_values
-from rpl.passes.legalise.source.prelude import link_prelude
+from rpl.passes.legalise.errors.prelude import link_prelude
 from rpl.passes.legalise.storage.unused import drop_unused
 
 from .helpers import context, lines, read, show, variable

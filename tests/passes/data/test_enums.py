@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rpl import ir
-from rpl.passes.legalise.data.enums import enums_to_constants
+from rpl.passes.legalise.statements.enums import enums_to_constants
 
 from .helpers import context, lines, read, variable
 

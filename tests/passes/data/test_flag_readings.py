@@ -8,7 +8,7 @@ import pytest
 from rpl import ir, registry
 from rpl.emulator.model import load_robot
 from rpl.emulator.postures import posture_facts
-from rpl.passes.legalise.postures.flagreadings import flag_readings
+from rpl.passes.legalise.places.postures.flagreadings import flag_readings
 
 from .helpers import context, read
 

@@ -7,7 +7,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from rpl import ir
-from rpl.passes.legalise.data.flatrecords import flat_records
+from rpl.passes.legalise.records.flatrecords import flat_records
 
 from .executed import WEAK, context, read, same
 from .helpers import lines

@@ -11,8 +11,8 @@ import pytest
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import load_robot
-from rpl.passes.legalise.postures.configurations import configurations
-from rpl.passes.legalise.postures.families import differing
+from rpl.passes.legalise.places.postures.configurations import configurations
+from rpl.passes.legalise.places.postures.families import differing
 from rpl.project import ReadProgram, read_sources
 from rpl.source import source_from_text
 from rpl.translation import translate_program

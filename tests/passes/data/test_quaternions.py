@@ -6,7 +6,7 @@ import pytest
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
-from rpl.passes.legalise.places.quaternions import to_quaternions
+from rpl.passes.legalise.records.quaternions import to_quaternions
 from rpl.passes.typing import normalise
 
 from .helpers import context, lines, read, show, variable

@@ -10,12 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rpl.passes import rigid
-from rpl.passes.legalise.data.aggregates import aggregates
 from rpl.passes.legalise.data.defaults import starting_values
-from rpl.passes.legalise.data.enums import enums_to_constants
 from rpl.passes.legalise.data.numbers import numbers
-from rpl.passes.legalise.places.geometry import geometry
-from rpl.passes.legalise.postures.configurations import configurations
+from rpl.passes.legalise.places.postures.configurations import configurations
+from rpl.passes.legalise.records.aggregates import aggregates
+from rpl.passes.legalise.records.geometry import geometry
+from rpl.passes.legalise.statements.enums import enums_to_constants
 from rpl.passes.values import pose_of
 
 from .evaluate import results

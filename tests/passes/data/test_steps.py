@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from rpl import ir
 from rpl.passes.capabilities import Aggregate, Limit
-from rpl.passes.legalise.control.logic import decide_logic
 from rpl.passes.legalise.control.steps import POLLED, steps
 from rpl.passes.legalise.facts.effects import children, statements_in
 from rpl.passes.legalise.rewriting.operands import is_operand
+from rpl.passes.legalise.statements.logic import decide_logic
 
 from .executed import EVERYTHING, WEAK, context, passed, read, same
 from .helpers import lines, show_statement

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.passes.legalise.data.calls import rewrite_calls
+from rpl.passes.legalise.statements.calls import rewrite_calls
 from rpl.source import Origin, source_from_text
 
 from .executed import EVERYTHING, context, read, run

@@ -8,7 +8,7 @@ import pytest
 from rpl import registry
 from rpl.emulator.model import load_robot
 from rpl.emulator.rotations import matrix_to_zyx
-from rpl.passes.legalise.postures.configurations import configurations
+from rpl.passes.legalise.places.postures.configurations import configurations
 
 from .helpers import context, read
 from .test_configurations import flags

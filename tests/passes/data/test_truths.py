@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import Truth
-from rpl.passes.legalise.data.truths import truths_to_numbers
+from rpl.passes.legalise.storage.truths import truths_to_numbers
 
 from .executed import EVERYTHING, context, read, same
 from .helpers import lines

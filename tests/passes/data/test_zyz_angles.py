@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from rpl.passes.legalise.data.calls import rewrite_calls
-from rpl.passes.legalise.places.rotationvectors import rotation_vectors
+from rpl.passes.legalise.source.places.rotationvectors import rotation_vectors
+from rpl.passes.legalise.statements.calls import rewrite_calls
 
 from .executed import EVERYTHING, context, passed, read, run
 

@@ -15,7 +15,6 @@ from rpl.passes.capabilities import Counting
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.counters import declared_loops, jumps_about, overwritten, used_outside_loops
-from rpl.passes.legalise.control.jumps import entered
 from rpl.passes.legalise.facts.effects import everything, is_constant, statements_in
 from rpl.passes.legalise.facts.usage import assigned_in, base_name, each_expression
 from rpl.passes.legalise.rewriting.editing import (
@@ -29,6 +28,7 @@ from rpl.passes.legalise.rewriting.editing import (
     passes_on,
     written_arguments,
 )
+from rpl.passes.legalise.rewriting.jumps import entered
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope

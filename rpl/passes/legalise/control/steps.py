@@ -14,10 +14,9 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.capabilities import Aggregate, Limit, MessageRule
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.control.spread import is_computed, reads, spread
 from rpl.passes.legalise.facts.effects import children, everything, is_constant
 from rpl.passes.legalise.facts.usage import assigned_in
-from rpl.passes.legalise.io.polling import seconds_of
-from rpl.passes.legalise.places.spread import is_computed, reads, spread
 from rpl.passes.legalise.rewriting.editing import (
     Editor,
     Hoister,
@@ -30,6 +29,7 @@ from rpl.passes.legalise.rewriting.editing import (
 from rpl.passes.legalise.rewriting.operands import changing, is_number, is_operand, opposite, stands_still
 from rpl.passes.legalise.rewriting.walk import POLL_S, POLLED
 from rpl.passes.legalise.stages import legalising
+from rpl.passes.legalise.statements.polling import seconds_of
 from rpl.passes.rewrite import rewrite_parts
 
 TIMED = code("timed-wait-computed", Severity.LOSS, "a wait for a computed condition loses its time limit")

@@ -12,9 +12,9 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies
 from rpl.passes.capabilities import DataRule
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.heldtexts import named_by_texts
 from rpl.passes.legalise.facts.usage import each_expression, each_statement
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.legalise.texts.heldtexts import named_by_texts
 from rpl.source import NOWHERE
 
 SET_AT_START = code(

@@ -15,7 +15,7 @@ from rpl import ir
 from rpl.passes.capabilities import Fault
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.data.wholes import Wholes, place_key
+from rpl.passes.legalise.facts.wholes import Wholes, place_key
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising

@@ -7,13 +7,13 @@ from __future__ import annotations
 from rpl.passes.legalise.data.arrays import array_bases
 from rpl.passes.legalise.data.comparedrecords import compared_records
 from rpl.passes.legalise.data.datalists import set_data_at_start
+from rpl.passes.legalise.data.declaredremarks import declared_remarks
 from rpl.passes.legalise.data.defaults import starting_values
 from rpl.passes.legalise.data.lists import lists_in_variables
 from rpl.passes.legalise.data.numbers import numbers
 from rpl.passes.legalise.data.subscripts import joined_subscripts
 from rpl.passes.legalise.data.wholesubscripts import whole_subscripts
 from rpl.passes.legalise.stages import Stage
-from rpl.passes.legalise.storage.declaredremarks import declared_remarks
 
 STAGE = Stage(
     "data",

@@ -11,9 +11,9 @@ from rpl import ir
 from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import Fault
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.data.subscriptchecks import Checks
-from rpl.passes.legalise.data.wholes import Wholes
+from rpl.passes.legalise.facts.wholes import Wholes
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.routines.subscriptchecks import Checks
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of

@@ -13,10 +13,10 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.activations import Activations
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.rewriting.editing import edit_all, expansion, map_body
+from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope

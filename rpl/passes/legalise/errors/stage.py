@@ -4,17 +4,17 @@ errors have their names from it, and jumps out of handlers become structure.
 
 from __future__ import annotations
 
-from rpl.passes.legalise.control.structure import labels_to_structure
 from rpl.passes.legalise.errors.errornumbers import error_numbers
 from rpl.passes.legalise.errors.errorplaces import unreachable_moves
 from rpl.passes.legalise.errors.errorroutines import error_routines
 from rpl.passes.legalise.errors.errortexts import error_texts
-from rpl.passes.legalise.interrupts.interruptplaces import interrupt_places
-from rpl.passes.legalise.source.ownrecords import apart_from_neutral_records
-from rpl.passes.legalise.source.possiblecases import possible_cases
-from rpl.passes.legalise.source.prelude import link_prelude
+from rpl.passes.legalise.errors.interruptplaces import interrupt_places
+from rpl.passes.legalise.errors.ownrecords import apart_from_neutral_records
+from rpl.passes.legalise.errors.possiblecases import possible_cases
+from rpl.passes.legalise.errors.prelude import link_prelude
+from rpl.passes.legalise.errors.usedelements import used_elements
 from rpl.passes.legalise.stages import Stage
-from rpl.passes.legalise.storage.usedelements import used_elements
+from rpl.passes.legalise.statements.jumps.structure import labels_to_structure
 
 STAGE = Stage(
     "errors",

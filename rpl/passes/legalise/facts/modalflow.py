@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.data.datalists import never_called
+from rpl.passes.legalise.facts.heldtexts import known_calls
 from rpl.passes.legalise.facts.usage import Usage, doing_each, each_expression, usage_of
-from rpl.passes.legalise.texts.heldtexts import known_calls
 from rpl.passes.scope import ProgramScope, Scope
 
 SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distance", "blend_joint"))

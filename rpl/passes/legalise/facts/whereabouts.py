@@ -17,10 +17,10 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Arm, Context
-from rpl.passes.legalise.control.jumps import LOOPS
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.facts.flow import ModalFlow
 from rpl.passes.legalise.facts.usage import doing
+from rpl.passes.legalise.rewriting.jumps import LOOPS
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Record, Target, Value, component, pose_of

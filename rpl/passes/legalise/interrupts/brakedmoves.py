@@ -11,12 +11,12 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import InterruptRule
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.control.jumps import inside
+from rpl.passes.legalise.facts.reach import Armed, armed_statements
 from rpl.passes.legalise.facts.usage import called_below
-from rpl.passes.legalise.interrupts.reach import Armed, armed_statements
-from rpl.passes.legalise.interrupts.refusedactions import REFUSED, without_actions
-from rpl.passes.legalise.interrupts.watching import key_of, number_of
+from rpl.passes.legalise.records.watching import key_of, number_of
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, map_body
+from rpl.passes.legalise.rewriting.jumps import inside
+from rpl.passes.legalise.rewriting.refusedactions import REFUSED, without_actions
 from rpl.passes.legalise.rewriting.stopping import left_out, stopped
 from rpl.passes.legalise.stages import legalising
 

@@ -15,12 +15,12 @@ from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import InterruptRule, Watched
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.facts.usage import called_below
+from rpl.passes.legalise.rewriting.beside import closure
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_routines
+from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.legalise.tasks.beside import closure
 from rpl.source import Comment
 
 STAYS = code(

@@ -10,10 +10,10 @@ from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.usage import base_name
-from rpl.passes.legalise.interrupts.refusedactions import without_actions
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
+from rpl.passes.legalise.rewriting.jumps import inside
+from rpl.passes.legalise.rewriting.refusedactions import without_actions
 from rpl.passes.legalise.rewriting.stopping import left_out, stopped
 
 __all__ = ["ASKED", "ORDERED", "SEVERAL", "one_meaning_each"]

@@ -7,9 +7,9 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import Watched
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.interrupts.watching import number_of
+from rpl.passes.legalise.records.watching import number_of
+from rpl.passes.legalise.rewriting.beside import closure
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.legalise.tasks.beside import closure
 
 NOT_NESTED = code(
     "interrupts-not-nested",

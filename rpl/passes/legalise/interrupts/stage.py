@@ -4,7 +4,12 @@ tasks again, because an interrupt may have become one.
 
 from __future__ import annotations
 
+from rpl.passes.legalise.interrupts.actionarguments import action_arguments
 from rpl.passes.legalise.interrupts.brakedmoves import braked_moves
+from rpl.passes.legalise.interrupts.clocks.heldtimers import held_timers
+from rpl.passes.legalise.interrupts.clocks.programtimes import program_times
+from rpl.passes.legalise.interrupts.clocks.resetclocks import stopped_resets
+from rpl.passes.legalise.interrupts.clocks.routineclocks import clocks_of_routines
 from rpl.passes.legalise.interrupts.emptyreactions import without_empty_reactions
 from rpl.passes.legalise.interrupts.heldmotion import held_motion
 from rpl.passes.legalise.interrupts.interrupts import interrupts
@@ -13,20 +18,15 @@ from rpl.passes.legalise.interrupts.onceonly import reactions_once, rearmed_reac
 from rpl.passes.legalise.interrupts.reactions import reactions
 from rpl.passes.legalise.interrupts.resumes import resumes
 from rpl.passes.legalise.interrupts.singledisables import single_disables
+from rpl.passes.legalise.interrupts.statics import static_variables
 from rpl.passes.legalise.interrupts.storedpaths import stored_paths
-from rpl.passes.legalise.io.heldtimers import held_timers
-from rpl.passes.legalise.io.programtimes import program_times
-from rpl.passes.legalise.io.resetclocks import stopped_resets
-from rpl.passes.legalise.io.routineclocks import clocks_of_routines
-from rpl.passes.legalise.routines.actionarguments import action_arguments
+from rpl.passes.legalise.interrupts.tasks.background import background_tasks
+from rpl.passes.legalise.interrupts.tasks.criticals import without_criticals
+from rpl.passes.legalise.interrupts.tasks.joins import joins
+from rpl.passes.legalise.interrupts.tasks.stoppedtasks import stopped_tasks
+from rpl.passes.legalise.interrupts.tasks.taskarguments import task_arguments
+from rpl.passes.legalise.interrupts.tasks.taskreferences import task_references
 from rpl.passes.legalise.stages import Stage
-from rpl.passes.legalise.storage.statics import static_variables
-from rpl.passes.legalise.tasks.background import background_tasks
-from rpl.passes.legalise.tasks.criticals import without_criticals
-from rpl.passes.legalise.tasks.joins import joins
-from rpl.passes.legalise.tasks.stoppedtasks import stopped_tasks
-from rpl.passes.legalise.tasks.taskarguments import task_arguments
-from rpl.passes.legalise.tasks.taskreferences import task_references
 
 STAGE = Stage(
     "interrupts",

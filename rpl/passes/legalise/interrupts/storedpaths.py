@@ -14,9 +14,9 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.activations import Activations
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
 
 # What an interrupt that stops the motion does to it: it goes on, or is given up.

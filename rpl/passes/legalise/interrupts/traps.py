@@ -15,8 +15,8 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name, called_names, doing, each_statement, exposed
+from rpl.passes.legalise.rewriting.beside import local_names
 from rpl.passes.legalise.rewriting.editing import edit_bodies
-from rpl.passes.legalise.tasks.beside import local_names
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import Origin
 

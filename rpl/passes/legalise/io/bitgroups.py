@@ -16,9 +16,9 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import GroupRule
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.io.polling import polled
 from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion
 from rpl.passes.legalise.stages import legalising
+from rpl.passes.legalise.statements.polling import polled
 
 _WIDEST = 32
 ONE_BY_ONE = code(

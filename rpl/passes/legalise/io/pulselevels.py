@@ -13,9 +13,9 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import PulseRule
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import is_constant
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope

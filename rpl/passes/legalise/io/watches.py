@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.data.startdata import entries_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.rewriting.startdata import entries_of
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope

@@ -4,14 +4,14 @@ may become interrupts.
 
 from __future__ import annotations
 
-from rpl.passes.legalise.advance.atrest import at_rest
-from rpl.passes.legalise.advance.begunmoves import begun_moves
-from rpl.passes.legalise.advance.begunoutputs import begun_outputs
-from rpl.passes.legalise.advance.latedelays import without_late_delays
-from rpl.passes.legalise.advance.lookahead import stop_blends
-from rpl.passes.legalise.advance.triggers import triggers
+from rpl.passes.legalise.paths.atrest import at_rest
+from rpl.passes.legalise.paths.begunmoves import begun_moves
+from rpl.passes.legalise.paths.begunoutputs import begun_outputs
+from rpl.passes.legalise.paths.latedelays import without_late_delays
+from rpl.passes.legalise.paths.lookahead import stop_blends
+from rpl.passes.legalise.paths.targets import whole_targets
+from rpl.passes.legalise.paths.triggers import triggers
 from rpl.passes.legalise.paths.wristpaths import wrist_paths
-from rpl.passes.legalise.places.targets import whole_targets
 from rpl.passes.legalise.stages import Stage
 
 STAGE = Stage(

@@ -4,29 +4,29 @@ stand behind errors, because places of the prelude are places too; before paths,
 
 from __future__ import annotations
 
-from rpl.passes.legalise.io.queuedwaits import queued_waits
-from rpl.passes.legalise.paths.arcpoints import whole_arc_points
-from rpl.passes.legalise.paths.circles import circle_rules
-from rpl.passes.legalise.paths.threepoints import three_point_arcs
+from rpl.passes.legalise.places.arcpoints import whole_arc_points
+from rpl.passes.legalise.places.circles import circle_rules
 from rpl.passes.legalise.places.destinations import destinations
+from rpl.passes.legalise.places.externalplaces import external_places
+from rpl.passes.legalise.places.nextmove.movetimes import move_times
+from rpl.passes.legalise.places.nextmove.nextmove import settings_of_next_move
+from rpl.passes.legalise.places.nextmove.nextmovecalls import next_moves_behind_calls
+from rpl.passes.legalise.places.nextmove.queuedwaits import queued_waits
+from rpl.passes.legalise.places.nextmove.scaledaccelerations import scaled_accelerations
+from rpl.passes.legalise.places.nextmove.turningtimes import turning_times
 from rpl.passes.legalise.places.partialplaces import partial_places
-from rpl.passes.legalise.postures.askedpostures import asked_postures
-from rpl.passes.legalise.postures.configurations import configurations
-from rpl.passes.legalise.postures.externalplaces import external_places
-from rpl.passes.legalise.postures.flagreadings import flag_readings
-from rpl.passes.legalise.postures.freepostures import free_postures
-from rpl.passes.legalise.postures.jointgoals import joint_goals
-from rpl.passes.legalise.postures.knownjoints import known_joints
-from rpl.passes.legalise.postures.nearjoints import near_joints
-from rpl.passes.legalise.postures.otherarms import places_on_other_arm
-from rpl.passes.legalise.postures.seenjoints import seen_joints
-from rpl.passes.legalise.postures.turns import told_turns
+from rpl.passes.legalise.places.postures.askedpostures import asked_postures
+from rpl.passes.legalise.places.postures.configurations import configurations
+from rpl.passes.legalise.places.postures.flagreadings import flag_readings
+from rpl.passes.legalise.places.postures.freepostures import free_postures
+from rpl.passes.legalise.places.postures.jointgoals import joint_goals
+from rpl.passes.legalise.places.postures.knownjoints import known_joints
+from rpl.passes.legalise.places.postures.nearjoints import near_joints
+from rpl.passes.legalise.places.postures.otherarms import places_on_other_arm
+from rpl.passes.legalise.places.postures.seenjoints import seen_joints
+from rpl.passes.legalise.places.postures.turns import told_turns
+from rpl.passes.legalise.places.threepoints import three_point_arcs
 from rpl.passes.legalise.settings.joinedmoves import joined_moves
-from rpl.passes.legalise.settings.movetimes import move_times
-from rpl.passes.legalise.settings.nextmove import settings_of_next_move
-from rpl.passes.legalise.settings.nextmovecalls import next_moves_behind_calls
-from rpl.passes.legalise.settings.scaledaccelerations import scaled_accelerations
-from rpl.passes.legalise.settings.turningtimes import turning_times
 from rpl.passes.legalise.stages import Stage
 
 STAGE = Stage(

@@ -4,20 +4,20 @@ behind settings, because tools and frames of moves are places with names until t
 
 from __future__ import annotations
 
-from rpl.passes.legalise.advance.arcdistances import arc_distances
-from rpl.passes.legalise.advance.pathevents import path_events
-from rpl.passes.legalise.advance.pathpoints import path_points
-from rpl.passes.legalise.data.aggregates import aggregates
-from rpl.passes.legalise.data.arithmetic import arithmetic
-from rpl.passes.legalise.data.flatrecords import flat_records
-from rpl.passes.legalise.interrupts.watching import watching
-from rpl.passes.legalise.places.composition import compositions
-from rpl.passes.legalise.places.geometry import geometry
-from rpl.passes.legalise.places.seenplaces import posed_places, seen_places
-from rpl.passes.legalise.postures.wholeturns import whole_turns
-from rpl.passes.legalise.routines.unreadparameters import drop_unread_parameters
+from rpl.passes.legalise.records.aggregates import aggregates
+from rpl.passes.legalise.records.arcdistances import arc_distances
+from rpl.passes.legalise.records.arithmetic import arithmetic
+from rpl.passes.legalise.records.composition import compositions
+from rpl.passes.legalise.records.flatrecords import flat_records
+from rpl.passes.legalise.records.geometry import geometry
+from rpl.passes.legalise.records.pathevents import path_events
+from rpl.passes.legalise.records.pathpoints import path_points
+from rpl.passes.legalise.records.seenplaces import posed_places, seen_places
+from rpl.passes.legalise.records.taskstarts import stand_before_tasks
+from rpl.passes.legalise.records.unreadparameters import drop_unread_parameters
+from rpl.passes.legalise.records.watching import watching
+from rpl.passes.legalise.records.wholeturns import whole_turns
 from rpl.passes.legalise.stages import Stage
-from rpl.passes.legalise.tasks.taskstarts import stand_before_tasks
 
 STAGE = Stage(
     "records",

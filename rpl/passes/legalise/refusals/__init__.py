@@ -14,9 +14,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import statements_in
-from rpl.passes.legalise.interrupts.refusedactions import REFUSED, without_actions
 from rpl.passes.legalise.refusals.arm import ARM
 from rpl.passes.legalise.refusals.motion import MOTION
 from rpl.passes.legalise.refusals.routines import ROUTINES
@@ -24,6 +22,8 @@ from rpl.passes.legalise.refusals.rows import Asked, Refusal
 from rpl.passes.legalise.refusals.settings import SETTINGS
 from rpl.passes.legalise.refusals.tasks import TASKS
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.rewriting.jumps import inside
+from rpl.passes.legalise.rewriting.refusedactions import REFUSED, without_actions
 from rpl.passes.legalise.rewriting.stopping import left_out
 from rpl.passes.legalise.stages import legalising
 from rpl.source import Comment

@@ -7,9 +7,9 @@ from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.interrupts.brakedmoves import BRAKED
 from rpl.passes.legalise.interrupts.heldmotion import EARLY, STAYS
 from rpl.passes.legalise.interrupts.identities import ASKED, ORDERED, SEVERAL
-from rpl.passes.legalise.interrupts.rates import LOST as RATE
-from rpl.passes.legalise.interrupts.watching import LOST as NOT_WATCHED
+from rpl.passes.legalise.records.watching import LOST as NOT_WATCHED
 from rpl.passes.legalise.refusals.rows import PLAINLY, Asked, Found, Refusal
+from rpl.passes.legalise.source.rates import LOST as RATE
 
 __all__ = ["MOTION"]
 

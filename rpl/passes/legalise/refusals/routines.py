@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from rpl.passes.legalise.control.locals import RECURSION
 from rpl.passes.legalise.refusals.rows import Refusal
-from rpl.passes.legalise.storage.locals import RECURSION
 
 __all__ = ["ROUTINES"]
 

@@ -15,8 +15,8 @@ from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.errors import InternalError
 from rpl.passes.legalise.context import Context, names_in
+from rpl.passes.legalise.rewriting import scanning, textparts
 from rpl.passes.legalise.rewriting.support import with_support
-from rpl.passes.legalise.texts import scanning, textparts
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.typing import normalise
 from rpl.source import NOWHERE, source_from_text

@@ -18,12 +18,12 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, children
 from rpl.passes.capabilities import Parameters, Passing
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.activations import Activations
 from rpl.passes.legalise.facts.effects import blocks
+from rpl.passes.legalise.facts.heldtexts import HeldTexts, named_by
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.legalise.texts.heldtexts import HeldTexts, named_by
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.settable import written_places
 

@@ -4,18 +4,18 @@ the type that the target gives its data.
 
 from __future__ import annotations
 
-from rpl.passes.legalise.data.aliases import without_aliases
 from rpl.passes.legalise.data.arrays import array_sizes
-from rpl.passes.legalise.data.subscriptchecks import checked_subscripts
-from rpl.passes.legalise.data.undefined import asked_values
-from rpl.passes.legalise.data.undefinedparts import asked_elements
+from rpl.passes.legalise.routines.aliases import without_aliases
 from rpl.passes.legalise.routines.aliasing import without_shared_references
 from rpl.passes.legalise.routines.givenarrays import given_arrays
 from rpl.passes.legalise.routines.optional import fit_parameters
 from rpl.passes.legalise.routines.results import list_results
+from rpl.passes.legalise.routines.subscriptchecks import checked_subscripts
+from rpl.passes.legalise.routines.textpartchecks import checked_text_parts
+from rpl.passes.legalise.routines.undefined import asked_values
+from rpl.passes.legalise.routines.undefinedparts import asked_elements
 from rpl.passes.legalise.routines.valuearrays import copy_value_arrays
 from rpl.passes.legalise.stages import Stage
-from rpl.passes.legalise.texts.textpartchecks import checked_text_parts
 
 STAGE = Stage(
     "routines",

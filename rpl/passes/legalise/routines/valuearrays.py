@@ -14,8 +14,8 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes.capabilities import Passing
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.control.parameters import ArraySizes
 from rpl.passes.legalise.facts.usage import assigned_in
-from rpl.passes.legalise.routines.parameters import ArraySizes
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope
 from rpl.source import Origin

@@ -11,8 +11,8 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.settings.speeds import scaled
 from rpl.passes.legalise.settings.strengths import has_both, own_deceleration, without_own
 from rpl.passes.legalise.stages import legalising

@@ -18,9 +18,9 @@ from rpl.passes.capabilities import MoveSetting, PathRule
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.data.datalists import moving_entries
 from rpl.passes.legalise.facts.usage import assigned_below, assigned_in, base_name, doing, each_statement, usage_of
-from rpl.passes.legalise.places import carriedframes
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.helpers import Helpers
+from rpl.passes.legalise.settings import carriedframes
 from rpl.passes.legalise.settings.modal import DROPPED, JOINT_BLEND, MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
 from rpl.passes.legalise.settings.strengths import is_usual_ramp
 from rpl.passes.legalise.stages import legalising

@@ -16,11 +16,11 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes.capabilities import PathRule
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.facts.modalflow import Flow
 from rpl.passes.legalise.facts.usage import called_names
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
+from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.stages import legalising
 

@@ -14,9 +14,9 @@ from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.usage import Usage, each_expression, usage_of
-from rpl.passes.legalise.paths.circles import has_arcs
-from rpl.passes.legalise.places.carriedframes import ROOT, UNIT
+from rpl.passes.legalise.places.circles import has_arcs
 from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.legalise.settings.carriedframes import ROOT, UNIT
 from rpl.passes.legalise.settings.tooldata import HOME, PLACES, tool_of, work_object_of
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts

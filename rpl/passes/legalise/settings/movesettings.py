@@ -16,11 +16,11 @@ from rpl.ir.walk import walk
 from rpl.passes.capabilities import MoveSetting
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.modalflow import SETTINGS, Flow, State
-from rpl.passes.legalise.places.coordinatedmoves import REMOTE
-from rpl.passes.legalise.places.coordinatedmoves import SETTING as COORDINATED
+from rpl.passes.legalise.facts.saidaccelerations import SAID, Accelerations
 from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.legalise.settings.coordinatedmoves import REMOTE
+from rpl.passes.legalise.settings.coordinatedmoves import SETTING as COORDINATED
 from rpl.passes.legalise.settings.modal import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, ZONE_MM_PER_PERCENT, says
-from rpl.passes.legalise.settings.saidaccelerations import SAID, Accelerations
 from rpl.passes.legalise.settings.servedsettings import only_served
 from rpl.passes.legalise.settings.tooldata import PLACES
 from rpl.passes.legalise.stages import legalising

@@ -10,9 +10,9 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.modalflow import Flow
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.settings.modal import DROPPED, USUAL
 from rpl.passes.legalise.stages import legalising
 

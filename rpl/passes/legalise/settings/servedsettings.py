@@ -10,9 +10,9 @@ from collections.abc import Collection, Iterator
 
 from rpl import ir
 from rpl.ir.walk import bodies, walk
-from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.legalise.rewriting.jumps import inside
 
 
 def only_served(program: ir.Program, variables: Collection[str]) -> ir.Program:

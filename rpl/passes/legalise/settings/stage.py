@@ -4,18 +4,18 @@ behind statements, because calls of built-in routines make settings too.
 
 from __future__ import annotations
 
-from rpl.passes.legalise.advance.begunmoves import moves_ahead
-from rpl.passes.legalise.advance.cornercalls import corner_calls
-from rpl.passes.legalise.advance.cornerleads import corner_leads
-from rpl.passes.legalise.advance.corners import corners
-from rpl.passes.legalise.advance.cornersteps import corner_steps
-from rpl.passes.legalise.advance.keptcorners import kept_corners
-from rpl.passes.legalise.advance.overlapping import left_out_moves
-from rpl.passes.legalise.advance.partedcorners import parted_corners
-from rpl.passes.legalise.advance.standing import stand_first
-from rpl.passes.legalise.paths.turningzones import full_zones, reduced_zones
-from rpl.passes.legalise.places.coordinatedmoves import coordinated_moves
+from rpl.passes.legalise.paths.begunmoves import moves_ahead
 from rpl.passes.legalise.settings.accelerations import accelerations_of_moves
+from rpl.passes.legalise.settings.coordinatedmoves import coordinated_moves
+from rpl.passes.legalise.settings.corners.cornercalls import corner_calls
+from rpl.passes.legalise.settings.corners.cornerleads import corner_leads
+from rpl.passes.legalise.settings.corners.corners import corners
+from rpl.passes.legalise.settings.corners.cornersteps import corner_steps
+from rpl.passes.legalise.settings.corners.keptcorners import kept_corners
+from rpl.passes.legalise.settings.corners.overlapping import left_out_moves
+from rpl.passes.legalise.settings.corners.partedcorners import parted_corners
+from rpl.passes.legalise.settings.corners.standing import stand_first
+from rpl.passes.legalise.settings.corners.turningzones import full_zones, reduced_zones
 from rpl.passes.legalise.settings.explicit import explicit_to_modal
 from rpl.passes.legalise.settings.joinedmoves import stand_before_ways
 from rpl.passes.legalise.settings.mixedspeeds import mixed_speeds

@@ -16,11 +16,11 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import MoveSetting
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.facts.saidaccelerations import number_of
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
+from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.settings.modal import DROPPED
-from rpl.passes.legalise.settings.saidaccelerations import number_of
 from rpl.passes.legalise.stages import legalising
 
 SLOWS_DOWN = code(

@@ -4,47 +4,47 @@ Behind it a program says the same in neutral words.
 
 from __future__ import annotations
 
-from rpl.passes.legalise.data.neutralfunctions import neutral_functions
-from rpl.passes.legalise.data.precisions import precisions
-from rpl.passes.legalise.data.randomnumbers import random_numbers
-from rpl.passes.legalise.interrupts.rates import rates
-from rpl.passes.legalise.io.cyclicflags import cyclic_flags
 from rpl.passes.legalise.io.flagdata import named_flags
-from rpl.passes.legalise.io.readports import read_ports
-from rpl.passes.legalise.io.steptimes import step_times
-from rpl.passes.legalise.io.wholetimes import whole_times
-from rpl.passes.legalise.paths.constantorientations import constant_orientations
-from rpl.passes.legalise.paths.levels import levels_to_distances
-from rpl.passes.legalise.paths.splines import straight_splines, without_path_rules
-from rpl.passes.legalise.places.changedplaces import changed_places
-from rpl.passes.legalise.places.displacements import displacements
-from rpl.passes.legalise.places.elementwise import elementwise
-from rpl.passes.legalise.places.keptangles import named_angles
-from rpl.passes.legalise.places.recordsinuse import records_in_use
-from rpl.passes.legalise.places.rotationvectors import rotation_vectors
-from rpl.passes.legalise.places.seenhalf import seen_half
-from rpl.passes.legalise.postures.copiedflags import copied_flags
-from rpl.passes.legalise.postures.fewaxes import axes_of_arm
-from rpl.passes.legalise.postures.homes import home_positions
-from rpl.passes.legalise.postures.pulses import fold_pulses
-from rpl.passes.legalise.postures.turnedways import turned_ways
-from rpl.passes.legalise.settings.loadreadings import load_readings
-from rpl.passes.legalise.settings.loadvariables import load_variables
-from rpl.passes.legalise.settings.settingparts import whole_settings
+from rpl.passes.legalise.source.cyclicflags import cyclic_flags
+from rpl.passes.legalise.source.grownarrays import grown_arrays
+from rpl.passes.legalise.source.keptvalues import kept_values_known
+from rpl.passes.legalise.source.loadreadings import load_readings
+from rpl.passes.legalise.source.loadvariables import load_variables
+from rpl.passes.legalise.source.neutralfunctions import neutral_functions
 from rpl.passes.legalise.source.ownnames import names_of_local_routines
+from rpl.passes.legalise.source.places.changedplaces import changed_places
+from rpl.passes.legalise.source.places.copiedflags import copied_flags
+from rpl.passes.legalise.source.places.displacements import displacements
+from rpl.passes.legalise.source.places.elementwise import elementwise
+from rpl.passes.legalise.source.places.fewaxes import axes_of_arm
+from rpl.passes.legalise.source.places.homes import home_positions
+from rpl.passes.legalise.source.places.keptangles import named_angles
+from rpl.passes.legalise.source.places.pulses import fold_pulses
+from rpl.passes.legalise.source.places.recordsinuse import records_in_use
+from rpl.passes.legalise.source.places.rotationvectors import rotation_vectors
+from rpl.passes.legalise.source.places.seenhalf import seen_half
+from rpl.passes.legalise.source.precisions import precisions
+from rpl.passes.legalise.source.randomnumbers import random_numbers
+from rpl.passes.legalise.source.rates import rates
+from rpl.passes.legalise.source.readports import read_ports
 from rpl.passes.legalise.source.sameunits import same_units
+from rpl.passes.legalise.source.settingparts import whole_settings
 from rpl.passes.legalise.source.sourcelayout import source_layout
+from rpl.passes.legalise.source.steptimes import step_times
+from rpl.passes.legalise.source.texts.formats import formats
+from rpl.passes.legalise.source.texts.leadingnumbers import leading_numbers
+from rpl.passes.legalise.source.texts.textbytes import text_bytes
+from rpl.passes.legalise.source.texts.textdecimals import text_decimals
+from rpl.passes.legalise.source.texts.textlengths import text_lengths
+from rpl.passes.legalise.source.texts.textorders import text_orders
+from rpl.passes.legalise.source.texts.wholetexts import whole_texts
+from rpl.passes.legalise.source.ways.constantorientations import constant_orientations
+from rpl.passes.legalise.source.ways.levels import levels_to_distances
+from rpl.passes.legalise.source.ways.splines import straight_splines, without_path_rules
+from rpl.passes.legalise.source.ways.turnedways import turned_ways
+from rpl.passes.legalise.source.wholetimes import whole_times
 from rpl.passes.legalise.stages import Stage
-from rpl.passes.legalise.storage.grownarrays import grown_arrays
-from rpl.passes.legalise.storage.keptvalues import kept_values_known
 from rpl.passes.legalise.storage.unused import drop_untyped
-from rpl.passes.legalise.texts.formats import formats
-from rpl.passes.legalise.texts.leadingnumbers import leading_numbers
-from rpl.passes.legalise.texts.textbytes import text_bytes
-from rpl.passes.legalise.texts.textdecimals import text_decimals
-from rpl.passes.legalise.texts.textlengths import text_lengths
-from rpl.passes.legalise.texts.textorders import text_orders
-from rpl.passes.legalise.texts.wholetexts import whole_texts
 
 STAGE = Stage(
     "source",

@@ -16,16 +16,16 @@ from rpl import ir
 from rpl.ir.walk import bodies
 from rpl.passes.capabilities import Bank, Local
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.control.locals import renamed
+from rpl.passes.legalise.control.parameters import ARGUMENTS
 from rpl.passes.legalise.facts.activations import Activations
 from rpl.passes.legalise.facts.effects import children, everything, statements_in
+from rpl.passes.legalise.facts.liveness import wanted_at_start
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.support import with_support
-from rpl.passes.legalise.routines.liveness import wanted_at_start
-from rpl.passes.legalise.routines.parameters import ARGUMENTS
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.storage.banks import sizes_of
 from rpl.passes.legalise.storage.lifetimes import companions
-from rpl.passes.legalise.storage.locals import renamed
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.source import NOWHERE
 

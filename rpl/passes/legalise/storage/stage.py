@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from rpl.passes.legalise.advance.aheadreadings import ahead_readings
-from rpl.passes.legalise.advance.begunmoves import polled_ahead
-from rpl.passes.legalise.data.truths import truths_to_numbers
-from rpl.passes.legalise.errors.errorcodes import name_errors
+from rpl.passes.legalise.paths.begunmoves import polled_ahead
+from rpl.passes.legalise.source.texts.textlengths import roomy_texts
 from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.storage.aheadreadings import ahead_readings
+from rpl.passes.legalise.storage.errorcodes import name_errors
 from rpl.passes.legalise.storage.labelled import labels_as_remarks
 from rpl.passes.legalise.storage.modulepoints import points_of_modules
 from rpl.passes.legalise.storage.numbered import number_data
 from rpl.passes.legalise.storage.saidtwice import said_once
 from rpl.passes.legalise.storage.sharing import share_temporaries
 from rpl.passes.legalise.storage.spelling import one_spelling
+from rpl.passes.legalise.storage.truths import truths_to_numbers
 from rpl.passes.legalise.storage.unused import drop_idle_data, drop_unused
-from rpl.passes.legalise.texts.textlengths import roomy_texts
 
 STAGE = Stage(
     "storage",

@@ -12,7 +12,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.routines.parameters import ARGUMENTS
+from rpl.passes.legalise.control.parameters import ARGUMENTS
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import NOWHERE

@@ -16,12 +16,12 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.control.jumps import inside
 from rpl.passes.legalise.facts.usage import called_names, exposed
+from rpl.passes.legalise.rewriting.beside import closure, local_names, tidy
 from rpl.passes.legalise.rewriting.editing import edit_bodies, expansion, map_body
+from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.legalise.tasks.beside import closure, local_names, tidy
 from rpl.passes.legalise.tasks.watchedloops import Event, UnfitError, WatchedTask
 
 CALLED = code(

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from rpl import ir
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.control.jumps import LOOPS
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.facts.usage import assigned_in
+from rpl.passes.legalise.rewriting.beside import local_names
 from rpl.passes.legalise.rewriting.editing import edit_all, expansion
+from rpl.passes.legalise.rewriting.jumps import LOOPS
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.legalise.tasks.beside import local_names
 from rpl.passes.rewrite import rewrite_parts
 
 

@@ -13,7 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.control.jumps import LOOPS
+from rpl.passes.legalise.rewriting.jumps import LOOPS
 from rpl.passes.legalise.stages import legalising
 
 MAYBE = code(

@@ -13,12 +13,12 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.control.jumps import LOOPS, inside
 from rpl.passes.legalise.facts.usage import assigned_in
-from rpl.passes.legalise.io.limitedwaits import looked_for
+from rpl.passes.legalise.rewriting.beside import moves_or_waits
 from rpl.passes.legalise.rewriting.editing import map_body, negation
+from rpl.passes.legalise.rewriting.jumps import LOOPS, inside
 from rpl.passes.legalise.settings.movesettings import plain
-from rpl.passes.legalise.tasks.beside import moves_or_waits
+from rpl.passes.legalise.tasks.limitedwaits import looked_for
 
 _WAITING = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.Pulse)
 _STOPPING = (ir.StopMotion, ir.ClearMotion, ir.StartMotion)

@@ -1,0 +1,1 @@
+"""Clocks that interrupts stop, read or hold."""

@@ -1,0 +1,1 @@
+"""Tasks once more: those that interrupts have become, kept apart from each other."""

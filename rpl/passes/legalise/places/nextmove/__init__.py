@@ -1,0 +1,1 @@
+"""Settings that hold for the next move only, as settings of that move."""

@@ -1,0 +1,1 @@
+"""Which way the arm reaches a place: flags, turns, joints, other arms."""

@@ -1,0 +1,65 @@
+"""What is left of an interrupt that is refused where it is declared: its action never runs.
+
+The statements of its routine that only make sense in one (stop the motion, let it go on, leave a level) are remarks
+there, so that the refusal stands once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from rpl import ir
+from rpl.ir.walk import bodies, walk
+from rpl.passes.legalise.facts.effects import children
+from rpl.passes.legalise.facts.usage import called_below
+from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
+from rpl.passes.legalise.rewriting.jumps import inside
+from rpl.passes.legalise.rewriting.stopping import left_out
+
+__all__ = ["REFUSED", "without_actions"]
+
+REFUSED = "its interrupt is refused where it is declared"
+_OF_MOTION = (ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.StoreMotion, ir.ResumeLevel)
+
+
+def without_actions(program: ir.Program, refused: Collection[ir.DeclareInterrupt | ir.ConnectInterrupt]) -> ir.Program:
+    """The program with remarks in the routines that only these interrupts (as they stand in it) would run."""
+    actions = [one if isinstance(one, ir.ConnectInterrupt) else one.action for one in refused]
+    dead = called_below(program, {_called(one) for one in actions})
+    gone = {id(one) for one in actions}
+    while dead:
+        used = {task.entry.lower() for task in program.tasks} | {(program.entry or "").lower()}
+        for routine in (routine for module in program.modules for routine in module.routines):
+            if routine.name.lower() not in dead:
+                used |= {_called(node) for node in walk(*bodies(routine)) if id(node) not in gone}
+        if not dead & used:
+            break
+        dead -= called_below(program, set(dead & used))
+
+    def change(statement: ir.Statement) -> ir.Body:
+        if isinstance(statement, _OF_MOTION) or any(map(_asks, children(statement))):
+            return (left_out(statement, REFUSED),)
+        return (inside(statement, lambda body: map_body(body, change)),)
+
+    def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        if routine.name.lower() not in dead:
+            return routine
+        return edit_bodies(routine, lambda body: map_body(body, change))
+
+    return edit_each(program, work)
+
+
+def _asks(expression: ir.Expression) -> bool:
+    """Does it ask which interrupt has come?"""
+    return any(isinstance(node, ir.System) and node.name == "interrupt_number" for node in walk(expression))
+
+
+def _called(node: object) -> str:
+    match node:
+        case ir.CallRoutine(name=name) | ir.Call(name=name) | ir.ConnectInterrupt(routine=name):
+            return name.lower()
+        case ir.TaskControl(task=name):
+            return name.lower()
+        case ir.OnError(routine=str(name)):
+            return name.lower()
+    return ""

@@ -1,0 +1,191 @@
+"""Zones beside which the tool turns, between controllers that reduce them and those that do not (RAPID zonedata).
+
+A controller with zones reduces them to the smallest of their sizes relative to the motion: where the tool turns far on
+a short way, the corner is smaller than the zone says. Elsewhere a corner has its size whatever the tool does. So a
+reduced zone is written with the size that it has, and a corner that is to keep its size with an angle that does not
+reduce it. Only what stands in constants can be told.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.passes import rigid
+from rpl.passes.fold import constant, constant_number
+from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each
+from rpl.passes.legalise.rewriting.jumps import inside
+from rpl.passes.legalise.stages import legalising
+from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.values import Record, pose_of
+
+REDUCED = code(
+    "zone-reduced",
+    Severity.INFO,
+    "the tool turns so far beside this point that the controller reduces the zone of {path:g} mm to {size:g} mm; it is"
+    " written so",
+)
+EXTENDED = code(
+    "zone-of-tool-lost",
+    Severity.INFO,
+    "the tool begins to turn {extended:g} mm before this point and the path is left {path:g} mm before it: the target"
+    " does both at once",
+)
+# Smaller turns (degrees) beside a zone make no difference worth telling.
+_TOLD_TURN = 1.0
+_NO_WAY, _NO_TURN = 1e-3, 1e-3
+_ROUNDING = 1e-6  # what rounding may add to a size, deg or thousandths
+
+
+@legalising(
+    unless=lambda context: (
+        "ZoneType" in context.capabilities.types or "ZoneType" not in rules_of(context.source).components
+    )
+)
+def reduced_zones(program: ir.Program, context: Context) -> ir.Program:
+    """For targets without zones: zones have the size to which the source's controller reduces them."""
+    told: set[str] = set()
+
+    def change(zone: _Zone, beside: list[_Leg]) -> ir.Blend:
+        limits = [limit for leg in beside for limit in leg.limits(zone)]
+        size = min(limits, default=zone.path)
+        if size < zone.path - 1e-6:
+            size = float(f"{size:.6g}")
+            context.diagnostics.report(REDUCED, zone.move.origin, path=zone.path, size=size)
+            return replace(zone.blend, distance=ir.RealLiteral(size))
+        turn = max((leg.turn for leg in beside), default=0.0)
+        if size > zone.path + 1e-6 and turn > _TOLD_TURN and not told:
+            told.add("extended")
+            context.diagnostics.report(EXTENDED, zone.move.origin, extended=float(f"{size:.6g}"), path=zone.path)
+        return zone.blend
+
+    return _rewritten(program, change)
+
+
+@legalising(
+    unless=lambda context: (
+        "ZoneType" not in context.capabilities.types or "ZoneType" in rules_of(context.source).components
+    )
+)
+def full_zones(program: ir.Program, context: Context) -> ir.Program:
+    """For targets with zones: zones made of corners that have their size whatever the tool does keep it."""
+
+    def change(zone: _Zone, beside: list[_Leg]) -> ir.Blend:
+        needed = max((min(zone.path / leg.way, 0.5) * leg.turn for leg in beside if leg.turn > _NO_TURN), default=0.0)
+        value = zone.blend.zone
+        if needed <= zone.rotation + _ROUNDING or not isinstance(value, ir.Aggregate):
+            return zone.blend
+        new: dict[str | None, ir.Expression] = {
+            "rotation": ir.RealLiteral(math.ceil(needed * 1000.0 - _ROUNDING) / 1000.0)
+        }
+        new["rotation_path"] = dict(value.entries)["path"]
+        entries = tuple((name, new.get(name, part)) for name, part in value.entries)
+        return replace(zone.blend, zone=replace(value, entries=entries))
+
+    return _rewritten(program, change)
+
+
+@dataclass(frozen=True, slots=True)
+class _Zone:
+    """A move with a zone that is constant; sizes in mm and degrees."""
+
+    move: ir.Move
+    blend: ir.BlendZone
+    path: float
+    rotation_path: float
+    rotation: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Leg:
+    """A move from one constant place to another: mm, degrees."""
+
+    way: float
+    turn: float
+
+    def limits(self, zone: _Zone) -> list[float]:
+        """The sizes (mm) to which the turn reduces a zone."""
+        if self.turn <= _NO_TURN:
+            return []
+        by_angle = [zone.rotation / self.turn * self.way] if zone.rotation > 0.0 else []
+        return [max(zone.rotation_path, zone.path), *by_angle]
+
+
+_Change = Callable[[_Zone, list[_Leg]], ir.Blend]
+
+
+def _rewritten(program: ir.Program, change: _Change) -> ir.Program:
+    scopes = ProgramScope(program)
+    return edit_each(program, lambda module, one: edit_bodies(one, _Bodies(scopes.routine(module, one), change).body))
+
+
+@dataclass(frozen=True, slots=True)
+class _Place:
+    pose: rigid.Pose
+    frames: tuple[object, object]
+
+
+class _Bodies:
+    def __init__(self, scope: Scope, change: _Change) -> None:
+        self.scope, self.change = scope, change
+
+    def body(self, body: ir.Body) -> ir.Body:
+        done = list(body)
+        before: _Place | None = None
+        open: tuple[int, _Zone, list[_Leg], _Place | None] | None = None
+        for index, statement in enumerate(body):
+            if isinstance(statement, ir.Move):
+                place = self.place(statement)
+                leg = _leg(before, place) if statement.kind != "circular" else None
+                if open is not None:
+                    self.close(done, open[:3], leg)
+                zone = self.zone(statement)
+                open = (index, zone, [leg] if leg is not None else [], place) if zone is not None else None
+                before = place
+            elif not isinstance(statement, ir.Nothing | ir.Trigger | ir.LookAhead | ir.Assign | ir.Pulse):
+                if open is not None:
+                    self.close(done, open[:3], None)
+                before, open = None, None
+                done[index] = inside(statement, self.body)
+        if open is not None:
+            self.close(done, open[:3], None)
+        return body if all(new is old for new, old in zip(done, body, strict=True)) else tuple(done)
+
+    def close(self, done: list[ir.Statement], open: tuple[int, _Zone, list[_Leg]], leg: _Leg | None) -> None:
+        index, zone, beside = open
+        blend = self.change(zone, [*beside, leg] if leg is not None else beside)
+        if blend is not zone.blend:
+            done[index] = replace(zone.move, blend=blend)
+
+    def place(self, move: ir.Move) -> _Place | None:
+        if move.relative is not None:
+            return None
+        pose = pose_of(constant(move.target, self.scope))
+        return None if pose is None else _Place(pose, (move.tool, move.frame))
+
+    def zone(self, move: ir.Move) -> _Zone | None:
+        blend = move.blend
+        if not isinstance(blend, ir.BlendZone):
+            return None
+        value = constant(blend.zone, self.scope)
+        if not isinstance(value, Record) or value.part("stop"):
+            return None
+        path = constant_number(blend.distance, self.scope) if blend.distance is not None else value.part("path")
+        sizes = [path, value.part("rotation_path"), value.part("rotation")]
+        numbers = [float(size) for size in sizes if isinstance(size, int | float)]
+        return _Zone(move, blend, *numbers) if len(numbers) == 3 and numbers[0] > 0.0 else None
+
+
+def _leg(start: _Place | None, end: _Place | None) -> _Leg | None:
+    if start is None or end is None or start.frames != end.frames:
+        return None
+    way = end.pose.position.plus(start.pose.position, -1.0).length
+    turn = start.pose.rotation.inverse.then(end.pose.rotation).angle
+    return _Leg(way, turn) if way > _NO_WAY else None
+
+
+__all__ = ["full_zones", "reduced_zones"]

@@ -1,0 +1,1 @@
+"""The source's formats and orders of texts in neutral functions."""

@@ -1,0 +1,1 @@
+"""Shapes of ways that only the source has: splines, fixed orientations, levels."""

@@ -1,0 +1,1 @@
+"""Jumps as structure, for targets that have none."""

@@ -1,1 +1,0 @@
-"""Texts, messages and dialogues within the target's lengths and functions."""
