@@ -16,14 +16,15 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant, element_key
 from rpl.passes.legalise.context import ProgramScope
-from rpl.passes.legalise.facts.usage import base_name, each_expression, each_statement
+from rpl.passes.legalise.data.datalists import routines_beside
+from rpl.passes.legalise.facts.forward import Forward, beside, reactions, started
+from rpl.passes.legalise.facts.usage import assigned_in, base_name, each_expression, each_statement
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.rewrite import rewrite_parts, visit_parts
 from rpl.passes.scope import Scope
 from rpl.passes.values import Record, Value, pose_of
 
 _MODAL = ("tool", "base", "robot_root")
-_ROUNDS = 24
 _ASKING = frozenset(("target_to_joints", "target_to_joints_near", "is_reachable", "joints_to_target"))
 State = dict[str, Value]
 
@@ -52,69 +53,43 @@ class Use:
     moved: tuple[str, tuple[float, ...]] | None = None
 
 
-class ModalFlow:
+class ModalFlow(Forward[State]):
     """Follows modal tool and frame through a whole program; `frames` has each move by identity, and each function that
-    asks for the joints of a place, or for the place of joints, with what is in use then."""
+    asks for the joints of a place, or for the place of joints, with what is in use then. A state has what is known, of
+    settings with a `$` in front and of variables that they rest on."""
 
     def __init__(self, program: ir.Program, scopes: ProgramScope) -> None:
-        self.scopes, self.unchanged = scopes, unchanged_in(program)
+        super().__init__(program, {}, {})
+        self.unchanged = unchanged_in(program)
         self.frames: dict[int, Frames] = {}
         self.known: dict[tuple[int, str], rigid.Pose | None] = {}
         self.relevant = _relevant(program)
-        self.entries: dict[int, State] = {}
-        self.calls: dict[int, State] = {}
-        self.exits: dict[int, State] = {}
-        self.ends: list[State] = []
-        self.routine: ir.Routine | None = None
-        self.made: set[str] = set()
         self.asking = any(isinstance(one, ir.Builtin) and one.function in _ASKING for one in walk(*program.modules))
-        every = list(scopes.routines())
-        self.scope_of = {id(routine): scopes.routine(module, routine) for module, routine in every}
-        self.changed = self.changes(every)
-        called = self.called(every)
-        start: State = dict.fromkeys((f"${name}" for name in _MODAL), rigid.IDENTITY)
-        roots = [routine for _, routine in every if id(routine) not in called]
-        for _ in range(_ROUNDS):
-            before = (dict(self.entries), dict(self.exits))
-            self.calls = {id(root): dict(start) for root in roots if root.kind != "trap"}
-            for _, routine in every:
-                if id(routine) in self.entries or id(routine) in self.calls:
-                    self.visit(routine, dict(self.entries.get(id(routine), self.calls.get(id(routine), {}))))
-            self.entries = dict(self.calls)
-            if (self.entries, self.exits) == before:
-                break
-        for _, routine in every:
-            if id(routine) not in self.entries:
-                self.visit(routine, {})
+        self.changed = self.changes()
+        self.unsure = self.changed_at_any_time()
+        self.start = {f"${name}": rigid.IDENTITY for name in _MODAL if not self.is_unsure(f"${name}")}
+        made = set[str]().union(*(names or () for names in self.changed.values()))
+        self.unknown = {name: value for name, value in self.start.items() if name not in made}
+        self.solve(started(program), beside(program))
 
-    def called(self, every: list[tuple[ir.Module, ir.Routine]]) -> set[int]:
-        found: set[int] = set()
-        for _, routine in every:
-            scope = self.scope_of[id(routine)]
-            for body in bodies(routine):
-                each_statement(body, partial(_note_callees, scope=scope, found=found))
-        return found
-
-    def changes(self, every: list[tuple[ir.Module, ir.Routine]]) -> dict[int, set[str] | None]:
+    def changes(self) -> dict[int, set[str] | None]:
         """What each routine assigns, itself or by its calls; None when that is not known."""
         own: dict[int, set[str]] = {}
         calls: dict[int, set[int]] = {}
         unknown: set[int] = set()
-        for _, routine in every:
-            key, scope = id(routine), self.scope_of[id(routine)]
+        for key, one in self.summaries.items():
             own[key], calls[key] = set(), set()
-
-            def look(one: ir.Statement, key: int = key, scope: Scope = scope) -> None:
-                calls[key].update(map(id, _callees(one, scope)))
-                match one:
+            for node in walk(*bodies(one.routine)):
+                match node:
                     case ir.Assign(target=target):
                         own[key].add(_changed(target))
+                    case ir.For(counter=counter):
+                        own[key].add(counter.lower())
                     case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
                         unknown.add(key)
-
-            for body in bodies(routine):
-                each_statement(body, look)
-        self.made = set().union(*own.values())
+                    case ir.CallRoutine(name=name) | ir.Call(name=name):
+                        routine = one.scope.routine(name)
+                        calls[key].update(() if routine is None else (id(routine),))
         growing = True
         while growing:
             growing = False
@@ -126,130 +101,109 @@ class ModalFlow:
                 growing = growing or bool(more) or lost
         return {key: None if key in unknown else names for key, names in own.items()}
 
-    def visit(self, routine: ir.Routine, state: State) -> None:
-        self.routine, self.ends = routine, []
-        scope = self.scope_of[id(routine)]
-        self.body(routine.body, state, scope)
-        for handler in routine.handlers:
-            self.body(handler.body, {}, scope)
-        for end in self.ends:
-            _join(state, end)
-        self.exits[id(routine)] = _outside(state, scope)
+    def changed_at_any_time(self) -> set[str] | None:
+        """What interrupts, triggers, error routines and other tasks assign (their settings are their own); None: it may
+        be anything."""
+        found: set[str] = set()
+        reacting = {name.lower() for name in reactions(self.program)}
+        others = set(beside(self.program)) | routines_beside(self.program)
+        for name in sorted(reacting | others):
+            for one in self.by_name.get(name, ()):
+                changed = self.changed[id(one.routine)]
+                if changed is None:
+                    return None
+                found |= {one for one in changed if name in reacting or not one.startswith("$")}
+        for node in walk(*self.program.modules):
+            match node:
+                case ir.DeclareInterrupt(action=ir.Assign(target=target)) | ir.Trigger(action=ir.Assign(target=target)):
+                    found.add(_changed(target))
+        return found
 
-    def body(self, body: ir.Body, state: State, scope: Scope) -> None:
-        for statement in body:
-            self.statement(statement, state, scope)
+    def is_unsure(self, name: str) -> bool:
+        return self.unsure is None or _variable(name) in self.unsure
 
-    def statement(self, statement: ir.Statement, state: State, scope: Scope) -> None:
-        for callee in _callees(statement, scope):
-            self.call(callee, state, scope)
-        for name in _lent(statement, scope):
-            _forget_variable(state, name)
-        if self.asking:
-            self.questions(statement, state, scope)
+    # ---- what the analysis asks
+
+    def join(self, one: State, other: State) -> State:
+        common = {name: value for name, value in one.items() if name in other and other[name] == value}
+        return one if len(common) == len(one) else common
+
+    def transfer(self, statement: ir.Statement, before: State) -> State:
         match statement:
-            case ir.Move():
-                self.frames[id(statement)] = self.of_move(statement, state, scope)
             case ir.Assign(target=target, value=value):
-                self.assign(target, value, state, scope)
-            case ir.If(branches=branches, otherwise=otherwise):
-                self.branches(branches, otherwise, state, scope)
-            case ir.Switch(cases=cases, default=default):
-                ends = [self.ended(case.body, state, scope) for case in cases]
-                ends.append(self.ended(default or (), state, scope))
-                _replace(state, ends)
-            case ir.For(body=body) | ir.While(body=body) | ir.Repeat(body=body) | ir.Loop(body=body):
-                for _ in range(_ROUNDS):
-                    end = self.ended(body, state, scope)
-                    old = dict(state)
-                    _join(state, end)
-                    if state == old:
-                        break
-                if self.asking:  # the condition is asked again behind the body
-                    self.questions(statement, state, scope)
-            case ir.Label():
-                self.forget(state)
-            case ir.Return():
-                self.ends.append(dict(state))
-            case ir.Spline(body=inner):
-                self.body(inner, state, scope)
-            case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
-                self.forget(state)
+                return self.assign(target, value, before)
+            case ir.For(counter=counter):
+                return _without(before, {counter.lower()})
+            case ir.Do() | ir.Dialog() | ir.WaitUntil() | ir.Clock() | ir.DefineTrigger() if before:
+                return _without(before, assigned_in((statement,)))
+            case ir.Move(search=ir.Search()):
+                return _without(before, assigned_in((statement,)))
+        return before
 
-    def questions(self, statement: ir.Statement, state: State, scope: Scope) -> None:
+    def told(self, condition: ir.Expression, state: State) -> bool | None:
+        known = constant(condition, self.scope, None, state) if _names(condition) & self.relevant else None
+        return known if isinstance(known, bool) else None
+
+    def note(self, statement: ir.Statement, before: State) -> None:
+        if self.asking:
+            self.questions(statement, before)
+        if isinstance(statement, ir.Move):
+            self.tell(statement, self.of_move(statement, before, self.scope))
+
+    def tell(self, node: ir.Move | ir.Builtin, found: Frames) -> None:
+        """A statement may be told of several times, with what holds there in some of its runs."""
+        known = self.frames.get(id(node), found)
+        tool, base = (one if one == other else None for one, other in _both(known, found))
+        self.frames[id(node)] = known if known == found else Frames(tool, base)
+
+    def questions(self, statement: ir.Statement, state: State) -> None:
         """The frames in use where this statement itself asks for joints."""
 
         def look(one: ir.Expression) -> None:
             if isinstance(one, ir.Builtin) and one.function in _ASKING:
-                self.frames[id(one)] = self.in_use(None, None, state, scope)
+                self.tell(one, self.in_use(None, None, state, self.scope))
 
         each_expression(statement, look)
 
-    def forget(self, state: State) -> None:
-        """Anything may have run before this place; settings that nothing in the program makes are as at the start."""
-        for name in [name for name in state if not name.startswith("$") or name in self.made]:
-            del state[name]
+    def entered(self, state: State, here: Scope, there: Scope) -> State:
+        return _outside(_outside(state, here), there)
 
-    def ended(self, body: ir.Body, state: State, scope: Scope) -> State:
-        inside = dict(state)
-        self.body(body, inside, scope)
-        return inside
+    def left(self, before: State, end: State, routine: ir.Routine, there: Scope, here: Scope) -> State:
+        changed = self.changed[id(routine)]
+        found = _outside(_outside(end, there), here)
+        kept = {
+            name: value
+            for name, value in before.items()
+            if found.get(name) == value or not _is_outside(name, here) or not _in(name, changed)
+        }
+        return kept | {name: value for name, value in found.items() if _in(name, changed)}
 
-    def branches(
-        self, branches: tuple[tuple[ir.Expression, ir.Body], ...], otherwise: ir.Body, state: State, scope: Scope
-    ) -> None:
-        ends: list[State] = []
-        for condition, body in branches:
-            known = constant(condition, scope, None, state) if self.mentions(condition) else None
-            if known is False:
-                self.ended(body, state, scope)  # its moves still need frames
-                continue
-            ends.append(self.ended(body, state, scope))
-            if known is True:
-                _replace(state, ends)
-                return
-        ends.append(self.ended(otherwise, state, scope))
-        _replace(state, ends)
+    def passed(self, call: ir.CallRoutine | ir.Call, state: State) -> State:
+        """Variables that the call may change through its parameters are forgotten."""
+        routine = self.scope.routine(call.name)
+        if routine is None or not any(one.mode == "reference" for one in routine.parameters):
+            return state
+        return _without(state, {base_name(one.value) or "" for one in call.arguments if one.value is not None})
 
-    def mentions(self, condition: ir.Expression) -> bool:
-        return bool(_names(condition) & self.relevant)
-
-    def assign(self, target: ir.Expression, value: ir.Expression, state: State, scope: Scope) -> None:
+    def assign(self, target: ir.Expression, value: ir.Expression, state: State) -> State:
+        scope, name = self.scope, _changed(target)
+        kept = _without(state, {name})
+        if self.is_unsure(name):
+            return kept
         match target:
-            case ir.System(name=name) if name in _MODAL:
-                _put(state, f"${name}", pose_of(constant(value, scope, self.unchanged, state)))
-            case ir.Field(base=ir.System(name=name)):
-                state.pop(f"${name}", None)
-            case ir.Name(id=name) if name.lower() in self.relevant:
-                found = constant(value, scope, self.unchanged, state)
-                _forget_variable(state, name.lower())
-                _put(state, name.lower(), found)
-            case ir.Index(base=ir.Name(id=name), indices=indices) if name.lower() in self.relevant:
-                found = constant(value, scope, self.unchanged, state)
+            case ir.System(name=setting) if setting in _MODAL:
+                return _with(kept, name, pose_of(constant(value, scope, self.unchanged, state)))
+            case ir.Name() if name in self.relevant:
+                return _with(kept, name, constant(value, scope, self.unchanged, state))
+            case ir.Index(base=ir.Name(), indices=indices) if name in self.relevant:
                 places = [constant(index, scope, self.unchanged, state) for index in indices]
                 whole = [int(place) for place in places if isinstance(place, int | float)]
-                if len(whole) < len(places):
-                    _forget_variable(state, name.lower())
-                else:
-                    state.pop(name.lower(), None)
-                    _put(state, element_key(name, whole), found)
-            case _:
-                _forget_variable(state, base_name(target) or "")
+                if len(whole) == len(places):
+                    others = {one: known for one, known in state.items() if one != name}
+                    return _with(others, element_key(name, whole), constant(value, scope, self.unchanged, state))
+        return kept
 
-    def call(self, callee: ir.Routine, state: State, scope: Scope) -> None:
-        passed = _outside(state, scope)
-        key = id(callee)
-        if key in self.calls:
-            _join(self.calls[key], passed)
-        else:
-            self.calls[key] = dict(passed)
-        end = self.exits.get(key)
-        if end is not None:
-            changed = self.changed[key]
-            for name in [name for name in state if name in passed and end.get(name) != state[name]]:
-                if changed is None or _variable(name) in changed:
-                    del state[name]
-            state.update({name: value for name, value in end.items() if changed is None or _variable(name) in changed})
+    # ---- what is asked of it
 
     def of_move(self, move: ir.Move, state: State, scope: Scope) -> Frames:
         settings = {place.name: value for place, value in move.settings if isinstance(place, ir.System)}
@@ -305,76 +259,34 @@ def _variable(name: str) -> str:
     return name.partition("[")[0]
 
 
-def _forget_variable(state: State, name: str) -> None:
-    for one in [one for one in state if _variable(one) == name]:
-        del state[one]
+def _without(state: State, variables: set[str]) -> State:
+    """The state with nothing known of these."""
+    kept = {name: value for name, value in state.items() if _variable(name) not in variables}
+    return state if len(kept) == len(state) else kept
 
 
-def _put(state: State, name: str, value: Value | None) -> None:
-    if value is None:
-        state.pop(name, None)
-    else:
-        state[name] = value
+def _with(state: State, name: str, value: Value | None) -> State:
+    return {one: known for one, known in state.items() if one != name} if value is None else {**state, name: value}
 
 
-def _join(state: State, other: State) -> None:
-    for name in [name for name, value in state.items() if other.get(name) != value]:
-        del state[name]
+def _in(name: str, changed: set[str] | None) -> bool:
+    return changed is None or _variable(name) in changed
 
 
-def _replace(state: State, ends: list[State]) -> None:
-    first, *rest = ends
-    for one in rest:
-        _join(first, one)
-    state.clear()
-    state.update(first)
+def _is_outside(name: str, scope: Scope) -> bool:
+    symbol = None if name.startswith("$") else scope.value(_variable(name))
+    return symbol is None or symbol.routine is None
 
 
 def _outside(state: State, scope: Scope) -> State:
-    """What a called routine sees of it."""
-
-    def own(name: str) -> bool:
-        symbol = scope.value(_variable(name))
-        return symbol is None or symbol.routine is not None
-
-    return {name: value for name, value in state.items() if name.startswith("$") or not own(name)}
+    """What other routines see of it."""
+    kept = {name: value for name, value in state.items() if _is_outside(name, scope)}
+    return state if len(kept) == len(state) else kept
 
 
-def _note_callees(statement: ir.Statement, scope: Scope, found: set[int]) -> None:
-    found.update(map(id, _callees(statement, scope)))
-
-
-def _callees(statement: ir.Statement, scope: Scope) -> list[ir.Routine]:
-    names: list[str] = []
-    if isinstance(statement, ir.CallRoutine) and statement.dynamic is None:
-        names.append(statement.name)
-
-    def look(expression: ir.Expression) -> None:
-        if isinstance(expression, ir.Call):
-            names.append(expression.name)
-
-    each_expression(statement, look)
-    found = [scope.routine(name) for name in names]
-    return [routine for routine in found if routine is not None]
-
-
-def _lent(statement: ir.Statement, scope: Scope) -> set[str]:
-    """Variables that calls of the statement may change through their parameters."""
-    found: set[str] = set()
-
-    def look(call: ir.CallRoutine | ir.Call) -> None:
-        routine = scope.routine(call.name)
-        if routine is not None and any(one.mode == "reference" for one in routine.parameters):
-            found.update(filter(None, (base_name(one.value) for one in call.arguments if one.value is not None)))
-
-    def inner(expression: ir.Expression) -> None:
-        if isinstance(expression, ir.Call):
-            look(expression)
-
-    if isinstance(statement, ir.CallRoutine) and statement.dynamic is None:
-        look(statement)
-    each_expression(statement, inner)
-    return found
+def _both(one: Frames, other: Frames) -> Iterator[tuple[rigid.Pose | None, rigid.Pose | None]]:
+    yield one.tool, other.tool
+    yield one.base, other.base
 
 
 def _names(expression: ir.Expression) -> set[str]:

@@ -11,10 +11,10 @@ from dataclasses import dataclass, field
 
 from rpl import ir
 from rpl.ir.walk import walk
-from rpl.passes.legalise.data.datalists import never_called
+from rpl.passes.legalise.facts.forward import Forward, beside, reactions, started
 from rpl.passes.legalise.facts.heldtexts import known_calls
 from rpl.passes.legalise.facts.usage import Usage, doing_each, each_expression, usage_of
-from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.scope import Scope
 
 SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distance", "blend_joint"))
 # What else is followed, because the size of a corner that a speed decides depends on it. The values are those of a
@@ -31,6 +31,8 @@ _TURNS = "circle_orientation"
 _SHARES = {"speed_percent": 100.0, "speed_limit": 5000.0, "override": 100.0}
 # Percentage for slowing down, of languages that have one of their own: none where that is as strong as speeding up.
 _DOWN = "deceleration_percent"
+# How fast the tool turns; as a setting of its own it is never left out.
+_TURNING = frozenset(("swivel_speed", "twist_speed"))
 # Whether moves are joined at all (V+ CPON): a truth value.
 _JOINED = "blending"
 # Whether accelerations are a share of what is said, as the speed is.
@@ -38,11 +40,10 @@ SCALED = {"scale_acceleration": False}
 # The least time of moves, s; none where nothing is said.
 _TIMES = {"move_duration": 0.0}
 _NUMBERS = BRAKING.keys() | _SHARES.keys() | _TIMES.keys()
-_FOLLOWED = SETTINGS | _NUMBERS | SCALED.keys() | {"displacement", _TURNS, _JOINED, _DOWN}
+_FOLLOWED = SETTINGS | _NUMBERS | SCALED.keys() | _TURNING | {"displacement", _TURNS, _JOINED, _DOWN}
 # Setting -> constant; None: it depends on the run. A place that is never reached has no state.
 State = dict[str, "ir.Expression | None"]
 _UNKNOWN: State = dict.fromkeys(_FOLLOWED)
-_ROUNDS = 40
 
 
 # Functions that give or take a pose in the modal frame where they are not told another.
@@ -81,20 +82,6 @@ def _plainly_reads(statement: ir.Statement) -> bool:
     return reads and not any(isinstance(one, ir.Call) for one in inside)
 
 
-def joined(*states: State | None) -> State | None:
-    """What is known on every way."""
-    found = [state for state in states if state is not None]
-    if not found:
-        return None
-    known = dict(found[0])
-    for other in found[1:]:
-        for name, value in other.items():
-            before = known[name]
-            if before is not value and before is not None and before != value:
-                known[name] = None
-    return known
-
-
 @dataclass(slots=True)
 class Flow:
     """`start`: the settings at the beginning of a program."""
@@ -104,14 +91,17 @@ class Flow:
     moves: dict[int, State] = field(default_factory=dict)
     repeated: dict[int, bool] = field(default_factory=dict)
     kept: list[object] = field(default_factory=list)  # keeps the identities alive
-    calls_by_text: bool = False
+    reached: set[int] = field(default_factory=set)
 
     @classmethod
     def of(cls, program: ir.Program, defaults: dict[str, float | bool | str]) -> Flow:
         """Follow the program; `defaults` are the system variables of its language at the start."""
+        program = known_calls(program)
+        setters = _setters(program)
+        unsure = _set_at_any_time(program, setters)
         start: State = {name: _default(name, defaults) for name in _FOLLOWED}
         flow = cls(usage_of(program), start)
-        _Follower(program, flow).follow()
+        _Settings(program, flow, setters, unsure).solve(started(program), beside(program))
         return flow
 
     def arc_rule(self, move: ir.Move) -> str:
@@ -125,8 +115,8 @@ class Flow:
         return self.moves.get(id(statement), _UNKNOWN)
 
     def never_comes_to(self, statement: ir.Statement) -> bool:
-        """Does nothing of the program lead to this move (and nobody is called by a text)?"""
-        return not self.calls_by_text and id(statement) not in self.moves
+        """Does nothing of the program lead to this move?"""
+        return id(statement) not in self.reached
 
     def again(self, statement: ir.Assign) -> bool:
         """Is the setting known to have this value already?"""
@@ -144,198 +134,54 @@ def _default(name: str, defaults: dict[str, float | bool | str]) -> ir.Expressio
     return ir.RealLiteral(float(value)) if isinstance(value, int | float) else None
 
 
-@dataclass(slots=True)
-class _Loop:
-    breaks: list[State] = field(default_factory=list)
-    passes: list[State] = field(default_factory=list)
+class _Settings(Forward[State]):
+    """`setters`: setting -> routines that change it. `unsure`: what may change between any two statements."""
 
+    def __init__(
+        self, program: ir.Program, flow: Flow, setters: dict[str, frozenset[str]], unsure: frozenset[str]
+    ) -> None:
+        super().__init__(program, flow.start | dict.fromkeys(unsure & _FOLLOWED), _UNKNOWN)
+        self.flow, self.setters, self.unsure = flow, setters, unsure
 
-class _Follower:
-    def __init__(self, program: ir.Program, flow: Flow) -> None:
-        program = known_calls(program)
-        self.program, self.flow = program, flow
-        self.scopes = ProgramScope(program)
-        self.routines = {r.name.lower(): (m, r) for m in reversed(program.modules) for r in m.routines}
-        self.beside = _beside(program)
-        self.entries: dict[str, State | None] = dict.fromkeys(self.routines)
-        self.exits: dict[str, State | None] = dict.fromkeys(self.routines)
-        self.setters = _setters(program)
-        self.setting = frozenset().union(*self.setters.values())
-        self.called_in: dict[int, tuple[str, ...]] = {}  # by identity of a part of the program, which stays alive
-        self.anywhere = dict(_UNKNOWN)
-        self.loops: list[_Loop] = []
-        self.jumps: dict[str, State] = {}  # what holds where a label (folded) is jumped to
-        self.returns: list[State] = []
-        self.noting = False
-        for name in self.started():
-            self.entries[name] = dict(flow.start)
+    def join(self, one: State, other: State) -> State:
+        lost = [name for name, value in one.items() if value is not None and value != other[name]]
+        return {**one, **dict.fromkeys(lost)} if lost else one
 
-    def started(self) -> set[str]:
-        """Routines that a run may begin with."""
-        begins = {self.program.entry.lower(), *(t.entry.lower() for t in self.program.tasks if t.kind == "motion")}
-        beside = {task.entry.lower() for task in self.program.tasks}
-        return ((begins - {""} or never_called(self.program)) | beside) & set(self.routines)
-
-    def follow(self) -> None:
-        order = list(self.routines)
-        for _ in range(_ROUNDS):
-            before = (dict(self.entries), dict(self.exits))
-            for name in order:
-                self.routine(name)
-            order.reverse()  # what calls bring goes down a chain of them, what routines leave behind goes up
-            if before == (self.entries, self.exits):
-                break
-        else:
-            self.entries = {name: dict(_UNKNOWN) for name in self.entries}
-            self.exits = {name: dict(_UNKNOWN) for name in self.exits}
-        self.noting = True
-        for name in self.routines:
-            self.routine(name)
-
-    def routine(self, name: str) -> None:
-        module, routine = self.routines[name]
-        entry = dict(_UNKNOWN) if name in self.beside else self.entries[name]
-        if entry is None:
-            return
-        self.scope: Scope = self.scopes.routine(module, routine)
-        # What surely holds at a label: what the routine was entered with and never sets.
-        self.anywhere = {key: None if name in self.setters[key] else value for key, value in entry.items()}
-        self.loops, self.returns = [], []
-        end = self.labelled(routine.body, entry)
-        for handler in routine.handlers:
-            self.returns.extend(state for state in (self.body(handler.body, dict(_UNKNOWN)),) if state is not None)
-        self.exits[name] = joined(end, *self.returns)
-
-    def labelled(self, body: ir.Body, entry: State) -> State | None:
-        """The body followed until what its jumps bring to each label stays the same; it is noted then only."""
-        noting, self.noting = self.noting, False
-        self.jumps = {}
-        for _ in range(_ROUNDS):
-            before = dict(self.jumps)
-            self.body(body, dict(entry))
-            if before == self.jumps:
-                break
-        else:
-            self.jumps = {name: dict(self.anywhere) for name in self.jumps}
-        self.noting, self.loops, self.returns = noting, [], []
-        return self.body(body, dict(entry))
-
-    # ---- statements
-
-    def body(self, body: ir.Body, state: State | None) -> State | None:
-        for statement in body:
-            if isinstance(statement, ir.Label):
-                state = joined(state, self.jumps.get(statement.name.lower()))
-            if state is None:
-                continue
-            state = self.statement(statement, state)
-        return state
-
-    def statement(self, statement: ir.Statement, state: State) -> State | None:
-        if self.noting and not isinstance(statement, ir.Move) and (in_frame(statement) or _plainly_reads(statement)):
-            self.note(statement, state)
+    def transfer(self, statement: ir.Statement, before: State) -> State:
         match statement:
-            case ir.If(branches=branches, otherwise=otherwise):
-                ends: list[State | None] = []
-                passed: State | None = state
-                for condition, body in branches:
-                    passed = None if passed is None else self.calls(condition, passed)
-                    ends.append(None if passed is None else self.body(body, dict(passed)))
-                ends.append(None if passed is None else self.body(otherwise, dict(passed)))
-                return joined(*ends)
-            case ir.Switch(selector=selector, cases=cases, default=default):
-                chosen = self.calls(selector, state)
-                if chosen is None:
-                    return None
-                choices = [self.body(case.body, dict(chosen)) for case in cases]
-                return joined(*choices, self.body(default or (), dict(chosen)))
-            case ir.While(condition=ahead) | ir.For(stop=ahead):
-                return self.loop(statement.body, self.calls(ahead, state), True)
-            case ir.Repeat(body=body) | ir.Loop(body=body):
-                return self.loop(body, state, isinstance(statement, ir.Repeat))
-        return self.simple(statement, state)
+            case ir.Assign(target=ir.System(name=name)) if name in _FOLLOWED:
+                new = self.set_to(statement)
+                return before if before[name] is new else {**before, name: new}
+        return before
 
-    def loop(self, body: ir.Body, state: State | None, ends: bool) -> State | None:
-        """`ends`: the loop has an end of its own, not only jumps out of it."""
-        start = state
-        while start is not None:
-            loop = _Loop()
-            self.loops.append(loop)
-            end = self.body(body, dict(start))
-            self.loops.pop()
-            again = joined(start, end, *loop.passes)
-            if again == start:
-                return joined(start if ends else None, *loop.breaks)
-            start = again
-        return None
+    def set_to(self, statement: ir.Assign) -> ir.Expression | None:
+        target = statement.target
+        return None if isinstance(target, ir.System) and target.name in self.unsure else self.stable(statement.value)
 
-    def simple(self, statement: ir.Statement, state: State) -> State | None:
+    def note(self, statement: ir.Statement, before: State) -> None:
         match statement:
-            case ir.ExitLoop() | ir.NextPass() if self.loops:
-                kept = self.loops[-1].breaks if isinstance(statement, ir.ExitLoop) else self.loops[-1].passes
-                kept.append(state)
-                return None
-            case ir.Return(value=value):
-                left = state if value is None else self.calls(value, state)
-                if left is not None:
-                    self.returns.append(left)
-                return None
-            case ir.Goto(label=label):
-                self.jumps[label.lower()] = joined(self.jumps.get(label.lower()), state) or state
-                return None
+            case ir.Assign(target=ir.System(name=name)) if name in _FOLLOWED:
+                if name not in (_TURNS, _JOINED, _DOWN, "override", *_TIMES, *_TURNING):
+                    new = self.set_to(statement)
+                    same = new is not None and before[name] == new
+                    self.flow.repeated[id(statement)] = same and self.flow.repeated.get(id(statement), True)
             case ir.Move():
-                self.note(statement, state)
-            case ir.CallRoutine(name=name, dynamic=None):
-                after = self.calls(statement.arguments, state)
-                return None if after is None else self.called(name, after)
-            case ir.CallRoutine():
-                self.flow.calls_by_text = True
-                return dict(_UNKNOWN)
-            case ir.Assign(target=ir.System(name=name), value=value) if name in _FOLLOWED:
-                new = self.stable(value) if name not in self.flow.usage.interrupting else None
-                if name not in (_TURNS, _JOINED, _DOWN, "override", *_TIMES):
-                    self.note_setting(statement, new is not None and state[name] == new)
-                return {**state, name: new}
-        return self.calls(statement, state)
+                pass
+            case _ if not in_frame(statement) and not _plainly_reads(statement):
+                return
+        self.flow.kept.append(statement)
+        if self.reaching:
+            self.flow.reached.add(id(statement))
+        known = self.flow.moves.get(id(statement))
+        self.flow.moves[id(statement)] = before if known is None else self.join(known, before)
 
-    def note(self, statement: ir.Statement, state: State) -> None:
-        if self.noting:
-            self.flow.kept.append(statement)
-            known = joined(self.flow.moves.get(id(statement)), state)
-            self.flow.moves[id(statement)] = known if known is not None else state
+    def entered(self, state: State, here: Scope, there: Scope) -> State:
+        return {name: _carried(value, here, there) for name, value in state.items()}
 
-    def note_setting(self, statement: ir.Assign, same: bool) -> None:
-        if self.noting:
-            self.flow.kept.append(statement)
-            self.flow.repeated[id(statement)] = same and self.flow.repeated.get(id(statement), True)
-
-    # ---- calls
-
-    def calls(self, node: object, state: State) -> State | None:
-        """The state behind the functions that an expression or a plain statement calls."""
-        names = self.called_in.get(id(node))
-        if names is None:
-            names = self.called_in[id(node)] = tuple([one.name for one in walk(node) if isinstance(one, ir.Call)])
-        after: State | None = state
-        for name in names:
-            if after is not None:
-                after = self.called(name, after)
-        return after
-
-    def called(self, name: str, state: State) -> State | None:
-        key = name.lower()
-        if key not in self.routines:
-            return state
-        there = self.scopes.routine(*self.routines[key])
-        entered = {setting: _carried(value, self.scope, there) for setting, value in state.items()}
-        self.entries[key] = joined(self.entries[key], entered)
-        left = self.exits[key]
-        if left is None or key not in self.setting:
-            return state if left is not None else None
-        return {
-            setting: _carried(value, there, self.scope) if key in self.setters[setting] else state[setting]
-            for setting, value in left.items()
-        }
+    def left(self, before: State, end: State, routine: ir.Routine, there: Scope, here: Scope) -> State:
+        name = routine.name.lower()
+        changed = {one: _carried(end[one], there, here) for one in _FOLLOWED if name in self.setters[one]}
+        return {**before, **changed} if changed else before
 
     # ---- constants
 
@@ -384,16 +230,17 @@ def _carried(value: ir.Expression | None, home: Scope, there: Scope) -> ir.Expre
     return None if named else written
 
 
-def _beside(program: ir.Program) -> set[str]:
-    """Routines that something else than a call may run."""
-    names: set[str] = set()
+def _set_at_any_time(program: ir.Program, setters: dict[str, frozenset[str]]) -> frozenset[str]:
+    """Settings that interrupts, triggers and error routines change: at no place anything is known of them."""
+    found: set[str] = set()
+    reacting = {name.lower() for name in reactions(program)}
     for node in walk(*program.modules):
         match node:
-            case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)) | ir.Trigger(action=ir.CallRoutine(name=name)):
-                names.add(name.lower())
-            case ir.ConnectInterrupt(routine=name) | ir.TaskControl(task=name) | ir.Routine(name=name, kind="trap"):
-                names.add(name.lower())
-    return names
+            case ir.DeclareInterrupt(action=ir.Assign(target=ir.System(name=setting))):
+                found.add(setting)
+            case ir.Trigger(action=ir.Assign(target=ir.System(name=setting))):
+                found.add(setting)
+    return frozenset(found | {name for name, routines in setters.items() if not routines.isdisjoint(reacting)})
 
 
 def _setters(program: ir.Program) -> dict[str, frozenset[str]]:

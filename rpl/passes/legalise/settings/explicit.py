@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import partial
 
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
@@ -17,12 +16,14 @@ from rpl.ir.walk import rewrite, walk
 from rpl.passes.capabilities import MoveSetting, PathRule
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.data.datalists import moving_entries
+from rpl.passes.legalise.facts.forward import reactions
 from rpl.passes.legalise.facts.usage import assigned_below, assigned_in, base_name, doing, each_statement, usage_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.settings import carriedframes
 from rpl.passes.legalise.settings.modal import DROPPED, JOINT_BLEND, MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
 from rpl.passes.legalise.settings.strengths import is_usual_ramp
+from rpl.passes.legalise.settings.usualplaces import TURNING, usual_places, usual_turns
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
@@ -55,7 +56,6 @@ CORNER_OUTPUT = code(
 )
 
 # Settings of the source's controller that only steer how it interpolates or checks; a target without them drops them.
-_TURNS = frozenset(("swivel_speed", "twist_speed"))
 _OF_NO_MOVE = frozenset(("timer", "timer_stopped", "flag"))
 _OF_EACH_AXIS = ("joint_speed", "joint_acceleration")
 _CHECKS = frozenset(
@@ -76,11 +76,12 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     scopes = ProgramScope(program)
     assigned = usage_of(program).assigned
     reported: set[Code] = set()
-    usual = usual_places(program) | _usual_turns(program, context)
+    usual = usual_places(program) | usual_turns(program, context)
     entries = moving_entries(program)
     looks_ahead = "advance" in context.capabilities.system_variables
     on_paths = any(isinstance(node, ir.Move) and node.kind != "joint" for node in walk(*program.modules))
     quiet, below = _quiet(program), assigned_below(program)
+    restless = not quiet.issuperset(name.lower() for name in reactions(program))
     modules = []
     for module in program.modules:
         routines = []
@@ -88,8 +89,8 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
             if looks_ahead and routine.name.lower() in entries and routine.body:
                 routine = _looking_ahead(routine, rules_of(context.target).advance.moves)
                 routine = _slowing(routine, context) if on_paths else routine
-            worker = Modal(context, scopes.routine(module, routine), assigned, reported, usual, quiet, below)
-            routines.append(edit_bodies(routine, partial(worker.body, known={})))
+            worker = Modal(context, scopes.routine(module, routine), assigned, reported, usual, quiet, below, restless)
+            routines.append(edit_bodies(routine, worker.whole))
         modules.append(replace(module, routines=tuple(routines)))
     return _with_least(replace(program, modules=tuple(modules)), context)
 
@@ -105,32 +106,6 @@ def _with_least(program: ir.Program, context: Context) -> ir.Program:
         return helpers.call("rpl_min", *node.arguments) if least and isinstance(node, ir.Builtin) else node
 
     return helpers.added_to(rewrite(program, change))
-
-
-def usual_places(program: ir.Program) -> frozenset[str]:
-    """Tool and base, where some moves name theirs, others none, and no statement sets it: that is then the flange and
-    the world (INFORM moves behind SFTOF)."""
-    nodes = [*walk(*program.modules)]
-    moves = [node for node in nodes if isinstance(node, ir.Move)]
-    given = {"tool": [one.tool for one in moves], "base": [one.frame for one in moves]}
-    mixed = {name for name, values in given.items() if None in values and any(value is not None for value in values)}
-    return frozenset(
-        mixed
-        - {node.target.name for node in nodes if isinstance(node, ir.Assign) and isinstance(node.target, ir.System)}
-    )
-
-
-def _usual_turns(program: ir.Program, context: Context) -> frozenset[str]:
-    """Turning speeds, where some moves say theirs by itself and no statement sets it: the others have the usual one."""
-    known = _TURNS & context.capabilities.system_variables & rules_of(context.target).system_defaults.keys()
-    said = False
-    for node in walk(*program.modules):
-        match node:
-            case ir.Assign(target=ir.System(name=name)) if name in _TURNS:
-                return frozenset()
-            case ir.Move(speed=ir.Speed(rotation=rotation, path=None, profile=None)) if rotation is not None:
-                said = True
-    return frozenset(known) if said else frozenset()
 
 
 def _looking_ahead(routine: ir.Routine, moves: int) -> ir.Routine:
@@ -163,10 +138,12 @@ class Modal:
         usual: frozenset[str] = frozenset(),
         quiet: frozenset[str] = frozenset(),
         below: Mapping[str, set[str]] | None = None,
+        restless: bool = False,
     ) -> None:
         self.context, self.can, self.scope = context, context.capabilities, scope
         self.assigned, self.reported = assigned, reported
         self.usual, self.quiet, self.below = usual, quiet, below or {}
+        self.restless = restless  # an interrupt may set what is modal between any two statements
         self.brakes = _BRAKES & self.can.system_variables
         ours = rules_of(context.source).advance
         self.at_corners = (
@@ -182,11 +159,17 @@ class Modal:
 
     # ---- flow
 
+    def whole(self, body: ir.Body) -> ir.Body:
+        """A body of a routine, in front of which nothing is known."""
+        return self.body(body, {})
+
     def body(self, body: ir.Body, known: Environment) -> ir.Body:
         done: list[ir.Statement] = []
         fly_by = False
         corner: int | None = None  # where the move stands whose outputs follow directly
         for statement in body:
+            if self.restless:
+                known.clear()
             if isinstance(statement, ir.Move):
                 new = self.move(statement, known)
                 done.extend(new)
@@ -293,12 +276,12 @@ class Modal:
             wanted["tool"] = self.frame_of_tool(move.tool, move)
         if move.frame is not None:
             wanted["base"] = self.frame_of_work_object(move.frame)
-        for name in sorted(self.usual - wanted.keys() - _TURNS):  # another move may have set it
+        for name in sorted(self.usual - wanted.keys() - TURNING):  # another move may have set it
             wanted[name] = ir.System("null_frame")
         own = self.own_speed(move)
         if move.speed is not None and own is None:
             self.speed(move, move.speed, wanted)
-        for name in sorted((self.usual & _TURNS) - wanted.keys()) if move.kind != "joint" else ():
+        for name in sorted((self.usual & TURNING) - wanted.keys()) if move.kind != "joint" else ():
             wanted[name] = ir.RealLiteral(float(rules_of(self.context.target).system_defaults.get(name, 0.0)))
         blend = self.blend(move, wanted)
         before: list[ir.Statement] = []

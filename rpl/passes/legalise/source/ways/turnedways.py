@@ -18,7 +18,7 @@ from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.paths.targets import Whole, here
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
-from rpl.passes.legalise.settings.explicit import usual_places
+from rpl.passes.legalise.settings.usualplaces import usual_places
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import type_word

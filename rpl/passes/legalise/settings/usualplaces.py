@@ -1,0 +1,35 @@
+"""What a move without a tool, frame or turning speed of its own has, where others say theirs: what is usual."""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.ir.walk import walk
+from rpl.passes.legalise.context import Context, rules_of
+
+TURNING = frozenset(("swivel_speed", "twist_speed"))
+
+
+def usual_places(program: ir.Program) -> frozenset[str]:
+    """Tool and base, where some moves name theirs, others none, and no statement sets it: that is then the flange and
+    the world (INFORM moves behind SFTOF)."""
+    nodes = [*walk(*program.modules)]
+    moves = [node for node in nodes if isinstance(node, ir.Move)]
+    given = {"tool": [one.tool for one in moves], "base": [one.frame for one in moves]}
+    mixed = {name for name, values in given.items() if None in values and any(value is not None for value in values)}
+    return frozenset(
+        mixed
+        - {node.target.name for node in nodes if isinstance(node, ir.Assign) and isinstance(node.target, ir.System)}
+    )
+
+
+def usual_turns(program: ir.Program, context: Context) -> frozenset[str]:
+    """Turning speeds, where some moves say theirs by itself and no statement sets it: the others have the usual one."""
+    known = TURNING & context.capabilities.system_variables & rules_of(context.target).system_defaults.keys()
+    said = False
+    for node in walk(*program.modules):
+        match node:
+            case ir.Assign(target=ir.System(name=name)) if name in TURNING:
+                return frozenset()
+            case ir.Move(speed=ir.Speed(rotation=rotation, path=None, profile=None)) if rotation is not None:
+                said = True
+    return frozenset(known) if said else frozenset()
