@@ -13,9 +13,9 @@ from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.usage import Usage, each_expression, usage_of
+from rpl.passes.legalise.facts.modalflow import Flow
 from rpl.passes.legalise.places.circles import has_arcs
-from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.settings.carriedframes import ROOT, UNIT
 from rpl.passes.legalise.settings.tooldata import HOME, PLACES, tool_of, work_object_of
 from rpl.passes.legalise.stages import legalising
@@ -98,9 +98,8 @@ _KINDS: dict[str, tuple[ir.Type, str]] = {
 @legalising(unless=lambda context: context.capabilities.settings.modal)
 def modal_to_explicit(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without modal motion and sources that have it."""
-    usage = usage_of(program)
-    worker = _Explicit(program, context, usage)
-    program = worker.without_dead_settings(edit_all(program, worker.routine))
+    worker = _Explicit(program, context)
+    program = worker.without_dead_settings(edit_all(program, worker.body))
     declarations = worker.declarations()
     if declarations:
         task = next((module.task for module in program.modules), "")
@@ -125,14 +124,14 @@ Environment = dict[str, ir.Expression]
 
 
 class _Explicit:
-    def __init__(self, program: ir.Program, context: Context, usage: Usage) -> None:
+    def __init__(self, program: ir.Program, context: Context) -> None:
         self.context = context
         self.arcs = has_arcs(program)
-        self.usage = usage
         self.state = _State()
         self.made = _settings_made(program)
         self.never = {"tool", "base"} - self.made
         self.defaults = rules_of(context.source).system_defaults
+        self.flow = Flow.of(program, dict(self.defaults))
 
     # ---- generated data
 
@@ -189,69 +188,30 @@ class _Explicit:
             self.state.reported.add((what, key))
             self.context.diagnostics.report(what, statement.origin, **arguments)
 
-    # ---- flow of constants
+    # ---- statements
 
-    def routine(self, body: ir.Body) -> ir.Body:
-        return self.body(body, {})
+    def body(self, body: ir.Body) -> ir.Body:
+        return map_body(body, self.statement)
 
-    def body(self, body: ir.Body, known: Environment) -> ir.Body:
-        done: list[ir.Statement] = []
-        for statement in body:
-            done.extend(self.statement(statement, known))
-        return tuple(done)
-
-    def statement(self, statement: ir.Statement, known: Environment) -> list[ir.Statement]:
+    def statement(self, statement: ir.Statement) -> ir.Body:
         match statement:
             case ir.Assign(target=ir.System(name=name)) if name in _MODAL or name in _OWN_SETTINGS:
-                return self.setting(statement, known)
+                return tuple(self.setting(statement))
             case ir.Move():
-                return self.move(statement, known)
-            case ir.Label():
-                known.clear()
-                return [statement]
-            case ir.If(branches=branches, otherwise=otherwise):
-                ends: list[Environment] = []
-                new_branches = []
-                for condition, inner in branches:
-                    inside = dict(known)
-                    new_branches.append((self.expression(condition), self.body(inner, inside)))
-                    ends.append(inside)
-                inside = dict(known)
-                other = self.body(otherwise, inside)
-                _keep_common(known, [*ends, inside])
-                return [replace(statement, branches=tuple(new_branches), otherwise=other)]
-            case ir.Switch():
-                return [self.switch(statement, known)]
-            case ir.For() | ir.While() | ir.Repeat() | ir.Loop():
-                self.forget(known, _set_inside(statement, self.usage))
-                inside = dict(known)
-                loop = rewrite_parts(statement, self.expression, lambda inner: self.body(inner, inside))
-                _keep_common(known, [inside])
-                return [loop]
-        new = rewrite_parts(statement, self.expression, lambda inner: self.body(inner, {}))
-        self.forget(known, _set_inside(statement, self.usage))
-        return [new]
+                return tuple(self.move(statement, self.known(statement)))
+        return (rewrite_parts(statement, self.expression, self.body),)
 
-    def switch(self, statement: ir.Switch, known: Environment) -> ir.Statement:
-        ends = []
-        cases = []
-        for case in statement.cases:
-            inside = dict(known)
-            cases.append(replace(case, body=self.body(case.body, inside)))
-            ends.append(inside)
-        inside = dict(known)
-        default = None if statement.default is None else self.body(statement.default, inside)
-        _keep_common(known, [*ends, inside])
-        selector = self.expression(statement.selector)
-        return replace(statement, selector=selector, cases=tuple(cases), default=default)
-
-    def forget(self, known: Environment, names: set[str]) -> None:
-        for name in names:
-            known.pop(name, None)
+    def known(self, move: ir.Move) -> Environment:
+        """Settings that the program has set to plain numbers at a move."""
+        state, start = self.flow.at(move), self.flow.start
+        found = {
+            name: _number(value) for name, value in state.items() if value is not None and value is not start[name]
+        }
+        return {name: value for name, value in found.items() if value is not None}
 
     # ---- settings
 
-    def setting(self, statement: ir.Assign, known: Environment) -> list[ir.Statement]:
+    def setting(self, statement: ir.Assign) -> list[ir.Statement]:
         target = statement.target
         assert isinstance(target, ir.System)
         name, value = target.name, self.expression(statement.value)
@@ -269,11 +229,6 @@ class _Explicit:
                 return [statement]
             self.report_once(DROPPED, statement, name, name=name.replace("_", " "))
             return [ir.Nothing(origin=statement.origin)]
-        plain = _number(value)
-        if plain is not None and name not in self.usage.interrupting:
-            known[name] = plain
-        else:
-            known.pop(name, None)
         kind, component = _MODAL[name]
         place = ir.Field(self.name(kind, written=True), component)
         made = [ir.Assign(place, _scaled(value, _FACTOR.get(name, 1.0)), origin=statement.origin)]
@@ -437,29 +392,6 @@ def _settings_made(program: ir.Program) -> set[str]:
     }
 
 
-def _set_inside(statement: ir.Statement, usage: Usage) -> set[str]:
-    """System variables the statement may set, in its bodies and through calls."""
-    found: set[str] = set()
-
-    def look(body: ir.Body) -> ir.Body:
-        for one in body:
-            match one:
-                case ir.Assign(target=ir.System(name=name)):
-                    found.add(name)
-                case ir.CallRoutine(name=name):
-                    found.update(usage.sets.get(name.lower(), _MODAL.keys() if one.dynamic else set()))
-            each_expression(one, call)
-            rewrite_parts(one, lambda expression: expression, look)
-        return body
-
-    def call(expression: ir.Expression) -> None:
-        if isinstance(expression, ir.Call):
-            found.update(usage.sets.get(expression.name.lower(), set()))
-
-    look((statement,))
-    return found
-
-
 def says(value: ir.Expression, word: str) -> bool:
     """Is it this mode word?"""
     return isinstance(value, ir.EnumLiteral | ir.TextLiteral | ir.Name) and word == _word(value)
@@ -469,15 +401,6 @@ def _word(value: ir.EnumLiteral | ir.TextLiteral | ir.Name) -> str:
     match value:
         case ir.EnumLiteral(member=word) | ir.TextLiteral(value=word) | ir.Name(id=word):
             return word.lower()
-
-
-def _keep_common(known: Environment, ends: list[Environment]) -> None:
-    for name in list(known):
-        if any(end.get(name) != known[name] for end in ends):
-            del known[name]
-    for name, value in ends[0].items():
-        if all(end.get(name) == value for end in ends):
-            known[name] = value
 
 
 def _number(value: ir.Expression) -> ir.Expression | None:
