@@ -6,7 +6,7 @@ A node whose parts all stay the same objects is given back itself: most of a pro
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from operator import attrgetter, is_
 from typing import Any, TypeVar, cast, get_args
 
@@ -114,11 +114,22 @@ def _visit(
 
 
 def changed(node: Node, **parts: object) -> Node:
-    """The node with these parts; the node itself where it has them already."""
+    """The node with these parts; the node itself where it has them already, or tuples of the same objects."""
     for name, part in parts.items():
-        if getattr(node, name) is not part:
+        if not _is(getattr(node, name), part):
             return dataclasses.replace(node, **parts)  # type: ignore[type-var]  # nodes are dataclasses
     return node
+
+
+def _is(old: object, new: object) -> bool:
+    if old is new:
+        return True
+    return isinstance(old, tuple) and isinstance(new, tuple) and same(old, new)
+
+
+def same(old: Sequence[object], new: Sequence[object]) -> bool:
+    """Are these the same objects?"""
+    return len(old) == len(new) and all(map(is_, old, new))
 
 
 def each(items: tuple[Node, ...], on_item: Callable[[Node], Node]) -> tuple[Node, ...]:

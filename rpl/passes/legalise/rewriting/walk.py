@@ -15,7 +15,7 @@ from rpl.passes.fold import Unchanged
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.facts.beginning import settled_at_start
 from rpl.passes.legalise.facts.usage import base_name, usage_of
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import changed, rewrite_parts, same
 from rpl.passes.typewords import word_type
 from rpl.passes.typing import counter_type, type_of
 
@@ -51,7 +51,7 @@ class Rewriter:
     def type(self, type: ir.Type) -> ir.Type:
         """A type in its new form."""
         if isinstance(type, ir.ArrayType):
-            return replace(rewrite_parts(type, self.expression), element=self.type(type.element))
+            return changed(rewrite_parts(type, self.expression), element=self.type(type.element))
         return type
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
@@ -67,11 +67,12 @@ class Rewriter:
         match declaration:
             case ir.Variable(type=type, initial=initial):
                 value = None if initial is None else self.initial(initial, declaration)
-                return [replace(declaration, type=self.type(type), initial=value)]
+                return [changed(declaration, type=self.type(type), initial=value)]
             case ir.RecordDeclaration(fields=fields):
-                return [replace(declaration, fields=tuple((name, self.type(type)) for name, type in fields))]
+                new = tuple((name, self.type(type)) for name, type in fields)
+                return [declaration if new == fields else replace(declaration, fields=new)]
             case ir.AliasDeclaration(type=type):
-                return [replace(declaration, type=self.type(type))]
+                return [changed(declaration, type=self.type(type))]
         return [rewrite_parts(declaration, self.expression, self.actions)]
 
     def initial(self, value: ir.Expression, declaration: ir.Variable) -> ir.Expression | None:
@@ -103,32 +104,32 @@ class Rewriter:
     # ---- program, module, routine
 
     def program(self) -> ir.Program:
-        """The whole program in its new form."""
-        return replace(self.source, modules=tuple(self.module(module) for module in self.source.modules))
+        """The whole program in its new form; what nothing changes stays the same object, here and below."""
+        return changed(self.source, modules=tuple(self.module(module) for module in self.source.modules))
 
     def module(self, module: ir.Module) -> ir.Module:
         self.scope, self.locals = self.scopes.module(module), []
         declarations = [new for old in module.declarations for new in self.declaration(old)]
         declarations.extend(replace(one, scope="module") for one in self.locals)
         routines = tuple(self.routine(module, routine) for routine in module.routines)
-        return replace(module, declarations=tuple(declarations), routines=routines)
+        return changed(module, declarations=tuple(declarations), routines=routines)
 
     def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
         self.scope, self.locals = self.scopes.routine(module, routine), []
         declarations = [new for old in routine.declarations for new in self.declaration(old)]
-        done = replace(
+        done = changed(
             routine,
-            parameters=tuple(replace(one, type=self.type(one.type)) for one in routine.parameters),
+            parameters=tuple(changed(one, type=self.type(one.type)) for one in routine.parameters),
             returns=None if routine.returns is None else self.type(routine.returns),
             body=self.body(routine.body),
             handlers=tuple(
-                replace(one, codes=tuple(map(self.expression, one.codes)), body=self.body(one.body))
+                changed(one, codes=tuple(map(self.expression, one.codes)), body=self.body(one.body))
                 for one in routine.handlers
             ),
             undo=self.body(routine.undo),
             backward=self.body(routine.backward),
         )
-        return replace(done, declarations=(*declarations, *self.locals))
+        return changed(done, declarations=(*declarations, *self.locals))
 
     # ---- bodies
 
@@ -136,11 +137,12 @@ class Rewriter:
         outside, self.before = self.before, []
         done = [new for statement in body for new in self.placed(statement)]
         self.before = outside
-        return tuple(done)
+        return body if same(body, done) else tuple(done)
 
     def actions(self, body: ir.Body) -> ir.Body:
         """Statements that cannot become several: actions of triggers and interrupts, the inside of a spline."""
-        return tuple(rewrite_parts(statement, self.expression, self.actions) for statement in body)
+        done = [rewrite_parts(statement, self.expression, self.actions) for statement in body]
+        return body if same(body, done) else tuple(done)
 
     def taken(self) -> list[ir.Statement]:
         """What must run first, taken off the list."""
@@ -154,9 +156,9 @@ class Rewriter:
             case ir.Repeat(until=until, body=body):
                 inner = self.body(body)
                 until = self.expression(until)
-                return [replace(statement, until=until, body=(*inner, *_bare(self.taken())))]
+                return [changed(statement, until=until, body=(*inner, *_bare(self.taken())))]
             case ir.Loop(body=body):
-                return [replace(statement, body=self.body(body))]
+                return [changed(statement, body=self.body(body))]
             case ir.For():
                 return self.counting(statement)
             case ir.If(branches=branches, otherwise=otherwise):
@@ -166,11 +168,11 @@ class Rewriter:
                 values = [tuple(map(self.expression, case.values)) for case in cases]
                 first = self.taken()
                 new = tuple(
-                    replace(case, values=value, body=self.body(case.body))
+                    changed(case, values=value, body=self.body(case.body))
                     for case, value in zip(cases, values, strict=True)
                 )
                 other = None if default is None else self.body(default)
-                return _in_order([*first, replace(statement, selector=chosen, cases=new, default=other)], statement)
+                return _in_order([*first, changed(statement, selector=chosen, cases=new, default=other)], statement)
             case ir.WaitUntil():
                 return self.waiting(statement, self.statement(statement))
             case ir.DeclareInterrupt() | ir.OrderInterrupt() | ir.Trigger():
@@ -212,7 +214,7 @@ class Rewriter:
         first = self.taken()
         inner = self.body(body)
         if not first:
-            return [replace(statement, condition=condition, body=inner)]
+            return [changed(statement, condition=condition, body=inner)]
         leave = ir.If(((ir.Unary("not", condition), (ir.ExitLoop(),)),))
         self.made_loops = True
         return [ir.Loop((*_bare(first), leave, *inner), origin=statement.origin)]
@@ -226,7 +228,7 @@ class Rewriter:
             self.scope = outer.with_value(ir.Variable(statement.counter, self.counter_type(statement)))
         inner = self.body(statement.body)
         self.scope = outer
-        return _in_order([*first, replace(statement, start=start, stop=stop, step=step, body=inner)], statement)
+        return _in_order([*first, changed(statement, start=start, stop=stop, step=step, body=inner)], statement)
 
     def counter_type(self, statement: ir.For) -> ir.Type:
         """The type of a counter that exists in its loop only."""
@@ -247,7 +249,8 @@ class Rewriter:
                 return [*first, replace(statement, branches=tuple(done), otherwise=tuple(_bare(rest)))]
             first.extend(needed)
             done.append((condition, self.body(body)))
-        return [*first, replace(statement, branches=tuple(done), otherwise=self.body(otherwise))]
+        chain = tuple(old if same(old, new) else new for old, new in zip(branches, done, strict=True))
+        return [*first, changed(statement, branches=chain, otherwise=self.body(otherwise))]
 
 
 def _seconds(time: ir.Expression) -> ir.Expression:
