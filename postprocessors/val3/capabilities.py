@@ -31,7 +31,7 @@ from . import tables
 CAPABILITIES = Capabilities(
     statements=tables.words(
         """Assign CallRoutine If Switch For While Repeat Return Wait WaitUntil WaitForMotion StopMotion StartMotion
-        ClearMotion Message TaskControl Nothing Move Vendor Opaque"""
+        ClearMotion Halt Pulse Message TaskControl Nothing Move Vendor Opaque"""
     ),
     functions=frozenset(
         (
@@ -58,7 +58,9 @@ CAPABILITIES = Capabilities(
     motion=Motion(turned_ways=frozenset(), paths=frozenset()),
     settings=Settings(
         modal=True,
-        of_moves=frozenset((MoveSetting.TOOL, MoveSetting.FRAME, MoveSetting.SPEED, MoveSetting.BLEND)),
+        of_moves=frozenset(
+            (MoveSetting.DECELERATION, MoveSetting.TOOL, MoveSetting.FRAME, MoveSetting.SPEED, MoveSetting.BLEND)
+        ),
         speeds=frozenset(("joint", "path")),
         blends=frozenset(("BlendDistance",)),
     ),

@@ -79,14 +79,14 @@ class Store:
             self.add(Datum(name, type, [f'link="{rack}\\%{letter}{used}"']))
         return name
 
-    def descriptor(self, vel: float, tmax: float, blend: str, leave: float) -> str:
+    def descriptor(self, vel: float, tmax: float, blend: str, leave: float, strengths: tuple[float, float]) -> str:
         """A movement descriptor of these numbers."""
         size, limit = number_text(leave, 4), number_text(tmax, 4)
-        share = number_text(vel, 4)
+        share, (up, down) = number_text(vel, 4), (number_text(one, 4) for one in strengths)
         name = f"mJ{share}" if tmax >= UNLIMITED else f"mL{limit}"
         name = (name + (f"B{size}" if blend != "off" else "")).replace(".", "_")
         value = (
-            f'accel="100" vel="{share}" decel="100" tmax="{limit}" rmax="{number_text(UNLIMITED)}" blend="{blend}"'
+            f'accel="{up}" vel="{share}" decel="{down}" tmax="{limit}" rmax="{number_text(UNLIMITED)}" blend="{blend}"'
             f' leave="{size}" reach="{size}"'
         )
         return self.once(name, "mdesc", value)

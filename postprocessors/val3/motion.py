@@ -17,6 +17,7 @@ from . import tables
 from .data import UNLIMITED
 from .expressions import Expressions, point_row
 
+_BRAKING = ir.System("deceleration_percent")
 _WORDS = {"joint": "movej", "linear": "movel", "circular": "movec"}
 
 
@@ -65,10 +66,9 @@ class Motion:
             ("a relative move", move.relative),
             ("a circle by its angle", move.swept),
             ("a load of its own", move.load),
-            ("an acceleration of its own", move.acceleration),
             ("an orientation rule of its own", move.orientation not in (None, "variable")),
             ("a circle's orientation rule", move.circle_orientation not in (None, "base")),
-            ("settings of its own", move.settings),
+            ("settings of its own", [one for one, _ in move.settings if one != _BRAKING]),
             ("actions on its path", move.triggers),
             ("a search", move.search),
             ("a motion group", move.group != 1),
@@ -112,13 +112,23 @@ class Motion:
                 pass
         elif e.is_point(target) and e.father(target) == frame:
             return e.point(target)
-        name = self.store.helper(wish, "pointRx", f"{frame}[0]")
+        root = origin_of(target) if e.is_point(target) else None
+        # A point whose configuration nothing sets keeps the one it is made with: as at the start of the movement.
+        name = self.store.helper(wish if root is not None else f"{wish}Any", "pointRx", f"{frame}[0]")
         self.before.append(f"{name}.trsf={e.text(target)}")
-        root = _origin(target) if e.is_point(target) else None
-        words = tables.FLAGS.values()
-        config = f"{e.storage(root)}.config" if root is not None else f"{{{','.join(one[0] for one in words)}}}"
-        self.before.append(f"{name}.config={config}")
+        if root is not None:
+            self.before.append(f"{name}.config={e.storage(root)}.config")
         return name
+
+    def strengths(self, move: ir.Move) -> tuple[float, float]:
+        """Acceleration and deceleration, percent; as each other where only one is said."""
+        scope = self.expressions.scope
+        given = [move.acceleration, next((value for _, value in move.settings), None)]
+        numbers = [None if one is None else constant_number(one, scope) for one in given]
+        if any(one is not None and number is None for one, number in zip(given, numbers, strict=True)):
+            raise CannotSayError("an acceleration that is worked out")
+        up = 100.0 if numbers[0] is None else numbers[0]
+        return up, up if numbers[1] is None else numbers[1]
 
     def descriptor(self, move: ir.Move) -> str:
         """The movement descriptor; components that are worked out are set in front."""
@@ -140,9 +150,11 @@ class Motion:
         if share is not None and leave is not None:
             if leave <= 0.0:
                 blend = "off"
-            if joint:
-                return self.store.descriptor(share, UNLIMITED, blend, leave)
-            return self.store.descriptor(100.0, share, blend, leave)
+            up, down = self.strengths(move)
+            vel, tmax = (share, UNLIMITED) if joint else (100.0, share)
+            return self.store.descriptor(vel, tmax, blend, leave, (up, down))
+        if move.acceleration is not None or move.settings:
+            raise CannotSayError("a speed that is worked out beside an acceleration of its own")
         part = "vel" if joint else "tvel"
         name = self.store.helper(f"m{'J' if joint else 'L'}{blend.capitalize()[:5]}", "mdesc")
         self.store.data[name].values = [f'blend="{blend}"']
@@ -152,7 +164,7 @@ class Motion:
         return name
 
 
-def _origin(target: ir.Expression) -> ir.Expression | None:
+def origin_of(target: ir.Expression) -> ir.Expression | None:
     """The variable that a point's configuration is of."""
     match target:
         case ir.Name() | ir.Index():
@@ -160,5 +172,5 @@ def _origin(target: ir.Expression) -> ir.Expression | None:
         case ir.Builtin(function="current_target" | "joints_to_target"):
             return None
         case ir.Builtin(arguments=(first, *_)):
-            return _origin(first)
+            return origin_of(first)
     return None

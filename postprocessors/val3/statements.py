@@ -155,6 +155,8 @@ class Statements:
                 return say("motion", word="restartMove")
             case ir.ClearMotion():
                 return say("motion", word="resetMotion")
+            case ir.Halt():
+                return say("halt")
             case ir.Message(kind="clear"):
                 return say("clear")
             case ir.Message(kind=kind, text=text) if kind in _MESSAGES:
@@ -253,8 +255,18 @@ class Statements:
             raise CannotSayError("a frame of places that are no points of the world")
         return self.say.lines("measured", points=",".join(points), frame=e.storage(target))
 
+    def written_out(self, target: ir.Expression, value: ir.Aggregate) -> list[str]:
+        """A point of its components: the pose, and each side of the configuration."""
+        lines = [f"{self.text(target)}={self.text(value)}"]
+        for name, part in value.entries:
+            if name in tables.FLAGS:
+                lines.extend(self.component(target, name, part))
+        return lines
+
     def to_point(self, target: ir.Expression, value: ir.Expression) -> list[str]:
         e, name = self.expressions, self.expressions.storage(target)
+        if isinstance(value, ir.Aggregate):
+            return self.written_out(target, value)
         if e.is_point(value) and e.father(value) == e.father(target):
             return self.say.lines("assign", target=name, value=e.point(value))
         lines = []
@@ -276,6 +288,8 @@ class Statements:
         e = self.expressions
         own = self.text(base)
         if name in tables.FLAGS:
+            if isinstance(value, ir.Field) and value.name == name:
+                return [f"{e.storage(base)}.config.{name}={e.storage(value.base)}.config.{name}"]
             flag, words = constant_number(value, e.scope), tables.FLAGS[name]
             if flag is None or not 0 <= flag < len(words) - 1:
                 raise CannotSayError("a configuration that is worked out")

@@ -17,6 +17,7 @@ from rpl.writing.text import number_text
 from . import tables
 from .data import Datum, Store
 from .expressions import NULL, Expressions, point_row, pose_row, root_of
+from .passes.pulses import pulses_as_tasks
 from .passes.waits import waits_put_in
 from .statements import Statements, indented
 
@@ -29,6 +30,7 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     """All files of the application. Raises InternalError when a node was neither written nor reported."""
     if context.foreign:
         program = waits_put_in(program, context.diagnostics)
+    program = pulses_as_tasks(program)
     return _Application(program, context).files()
 
 
@@ -42,6 +44,7 @@ class _Application:
         self.fathers = _fathers(program, self.roles)
         self.store = Store(_names(program))
         self.entry = _entry(program)
+        self.first: list[tuple[ir.Initialise, Expressions]] = []  # values that the data are given at the start
 
     def files(self) -> list[OutputFile]:
         for module in self.program.modules:
@@ -77,6 +80,9 @@ class _Application:
                     self.store.add(self.datum(declaration, expressions))
                 case ir.SignalDeclaration(name=name, signal=signal):
                     expressions.text(signal)
+                case ir.Initialise():
+                    self.first.append((declaration, expressions))
+                    return
                 case ir.Unread(text="") | ir.ExternalDeclaration():
                     pass
                 case _:
@@ -152,6 +158,7 @@ class _Application:
                 self.ledger.reported(declaration)
                 self.diagnostics.report(LOST, declaration.origin, name=name, reason=str(error))
         if routine.name == self.entry:
+            lines.extend(self.given())
             for task in self.program.tasks:
                 if task.kind == "background":
                     lines.extend(self.say.lines("create", task=task.entry, priority=10, name=task.entry, arguments=""))
@@ -168,6 +175,19 @@ class _Application:
             locals=locals_,
             lines=indented(lines, statements.step),
         )
+
+    def given(self) -> list[str]:
+        """The first values that are no part of a declaration."""
+        lines: list[str] = []
+        for one, expressions in self.first:
+            try:
+                statements = Statements(expressions, self.diagnostics, self.ledger, self.say)
+                lines.extend(statements.assigned(one.assign.target, one.assign.value))
+                self.ledger.written(one)
+            except CannotSayError as error:
+                self.ledger.reported(one)
+                self.diagnostics.report(LOST, one.origin, name="a first value", reason=str(error))
+        return lines
 
     def parameter(self, parameter: ir.Parameter, scope: Scope) -> tuple[str, str, bool]:
         type, _ = _element(scope.resolve(parameter.type), scope)
