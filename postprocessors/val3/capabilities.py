@@ -30,8 +30,8 @@ from . import tables
 
 CAPABILITIES = Capabilities(
     statements=tables.words(
-        """Assign CallRoutine If Switch For While Repeat Return Wait WaitUntil WaitForMotion StopMotion StartMotion
-        ClearMotion Halt Pulse Message TaskControl Nothing Move Vendor Opaque"""
+        """Assign CallRoutine If Switch For While Repeat Loop ExitLoop Return Wait WaitUntil WaitForMotion StopMotion
+        StartMotion ClearMotion Halt Pulse Message TaskControl Nothing Move Vendor Opaque"""
     ),
     functions=frozenset(
         (
@@ -42,7 +42,7 @@ CAPABILITIES = Capabilities(
         )
     ),
     procedures=frozenset(),
-    system_variables=tables.words("null_frame world override time moving"),
+    system_variables=tables.words("null_frame world override time moving actual_pose"),
     operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary, "div")),
     types=frozenset((*tables.TYPES, "ArrayType")),
     names=NameRules(
@@ -53,7 +53,9 @@ CAPABILITIES = Capabilities(
         further="abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_",
     ),
     conversions=tables.words("real round_half_away trunc bit truth floor"),
-    said_otherwise=frozenset(("type SignalType",)),
+    said_otherwise=frozenset(
+        ("type SignalType", "function euler_x", "function euler_y", "function euler_z", "statement Initialise")
+    ),
     places=Places(notation="val3", rotation=Rotation.ZYX, rules=frozenset((PlaceRule.COMPONENTS,))),
     motion=Motion(turned_ways=frozenset(), paths=frozenset()),
     settings=Settings(

@@ -28,6 +28,7 @@ class Expressions:
     def __init__(self, scope: Scope, store: Store, roles: Mapping[str, str], fathers: Mapping[str, str]) -> None:
         self.scope, self.store, self.roles, self.fathers = scope, store, roles, fathers
         self.printer = ExpressionPrinter(tables.OPERATORS, self._hook)
+        self.around: tuple[str, str] | None = None  # tool and frame of the movement whose places are printed
 
     def text(self, expression: ir.Expression) -> str:
         return self.printer.text(expression)
@@ -145,6 +146,8 @@ class Expressions:
                 return ZERO
             case "time":
                 return "clock()"
+            case "actual_pose" if self.around is not None:
+                return f"position({self.point(ir.System(name))},{self.around[1]})"
             case "override":
                 return "getMonitorSpeed()"
             case "moving":
@@ -173,10 +176,21 @@ class Expressions:
         name, values = call.function, call.arguments
         if name in tables.FUNCTIONS:
             return f"{tables.FUNCTIONS[name]}({self.listed(values)})"
+        if name in _ANGLES:
+            return self.angle(_ANGLES[name], values[0])
         special = _SPECIAL.get(name)
         if special is not None:
             return special(self, values)
         return self.posed(name, values)
+
+    def angle(self, name: str, rotation: ir.Expression) -> Printed:
+        """rx, ry, rz are the angles of the turn back with the other sign, which is how the reader puts them."""
+        match rotation:
+            case ir.Field(base=ir.Builtin(function="inverse", arguments=(place,)), name="rot"):
+                inner = place.arguments[0] if isinstance(place, ir.Builtin) and place.function == "pose_of" else place
+                if isinstance(inner, ir.Name | ir.Index):
+                    return Printed(f"-{self.text(inner)}.{name}", tables.SIGN)
+        raise CannotSayError("an angle of a place about an axis of its frame")
 
     def posed(self, name: str, values: tuple[ir.Expression, ...]) -> str | Printed:
         """Functions of poses."""
@@ -187,6 +201,8 @@ class Expressions:
                 return self.printer.printed(ir.Binary(":", one, other))
             case "pose_of", (value,):
                 return self.printer.printed(value)
+            case "current_target", () if self.around is not None:
+                return f"position({self.point(ir.Builtin(name, values))},{self.around[1]})"
             case "current_target", (_, frame):
                 return f"position({self.point(ir.Builtin(name, values))},{self.frame(frame)})"
             case "joints_to_target", (_, _, frame):
@@ -218,6 +234,8 @@ class Expressions:
                 return self.fathers.get(name, "world")
             case ir.Index(base=base):
                 return self.father(base)
+            case ir.Builtin(function="current_target", arguments=()) | ir.System() if self.around is not None:
+                return self.around[1]
             case ir.Builtin(function="current_target" | "joints_to_target", arguments=(*_, frame)):
                 return self.frame(frame)
             case ir.Builtin(arguments=(first, *_)):
@@ -231,6 +249,10 @@ class Expressions:
                 return self.storage(point)
             case ir.Aggregate():
                 return self.taught(point)
+            case ir.Builtin(function="current_target", arguments=()) | ir.System(name="actual_pose") if (
+                self.around is not None
+            ):
+                return f"here({','.join(self.around)})"
             case ir.Builtin(function="current_target", arguments=(tool, frame)):
                 return f"here({self.tool(tool)},{self.frame(frame)})"
             case ir.Builtin(function="joints_to_target", arguments=(joints, tool, frame)):
@@ -356,6 +378,7 @@ def _value_text(e: Expressions, v: tuple[ir.Expression, ...]) -> str:
     return f'toString("",{e.text(v[0])})'
 
 
+_ANGLES = {"euler_x": "rx", "euler_y": "ry", "euler_z": "rz"}
 _SPECIAL: dict[str, Callable[[Expressions, tuple[ir.Expression, ...]], str | Printed]] = {
     "round": lambda e, v: _decimals(e, v, "round"),
     "trunc": lambda e, v: _decimals(e, v, "trunc"),

@@ -53,11 +53,13 @@ class Motion:
             points = [self.joints(move.target)]
         else:
             frame = self.hung(move.frame, "frame", "world")
+            self.expressions.around = (tool, frame)
             points = [self.place(move.target, frame, "pMove")]
             if move.kind == "circular":
                 if move.via is None:
                     raise CannotSayError("a circle needs its point on the way")
                 points.insert(0, self.place(move.via, frame, "pVia"))
+        self.expressions.around = None
         descriptor = self.descriptor(move)
         return MoveText(tuple(self.before), word, tuple(points), tool, descriptor)
 
@@ -169,7 +171,7 @@ def origin_of(target: ir.Expression) -> ir.Expression | None:
     match target:
         case ir.Name() | ir.Index():
             return target
-        case ir.Builtin(function="current_target" | "joints_to_target"):
+        case ir.Builtin(function="current_target" | "joints_to_target") | ir.System():
             return None
         case ir.Builtin(arguments=(first, *_)):
             return origin_of(first)

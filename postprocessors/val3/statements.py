@@ -14,7 +14,7 @@ from rpl.writing.statements import CannotSayError, original
 from rpl.writing.templates import Macros, TemplateError
 
 from . import tables
-from .expressions import Expressions, root_of
+from .expressions import NULL, Expressions, root_of
 from .motion import Motion
 
 NOT_SAID = code(
@@ -35,6 +35,7 @@ class Statements:
         self.expressions, self.diagnostics, self.ledger, self.say = expressions, diagnostics, ledger, say
         self.text = expressions.text
         self.step = say("step")
+        self.in_switch = False  # `break` there ends the case
 
     def body(self, body: ir.Body) -> list[str]:
         """All lines of a body, not indented."""
@@ -78,6 +79,13 @@ class Statements:
             for line in comment.text.splitlines() or [""]
         ]
 
+    def looped(self, body: ir.Body) -> str:
+        """The body of a loop: `break` in it leaves the loop."""
+        outer, self.in_switch = self.in_switch, False
+        text = self.inner(body)
+        self.in_switch = outer
+        return text
+
     def inner(self, body: ir.Body) -> str:
         return "\n".join(f"{self.step}{line}" if line else line for line in self.body(body))
 
@@ -96,13 +104,17 @@ class Statements:
             case ir.Switch(selector=selector, cases=cases, default=default):
                 values = [self.expressions.listed(case.values) for case in cases]
                 chosen = self.text(selector)
+                outer, self.in_switch = self.in_switch, True
                 listed = [(value, self.inner(case.body)) for value, case in zip(values, cases, strict=True)]
                 rest, has = self.inner(default or ()), default is not None
+                self.in_switch = outer
                 return say("switch_block", selector=chosen, cases=listed, default=rest, has_default=has)
             case ir.While(condition=condition, body=body):
-                return say("while_block", condition=self.text(condition), body=self.inner(body))
+                return say("while_block", condition=self.text(condition), body=self.looped(body))
             case ir.Repeat(until=until, body=body):
-                return say("repeat_block", condition=self.text(until), body=self.inner(body))
+                return say("repeat_block", condition=self.text(until), body=self.looped(body))
+            case ir.Loop(body=body):
+                return say("while_block", condition="true", body=self.looped(body))
             case ir.For():
                 return self.counting(statement)
             case ir.Move():
@@ -122,7 +134,7 @@ class Statements:
             raise CannotSayError("a loop that counts by its own rule")
         step = "" if loop.step is None else self.text(loop.step)
         bounds = self.text(loop.start), self.text(loop.stop)
-        body = self.inner(loop.body)
+        body = self.looped(loop.body)
         return self.say.lines("for_block", counter=loop.counter, start=bounds[0], stop=bounds[1], step=step, body=body)
 
     # ---- one-line statements
@@ -155,6 +167,10 @@ class Statements:
                 return say("motion", word="restartMove")
             case ir.ClearMotion():
                 return say("motion", word="resetMotion")
+            case ir.ExitLoop():
+                if self.in_switch:
+                    raise CannotSayError("a loop that is left out of a switch")
+                return say("leave_loop")
             case ir.Halt():
                 return say("halt")
             case ir.Message(kind="clear"):
@@ -307,6 +323,10 @@ class Statements:
                 return [f"{own}.{part}={self.text(given.get(part, zero))}" for part in "xyz"]
             case "rot", ir.Aggregate(entries=entries):
                 turn = ir.Aggregate(tuple(entry for entry in entries if entry[0] in ("a", "b", "c")), "pose")
+                return [f"{own}={{{own}.x,{own}.y,{own}.z,0,0,0}}*{self.text(turn)}"]
+            case "rot", ir.Builtin(function="tool_offset", arguments=(first, *shift, _, _, _)) as turn if (
+                first == NULL and [constant_number(one, e.scope) for one in shift] == [0.0] * 3
+            ):
                 return [f"{own}={{{own}.x,{own}.y,{own}.z,0,0,0}}*{self.text(turn)}"]
             case "rot", ir.Name() | ir.Index() as source:
                 there = self.text(source)
