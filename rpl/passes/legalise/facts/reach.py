@@ -37,15 +37,16 @@ def armed_statements(program: ir.Program, keys: Keys) -> frozenset[int]:
     routines = {routine.name.lower(): routine for module in program.modules for routine in module.routines}
     reach = _Reach(keys, {(name, armed): False for name in routines for armed in (False, True)})
     while True:
-        before = (set(reach.entries), dict(reach.exits), len(reach.marked))
+        before = (set(reach.entries), dict(reach.exits), set(reach.jumps), len(reach.marked))
         for name, routine in routines.items():
+            reach.here = name
             for armed in (False, True) if name in reach.entries else (False,):
                 reach.leaving = reach.switched = False
                 end = reach.body(routine.body, armed)
                 for other in filter(None, bodies(routine)[1:]):  # an error may come where it was armed, or before
                     end = reach.body(other, end or armed or reach.switched) or end
                 reach.exits[name, armed] = reach.exits.get((name, armed), False) or end or reach.leaving
-        if before == (reach.entries, reach.exits, len(reach.marked)):
+        if before == (reach.entries, reach.exits, reach.jumps, len(reach.marked)):
             return frozenset(reach.marked)
 
 
@@ -77,7 +78,8 @@ def with_calls(program: ir.Program, marked: frozenset[int], declaring: frozenset
 @dataclass(slots=True)
 class _Reach:
     """`exits`: routine (folded) and whether it was armed at its call -> may it be armed behind. `entries`: routines
-    that are called while it is armed. `switched`: is it armed anywhere in the routine at hand?"""
+    that are called while it is armed. `switched`: is it armed anywhere in the routine at hand? `jumps`: labels, with
+    their routine, that a jump comes to while it is armed; `left`: of each loop around, is it left so?"""
 
     keys: Keys
     exits: dict[tuple[str, bool], bool]
@@ -85,6 +87,9 @@ class _Reach:
     marked: set[int] = field(default_factory=set)
     leaving: bool = False
     switched: bool = False
+    here: str = ""
+    jumps: set[tuple[str, str]] = field(default_factory=set)
+    left: list[bool] = field(default_factory=list)
 
     def body(self, body: ir.Body, armed: bool) -> bool:
         for statement in body:
@@ -122,10 +127,18 @@ class _Reach:
                 ends = [self.body(case.body, armed) for case in cases]
                 return any([*ends, self.body(default or (), armed)])
             case ir.For(body=body) | ir.While(body=body) | ir.Repeat(body=body) | ir.Loop(body=body):
+                self.left.append(False)
                 end = self.body(body, armed)
-                if end and not armed:
-                    self.body(body, True)
-                return end or armed
+                if (end or self.left[-1]) and not armed:
+                    end = self.body(body, True) or end
+                return self.left.pop() or end or armed
+            case ir.ExitLoop() | ir.NextPass() if self.left:
+                self.left[-1] = self.left[-1] or armed
+            case ir.Goto(label=label) if armed:
+                self.jumps.add((self.here, label.lower()))
+                self.left = [True] * len(self.left)  # a jump may leave any of the loops, or come back into one
+            case ir.Label(name=name):
+                return armed or (self.here, name.lower()) in self.jumps
             case ir.Return():
                 self.leaving = self.leaving or armed
         return armed

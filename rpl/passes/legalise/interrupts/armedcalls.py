@@ -71,6 +71,7 @@ class _Flow:
     numbers: frozenset[int]
     armed: bool = False
     found: set[str] = field(default_factory=set)
+    left: list[bool] = field(default_factory=list)  # of each loop around: may one be on where it is left or begun anew?
 
     def body(self, body: ir.Body) -> ir.Body:
         for statement in body:
@@ -84,12 +85,18 @@ class _Flow:
             return
         if isinstance(statement, ir.DeclareInterrupt):
             return
+        if isinstance(statement, ir.ExitLoop | ir.NextPass) and self.left:
+            self.left[-1] = self.left[-1] or self.armed
+            return
         before = self.armed
         self.calls(statement)
         if isinstance(statement, ir.For | ir.While | ir.Repeat | ir.Loop):
+            self.left.append(False)
             self.branches(statement, before)
-            before = self.armed  # a second time round
-        self.branches(statement, before)
+            self.branches(statement, self.armed or self.left[-1])  # a second time round
+            self.armed = self.armed or self.left.pop()
+        else:
+            self.branches(statement, before)
         self.calls(statement)
 
     def branches(self, statement: ir.Statement, before: bool) -> None:
