@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rpl import ir
-from rpl.passes.legalise.interrupts.reach import Armed, armed_statements
+from rpl.passes.legalise.facts.reach import Armed, armed_statements
 
 YES = ir.Name("yes")
 ON, OFF = ir.ControlInterrupt("on", ir.IntLiteral(5)), ir.ControlInterrupt("off", ir.IntLiteral(5))

@@ -98,6 +98,9 @@ TOLD = [
     ("DELAY 0.5\nSIGNAL 3", "", None),
     (f"IF SIG(1001) THEN\nDELAY 0.5\nEND\n{UP}", "", None),
     (f"IF SIG(1001) THEN\nDELAY 0.5\nEND\nSIGNAL 3\n{UP}", "", "pause-at-end"),
+    (f"DELAY 0.5\nWAIT SIG(1001)\nt1 = TIMER(1)\n{UP}", "", "pause-timed"),
+    (f"CALL pause()\nt1 = TIMER(1)\n{UP}", ".PROGRAM pause()\nDELAY 0.5\n.END\n", "pause-timed"),
+    (f"DELAY 0.5\nWAIT SIG(1001)\nCALL look()\n{UP}", ".PROGRAM look()\nt = TIMER(1)\n.END\n", "pause-timed"),
 ]
 
 
@@ -105,7 +108,9 @@ TOLD = [
 def test_a_step_that_would_come_later_is_told(main: str, others: str, code: str | None) -> None:
     diagnostics = Diagnostics()
     translate_program(_read(main, others), "krl", ARM, None, diagnostics)
-    assert {item.code.name for item in diagnostics} & {"pause-first", "pause-at-end"} == ({code} if code else set())
+    assert {item.code.name for item in diagnostics} & {"pause-first", "pause-at-end", "pause-timed"} == (
+        {code} if code else set()
+    )
 
 
 def test_a_brake_ends_it() -> None:

@@ -8,7 +8,7 @@ target's program waits first, and that is told.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -21,6 +21,7 @@ from rpl.passes.legalise.facts.usage import assigned_in, doing
 from rpl.passes.legalise.rewriting.beside import tidy
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import LOOPS, inside
+from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.stages import legalising
 
 PAUSED_FIRST = code(
@@ -35,6 +36,14 @@ PAUSED_AT_END = code(
     Severity.WARNING,
     "the source's robot pauses here while its program goes on behind this part of it; the target's program goes on "
     "when the pause has ended",
+)
+PAUSED_TIMED = code(
+    "pause-timed",
+    Severity.LOSS,
+    "the source's robot pauses here while its program goes on and takes a time; the target's program would take that "
+    "when the pause has ended",
+    "take the time in front of the pause, or wait for the robot in front of it",
+    stops=True,
 )
 _DRIVES = (ir.Move, ir.MoveExternal, ir.Spline)
 _SLOW = (
@@ -62,11 +71,11 @@ def queued_waits(program: ir.Program, context: Context) -> ir.Program:
 
 
 class _Facts:
-    """slow: routines whose steps take time or move the robot; ends: does each way on from the end of a routine begin
-    with a step that waits for the robot? Names in lower case."""
+    """slow: routines whose steps take time or move the robot; timed: those that ask for a time or begin one; ends:
+    does each way on from the end of a routine begin with a step that waits for the robot? Names in lower case."""
 
     def __init__(self, program: ir.Program) -> None:
-        self.slow = doing(program, _takes_time)
+        self.slow, self.timed = doing(program, _takes_time), doing(program, _takes_a_time)
         self.routines = {one.name.lower(): one for module in program.modules for one in module.routines}
         self.ends = dict.fromkeys(self.routines, True)
         for node in walk(*program.modules):
@@ -114,6 +123,12 @@ class _Facts:
             return _queues(statement) or isinstance(statement, (*_DRIVES, ir.WaitForMotion, ir.Halt))
         return behind
 
+    def asks_time(self, rest: ir.Body) -> bool:
+        """Do the steps behind a pause take a time, here or where the routine comes back to?"""
+        if not any(_queues(node) or isinstance(node, (*_DRIVES, ir.WaitForMotion, ir.Halt)) for node in rest):
+            return bool(self.timed)
+        return any(_takes_a_time(node) or _calls(node, self.timed) for node in walk(*rest))
+
     def quick(self, statement: ir.Statement) -> bool:
         """Does the step take no time, leave the robot alone, and go on behind itself?"""
         for node in walk(statement):
@@ -152,6 +167,8 @@ class _Queued:
     def pause(self, wait: ir.Wait, steps: ir.Body, rest: ir.Body, behind: bool) -> Sequence[ir.Statement]:
         """The wait, behind the steps that the program does beside it."""
         if not self.facts.wait(rest, behind):
+            if self.facts.asks_time(rest):
+                return (stopped(wait, PAUSED_TIMED, self.context), *steps)
             following = next((one for one in rest if not isinstance(one, ir.Nothing)), None)
             if following is None:
                 self.context.diagnostics.report(PAUSED_AT_END, wait.origin)
@@ -183,6 +200,23 @@ def _takes_time(node: object) -> bool:
         case ir.While(condition=condition) | ir.Repeat(until=condition):
             return any(isinstance(one, ir.Signal | ir.System | ir.Call) for one in walk(condition))
     return isinstance(node, _SLOW)
+
+
+def _takes_a_time(node: object) -> bool:
+    """Does it ask for a time, or begin one?"""
+    match node:
+        case ir.System(name="timer" | "timer_stopped" | "timer_positive" | "time") | ir.Clock():
+            return True
+        case ir.Builtin(function="clock_seconds") | ir.OrderInterrupt(event="timer"):
+            return True
+    return False
+
+
+def _calls(node: object, routines: Collection[str]) -> bool:
+    match node:
+        case ir.CallRoutine(name=name) | ir.Call(name=name):
+            return name.lower() in routines
+    return False
 
 
 def _may_change(time: ir.Expression, steps: ir.Body) -> bool:
