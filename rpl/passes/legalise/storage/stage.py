@@ -6,6 +6,7 @@ from rpl.passes.legalise.paths.begunmoves import polled_ahead
 from rpl.passes.legalise.source.texts.textlengths import roomy_texts
 from rpl.passes.legalise.stages import Stage
 from rpl.passes.legalise.storage.aheadreadings import ahead_readings
+from rpl.passes.legalise.storage.begunanew import begun_anew
 from rpl.passes.legalise.storage.errorcodes import name_errors
 from rpl.passes.legalise.storage.labelled import labels_as_remarks
 from rpl.passes.legalise.storage.modulepoints import points_of_modules
@@ -24,6 +25,7 @@ STAGE = Stage(
         polled_ahead,
         said_once,
         drop_unused,
+        begun_anew,
         points_of_modules,
         labels_as_remarks,
         one_spelling,

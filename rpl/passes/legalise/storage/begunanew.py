@@ -1,0 +1,73 @@
+"""Variables that begin with their first value at each start of the program, for targets that keep them in data lists:
+there the last value stays, so the program sets them when it starts.
+
+Values that the source keeps too (persistent data) stay as the last run left them. The value in the list is written as
+well: it is what the data begins with.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.passes.capabilities import DataRule
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.usage import base_name, usage_of
+from rpl.passes.legalise.rewriting.startdata import INITIALISE, entries_of
+from rpl.passes.legalise.stages import legalising
+from rpl.source import NOWHERE
+
+# So many assignments may stand in the routine that starts; more go into a routine of their own.
+_INLINE = 8
+
+
+@legalising(unless=lambda context: DataRule.LISTS not in context.capabilities.data.rules)
+def begun_anew(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets with data lists, and variables that the program assigns. A task that does not move the robot
+    sets its own."""
+    assigned = usage_of(program).assigned
+    entries = entries_of(program)
+    background = {name for task in program.tasks if task.kind != "motion" for name in task.modules}
+    modules: list[ir.Module] = []
+    first: list[ir.Statement] = []
+    for module in program.modules:
+        own = () if module.name in background else _assignments(module, assigned)
+        holds = {routine.name.lower() for routine in module.routines}
+        if own and (len(own) > _INLINE or not entries <= holds):
+            name = context.fresh(INITIALISE)
+            routine = ir.Routine(name, body=own, scope="global")
+            module = replace(module, routines=(*module.routines, routine))
+            first.append(ir.CallRoutine(name))
+        else:
+            first.extend(own)
+        modules.append(module)
+    if not first:
+        return program
+    for at, module in enumerate(modules):
+        if module.name not in background:
+            routines = tuple(
+                replace(routine, body=(*first, *routine.body)) if routine.name.lower() in entries else routine
+                for routine in module.routines
+            )
+            modules[at] = replace(module, routines=routines)
+    return replace(program, modules=tuple(modules))
+
+
+def _assignments(module: ir.Module, assigned: set[str]) -> ir.Body:
+    """What gives the module's variables their first values."""
+    begins = {
+        one.name.lower()
+        for one in module.declarations
+        if isinstance(one, ir.Variable) and one.storage == "variable" and one.name.lower() in assigned
+    }
+    made: list[ir.Statement] = []
+    for one in module.declarations:
+        match one:
+            case ir.Variable(name=name, initial=initial) if initial is not None and name.lower() in begins:
+                made.append(ir.Assign(ir.Name(name), initial))
+            case ir.Initialise(assign=assign) if (base_name(assign.target) or "").lower() in begins:
+                made.append(replace(assign, origin=NOWHERE))
+    return tuple(made)
+
+
+__all__ = ["begun_anew"]
