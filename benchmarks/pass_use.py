@@ -71,8 +71,8 @@ def use_of(job: tuple[tuple[Path, ...], tuple[str, ...], str | None]) -> Use:
         return found
     if not read.files:
         return found
-    plain = pipeline.PASSES
-    pipeline.PASSES = tuple(watched(one, acted) for one in plain)
+    plain = pipeline.passes_with
+    pipeline.passes_with = lambda own: tuple(watched(one, acted) for one in plain(own))
     try:
         for target in targets:
             if target in read.dialects:
@@ -86,7 +86,7 @@ def use_of(job: tuple[tuple[Path, ...], tuple[str, ...], str | None]) -> Use:
             found.translations += 1
             found.acted.update((name, target) for name in acted)
     finally:
-        pipeline.PASSES = plain
+        pipeline.passes_with = plain
     return found
 
 
@@ -111,7 +111,8 @@ def rows_of(uses: Sequence[Use], targets: Sequence[str]) -> list[tuple[str, int,
     total: Counter[tuple[str, str]] = Counter()
     for use in uses:
         total.update(use.acted)
-    names = list(dict.fromkeys(map(name_of, pipeline.PASSES)))
+    every = tuple(one for name in registry.target_names() for one in registry.target(name).passes())
+    names = list(dict.fromkeys(map(name_of, pipeline.passes_with(every))))
     return [(name, sum(by.values()), by) for name in names for by in [{to: total[name, to] for to in targets}]]
 
 

@@ -73,7 +73,7 @@ CAPABILITIES = Capabilities(
     places=Places(
         notation="inform",
         rotation=Rotation.ZYX,
-        rules=frozenset((PlaceRule.COMPONENTS, PlaceRule.KEEP_ANGLES, PlaceRule.TURNS, PlaceRule.UNTYPED)),
+        rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.TURNS, PlaceRule.UNTYPED)),
     ),
     motion=Motion(
         concurrent=Concurrent.MOVES,
@@ -107,7 +107,7 @@ CAPABILITIES = Capabilities(
     ),
     texts=Texts(
         longest_message=tables.LONGEST_MESSAGE,
-        messages=frozenset((MessageRule.ASKS_NUMBERS, MessageRule.COMPUTED, MessageRule.NUMBERED)),
+        messages=frozenset((MessageRule.COMPUTED, MessageRule.NUMBERED)),
     ),
     data=Data(aggregates=frozenset((Aggregate.CONSTANT, Aggregate.NAMED)), composites=frozenset()),
     errors=Errors(faults=frozenset((Fault.TEXT_PART,))),

@@ -9,6 +9,7 @@ from rpl.registry import Target
 if TYPE_CHECKING:
     from rpl.ir import Program
     from rpl.passes.capabilities import Capabilities
+    from rpl.passes.legalise.stages import Placed
     from rpl.writing.target import OutputFile, WriteContext
 
 
@@ -24,10 +25,17 @@ def _write(program: Program, context: WriteContext) -> list[OutputFile]:
     return write(program, context)
 
 
+def _passes() -> tuple[Placed, ...]:
+    from .passes import PASSES
+
+    return PASSES
+
+
 TARGET = Target(
     name="krl",
     title="KUKA KRL",
     capabilities=_capabilities,
     write=_write,
+    passes=_passes,
     encodings=("cp1252", "utf-8"),
 )

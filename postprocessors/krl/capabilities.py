@@ -68,9 +68,7 @@ CAPABILITIES = Capabilities(
         notation="krl",
         rotation=Rotation.ZYX,
         kinematics=("INVERSE", "FORWARD"),
-        rules=frozenset(
-            (PlaceRule.COMPONENTS, PlaceRule.FLAGS_BY_SIGN, PlaceRule.KEEP_ANGLES, PlaceRule.PARTIAL, PlaceRule.TURNS)
-        ),
+        rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.PARTIAL, PlaceRule.TURNS)),
     ),
     motion=Motion(
         concurrent=Concurrent.ADVANCE, relative=True, paths=frozenset((PathRule.ARCS_BY_ANGLE, PathRule.EVEN_WRIST))

@@ -10,6 +10,7 @@ from rpl.registry import Target
 if TYPE_CHECKING:
     from rpl.ir import Program
     from rpl.passes.capabilities import Capabilities
+    from rpl.passes.legalise.stages import Placed
     from rpl.writing.target import OutputFile, WriteContext
 
 
@@ -31,11 +32,18 @@ def _fitted(options: Mapping[str, str]) -> Capabilities:
     return fitted(options)
 
 
+def _passes() -> tuple[Placed, ...]:
+    from .passes import PASSES
+
+    return PASSES
+
+
 TARGET = Target(
     name="tp",
     title="FANUC TP",
     capabilities=_capabilities,
     write=_write,
+    passes=_passes,
     longest_line=320,
     encodings=("ascii",),
     options={"names": "longest program name: 36 (default) or 8 for old controllers"},

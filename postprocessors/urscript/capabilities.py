@@ -70,7 +70,7 @@ CAPABILITIES = Capabilities(
         notation="urscript",
         rotation=Rotation.ZYX,
         postures=Postures.JOINTS,
-        rules=frozenset((PlaceRule.COMPONENTS, PlaceRule.IN_BASE, PlaceRule.TURNS)),
+        rules=frozenset((PlaceRule.IN_BASE, PlaceRule.TURNS)),
     ),
     motion=Motion(
         concurrent=Concurrent.MOVES,

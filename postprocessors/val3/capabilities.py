@@ -16,7 +16,6 @@ from rpl.passes.capabilities import (
     MoveSetting,
     NameRules,
     Passing,
-    PlaceRule,
     Places,
     Rotation,
     Routines,
@@ -56,7 +55,7 @@ CAPABILITIES = Capabilities(
     said_otherwise=frozenset(
         ("type SignalType", "function euler_x", "function euler_y", "function euler_z", "statement Initialise")
     ),
-    places=Places(notation="val3", rotation=Rotation.ZYX, rules=frozenset((PlaceRule.COMPONENTS,))),
+    places=Places(notation="val3", rotation=Rotation.ZYX, rules=frozenset()),
     motion=Motion(turned_ways=frozenset(), paths=frozenset()),
     settings=Settings(
         modal=True,

@@ -95,7 +95,7 @@ CAPABILITIES = Capabilities(
         notation="vplus",
         rotation=Rotation.ZYX,
         postures=Postures.JOINTS,
-        rules=frozenset((PlaceRule.COMPONENTS, PlaceRule.IN_BASE, PlaceRule.WHOLE)),
+        rules=frozenset((PlaceRule.IN_BASE, PlaceRule.WHOLE)),
     ),
     motion=Motion(
         concurrent=Concurrent.MOVES,
@@ -120,7 +120,6 @@ CAPABILITIES = Capabilities(
         widest_group=32,
         timers=tables.TIMERS,
         poll_s=0.016,
-        write_only=frozenset(("analog_out",)),
         groups=frozenset((GroupRule.FREE,)),  # BITS n, 8: whose signals those are shows only when the program runs
     ),
     texts=Texts(

@@ -8,7 +8,7 @@ from rpl import ir
 from rpl.errors import InternalError
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.pipeline import PASSES, STAGES
-from rpl.passes.legalise.stages import Pass, Placed, legalising, with_placed
+from rpl.passes.legalise.stages import Placed, Stage, legalising, with_placed
 
 
 def test_stages_have_names_of_their_own_and_say_what_they_are_for() -> None:
@@ -49,17 +49,18 @@ def further(program: ir.Program, context: Context) -> ir.Program:
     ("placed", "order"),
     [
         ((), "first second"),
-        ((Placed(own, behind="first"),), "first own second"),
-        ((Placed(own, before="first"),), "own first second"),
-        ((Placed(own, behind="second"), Placed(further, behind="second")), "first second own further"),
-        ((Placed(own, behind="first"), Placed(further, before="second")), "first own further second"),
+        ((Placed(own, "one", behind="first"),), "first own second"),
+        ((Placed(own, "one", before="first"),), "own first second"),
+        ((Placed(own, "one", behind="second"), Placed(further, "one", behind="second")), "first second own further"),
+        ((Placed(own, "one", behind="first"), Placed(further, "one", before="second")), "first own further second"),
     ],
 )
 def test_a_pass_of_a_target_stands_beside_the_one_that_it_names(placed: tuple[Placed, ...], order: str) -> None:
-    core: tuple[Pass, ...] = (first, second)
-    assert " ".join(one.name for one in with_placed(core, placed)) == order
+    core = (Stage("one", (first, second)), Stage("two", (first,)))
+    assert " ".join(one.name for one in with_placed(core, placed)[0].passes) == order
+    assert with_placed(core, placed)[1] == core[1]
 
 
 def test_a_place_beside_no_pass_is_a_mistake_of_the_target() -> None:
-    with pytest.raises(InternalError, match="own stands beside third, which is no pass"):
-        with_placed((first, second), (Placed(own, before="third"),))
+    with pytest.raises(InternalError, match="own stands beside third of one, which is not one pass"):
+        with_placed((Stage("one", (first, second)),), (Placed(own, "one", before="third"),))

@@ -63,6 +63,3 @@ class Control:
 
     condition_terms: int = 0
     """How many comparisons a condition has at most, spelled out without brackets, with Limit.COMPARISONS (0: any)."""
-
-    logic_names: int = 0
-    """Variables and signals that one condition or truth value names at most, to fit in a line (0: any)."""

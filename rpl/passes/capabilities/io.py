@@ -48,9 +48,6 @@ class Io:
     widest_group: int = 8
     """Bits of a group at most, where a program shows that eight are not enough."""
 
-    write_only: frozenset[str] = frozenset()
-    """Kinds of outputs that programs set and cannot read back."""
-
     pulses: frozenset[PulseRule] = frozenset(PulseRule)
 
     flags: bool = True
@@ -65,9 +62,6 @@ class Io:
     clock_step_s: float = 0.0
     """There are no stop watches, but a task can count them in steps of so many seconds (0: none can, or there are
     some)."""
-
-    reset_stops: bool = True
-    """A stop watch that is set to zero stands (else it counts on)."""
 
     wait_timeout: bool = False
     """WaitUntil takes a timeout."""

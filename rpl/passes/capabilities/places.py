@@ -39,15 +39,9 @@ class PlaceRule(StrEnum):
     IN_BASE = auto()
     """Functions of places know only the tool in use and the robot's base."""
 
-    COMPONENTS = auto()
-    """The components of taught points and of the robot's place can be read."""
-
     TURNS = auto()
     """A joint move to a place comes there in the turns that are told with it, by flags or by the joints that it is
     solved near to (else the controller takes each axis the shortest way)."""
-
-    FLAGS_BY_SIGN = auto()
-    """Flags name the sign of every axis, so they hold for their very place only."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +55,7 @@ class Places:
 
     postures: Postures = Postures.FLAGS
 
-    rules: frozenset[PlaceRule] = frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.COMPONENTS, PlaceRule.TURNS))
+    rules: frozenset[PlaceRule] = frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.TURNS))
 
     kinematics: tuple[str, str] | None = None
     """The controller's functions for the joints of a target (near joints) and for the target of joints, that write 0 or

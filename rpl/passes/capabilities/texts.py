@@ -49,9 +49,6 @@ class MessageRule(StrEnum):
     COMPUTED = auto()
     """A message may show computed text (else it names the registers of its values)."""
 
-    ASKS_NUMBERS = auto()
-    """The operator can type a number and nothing else, and the question is a message in front of it."""
-
 
 @dataclass(frozen=True, slots=True)
 class Texts:

@@ -48,6 +48,11 @@ STAGES: tuple[Stage, ...] = (
 PASSES: tuple[Pass, ...] = tuple(one for stage in STAGES for one in stage.passes)
 
 
+def passes_with(own: tuple[Placed, ...]) -> tuple[Pass, ...]:
+    """All passes in the order in which they run for a target that brings these of its own."""
+    return tuple(one for stage in with_placed(STAGES, own) for one in stage.passes)
+
+
 def legalise(program: ir.Program, context: Context, own: tuple[Placed, ...] = ()) -> ir.Program:
     """The program rewritten for the context's target and governed by its rules. own: passes that the target brings.
 
@@ -57,7 +62,7 @@ def legalise(program: ir.Program, context: Context, own: tuple[Placed, ...] = ()
     other_arm = context.robot is not None and context.to_robot is not None and context.robot is not context.to_robot
     if not context.foreign or context.capabilities.carries_rules:
         return configurations(places_on_other_arm(program, context), context) if other_arm else program
-    program = run_passes(with_placed(PASSES, own), program, context)
+    program = run_passes(passes_with(own), program, context)
     return normalise(_governed(program, context), context.diagnostics)
 
 

@@ -6,8 +6,10 @@ is kept by statement, so that a pass which changes three statements of 200,000 c
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import cache
 
 from rpl import ir
 from rpl.errors import InternalError
@@ -62,23 +64,32 @@ class Stage:
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """A pass that a target brings along, and its place: directly behind or before a pass of the core, by its name."""
+    """A pass that a target brings along, and its place: directly behind or before a pass of a stage, by its name."""
 
     one: Pass
+    stage: str
     behind: str = ""
     before: str = ""
 
 
-def with_placed(passes: tuple[Pass, ...], own: tuple[Placed, ...]) -> tuple[Pass, ...]:
-    """The passes with a target's own among them; of several at one place the first comes first. Raises InternalError
-    where a place is beside no pass."""
-    lost = [each for each in own if (each.behind or each.before) not in {one.name for one in passes}]
-    if lost:
-        raise InternalError(f"{lost[0].one.name} stands beside {lost[0].behind or lost[0].before}, which is no pass")
+@cache
+def with_placed(stages: tuple[Stage, ...], own: tuple[Placed, ...]) -> tuple[Stage, ...]:
+    """The stages with a target's own passes among theirs; of several at one place the first comes first. Raises
+    InternalError where a place is beside no pass of its stage, or beside one that the stage has twice."""
+    known = {stage.name: Counter(one.name for one in stage.passes) for stage in stages}
+    for each in own:
+        if known.get(each.stage, Counter())[each.behind or each.before] != 1:
+            beside = f"{each.behind or each.before} of {each.stage}"
+            raise InternalError(f"{each.one.name} stands beside {beside}, which is not one pass")
+    return tuple(Stage(stage.name, _among(stage, own)) for stage in stages)
+
+
+def _among(stage: Stage, own: tuple[Placed, ...]) -> tuple[Pass, ...]:
+    here = [each for each in own if each.stage == stage.name]
     whole: list[Pass] = []
-    for one in passes:
-        before = (each.one for each in own if each.before == one.name)
-        behind = (each.one for each in own if each.behind == one.name)
+    for one in stage.passes:
+        before = (each.one for each in here if each.before == one.name)
+        behind = (each.one for each in here if each.behind == one.name)
         whole += [*before, one, *behind]
     return tuple(whole)
 

@@ -6,8 +6,7 @@ from dataclasses import replace
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from rpl.passes.legalise.records.composition import compositions
+from rpl.postprocessors.tp.passes.composition import compositions
 
 from .executed import EVERYTHING, context, passed, read, run
 

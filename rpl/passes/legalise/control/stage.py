@@ -5,12 +5,10 @@ nested expressions become steps, and again behind labels, whose conditions are o
 
 from __future__ import annotations
 
-from rpl.passes.legalise.control.components import read_components
 from rpl.passes.legalise.control.elseif import nest_branches
 from rpl.passes.legalise.control.functions import functions_to_procedures
 from rpl.passes.legalise.control.labels import structure_to_labels
 from rpl.passes.legalise.control.locals import variables_of_routines
-from rpl.passes.legalise.control.longlogic import long_logic
 from rpl.passes.legalise.control.loops import fit_made_loops
 from rpl.passes.legalise.control.parameters import fit_arguments
 from rpl.passes.legalise.control.steps import steps, steps_of_conditions
@@ -22,8 +20,6 @@ STAGE = Stage(
         functions_to_procedures,
         fit_arguments,
         fit_made_loops,
-        read_components,
-        long_logic,
         steps,
         variables_of_routines,
         nest_branches,

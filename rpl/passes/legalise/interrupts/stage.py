@@ -8,7 +8,6 @@ from rpl.passes.legalise.interrupts.actionarguments import action_arguments
 from rpl.passes.legalise.interrupts.brakedmoves import braked_moves
 from rpl.passes.legalise.interrupts.clocks.heldtimers import held_timers
 from rpl.passes.legalise.interrupts.clocks.programtimes import program_times
-from rpl.passes.legalise.interrupts.clocks.resetclocks import stopped_resets
 from rpl.passes.legalise.interrupts.clocks.routineclocks import clocks_of_routines
 from rpl.passes.legalise.interrupts.emptyreactions import without_empty_reactions
 from rpl.passes.legalise.interrupts.heldmotion import held_motion
@@ -35,7 +34,6 @@ STAGE = Stage(
         program_times,
         held_timers,
         clocks_of_routines,
-        stopped_resets,
         reactions_once,
         nested_interrupts,
         single_disables,

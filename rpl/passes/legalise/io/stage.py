@@ -7,7 +7,6 @@ from __future__ import annotations
 from rpl.passes.legalise.io.analogunits import analog_units
 from rpl.passes.legalise.io.bitgroups import groups_to_bits, shared_groups_to_bits
 from rpl.passes.legalise.io.flagdata import flags_as_data
-from rpl.passes.legalise.io.groups import name_groups
 from rpl.passes.legalise.io.keptsettings import kept_settings
 from rpl.passes.legalise.io.pulsedoutputs import pulsed_outputs
 from rpl.passes.legalise.io.pulselevels import pulse_levels
@@ -16,8 +15,6 @@ from rpl.passes.legalise.io.restingwaits import resting_waits
 from rpl.passes.legalise.io.seldomlooks import seldom_looks
 from rpl.passes.legalise.io.signals import name_signals, number_signals
 from rpl.passes.legalise.io.timers import timers_to_clocks
-from rpl.passes.legalise.io.watches import counted_watches
-from rpl.passes.legalise.io.writeonly import kept_outputs
 from rpl.passes.legalise.refusals.__init__ import refuse
 from rpl.passes.legalise.stages import Stage
 
@@ -28,15 +25,12 @@ STAGE = Stage(
         read_overrides,
         kept_settings,
         timers_to_clocks,
-        counted_watches,
         shared_groups_to_bits,
         flags_as_data,
         analog_units,
         name_signals,
         number_signals,
-        name_groups,
         groups_to_bits,
-        kept_outputs,
         seldom_looks,
         resting_waits,
         pulsed_outputs,

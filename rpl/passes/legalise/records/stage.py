@@ -7,13 +7,11 @@ from __future__ import annotations
 from rpl.passes.legalise.records.aggregates import aggregates
 from rpl.passes.legalise.records.arcdistances import arc_distances
 from rpl.passes.legalise.records.arithmetic import arithmetic
-from rpl.passes.legalise.records.composition import compositions
 from rpl.passes.legalise.records.flatrecords import flat_records
 from rpl.passes.legalise.records.geometry import geometry
 from rpl.passes.legalise.records.pathevents import path_events
 from rpl.passes.legalise.records.pathpoints import path_points
 from rpl.passes.legalise.records.seenplaces import posed_places, seen_places
-from rpl.passes.legalise.records.taskstarts import stand_before_tasks
 from rpl.passes.legalise.records.unreadparameters import drop_unread_parameters
 from rpl.passes.legalise.records.watching import watching
 from rpl.passes.legalise.records.wholeturns import whole_turns
@@ -31,10 +29,8 @@ STAGE = Stage(
         whole_turns,
         flat_records,
         drop_unread_parameters,
-        compositions,
         path_events,
         watching,
-        stand_before_tasks,
         arithmetic,
     ),
 )

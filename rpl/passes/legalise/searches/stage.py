@@ -4,7 +4,6 @@ by handlers and it may raise errors of the source; and before places, because wh
 
 from __future__ import annotations
 
-from rpl.passes.legalise.searches.reactionsearches import reaction_searches
 from rpl.passes.legalise.searches.searches import searches
 from rpl.passes.legalise.searches.searchparts import search_parts
 from rpl.passes.legalise.stages import Stage
@@ -13,7 +12,6 @@ STAGE = Stage(
     "searches",
     (
         searches,
-        reaction_searches,
         search_parts,
     ),
 )

@@ -13,7 +13,6 @@ from rpl.passes.legalise.settings.corners.corners import corners
 from rpl.passes.legalise.settings.corners.cornersteps import corner_steps
 from rpl.passes.legalise.settings.corners.keptcorners import kept_corners
 from rpl.passes.legalise.settings.corners.overlapping import left_out_moves
-from rpl.passes.legalise.settings.corners.partedcorners import parted_corners
 from rpl.passes.legalise.settings.corners.standing import stand_first
 from rpl.passes.legalise.settings.corners.turningzones import full_zones, reduced_zones
 from rpl.passes.legalise.settings.explicit import explicit_to_modal
@@ -27,7 +26,6 @@ from rpl.passes.legalise.settings.ownplaces import own_places
 from rpl.passes.legalise.settings.scaledspeeds import scaled_override
 from rpl.passes.legalise.settings.speeds import fit_speeds
 from rpl.passes.legalise.settings.speedshares import speed_shares
-from rpl.passes.legalise.settings.startbases import start_bases
 from rpl.passes.legalise.settings.strengths import strengths
 from rpl.passes.legalise.settings.tooldata import tool_data
 from rpl.passes.legalise.settings.usualaccelerations import usual_accelerations
@@ -58,10 +56,8 @@ STAGE = Stage(
         corner_steps,
         moves_ahead,
         explicit_to_modal,
-        start_bases,
         kept_corners,
         settings_at_moves,
-        parted_corners,
         scaled_override,
         stand_first,
     ),

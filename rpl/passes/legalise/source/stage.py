@@ -12,7 +12,6 @@ from rpl.passes.legalise.source.loadreadings import load_readings
 from rpl.passes.legalise.source.loadvariables import load_variables
 from rpl.passes.legalise.source.neutralfunctions import neutral_functions
 from rpl.passes.legalise.source.ownnames import names_of_local_routines
-from rpl.passes.legalise.source.places.changedplaces import changed_places
 from rpl.passes.legalise.source.places.copiedflags import copied_flags
 from rpl.passes.legalise.source.places.displacements import displacements
 from rpl.passes.legalise.source.places.elementwise import elementwise
@@ -79,7 +78,6 @@ STAGE = Stage(
         levels_to_distances,
         displacements,
         whole_settings,
-        changed_places,
         random_numbers,
         formats,
         whole_texts,

@@ -7,7 +7,6 @@ from __future__ import annotations
 from rpl.passes.legalise.control.loops import fit_loops
 from rpl.passes.legalise.stages import Stage
 from rpl.passes.legalise.statements.calls import rewrite_calls
-from rpl.passes.legalise.statements.dialogs import number_dialogs
 from rpl.passes.legalise.statements.enums import enums_to_constants
 from rpl.passes.legalise.statements.errors import check_errors
 from rpl.passes.legalise.statements.jumps.structure import structure_of_made_jumps
@@ -15,7 +14,6 @@ from rpl.passes.legalise.statements.logic import decide_logic
 from rpl.passes.legalise.statements.messages import message_lines, senders_as_texts, split_messages
 from rpl.passes.legalise.statements.polling import poll_waits
 from rpl.passes.legalise.statements.references import references_as_copies
-from rpl.passes.legalise.statements.shown import values_beside_messages
 from rpl.passes.legalise.statements.switches import unroll_switches
 from rpl.passes.legalise.statements.waits import fit_waits
 
@@ -28,10 +26,8 @@ STAGE = Stage(
         poll_waits,
         unroll_switches,
         decide_logic,
-        number_dialogs,
         message_lines,
         senders_as_texts,
-        values_beside_messages,
         rewrite_calls,
         split_messages,
         references_as_copies,

@@ -12,7 +12,6 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
@@ -35,9 +34,7 @@ _COMPUTED = (
 )
 
 
-@legalising(
-    unless=lambda context: not context.foreign or PlaceRule.FLAGS_BY_SIGN not in context.capabilities.places.rules
-)
+@legalising()
 def changed_places(program: ir.Program, context: Context) -> ir.Program:
     """The program in whose joint moves changed targets are poses."""
     changed = _changed(program)

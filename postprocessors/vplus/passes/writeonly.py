@@ -19,11 +19,13 @@ from rpl.passes.rewrite import rewrite_parts
 
 _Key = tuple[str, int]
 
+_WRITE_ONLY = frozenset(("analog_out",))  # kinds of outputs
 
-@legalising(unless=lambda context: not context.capabilities.io.write_only)
+
+@legalising(sees=("Signal",))
 def kept_outputs(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets that have such outputs."""
-    kinds = context.capabilities.io.write_only
+    """Outputs that programs set and cannot read back."""
+    kinds = _WRITE_ONLY
     outputs = _Outputs(kinds)
     for module in program.modules:
         for routine in module.routines:

@@ -6,12 +6,11 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import rewrite
-from rpl.passes.capabilities import GroupRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.stages import legalising
 
 
-@legalising(unless=lambda context: GroupRule.DECLARED not in context.capabilities.io.groups)
+@legalising(sees=("Signal",))
 def name_groups(program: ir.Program, context: Context) -> ir.Program:
     """Each group with constant numbers is declared once; computed ones stay and are reported by the writer."""
     names: dict[tuple[str, int, int], str] = {}

@@ -13,7 +13,6 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.passes.capabilities import MessageRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
@@ -31,9 +30,9 @@ _TEMPLATES = {"message_text": _NUMBERED, "format": _FORMATTED}
 _LOOKS = frozenset(("text_upper", "text_lower", "text_trim"))
 
 
-@legalising(unless=lambda context: MessageRule.COMPUTED in context.capabilities.texts.messages)
+@legalising(sees=("Message",))
 def values_beside_messages(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets without computed messages."""
+    """Messages name the registers of their values."""
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         kept: dict[tuple[ir.Type, int], ir.Name] = {}

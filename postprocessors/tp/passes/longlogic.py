@@ -15,14 +15,16 @@ from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_rout
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
 
+from .. import tables
+
 _CHAINS = ("and", "or")
 _PLACES = (ir.Name, ir.Signal, ir.System)
 
 
-@legalising(unless=lambda context: not context.capabilities.control.logic_names)
+@legalising()
 def long_logic(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets that say how much a condition names at most."""
-    most = context.capabilities.control.logic_names
+    """A condition names so many variables and signals at most, to fit in a line."""
+    most = tables.LOGIC_NAMES
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         def change(statement: ir.Statement) -> ir.Body:

@@ -10,7 +10,6 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite, walk
-from rpl.passes.capabilities import Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.cornerways import Ways
 from rpl.passes.legalise.facts.usage import doing
@@ -24,9 +23,9 @@ STOPS_BEFORE = code(
 )
 
 
-@legalising(unless=lambda context: context.capabilities.interrupts.watched is not Watched.ALL)
+@legalising(sees=("TaskControl",))
 def stand_before_tasks(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets whose tasks drive single moves."""
+    """Tasks drive single moves."""
     starts = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl) and node.op == "start"]
     if not starts:
         return program

@@ -10,7 +10,6 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.passes.capabilities import MessageRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
@@ -29,9 +28,9 @@ BY_TIME = code(
 )
 
 
-@legalising(unless=lambda context: MessageRule.ASKS_NUMBERS not in context.capabilities.texts.messages)
+@legalising(sees=("Dialog",))
 def number_dialogs(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets that ask for numbers only."""
+    """Questions to the operator, who can type a number and nothing else."""
 
     def change(statement: ir.Statement) -> ir.Body:
         if isinstance(statement, ir.Dialog) and statement.text != ir.TextLiteral(""):

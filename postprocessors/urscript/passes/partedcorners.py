@@ -16,7 +16,7 @@ from rpl import ir
 from rpl.controllers import controller_named
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.moveorder import Pair, pairs_of
 from rpl.passes.legalise.facts.ways import Ways, between
 from rpl.passes.legalise.rewriting.editing import edit_bodies
@@ -51,7 +51,7 @@ _CLEAR_MM = 0.02
 _TOLD = 0.999  # what is not made smaller than by this share is a matter of rounding
 
 
-@legalising(unless=lambda context: not rules_of(context.target).inputs.overlapping_blends, sees=("Move",))
+@legalising(sees=("Move",))
 def parted_corners(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that leave out moves. Behind what gives each move its corner."""
     if not any(isinstance(node, ir.Move) and _rounds(node) for node in walk(program.modules)):

@@ -11,7 +11,7 @@ from itertools import takewhile
 
 from rpl import ir
 from rpl.ir.walk import walk
-from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.data.datalists import moving_entries
 from rpl.passes.legalise.facts.usage import doing
 from rpl.passes.legalise.rewriting.editing import edit_each
@@ -20,15 +20,9 @@ from rpl.passes.legalise.stages import legalising
 _BASE = ir.System("base")
 
 
-@legalising(
-    unless=lambda context: (
-        not context.foreign
-        or "base" not in context.capabilities.system_variables
-        or not rules_of(context.target).inputs.without_tool
-    )
-)
+@legalising()
 def start_bases(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets of another language that have no base of their own at the start, and programs that set none."""
+    """Only for programs that set no base: the controller has none of its own at the start."""
     if any(isinstance(node, ir.Assign) and node.target == _BASE for node in walk(*program.modules)):
         return program
     entries = moving_entries(program) & doing(program, _to_a_place)

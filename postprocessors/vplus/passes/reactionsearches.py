@@ -12,7 +12,6 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.capabilities import InterruptRule
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
@@ -29,14 +28,10 @@ _PRIORITIES = (*range(9, 0, -1), *range(40, 128))
 
 
 @legalising(
-    unless=lambda context: (
-        "Search" in context.capabilities.statements
-        or InterruptRule.STOPPING not in context.capabilities.interrupts.rules
-    ),
     sees=("Move",),
 )
 def reaction_searches(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets without search moves whose interrupts can drop a move."""
+    """There are no search moves, but interrupts that drop a move."""
     if not any(isinstance(one, ir.Move) and one.search is not None for one in walk(*program.modules)):
         return program
     worker = _Searches(context)
@@ -113,7 +108,7 @@ class _Searches:
             self.routines.append(ir.Routine(self.context.fresh("rpl_on_hit"), body=self.noted(), scope="global"))
         number = ir.IntLiteral(_PRIORITIES[min(self.numbers.index(key), len(_PRIORITIES) - 1)])
         action = ir.CallRoutine(self.routines[0].name)
-        once = InterruptRule.ONE_SHOT in self.context.capabilities.interrupts.rules and search.stop != "none"
+        once = search.stop != "none"
         return (
             ir.Assign(self.hit, ir.BoolLiteral(False)),
             ir.DeclareInterrupt(number, condition, action, everywhere=True, once=once, stops=search.stop != "none"),

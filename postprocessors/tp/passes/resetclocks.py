@@ -14,9 +14,9 @@ from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 
-@legalising(unless=lambda context: context.capabilities.io.reset_stops)
+@legalising(sees=("Clock",))
 def stopped_resets(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets whose stop watches count on when they are set to zero."""
+    """A stop watch that is set to zero counts on."""
     return edit_all(program, _body)
 
 

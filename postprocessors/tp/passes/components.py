@@ -4,7 +4,6 @@ where the robot stands go into a variable first; of other data that nothing chan
 from __future__ import annotations
 
 from rpl import ir
-from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import Unchanged, constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
@@ -17,9 +16,9 @@ _ARM = 6  # joints of the arm; further ones are external axes
 _PLACES = (ir.PoseType, ir.TargetType, ir.JointsType)
 
 
-@legalising(unless=lambda context: PlaceRule.COMPONENTS in context.capabilities.places.rules)
+@legalising()
 def read_components(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets that say so."""
+    """Components of taught points and of the robot's place, which cannot be read."""
     known = unchanged_in(program)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:

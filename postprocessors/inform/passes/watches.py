@@ -17,6 +17,8 @@ from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 
+from .. import tables
+
 COUNTED = code(
     "stop-watch-counted",
     Severity.WARNING,
@@ -26,16 +28,16 @@ COUNTED = code(
 _TASK, _RUNS = "rpl_watch", "rpl_watch_runs"
 
 
-@legalising(unless=lambda context: not context.capabilities.io.clock_step_s)
+@legalising()
 def counted_watches(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets without stop watches and timers where a task can count."""
+    """A controller without stop watches: a task counts them."""
     if not program.modules:
         return program
     worker = _Watches(context, ProgramScope(program))
     modules = tuple(worker.module(module) for module in program.modules)
     if not worker.watches:
         return program
-    context.diagnostics.report(COUNTED, worker.first.origin, step=context.capabilities.io.clock_step_s)
+    context.diagnostics.report(COUNTED, worker.first.origin, step=tables.WATCH_STEP_S)
     program = replace(program, modules=(*modules, worker.home(modules[0])))
     return worker.started(program)
 
@@ -49,7 +51,7 @@ class _Watch:
 class _Watches:
     def __init__(self, context: Context, scopes: ProgramScope) -> None:
         self.context, self.scopes = context, scopes
-        self.step = context.capabilities.io.clock_step_s
+        self.step = tables.WATCH_STEP_S
         self.watches: dict[int, _Watch] = {}
         self.first: ir.Variable
         self.task, self.runs = _TASK, _RUNS

@@ -1,0 +1,15 @@
+"""What only KRL needs of a program, each pass with its place among those of the core."""
+
+from __future__ import annotations
+
+from rpl.passes.legalise.stages import Placed
+
+from .changedplaces import changed_places
+from .groups import name_groups
+from .startbases import start_bases
+
+PASSES: tuple[Placed, ...] = (
+    Placed(changed_places, "source", behind="whole_settings"),
+    Placed(name_groups, "io", behind="number_signals"),
+    Placed(start_bases, "settings", behind="explicit_to_modal"),
+)

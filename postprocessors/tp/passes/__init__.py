@@ -1,0 +1,19 @@
+"""What only TP needs of a program, each pass with its place among those of the core."""
+
+from __future__ import annotations
+
+from rpl.passes.legalise.stages import Placed
+
+from .components import read_components
+from .composition import compositions
+from .longlogic import long_logic
+from .resetclocks import stopped_resets
+from .shown import values_beside_messages
+
+PASSES: tuple[Placed, ...] = (
+    Placed(stopped_resets, "interrupts", behind="clocks_of_routines"),
+    Placed(values_beside_messages, "statements", behind="senders_as_texts"),
+    Placed(compositions, "records", behind="drop_unread_parameters"),
+    Placed(read_components, "control", behind="fit_made_loops"),
+    Placed(long_logic, "control", behind="fit_made_loops"),
+)
