@@ -43,6 +43,8 @@ class Store:
         self.taken = set(taken)
         self.data: dict[str, Datum] = {}
         self.made: dict[tuple[str, ...], str] = {}
+        self.helpers: dict[tuple[str, ...], str] = {}
+        self.lost: set[str] = set()  # names of the program that could not be declared
 
     def fresh(self, wish: str) -> str:
         """A name that nothing has, at most 15 signs long."""
@@ -66,8 +68,12 @@ class Store:
         return self.made[key]
 
     def helper(self, wish: str, type: str, father: str = "") -> str:
-        """A datum that the program sets itself before it uses it, one of a type and father."""
-        return self.once(wish, type, "", father)
+        """A datum that the program sets itself before it uses it: one for each purpose and father."""
+        key = (wish, type, father)
+        if key not in self.helpers:
+            self.helpers[key] = self.fresh(wish)
+            self.add(Datum(self.helpers[key], type, father=father))
+        return self.helpers[key]
 
     def signal(self, name: str, kind: str) -> str:
         """A signal that the program names: it is declared, and wired to the next place of its kind."""

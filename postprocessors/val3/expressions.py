@@ -77,6 +77,7 @@ class Expressions:
         raise CannotSayError(f"there is no {expression.__class__.__name__}")
 
     def name(self, name: str) -> str:
+        self.known(name)
         symbol = self.scope.value(name)
         declared = symbol.declaration if symbol is not None else None
         if isinstance(declared, ir.SignalDeclaration):
@@ -84,10 +85,15 @@ class Expressions:
         hangs = name in self.roles or isinstance(symbol.type if symbol is not None else None, ir.TargetType)
         return f"{name}.trsf" if hangs else name
 
+    def known(self, name: str) -> None:
+        if name in self.store.lost or self.scope.value(name) is None:
+            raise CannotSayError(f"{name}, which cannot be declared")
+
     def storage(self, place: ir.Expression) -> str:
         """A variable or element itself, whatever it is."""
         match place:
             case ir.Name(id=name):
+                self.known(name)
                 return name
             case ir.Index(base=base, indices=(index,)):
                 return f"{self.storage(base)}[{self.text(index)}]"

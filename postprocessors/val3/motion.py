@@ -53,7 +53,7 @@ class Motion:
             points = [self.joints(move.target)]
         else:
             frame = self.hung(move.frame, "frame", "world")
-            self.expressions.around = (tool, frame)
+            self.expressions.around = (tool, "world")  # frames stand at the moves alone: none is in force
             points = [self.place(move.target, frame, "pMove")]
             if move.kind == "circular":
                 if move.via is None:

@@ -52,6 +52,9 @@ class _Application:
             expressions = self.expressions(self.scopes.module(module))
             for declaration in module.declarations:
                 self.declaration(declaration, expressions)
+        for datum in self.store.data.values():
+            if datum.father.partition("[")[0] not in ("", "world", "flange", *self.store.data):
+                datum.father = "world[0]"  # no movement to it is written
         programs: dict[str, str] = {}
         for module in self.program.modules:
             for routine in module.routines:
@@ -89,6 +92,7 @@ class _Application:
                     raise CannotSayError(f"there is no {declaration.__class__.__name__}")
         except CannotSayError as error:
             name = str(getattr(declaration, "name", "this"))
+            self.store.lost.add(name)
             self.ledger.reported(declaration)
             self.diagnostics.report(LOST, declaration.origin, name=name, reason=str(error))
         else:
